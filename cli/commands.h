@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+// One function a subcommand: each adds its options to the program and its work as the callback. Work that fails throws
+// Failed; main turns that into exit status 1.
+namespace bendy::cli {
+
+void add_convert(CLI::App& program);
+void add_inspect(CLI::App& program);
+void add_pose(CLI::App& program);
+void add_validate(CLI::App& program);
+
+}  // namespace bendy::cli

@@ -1,0 +1,125 @@
+#include "commands.h"
+#include "problem.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/runtime.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <sstream>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    std::string scene;
+    std::string images = "embed";
+    bool quiet = false;
+};
+
+void print_warnings(const std::filesystem::path& file, const converter::Report& report) {
+    for (const converter::Warning& warning : report.warnings()) {
+        std::string line;
+        if (!warning.first_place.empty()) line = warning.first_place + ": ";
+        line += warning.message;
+        if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
+        warn(file, printable(line));
+    }
+}
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
+}
+
+std::string list_cycles(const Model& model) {
+    constexpr std::size_t kShown = 20;
+    std::ostringstream list;
+    list << std::setprecision(3);
+    for (std::size_t i = 0; i < std::min(model.cycles().size(), kShown); ++i) {
+        const Cycle& cycle = model.cycles()[i];
+        list << (i == 0 ? ": " : ", ") << (cycle.name.empty() ? '#' + std::to_string(i) : printable(cycle.name)) << ' '
+             << cycle.end - cycle.start << " s";
+    }
+    if (model.cycles().size() > kShown) list << ", ...";
+    return list.str();
+}
+
+void print_summary(const Arguments& arguments, Bytes bytes) {
+    const Result<Model> model = Model::from_memory(bytes);
+    if (!model) fail(arguments.output, model.error(), bytes);
+    std::uint64_t triangles = 0;
+    std::uint64_t most_influences = 0;
+    for (const Draw& draw : model->draws()) triangles += draw.topology == Topology::triangles ? draw.count / 3 : 0;
+    for (const Pool& pool : model->pools()) most_influences = std::max<std::uint64_t>(most_influences, pool.bones ? pool.bones->components : 0);
+    std::set<std::string_view> targets;
+    for (const Pool& pool : model->pools()) {
+        for (const TargetView& target : pool.targets) targets.insert(target.name);
+    }
+    std::uint64_t images = 0;
+    for (const Texture& texture : model->textures()) {
+        for (const ImageView& image : texture.images) images += image.bytes.size();
+    }
+
+    std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
+    if (images != 0) std::cout << ", " << grouped(images) << " of them images";
+    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
+    std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
+              << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
+    if (most_influences != 0) std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
+    if (model->target_count() != 0) {
+        std::cout << "\n  targets    " << grouped(model->target_count());
+        const char* separator = ": ";
+        for (const std::string_view name : targets) {
+            if (name.empty()) continue;
+            std::cout << separator << printable(name);
+            separator = ", ";
+        }
+    }
+    std::cout << "\n  cycles     " << grouped(model->cycles().size()) << list_cycles(*model);
+    std::cout << "\n  surface    " << counted(model->materials().size(), "material", "materials") << ", "
+              << counted(model->textures().size(), "texture", "textures") << '\n';
+}
+
+void run(Arguments arguments) {
+    if (arguments.output.empty()) arguments.output = std::filesystem::path(arguments.input).replace_extension(".bendy");
+    converter::ConvertOptions options;
+    if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
+    options.gltf.embed_images = arguments.images == "embed";
+    converter::Report report;
+    const auto bytes = converter::convert(arguments.input, options, report);
+    if (!bytes) {
+        const converter::ImportError& error = bytes.error();
+        fail(arguments.input, printable(error.place.empty() ? error.message : error.place + ": " + error.message));
+    }
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
+    if (const auto written = write_file(arguments.output, *bytes); !written) fail(arguments.output, describe(written.error()));
+    print_warnings(arguments.input, report);
+    if (!arguments.quiet) print_summary(arguments, *bytes);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("convert", "Convert a glTF 2.0 character (.gltf, .glb) to a bendy file");
+    command->add_option("IN", arguments->input, "a .gltf or .glb file")->required();
+    command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
+    command->add_option("--scene", arguments->scene, "the scene to take, by name or number; the file's default if not given");
+    command->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
+        ->check(CLI::IsMember({"embed", "link"}))
+        ->capture_default_str();
+    command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command->footer("Everything is kept exactly; what the format cannot hold is named in a warning.\n"
+                    "Example: bendy convert fox.glb -o build/fox.bendy");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,245 @@
+#include "describe_chunk.h"
+
+#include "problem.h"
+
+#include <bendy/format/read_record.h>
+#include <bendy/format/text.h>
+
+#include <array>
+#include <charconv>
+#include <string_view>
+
+namespace bendy::cli {
+namespace {
+
+struct Field {
+    std::string_view record, name, type;
+    std::uint32_t count;
+    std::uint64_t offset;
+};
+
+constexpr Field kFields[] = {
+#define BENDY_RECORD(chunk, Struct, shortest)
+#define BENDY_FIELD(Struct, field, type, count, offset, what) {#Struct, #field, #type, count, offset},
+#include <bendy/format/records.def>
+#undef BENDY_RECORD
+#undef BENDY_FIELD
+};
+
+/// The record at the start of a chunk's payload, by name; empty if it has none.
+std::string_view record_of(FourCC id) {
+    constexpr std::array kStreams{FourCC("POSI"), FourCC("NORM"), FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"),
+                                  FourCC("BONE"), FourCC("WGHT"), FourCC("VALS"), FourCC("INDX")};
+    for (const FourCC stream : kStreams) {
+        if (id == stream) return "StreamRecord";
+    }
+    std::string_view record;
+#define BENDY_RECORD(chunk, Struct, shortest) \
+    if (id == FourCC(#chunk)) record = #Struct;
+#define BENDY_FIELD(Struct, field, type, count, offset, what)
+#include <bendy/format/records.def>
+#undef BENDY_RECORD
+#undef BENDY_FIELD
+    return record;
+}
+
+bool is_text(FourCC id) { return id == FourCC("NAME") || id == FourCC("EXTR") || id == FourCC("EXTN") || id == FourCC("LINK"); }
+
+template <class T>
+nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint32_t count) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        T value{};
+        copy_at(payload, offset + i * sizeof(T), value);
+        list.push_back(value);
+    }
+    return count == 1 ? list.front() : list;
+}
+
+nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::uint64_t base) {
+    nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+    for (const Field& field : kFields) {
+        const std::uint64_t offset = base + field.offset;
+        if (field.record != record || field.name.starts_with("reserved") || offset >= payload.size()) continue;
+        const std::string name(field.name);
+        if (field.name == "generator") {
+            const std::string_view text = as_text(payload.subspan(offset, std::min<std::uint64_t>(field.count, payload.size() - offset)));
+            fields[name] = text.substr(0, text.find('\0'));
+        } else if (field.type == "u8") {
+            fields[name] = numbers_at<std::uint8_t>(payload, offset, field.count);
+        } else if (field.type == "u16") {
+            fields[name] = numbers_at<std::uint16_t>(payload, offset, field.count);
+        } else if (field.type == "u32") {
+            fields[name] = numbers_at<std::uint32_t>(payload, offset, field.count);
+        } else if (field.type == "u64") {
+            fields[name] = numbers_at<std::uint64_t>(payload, offset, field.count);
+        } else if (field.type == "f32") {
+            fields[name] = numbers_at<float>(payload, offset, field.count);
+        } else {
+            fields[name] = fields_at(payload, field.type, offset);
+        }
+    }
+    return fields;
+}
+
+template <class R>
+R record_at(const ChunkTree& tree, std::uint32_t number) {
+    R record;
+    if (number != kNone) copy_at(tree.payload(number), 0, record);
+    return record;
+}
+
+/// A number with up to four significant digits.
+std::string brief(float number) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 4).ptr;
+    return {digits.data(), end};
+}
+
+template <std::size_t N>
+std::string brief(const std::array<float, N>& numbers) {
+    std::string text;
+    for (const float number : numbers) text += (text.empty() ? "" : " ") + brief(number);
+    return text;
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t kMost = 72;
+    if (text.size() <= kMost) return '"' + printable(text) + '"';
+    std::size_t cut = kMost;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u) --cut;  // not inside a character
+    return '"' + printable(text.substr(0, cut)) + "...\"";
+}
+
+std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::array<std::string_view, kComponentTypes> kTypes{"u8", "i8", "u16", "i16", "u32", "f32"};
+    const auto record = record_at<StreamRecord>(tree, number);
+    std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
+    text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
+    if (record.normalised != 0) text += " normalised";
+    if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR")) text += ", set " + std::to_string(record.set);
+    return text;
+}
+
+std::string polygons_text(const PolygonRecord& record) {
+    constexpr std::array<std::string_view, kTopologies> kNames{"triangles", "lines", "points"};
+    if (record.topology >= kTopologies) return "?";
+    std::string text = grouped(record.count / corners(static_cast<Topology>(record.topology))) + ' ';
+    text += kNames[record.topology];
+    text += " of pool " + std::to_string(record.pool);
+    if (record.material != kNone) {
+        const bool is_local = (record.material & kLocalMaterial) != 0;
+        text += is_local ? ", own material " : ", material ";
+        text += std::to_string(record.material & ~kLocalMaterial);
+    }
+    return text;
+}
+
+std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
+    const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
+    if (pivot == kNone) return {};
+    return "at " + brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation);
+}
+
+std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
+    const std::uint32_t table = tree.find(number, FourCC("TRAK"));
+    const std::uint64_t tracks = table == kNone ? 0 : tree[table].size / sizeof(TrackRecord);
+    std::string text = brief(info.start) + " to " + brief(info.end) + " s, " + grouped(tracks) + " tracks";
+    if (info.loop != 0) text += ", repeats";
+    if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
+    return text;
+}
+
+std::string material_text(const SurfaceRecord& surface) {
+    std::string text = "base " + brief(surface.base_colour) + ", metallic " + brief(surface.metallic) + ", roughness " + brief(surface.roughness);
+    if (surface.base_colour_texture.texture != kNone) text += ", texture " + std::to_string(surface.base_colour_texture.texture);
+    if (surface.unlit != 0) text += ", unlit";
+    return text;
+}
+
+std::string version_text(const VersionRecord& version) {
+    std::string generator;
+    for (const std::uint8_t byte : version.generator) {
+        if (byte == 0) break;
+        generator += static_cast<char>(byte);
+    }
+    std::string text = "format " + std::to_string(version.major) + '.' + std::to_string(version.minor);
+    if (!generator.empty()) text += ", written by " + printable(generator);
+    return text;
+}
+
+/// What a record says, without the chunk's name.
+std::string content_text(const ChunkTree& tree, std::uint32_t number) {
+    const Chunk& chunk = tree[number];
+    constexpr std::array<std::string_view, kMediaTypes> kMedia{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
+    if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
+    if (record_of(chunk.id) == "StreamRecord") return stream_text(tree, number);
+    if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
+    if (chunk.id == FourCC("SKIN")) return joint_text(tree, number);
+    if (chunk.id == FourCC("REST")) {
+        const auto rest = record_at<RestRecord>(tree, number);
+        return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " + brief(rest.scale);
+    }
+    if (chunk.id == FourCC("POLY")) return polygons_text(record_at<PolygonRecord>(tree, number));
+    if (chunk.id == FourCC("VECT")) return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
+    if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
+    if (chunk.id == FourCC("TARG")) return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+    if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
+    if (chunk.id == FourCC("TRAK")) return grouped(chunk.size / sizeof(TrackRecord)) + " tracks";
+    if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV")) return grouped(chunk.size / sizeof(float)) + " f32";
+    if (chunk.id == FourCC("MATE")) return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
+    if (chunk.id == FourCC("IMAG")) {
+        const auto image = record_at<ImageRecord>(tree, number);
+        return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string describe_chunk(const ChunkTree& tree, std::uint32_t number) {
+    std::string text;
+    const auto add = [&](const std::string& part, std::string_view separator) {
+        if (part.empty()) return;
+        if (!text.empty()) text += separator;
+        text += part;
+    };
+    if (tree[number].is_container()) {
+        const std::uint32_t name = tree.find(number, FourCC("NAME"));
+        if (name != kNone) add(quoted(as_text(tree.payload(name))), " ");
+    }
+    if (tree[number].codec() == 0) {
+        add(content_text(tree, number), "  ");
+    } else {
+        add("encoded with codec " + std::to_string(tree[number].codec()), " ");
+    }
+    if (chunk_meaning(tree[number].id) == "unknown") add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
+    return text;
+}
+
+nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
+    const Chunk& chunk = tree[number];
+    if (chunk.is_container() || chunk.codec() != 0) return nlohmann::ordered_json::object();
+    const Bytes payload = tree.payload(number);
+    if (is_text(chunk.id)) return {{"text", as_text(payload)}};
+    const std::string_view record = record_of(chunk.id);
+    if (record.empty()) return nlohmann::ordered_json::object();
+    if (record != "TrackRecord") {
+        // TextureUseRecord stands in the table for the SURF page; the chunk's own record is the last of its id.
+        return fields_at(payload, record, 0);
+    }
+    nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
+    for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord)) tracks.push_back(fields_at(payload, record, at));
+    return {{"tracks", tracks}};
+}
+
+std::string_view chunk_meaning(FourCC id) {
+#define BENDY_CHUNK(letters, shape, parents, times, what) \
+    if (id == FourCC(#letters)) return what;
+#include <bendy/format/chunk_ids.def>
+#undef BENDY_CHUNK
+    return "unknown";
+}
+
+}  // namespace bendy::cli

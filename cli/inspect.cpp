@@ -1,0 +1,145 @@
+#include "commands.h"
+#include "describe_chunk.h"
+#include "inspect_json.h"
+#include "problem.h"
+
+#include <bendy/format/check_sums.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/format/file.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::string chunk;
+    bool json = false;
+    bool hex = false;
+    bool all = false;
+};
+
+/// Chunks whose content the line of their parent already tells.
+bool is_folded(const Chunk& chunk) {
+    constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
+                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP")};
+    return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
+}
+
+/// True where the chunk has a number of its own kind that other records refer to: joint, pool, material, texture, cycle.
+bool is_numbered(FourCC id) {
+    return id == FourCC("SKIN") || id == FourCC("VECT") || id == FourCC("MATE") || id == FourCC("TEXT") || id == FourCC("CYCL");
+}
+
+std::string indentation(std::size_t depth) {
+    constexpr std::size_t kMostLevels = 40;
+    if (depth <= kMostLevels) return std::string(2 * depth, ' ');
+    return std::string(2 * kMostLevels, ' ') + '[' + std::to_string(depth) + "] ";
+}
+
+void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
+    std::cout << "      offset         size  chunk\n";
+    std::vector<std::uint32_t> ends;  // of the containers that we are in
+    std::array<std::pair<FourCC, std::uint32_t>, 5> counters{{{FourCC("SKIN"), 0}, {FourCC("VECT"), 0}, {FourCC("MATE"), 0}, {FourCC("TEXT"), 0}, {FourCC("CYCL"), 0}}};
+    const auto next_number = [&](FourCC id) {
+        const auto counter = std::find_if(counters.begin(), counters.end(), [&](const auto& entry) { return entry.first == id; });
+        return counter->second++;
+    };
+    for (std::uint32_t number = 0; number < tree[root].end;) {
+        const Chunk& chunk = tree[number];
+        if (chunk.id == FourCC("OBJE")) counters[0].second = counters[1].second = counters[4].second = 0;  // numbered inside it
+        const std::string label = is_numbered(chunk.id) ? ' ' + std::to_string(next_number(chunk.id)) : std::string();
+        if (number < root) {
+            ++number;  // only counted
+            continue;
+        }
+        while (!ends.empty() && number >= ends.back()) ends.pop_back();
+        if (!all && number != root && is_folded(chunk)) {
+            number = chunk.end;
+            continue;
+        }
+        std::array<char, 32> columns{};
+        std::snprintf(columns.data(), columns.size(), "%12llu %12llu  ", static_cast<unsigned long long>(chunk.offset),
+                      static_cast<unsigned long long>(chunk.size));
+        std::cout << columns.data() << indentation(ends.size()) << chunk.id.letters().data() << label;
+        const std::string content = describe_chunk(tree, number);
+        if (!content.empty()) std::cout << "  " << content;
+        std::cout << '\n';
+        if (chunk.is_container()) ends.push_back(chunk.end);
+        ++number;
+    }
+}
+
+void print_hex(Bytes bytes, std::uint64_t offset) {
+    constexpr std::size_t kPerLine = 16;
+    for (std::size_t at = 0; at < bytes.size(); at += kPerLine) {
+        const Bytes line = bytes.subspan(at, std::min(kPerLine, bytes.size() - at));
+        std::array<char, 24> start{};
+        std::snprintf(start.data(), start.size(), "%12llx ", static_cast<unsigned long long>(offset + at));
+        std::cout << start.data();
+        std::string text;
+        for (std::size_t i = 0; i < kPerLine; ++i) {
+            if (i % 4 == 0) std::cout << ' ';
+            if (i >= line.size()) {
+                std::cout << "  ";
+                continue;
+            }
+            const auto byte = std::to_integer<unsigned>(line[i]);
+            std::array<char, 3> digits{};
+            std::snprintf(digits.data(), digits.size(), "%02x", byte);
+            std::cout << digits.data();
+            text += byte >= 0x20 && byte < 0x7f ? static_cast<char>(byte) : '.';
+        }
+        std::cout << "  " << text << '\n';
+    }
+}
+
+void run(const Arguments& arguments) {
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    const Result<ChunkTree> tree = read_chunk_tree(file->bytes());
+    if (!tree) fail(arguments.file, tree.error(), file->bytes());
+    const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
+    if (root == kNone) fail(arguments.file, "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
+
+    if (arguments.json) {
+        std::cout << chunks_as_json(arguments.file.string(), *tree, root);
+    } else if (arguments.hex) {
+        const Chunk& chunk = (*tree)[root];
+        print_hex(file->bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
+    } else {
+        if (root == 0) {
+            std::cout << printable(arguments.file.filename().string()) << ", " << grouped(file->bytes().size()) << " bytes, "
+                      << grouped(tree->chunks().size()) << " chunks\n";
+        }
+        print_tree(*tree, root, arguments.all);
+    }
+    Faults faults;
+    check_sums(*tree, faults);
+    if (faults.empty()) read_document(*tree, faults);
+    if (!faults.empty()) {
+        warn(arguments.file, "the file has faults, `bendy validate` lists them; the first: " + describe_with_place(faults.list().front(), file->bytes()));
+    }
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
+    CLI::Option* json = command->add_flag("--json", arguments->json, "print JSON, with every record's fields");
+    command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
+    command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
+    command->footer("Example: bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

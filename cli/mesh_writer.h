@@ -1,0 +1,39 @@
+#pragma once
+
+#include <bendy/runtime.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bendy::cli {
+
+/// A pool's posed vertices and what connects them.
+struct PosedMesh {
+    std::string name;
+    std::vector<glm::vec3> positions;  ///< model space
+    std::vector<glm::vec3> normals;    ///< as many, or none
+    std::vector<std::uint32_t> triangles, lines, points;  ///< 3, 2 and 1 vertices each
+};
+
+struct PosedJoint {
+    std::string name;
+    glm::mat4 world{1.0f};
+};
+
+struct PosedObject {
+    std::string file;
+    std::string clip;  ///< empty: the rest pose
+    float time = 0.0f;
+    std::vector<PosedJoint> joints;
+    std::vector<PosedMesh> meshes;
+};
+
+/// Wavefront OBJ: an `o` group per mesh; numbers in the shortest form that reads back to the same float.
+std::string write_obj(const PosedObject& object);
+/// PLY, binary little-endian: vertices with normals, faces; edges if there are any.
+std::string write_ply(const PosedObject& object);
+/// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]}.
+std::string write_json(const PosedObject& object);
+
+}  // namespace bendy::cli

@@ -1,0 +1,132 @@
+#include "commands.h"
+#include "mesh_writer.h"
+#include "problem.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/runtime.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::string clip;
+    bool has_clip = false;
+    float time = 0.0f;
+    std::filesystem::path output;
+};
+
+/// A cycle by its number, or else by its name.
+const Cycle& find_cycle(const Arguments& arguments, const Model& model) {
+    const std::string& clip = arguments.clip;
+    std::size_t number = 0;
+    const auto [end, problem] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
+    const bool is_number = problem == std::errc() && end == clip.data() + clip.size();
+    if (is_number && number < model.cycles().size()) return model.cycles()[number];
+    if (const Cycle* cycle = model.cycle(clip)) return *cycle;
+
+    std::string known;
+    for (const Cycle& cycle : model.cycles()) known += (known.empty() ? "" : ", ") + printable(cycle.name);
+    fail(arguments.file, "there is no cycle \"" + printable(clip) + "\"; there " +
+                             (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));
+}
+
+/// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
+bool is_mirrored(const Model& model, const Pose& pose, std::uint32_t pool) {
+    const Pool& view = model.pools()[pool];
+    if (!view.is_rigid() || view.vertices == 0) return false;
+    const std::uint32_t joint = model.rigid_mover(pool, 0);
+    return joint != kNone && glm::determinant(glm::mat3(pose.model_space()[joint])) < 0.0f;
+}
+
+void add_elements(const Model& model, const Pose& pose, std::vector<PosedMesh>& meshes) {
+    for (const Draw& draw : model.draws()) {
+        PosedMesh& mesh = meshes[draw.pool];
+        const Pool& pool = model.pools()[draw.pool];
+        std::vector<std::uint32_t>& list = draw.topology == Topology::triangles ? mesh.triangles
+                                           : draw.topology == Topology::lines   ? mesh.lines
+                                                                                : mesh.points;
+        const std::size_t start = list.size();
+        for (std::uint32_t k = 0; k < draw.count; ++k) list.push_back(pool.indices->index(draw.first + k, 0));
+        if (draw.topology != Topology::triangles || !is_mirrored(model, pose, draw.pool)) continue;
+        for (std::size_t at = start; at + 3 <= list.size(); at += 3) std::swap(list[at + 1], list[at + 2]);
+    }
+}
+
+PosedObject pose_object(const Arguments& arguments, const Model& model) {
+    PosedObject object;
+    object.file = arguments.file.filename().string();
+    Pose pose(model);
+    if (arguments.has_clip) {
+        const Cycle& cycle = find_cycle(arguments, model);
+        sample(&cycle, arguments.time, pose);
+        object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
+        object.time = arguments.time;
+    }
+    local_to_model(pose);
+    for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
+        object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
+    }
+    for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
+        const Pool& pool = model.pools()[number];
+        PosedMesh& mesh = object.meshes.emplace_back();
+        mesh.name = pool.name;
+        mesh.positions.resize(pool.vertices);
+        if (pool.normals) mesh.normals.resize(pool.vertices);
+        skin(model, number, pose, {mesh.positions, mesh.normals, {}});
+        const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) {
+            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        });
+        if (!all_finite) fail(arguments.file, "the pose is out of a float's range in pool " + std::to_string(number));
+    }
+    add_elements(model, pose, object.meshes);
+    return object;
+}
+
+void run(const Arguments& arguments) {
+    const std::string extension = arguments.output.extension().string();
+    const auto writer = extension == ".json" ? write_json : extension == ".ply" ? write_ply : write_obj;
+    if (!arguments.output.empty() && extension != ".obj" && extension != ".ply" && extension != ".json") {
+        throw CLI::ValidationError("--output", "must end in .obj, .ply or .json");
+    }
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    const Result<Model> model = Model::from_memory(file->bytes());
+    if (!model) fail(arguments.file, model.error(), file->bytes());
+
+    const std::string text = writer(pose_object(arguments, *model));
+    if (arguments.output.empty()) {
+        std::cout << text;
+    } else if (const auto written = write_file(arguments.output, as_byte_span(text)); !written) {
+        fail(arguments.output, describe(written.error()));
+    }
+}
+
+}  // namespace
+
+void add_pose(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a cycle");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    CLI::Option* clip = command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
+    command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")->capture_default_str()->needs(clip);
+    command->add_option("-o,--output", arguments->output, "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
+    command->footer("Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj");
+    command->callback([arguments, clip] {
+        arguments->has_clip = clip->count() != 0;
+        if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::cli

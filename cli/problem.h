@@ -1,0 +1,27 @@
+#pragma once
+
+#include <bendy/format/byte_reader.h>
+#include <bendy/format/error.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace bendy::cli {
+
+/// Thrown when the input is bad or the work failed, after the reason has been printed.
+struct Failed {};
+
+/// Prints `bendy: error: FILE: what is wrong` to standard error and throws Failed.
+[[noreturn]] void fail(const std::filesystem::path& file, std::string_view what);
+/// The same for a fault in a file's bytes, with chunk path and offset.
+[[noreturn]] void fail(const std::filesystem::path& file, const Error& error, Bytes bytes);
+/// Prints `bendy: warning: FILE: what` to standard error.
+void warn(const std::filesystem::path& file, std::string_view what);
+
+/// Text for a terminal: control characters are escaped, so that a name cannot move the cursor or forge a line.
+std::string printable(std::string_view text);
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
+
+}  // namespace bendy::cli

@@ -1,0 +1,88 @@
+#include "commands.h"
+#include "problem.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/format/validate.h>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::vector<std::filesystem::path> files;
+    bool json = false;
+};
+
+const char* class_name(ErrorClass kind) {
+    switch (kind) {
+        case ErrorClass::malformed: return "malformed";
+        case ErrorClass::invalid: return "invalid";
+        case ErrorClass::unsupported: return "unsupported";
+        case ErrorClass::io: return "io";
+    }
+    return "";
+}
+
+void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+    for (const Error& fault : faults.list()) {
+        std::cout << printable(file.string()) << ": " << code_name(fault.code) << ": " << describe_with_place(fault, bytes) << '\n';
+    }
+    if (faults.left_out() != 0) std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
+}
+
+nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Error& fault : faults.list()) {
+        list.push_back({{"code", code_name(fault.code)},
+                        {"class", class_name(error_class(fault.code))},
+                        {"path", chunk_path(bytes, fault.offset)},
+                        {"offset", fault.offset},
+                        {"message", describe(fault)}});
+    }
+    return {{"file", file.string()}, {"valid", faults.empty()}, {"faults", list}, {"faultsLeftOut", faults.left_out()}};
+}
+
+void run(const Arguments& arguments) {
+    bool all_good = true;
+    nlohmann::json report = nlohmann::json::array();
+    for (const std::filesystem::path& file : arguments.files) {
+        const Result<MappedFile> mapped = MappedFile::open(file);
+        Faults faults;
+        Bytes bytes;
+        if (mapped) {
+            bytes = mapped->bytes();
+            faults = validate(bytes);
+        } else {
+            faults.add(mapped.error());
+        }
+        all_good = all_good && faults.empty();
+        if (arguments.json) {
+            report.push_back(to_json(file, faults, bytes));
+        } else if (!mapped) {
+            std::cerr << "bendy: error: " << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
+        } else {
+            print_lines(file, faults, bytes);
+        }
+    }
+    if (arguments.json) std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    if (!all_good) throw Failed{};
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("validate", "Say everything that is wrong with files, and where");
+    command->add_option("FILE", arguments->files, "bendy files")->required();
+    command->add_flag("--json", arguments->json, "print a JSON report");
+    command->footer("Prints nothing and exits with 0 when all is well; else a line a fault, and 1.\n"
+                    "Example: bendy validate fox.bendy");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

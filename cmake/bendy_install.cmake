@@ -1,0 +1,15 @@
+# cmake --install: the embeddable libraries with their headers and CMake package, and the program.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/bendy)
+install(TARGETS bendy_format bendy_runtime EXPORT bendy_targets
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT bendy_targets NAMESPACE bendy:: FILE bendy-targets.cmake DESTINATION ${package_dir})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bendy-config.cmake.in ${PROJECT_BINARY_DIR}/bendy-config.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/bendy-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/bendy-config.cmake ${PROJECT_BINARY_DIR}/bendy-config-version.cmake
+  DESTINATION ${package_dir})
+if(BENDY_TOOLS)
+  install(TARGETS bendy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

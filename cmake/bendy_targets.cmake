@@ -1,0 +1,23 @@
+# What every target of this project shares.
+
+# bendy_library(NAME SOURCES ... [HEADERS ...]): a library bendy_NAME with the alias bendy::NAME, its public headers under
+# include/ as a file set.
+function(bendy_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS")
+  add_library(bendy_${name} ${arg_SOURCES})
+  add_library(bendy::${name} ALIAS bendy_${name})
+  set_target_properties(bendy_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_sources(bendy_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  bendy_options(bendy_${name})
+endfunction()
+
+function(bendy_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF VERIFY_INTERFACE_HEADER_SETS ON)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
+  # The same bytes from every compiler: no fused multiply-add that the source does not ask for.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(BENDY_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace bendy::converter {
+
+/// Writes a scene as a file with one object: structure first, bulk after it, embedded images last. Exact: every number of
+/// the scene is kept; streams and indices take the narrowest type that holds them without loss. The same scene gives the
+/// same bytes. What has no place in the file is named in `report`.
+/// \param scene      indices in range, numbers finite, rotations unit: as importers leave it
+/// \param generator  name and version of the program, at most 32 bytes
+std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report);
+
+}  // namespace bendy::converter

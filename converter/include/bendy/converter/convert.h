@@ -1,0 +1,21 @@
+#pragma once
+
+#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/report.h>
+#include <bendy/format/result.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace bendy::converter {
+
+struct ConvertOptions {
+    GltfOptions gltf;
+};
+
+/// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named in
+/// `report`. Throws nothing.
+Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options, Report& report);
+
+}  // namespace bendy::converter

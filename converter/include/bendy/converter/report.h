@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bendy::converter {
+
+/// Why an import failed: what is wrong and where in the source, e.g. place `meshes[2].primitives[0].attributes.JOINTS_0`.
+struct ImportError {
+    std::string place;    ///< JSON path in the source, or empty where the whole file is meant
+    std::string message;  ///< one line, no trailing full stop
+};
+
+/// Something that the result does not hold, or holds otherwise than the source: said by name, and counted.
+struct Warning {
+    std::string message;      ///< what; one line, the same text for the same kind of loss
+    std::string first_place;  ///< where it was met first (JSON path), may be empty
+    std::uint64_t count = 1;  ///< how many times
+};
+
+/// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
+class Report {
+public:
+    void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
+    [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
+
+private:
+    std::vector<Warning> warnings_;
+};
+
+}  // namespace bendy::converter

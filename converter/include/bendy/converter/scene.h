@@ -1,0 +1,164 @@
+#pragma once
+
+#include <bendy/format/records.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// The mutable authoring model: what importers fill, passes rework and build_chunks writes. Everything here is decoded to
+// floats; the narrowest exact storage is chosen when chunks are built. glTF's conventions: metres, radians, seconds,
+// right-handed, Y up, column vectors, column-major matrices, quaternions as x y z w.
+namespace bendy::converter {
+
+using bendy::kNone;
+
+/// Transform of a joint relative to its parent: M = T * R * U with U upper triangular,
+///     U = | scale.x  shear.x  shear.y |
+///         |    0     scale.y  shear.z |
+///         |    0        0     scale.z |
+/// so that every affine matrix can be held, also one with shear or without volume. Shear is zero for an ordinary TRS.
+struct Transform {
+    glm::vec3 translation{0.0f};
+    glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f};  ///< x y z w, unit
+    glm::vec3 scale{1.0f};
+    glm::vec3 shear{0.0f};
+};
+
+struct Joint {
+    std::string name;              ///< UTF-8, may be empty or doubled
+    std::uint32_t parent = kNone;  ///< always smaller than the joint's own index; kNone: a root
+    Transform rest;
+    std::string extras;  ///< JSON text or empty
+};
+
+/// A list of vertex indices with one material; strips, fans and loops are resolved into lists by the importer.
+struct Part {
+    Topology topology = Topology::triangles;
+    std::uint32_t material = kNone;       ///< index into Scene::materials
+    std::vector<std::uint32_t> indices;   ///< into the mesh's vertices; 3, 2 or 1 per primitive, the source's order
+};
+
+/// One vertex stream that is not of the fixed kinds: texture coordinates, colours, the author's own attributes.
+struct Stream {
+    std::string name;              ///< of an author's attribute (`_TEMPERATURE`); empty for the others
+    std::uint32_t set = 0;         ///< n of TEXCOORD_n, COLOR_n; sets ascend but may leave numbers out
+    std::uint32_t components = 0;  ///< 1 to 16
+    std::vector<float> values;     ///< vertex count * components
+};
+
+/// An inbetweening (morph) target: displacements per vertex; an empty vector means: this stream is not displaced.
+struct Target {
+    std::string name;
+    float rest_weight = 0.0f;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;  ///< xyz only, the handedness stays
+};
+
+/// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind time).
+struct Palette {
+    std::vector<std::uint32_t> joints;    ///< indices into Scene::joints
+    std::vector<glm::mat4> inverse_bind;  ///< as many
+};
+
+/// Vertices that share one set of streams, one palette and one set of targets: what becomes a VECT pool.
+struct Mesh {
+    std::string name;
+    std::uint32_t joint = kNone;         ///< the joint that carries the mesh; moves it when it is rigid
+    std::vector<glm::vec3> positions;    ///< in mesh space
+    std::vector<glm::vec3> normals;      ///< empty, or one per vertex
+    std::vector<glm::vec4> tangents;     ///< empty, or one per vertex: xyz, w = handedness +-1
+    std::vector<Stream> texture_coords;  ///< TEXCOORD_0.. (2 components)
+    std::vector<Stream> colours;         ///< COLOR_0.. (3 or 4 components)
+    std::vector<Stream> attributes;      ///< the author's own, by name
+    std::uint32_t influences = 0;        ///< per vertex; 0: rigid
+    std::vector<std::uint32_t> bones;    ///< vertex count * influences, into the palette
+    std::vector<float> weights;          ///< as many; sum 1 per vertex, never negative
+    Palette palette;
+    std::vector<Target> targets;
+    std::vector<Part> parts;
+    std::string extras;
+};
+
+struct Track {
+    TrackPath path = TrackPath::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::uint32_t target = kNone;  ///< joint, or for weights: mesh
+    std::uint32_t components = 0;  ///< 3, 4, 3, or the mesh's number of targets
+    std::vector<float> times;      ///< seconds, strictly ascending, at least one
+    std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
+};
+
+struct Cycle {
+    std::string name;
+    bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
+    std::vector<Track> tracks;  ///< at most one per target and path; may be empty
+    std::string extras;
+};
+
+/// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
+struct Image {
+    std::string name;
+    std::string media_type;        ///< image/png, image/jpeg, image/ktx2, image/webp, or as the source says
+    std::vector<std::byte> bytes;  ///< empty when `uri` is kept instead
+    std::string uri;
+};
+
+/// An image with a sampler. Kept in the source's order: extensions kept as JSON refer to textures by index.
+struct Texture {
+    std::string name;
+    std::vector<std::uint32_t> images;  ///< indices into Scene::images, in order of preference
+    Filter mag_filter = Filter::unspecified;
+    Filter min_filter = Filter::unspecified;
+    Wrap wrap_s = Wrap::repeat;
+    Wrap wrap_t = Wrap::repeat;
+    std::string extras;
+};
+
+/// A use of a texture by a material, with KHR_texture_transform (rotation in radians, counter-clockwise).
+struct TextureUse {
+    std::uint32_t texture = kNone;
+    std::uint32_t coords = 0;  ///< set number
+    glm::vec2 offset{0.0f};
+    float rotation = 0.0f;
+    glm::vec2 scale{1.0f};
+};
+
+struct Material {
+    std::string name;
+    glm::vec4 base_colour{1.0f};
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    glm::vec3 emissive{0.0f};
+    float normal_scale = 1.0f;
+    float occlusion_strength = 1.0f;
+    float alpha_cutoff = 0.5f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    bool double_sided = false;
+    bool unlit = false;
+    TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    std::string extensions;  ///< JSON object with the extensions that have no field here, verbatim; or empty
+    std::string extras;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Joint> joints;  ///< pre-order: parents first, siblings in the source's order
+    std::vector<Mesh> meshes;
+    std::vector<Cycle> cycles;  ///< the source's order and number
+    std::vector<Material> materials;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::string extras;         ///< of the source's scene
+    std::string source_extras;  ///< of the source's root
+    std::string asset;          ///< JSON object: who made the source, copyright, generator, with its extras
+};
+
+}  // namespace bendy::converter

@@ -1,0 +1,376 @@
+#include <bendy/converter/build_chunks.h>
+
+#include "passes/assign_polygons.h"
+#include "passes/narrow.h"
+
+#include <bendy/format/chunk_writer.h>
+#include <bendy/format/records.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+template <std::size_t N, class Vector>
+std::array<float, N> to_array(const Vector& v) {
+    std::array<float, N> a{};
+    for (std::size_t i = 0; i < N; ++i) a[i] = v[static_cast<int>(i)];
+    return a;
+}
+
+void put_text(ChunkWriter& out, FourCC id, const std::string& text) {
+    if (!text.empty()) out.text_leaf(id, text);
+}
+
+void put_stream(ChunkWriter& out, FourCC id, const StoredNumbers& numbers, std::uint32_t components, std::uint32_t elements, std::uint32_t set = 0) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(numbers.type);
+    record.normalised = numbers.normalised ? 1 : 0;
+    record.components = static_cast<std::uint16_t>(components);
+    record.elements = elements;
+    record.set = set;
+    out.leaf(id, std::array{bytes_of(record), Bytes(numbers.bytes)});
+}
+
+/// A stream of float vectors, as they are.
+template <class Vector>
+void put_vectors(ChunkWriter& out, FourCC id, std::span<const Vector> vectors) {
+    if (vectors.empty()) return;
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(ComponentType::f32);
+    record.components = static_cast<std::uint16_t>(Vector::length());
+    record.elements = static_cast<std::uint32_t>(vectors.size());
+    out.leaf(id, std::array{bytes_of(record), std::as_bytes(vectors)});
+}
+
+// --- textures and materials
+
+MediaType media_of(const Image& image) {
+    constexpr std::pair<std::string_view, MediaType> kKnown[] = {{"image/png", MediaType::png},
+                                                                 {"image/jpeg", MediaType::jpeg},
+                                                                 {"image/ktx2", MediaType::ktx2},
+                                                                 {"image/webp", MediaType::webp},
+                                                                 {"image/avif", MediaType::avif}};
+    for (const auto& [name, media] : kKnown) {
+        if (image.media_type == name) return media;
+    }
+    return MediaType::other;
+}
+
+void put_textures(ChunkWriter& out, const Scene& scene) {
+    std::map<std::uint32_t, SameRecord> written;  // where an image stands already
+    for (std::uint32_t number = 0; number < scene.textures.size(); ++number) {
+        const Texture& texture = scene.textures[number];
+        out.begin(FourCC("TEXT"));
+        put_text(out, FourCC("NAME"), texture.name);
+        const SamplerRecord sampler{static_cast<std::uint8_t>(texture.mag_filter), static_cast<std::uint8_t>(texture.min_filter),
+                                    static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
+        out.leaf(FourCC("SAMP"), bytes_of(sampler));
+        put_text(out, FourCC("EXTR"), texture.extras);
+        for (std::uint32_t place = 0; place < texture.images.size(); ++place) {
+            const std::uint32_t index = texture.images[place];
+            const auto [known, is_new] = written.try_emplace(index, SameRecord{number, place});
+            const Image& image = scene.images[index];
+            if (!is_new) {
+                out.leaf(FourCC("SAME"), bytes_of(known->second));
+            } else if (image.bytes.empty()) {
+                out.text_leaf(FourCC("LINK"), image.uri);
+            } else {
+                ImageRecord record;
+                record.media = static_cast<std::uint8_t>(media_of(image));
+                out.leaf(FourCC("IMAG"), std::array{bytes_of(record), Bytes(image.bytes)});
+            }
+        }
+        out.end();
+    }
+}
+
+TextureUseRecord to_record(const TextureUse& use) {
+    TextureUseRecord record;
+    record.texture = use.texture;
+    record.coords = use.coords;
+    record.offset = to_array<2>(use.offset);
+    record.scale = to_array<2>(use.scale);
+    record.rotation = use.rotation;
+    return record;
+}
+
+void put_material(ChunkWriter& out, const Material& material) {
+    SurfaceRecord surface;
+    surface.base_colour = to_array<4>(material.base_colour);
+    surface.emissive = to_array<3>(material.emissive);
+    surface.metallic = material.metallic;
+    surface.roughness = material.roughness;
+    surface.normal_scale = material.normal_scale;
+    surface.occlusion_strength = material.occlusion_strength;
+    surface.alpha_cutoff = material.alpha_cutoff;
+    surface.alpha_mode = static_cast<std::uint8_t>(material.alpha_mode);
+    surface.double_sided = material.double_sided ? 1 : 0;
+    surface.unlit = material.unlit ? 1 : 0;
+    surface.base_colour_texture = to_record(material.base_colour_texture);
+    surface.metallic_roughness_texture = to_record(material.metallic_roughness_texture);
+    surface.normal_texture = to_record(material.normal_texture);
+    surface.occlusion_texture = to_record(material.occlusion_texture);
+    surface.emissive_texture = to_record(material.emissive_texture);
+    out.begin(FourCC("MATE"));
+    put_text(out, FourCC("NAME"), material.name);
+    out.leaf(FourCC("SURF"), bytes_of(surface));
+    put_text(out, FourCC("EXTN"), material.extensions);
+    put_text(out, FourCC("EXTR"), material.extras);
+    out.end();
+}
+
+// --- joints
+
+void put_rest(ChunkWriter& out, const Transform& rest) {
+    RestRecord record;
+    record.rotation = to_array<4>(rest.rotation);
+    record.translation = to_array<3>(rest.translation);
+    record.scale = to_array<3>(rest.scale);
+    record.shear = to_array<3>(rest.shear);
+    const bool has_shear = rest.shear != glm::vec3(0.0f);
+    out.begin(FourCC("PIVO"));
+    out.leaf(FourCC("REST"), bytes_of(record).first(has_shear ? sizeof record : kShortest<RestRecord>));
+    out.end();
+}
+
+using PolygonsByJoint = std::vector<std::vector<PolygonRecord>>;
+
+PolygonsByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygons> pools) {
+    PolygonsByJoint by_joint(scene.joints.size());
+    for (std::uint32_t pool = 0; pool < pools.size(); ++pool) {
+        for (const PolygonRange& range : pools[pool].ranges) {
+            PolygonRecord record;
+            record.pool = pool;
+            record.material = range.material;
+            record.first = range.first;
+            record.count = range.count;
+            record.topology = static_cast<std::uint8_t>(range.topology);
+            by_joint[range.joint].push_back(record);
+        }
+    }
+    return by_joint;
+}
+
+void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
+        const Joint& joint = scene.joints[number];
+        while (!open.empty() && open.back() != joint.parent) {
+            out.end();
+            open.pop_back();
+        }
+        assert(joint.parent == kNone || !open.empty());  // pre-order: the parent is open
+        out.begin(FourCC("SKIN"));
+        open.push_back(number);
+        put_text(out, FourCC("NAME"), joint.name);
+        put_rest(out, joint.rest);
+        for (const PolygonRecord& record : polygons[number]) out.leaf(FourCC("POLY"), bytes_of(record));
+        put_text(out, FourCC("EXTR"), joint.extras);
+    }
+    for (; !open.empty(); open.pop_back()) out.end();
+}
+
+// --- pools
+
+bool is_touched(const Target& target, std::size_t vertex) {
+    const auto moves = [&](const std::vector<glm::vec3>& stream) { return !stream.empty() && stream[vertex] != glm::vec3(0.0f); };
+    return moves(target.positions) || moves(target.normals) || moves(target.tangents);
+}
+
+std::vector<glm::vec3> pick(const std::vector<glm::vec3>& stream, std::span<const std::uint32_t> vertices) {
+    std::vector<glm::vec3> picked;
+    if (stream.empty()) return picked;
+    picked.reserve(vertices.size());
+    for (const std::uint32_t vertex : vertices) picked.push_back(stream[vertex]);
+    return picked;
+}
+
+/// Stores the touched vertices only, where that is smaller.
+void put_target(ChunkWriter& out, const Target& target, std::uint32_t vertices) {
+    std::vector<std::uint32_t> touched;
+    for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+        if (is_touched(target, vertex)) touched.push_back(vertex);
+    }
+    const auto present = static_cast<std::uint64_t>(!target.positions.empty()) + static_cast<std::uint64_t>(!target.normals.empty()) +
+                         static_cast<std::uint64_t>(!target.tangents.empty());
+    const std::uint64_t dense = vertices * present * sizeof(glm::vec3);
+    const StoredNumbers indices = narrow_indices(touched, vertices, false);
+    const std::uint64_t sparse = kChunkHeaderSize + sizeof(StreamRecord) + indices.bytes.size() + touched.size() * present * sizeof(glm::vec3);
+
+    out.begin(FourCC("TARG"));
+    put_text(out, FourCC("NAME"), target.name);
+    out.leaf(FourCC("TINF"), bytes_of(TargetRecord{target.rest_weight}));
+    if (present != 0 && !touched.empty()) {
+        const bool is_sparse = sparse < dense;
+        if (is_sparse) put_stream(out, FourCC("INDX"), indices, 1, static_cast<std::uint32_t>(touched.size()));
+        const auto put = [&](FourCC id, const std::vector<glm::vec3>& stream) {
+            const std::vector<glm::vec3> picked = is_sparse ? pick(stream, touched) : std::vector<glm::vec3>();
+            put_vectors(out, id, std::span<const glm::vec3>(is_sparse ? picked : stream));
+        };
+        put(FourCC("POSI"), target.positions);
+        put(FourCC("NORM"), target.normals);
+        put(FourCC("TANG"), target.tangents);
+    }
+    out.end();
+}
+
+void put_palette(ChunkWriter& out, const Palette& palette) {
+    PaletteRecord record;
+    record.entries = static_cast<std::uint32_t>(palette.joints.size());
+    const auto joints = std::as_bytes(std::span(palette.joints));
+    const std::array<std::byte, kChunkAlignment> zeros{};
+    const auto gap = std::span(zeros).first(padded(joints.size()) - joints.size());
+    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap), Bytes(std::as_bytes(std::span(palette.inverse_bind)))});
+}
+
+void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices) {
+    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+    out.begin(FourCC("VECT"));
+    put_text(out, FourCC("NAME"), mesh.name);
+    out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
+    put_text(out, FourCC("EXTR"), mesh.extras);
+    if (mesh.influences != 0) put_palette(out, mesh.palette);
+    put_vectors(out, FourCC("POSI"), std::span<const glm::vec3>(mesh.positions));
+    put_vectors(out, FourCC("NORM"), std::span<const glm::vec3>(mesh.normals));
+    put_vectors(out, FourCC("TANG"), std::span<const glm::vec4>(mesh.tangents));
+    for (const Stream& stream : mesh.texture_coords) {
+        put_stream(out, FourCC("TEXC"), narrow_fractions(stream.values), stream.components, vertices, stream.set);
+    }
+    for (const Stream& stream : mesh.colours) {
+        put_stream(out, FourCC("COLR"), narrow_fractions(stream.values), stream.components, vertices, stream.set);
+    }
+    for (const Stream& stream : mesh.attributes) {
+        out.begin(FourCC("USER"));
+        put_text(out, FourCC("NAME"), stream.name);
+        const auto bytes = std::as_bytes(std::span(stream.values));
+        put_stream(out, FourCC("VALS"), {ComponentType::f32, false, {bytes.begin(), bytes.end()}}, stream.components, vertices);
+        out.end();
+    }
+    if (mesh.influences != 0) {
+        put_stream(out, FourCC("BONE"), narrow_indices(mesh.bones, mesh.palette.joints.size(), true), mesh.influences, vertices);
+        put_stream(out, FourCC("WGHT"), narrow_fractions(mesh.weights), mesh.influences, vertices);
+    }
+    if (!indices.empty()) {
+        put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1, static_cast<std::uint32_t>(indices.size()));
+    }
+    for (const Target& target : mesh.targets) put_target(out, target, vertices);
+    out.end();
+}
+
+// --- cycles
+
+/// Float arrays one after another, each different one once.
+class FloatPool {
+public:
+    std::uint64_t add(const std::vector<float>& values) {
+        const auto [known, is_new] = places_.try_emplace(values, floats_.size());
+        if (is_new) floats_.insert(floats_.end(), values.begin(), values.end());
+        return known->second;
+    }
+    [[nodiscard]] Bytes bytes() const { return std::as_bytes(std::span(floats_)); }
+
+private:
+    std::map<std::vector<float>, std::uint64_t> places_;
+    std::vector<float> floats_;
+};
+
+void put_cycle(ChunkWriter& out, const Cycle& cycle) {
+    CycleRecord info;
+    info.loop = cycle.loop ? 1 : 0;
+    FloatPool times;
+    FloatPool values;
+    std::vector<TrackRecord> tracks;
+    for (const Track& track : cycle.tracks) {
+        info.start = tracks.empty() ? track.times.front() : std::min(info.start, track.times.front());
+        info.end = tracks.empty() ? track.times.back() : std::max(info.end, track.times.back());
+        TrackRecord record;
+        record.target = track.target;
+        record.path = static_cast<std::uint8_t>(track.path);
+        record.interpolation = static_cast<std::uint8_t>(track.interpolation);
+        record.components = static_cast<std::uint16_t>(track.components);
+        record.keys = static_cast<std::uint32_t>(track.times.size());
+        record.first_time = static_cast<std::uint32_t>(times.add(track.times));
+        record.first_value = values.add(track.values);
+        tracks.push_back(record);
+    }
+    out.begin(FourCC("CYCL"));
+    put_text(out, FourCC("NAME"), cycle.name);
+    out.leaf(FourCC("CINF"), bytes_of(info));
+    put_text(out, FourCC("EXTR"), cycle.extras);
+    if (!tracks.empty()) {
+        out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)));
+        out.leaf(FourCC("TIME"), times.bytes());
+        out.leaf(FourCC("KEYV"), values.bytes());
+    }
+    out.end();
+}
+
+VersionRecord make_version(const Scene& scene, std::string_view generator) {
+    VersionRecord version;
+    version.objects = 1;
+    version.joints = static_cast<std::uint32_t>(scene.joints.size());
+    version.pools = static_cast<std::uint32_t>(scene.meshes.size());
+    for (const Mesh& mesh : scene.meshes) version.vertices += mesh.positions.size();
+    version.cycles = static_cast<std::uint32_t>(scene.cycles.size());
+    version.materials = static_cast<std::uint32_t>(scene.materials.size());
+    version.textures = static_cast<std::uint32_t>(scene.textures.size());
+    std::copy_n(generator.begin(), std::min(generator.size(), version.generator.size()), version.generator.begin());
+    return version;
+}
+
+/// Who made the source, and its root's extras, as one JSON object.
+std::string source_facts(const Scene& scene) {
+    std::string facts;
+    const auto add = [&](std::string_view key, const std::string& json) {
+        if (json.empty()) return;
+        facts.append(facts.empty() ? "{\"" : ",\"").append(key).append("\":").append(json);
+    };
+    add("asset", scene.asset);
+    add("extras", scene.source_extras);
+    return facts.empty() ? facts : facts + '}';
+}
+
+void warn_of_unused_images(const Scene& scene, Report& report) {
+    std::vector<bool> used(scene.images.size());
+    for (const Texture& texture : scene.textures) {
+        for (const std::uint32_t image : texture.images) used[image] = true;
+    }
+    for (std::size_t image = 0; image < used.size(); ++image) {
+        if (!used[image]) report.warn("image that no texture uses is left out", "images[" + std::to_string(image) + "]");
+    }
+}
+
+}  // namespace
+
+std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report) {
+    warn_of_unused_images(scene, report);
+    std::vector<AssignedPolygons> polygons;
+    polygons.reserve(scene.meshes.size());
+    for (const Mesh& mesh : scene.meshes) polygons.push_back(assign_polygons(mesh));
+
+    const bool embeds = std::any_of(scene.images.begin(), scene.images.end(), [](const Image& image) { return !image.bytes.empty(); });
+    ChunkWriter out;
+    out.begin(FourCC("HEAD"));
+    out.leaf(FourCC("VERS"), bytes_of(make_version(scene, generator)));
+    put_text(out, FourCC("EXTR"), source_facts(scene));
+    if (!embeds) put_textures(out, scene);
+    for (const Material& material : scene.materials) put_material(out, material);
+    out.begin(FourCC("OBJE"));
+    put_text(out, FourCC("NAME"), scene.name);
+    put_text(out, FourCC("EXTR"), scene.extras);
+    put_joints(out, scene, sort_by_joint(scene, polygons));
+    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) put_pool(out, scene.meshes[pool], polygons[pool].indices);
+    for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
+    out.end();
+    if (embeds) put_textures(out, scene);
+    out.end();
+    return std::move(out).finish();
+}
+
+}  // namespace bendy::converter

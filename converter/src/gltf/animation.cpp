@@ -1,0 +1,242 @@
+#include "animation.h"
+
+#include "accessor.h"
+#include "failure.h"
+#include "transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace bendy::converter::gltf {
+namespace {
+
+/// Keys of one channel, checked.
+struct Keys {
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<float> times;
+    std::vector<float> values;
+};
+
+Interpolation interpolation_of(const std::string& name) {
+    return name == "STEP" ? Interpolation::step : name == "CUBICSPLINE" ? Interpolation::cubic : Interpolation::linear;
+}
+
+std::optional<TrackPath> path_of(const std::string& name) {
+    if (name == "translation") return TrackPath::translation;
+    if (name == "rotation") return TrackPath::rotation;
+    if (name == "scale") return TrackPath::scale;
+    if (name == "weights") return TrackPath::weights;
+    return std::nullopt;
+}
+
+/// Two keys at one time are a jump: the value there is the later key's, the way to it the earlier one's. So the earlier
+/// moves one float back; keys between such two mean nothing. Returns how many keys this touched.
+std::uint64_t separate_equal_times(Keys& keys) {
+    const std::size_t stride = keys.values.size() / keys.times.size();
+    std::uint64_t touched = 0;
+    std::size_t kept = 0;
+    const auto keep = [&](std::size_t key, float time) {
+        keys.times[kept] = time;
+        std::copy_n(keys.values.begin() + static_cast<std::ptrdiff_t>(key * stride), stride,
+                    keys.values.begin() + static_cast<std::ptrdiff_t>(kept * stride));
+        ++kept;
+    };
+    for (std::size_t first = 0; first < keys.times.size();) {
+        const float time = keys.times[first];
+        std::size_t last = first;
+        while (last + 1 < keys.times.size() && keys.times[last + 1] == time) ++last;
+        if (last > first) {
+            touched += last - first;
+            const float before = std::nextafter(time, -std::numeric_limits<float>::infinity());
+            if (kept == 0 || keys.times[kept - 1] < before) keep(first, before);
+        }
+        keep(last, time);
+        first = last + 1;
+    }
+    keys.times.resize(kept);
+    keys.values.resize(kept * stride);
+    return touched;
+}
+
+class Importer {
+public:
+    Importer(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
+        : document_(document), skeleton_(skeleton), meshes_(meshes), scene_(scene) {}
+
+    void import(std::size_t index) {
+        const tinygltf::Animation& animation = document_.model.animations[index];
+        place_ = at("animations", index);
+        Cycle cycle;
+        cycle.name = animation.name;
+        cycle.extras = extras_text(document_.json["animations"][index]);
+        std::map<std::pair<TrackPath, std::uint32_t>, std::size_t> track_of;
+        for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+            for (Track& track : read_channel(animation, c, index)) {
+                const auto [known, is_new] = track_of.emplace(std::pair(track.path, track.target), cycle.tracks.size());
+                if (is_new) {
+                    cycle.tracks.push_back(std::move(track));
+                } else {
+                    document_.report.warn("second channel for the same target, the last one is taken",
+                                          place_ + '.' + at("channels", c));
+                    cycle.tracks[known->second] = std::move(track);
+                }
+            }
+        }
+        scene_.cycles.push_back(std::move(cycle));
+    }
+
+private:
+    /// The tracks that a channel becomes: none, one, or one for each mesh of a node whose morph weights it moves.
+    std::vector<Track> read_channel(const tinygltf::Animation& animation, std::size_t c, std::size_t index) {
+        const tinygltf::AnimationChannel& channel = animation.channels[c];
+        const std::string place = place_ + '.' + at("channels", c);
+        const Json& target = document_.json["animations"][index]["channels"][c]["target"];
+        const auto path = path_of(channel.target_path);
+        if (!path) {
+            document_.report.warn("channel that animates " + quote(channel.target_path) + " left out", place + ".target");
+            return {};
+        }
+        if (channel.target_node < 0) {
+            document_.report.warn("channel without a target node left out", place + ".target");
+            return {};
+        }
+        if (target.contains("extensions")) {
+            document_.report.warn("extensions of a channel's target left out", place + ".target.extensions");
+        }
+        const auto node = static_cast<std::size_t>(channel.target_node);
+        const auto sampler = static_cast<std::size_t>(channel.sampler);
+        const std::size_t components = *path == TrackPath::rotation  ? 4
+                                       : *path == TrackPath::weights ? target_count(node)
+                                                                     : 3;
+        if (components == 0) {
+            document_.report.warn("channel with weights of a node without morph targets left out", place);
+            return {};
+        }
+        // Checked even if nothing will use it: broken is broken.
+        Keys keys = read_keys(animation.samplers[sampler], components, place_ + '.' + at("samplers", sampler));
+        const std::uint32_t joint = skeleton_.joint_of_node[node];
+        if (joint == kNone) {
+            document_.report.warn("channel of a node outside the chosen scene left out", place + ".target.node");
+            return {};
+        }
+        if (*path == TrackPath::rotation) check_rotations(keys, place_ + '.' + at("samplers", sampler) + ".output");
+        if (*path != TrackPath::weights && !document_.model.nodes[node].matrix.empty()) {
+            document_.report.warn("channel of a node with a matrix moves the matrix's parts", place + ".target.node");
+        }
+        Track track;
+        track.path = *path;
+        track.interpolation = keys.interpolation;
+        track.components = static_cast<std::uint32_t>(components);
+        track.times = std::move(keys.times);
+        track.values = std::move(keys.values);
+        if (*path != TrackPath::weights) {
+            track.target = joint;
+            std::vector<Track> tracks;
+            tracks.push_back(std::move(track));
+            return tracks;
+        }
+        return for_each_mesh(std::move(track), node, place);
+    }
+
+    std::vector<Track> for_each_mesh(Track track, std::size_t node, const std::string& place) const {
+        const auto& meshes = meshes_[node];
+        if (meshes.empty()) document_.report.warn("channel with weights of a node that draws nothing left out", place);
+        std::vector<Track> tracks;
+        for (const std::uint32_t mesh : meshes) {
+            document_.budget.take(track.times.size() + track.values.size(), sizeof(float), place);
+            track.target = mesh;
+            tracks.push_back(track);
+        }
+        return tracks;
+    }
+
+    /// Morph targets of the node's mesh: the most that any of its primitives has.
+    [[nodiscard]] std::size_t target_count(std::size_t node) const {
+        const int mesh = document_.model.nodes[node].mesh;
+        if (mesh < 0) return 0;
+        const auto index = static_cast<std::size_t>(mesh);
+        const auto known = target_counts_.find(index);
+        if (known != target_counts_.end()) return known->second;
+        std::size_t count = 0;
+        for (const auto& primitive : document_.model.meshes[index].primitives) {
+            count = std::max(count, primitive.targets.size());
+        }
+        target_counts_.emplace(index, count);
+        return count;
+    }
+
+    [[nodiscard]] Keys read_keys(const tinygltf::AnimationSampler& sampler, std::size_t components,
+                                 const std::string& place) const {
+        const auto input = static_cast<std::size_t>(sampler.input);
+        const auto output = static_cast<std::size_t>(sampler.output);
+        const auto& accessors = document_.model.accessors;
+        Keys keys;
+        keys.interpolation = interpolation_of(sampler.interpolation);
+        if (accessors[input].type != TINYGLTF_TYPE_SCALAR) {
+            fail(place + ".input", at("accessors", input) + " must hold scalars");
+        }
+        const std::uint64_t per_key = components * (keys.interpolation == Interpolation::cubic ? 3 : 1);
+        const std::uint64_t count = accessors[input].count;
+        const std::uint64_t found = std::uint64_t{accessors[output].count} * component_count(accessors[output]);
+        if (found / per_key != count || found % per_key != 0) {
+            fail(place + ".output", at("accessors", output) + " holds " + std::to_string(found) + " numbers, but " +
+                                        std::to_string(count) + " keys of " + std::to_string(per_key) + " are due");
+        }
+        keys.times = read_floats(document_, input, place + ".input");
+        for (std::size_t k = 1; k < keys.times.size(); ++k) {
+            if (keys.times[k] < keys.times[k - 1]) {
+                fail(place + ".input", at("accessors", input) + ", element " + std::to_string(k) +
+                                           ": key times must increase, but " + std::to_string(keys.times[k]) +
+                                           " follows " + std::to_string(keys.times[k - 1]));
+            }
+        }
+        keys.values = read_floats(document_, output, place + ".output");
+        if (const std::uint64_t touched = separate_equal_times(keys); touched > 0) {
+            document_.report.warn("keys at the same time: the value jumps there", place + ".input", touched);
+        }
+        return keys;
+    }
+
+    /// Normalises the rotations of linear and step keys. Those of cubic ones stay: the specification normalises what the
+    /// spline gives, and value and tangents belong together.
+    void check_rotations(Keys& keys, const std::string& place) const {
+        const bool is_cubic = keys.interpolation == Interpolation::cubic;
+        const std::size_t stride = is_cubic ? 12 : 4;
+        std::uint64_t far_off = 0;
+        for (std::size_t k = 0; k < keys.times.size(); ++k) {
+            float* value = keys.values.data() + k * stride + (is_cubic ? 4 : 0);
+            const UnitQuaternion unit = make_unit({value[0], value[1], value[2], value[3]});
+            if (unit.length == 0.0) fail(place, "rotation key " + std::to_string(k) + " is (0, 0, 0, 0)");
+            if (std::abs(unit.length - 1.0) > kUnitTolerance) ++far_off;
+            if (is_cubic) continue;
+            for (int i = 0; i < 4; ++i) value[i] = unit.value[i];
+        }
+        if (far_off > 0) {
+            document_.report.warn(is_cubic ? "rotation key is no unit quaternion"
+                                           : "rotation key is no unit quaternion, normalised",
+                                  place, far_off);
+        }
+    }
+
+    const Document& document_;
+    const Skeleton& skeleton_;
+    const MeshesOfNode& meshes_;
+    Scene& scene_;
+    std::string place_;  ///< of the animation
+    mutable std::map<std::size_t, std::size_t> target_counts_;
+};
+
+}  // namespace
+
+void import_animations(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene) {
+    Importer importer(document, skeleton, meshes, scene);
+    for (std::size_t i = 0; i < document.model.animations.size(); ++i) importer.import(i);
+}
+
+}  // namespace bendy::converter::gltf

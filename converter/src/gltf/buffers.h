@@ -1,0 +1,66 @@
+#pragma once
+
+#include "budget.h"
+#include "check_json.h"
+#include "container.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace bendy::converter::gltf {
+
+/// How EXT_meshopt_compression or KHR_meshopt_compression stores a view.
+struct CompressedView {
+    std::size_t buffer = 0;
+    std::uint64_t offset = 0;  ///< bytes
+    std::uint64_t length = 0;  ///< bytes
+    std::size_t stride = 0;    ///< bytes per decoded element
+    std::size_t count = 0;     ///< decoded elements
+    std::string mode;
+    std::string filter;
+    std::string place;  ///< JSON path
+};
+
+/// The bytes behind bufferViews. Buffers are loaded at once (BIN chunk, data URI, file beside the source) and every view
+/// is checked against its buffer; compressed views are decoded when they are first asked for.
+class Buffers {
+public:
+    /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error only
+    /// when something reads it (fallback buffers of meshopt compression have none).
+    Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget);
+
+    /// The decoded bytes of a view; `view` must be in range.
+    std::span<const std::byte> view(std::size_t view, Budget& budget);
+
+    /// Bytes from one element to the next, or nothing: tightly packed.
+    [[nodiscard]] std::optional<std::size_t> stride(std::size_t view) const;
+
+private:
+    struct Buffer {
+        std::vector<std::byte> owned;
+        std::span<const std::byte> bytes;
+        bool has_data = false;
+    };
+    struct View {
+        std::size_t buffer = 0;
+        std::uint64_t offset = 0;
+        std::uint64_t length = 0;
+        std::optional<std::size_t> stride;
+        std::optional<CompressedView> compressed;
+        std::vector<std::byte> decoded;
+        bool is_decoded = false;
+    };
+
+    [[nodiscard]] std::span<const std::byte> slice(std::size_t buffer, std::uint64_t offset, std::uint64_t length,
+                                                   const std::string& place) const;
+
+    std::vector<Buffer> buffers_;
+    std::vector<View> views_;
+};
+
+}  // namespace bendy::converter::gltf

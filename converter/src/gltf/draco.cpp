@@ -1,0 +1,177 @@
+#include "draco.h"
+
+#include "accessor.h"
+#include "failure.h"
+
+#include <draco/compression/decode.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+
+namespace bendy::converter::gltf {
+namespace {
+
+constexpr std::size_t kMaxComponents = 16;
+
+// Draco allocates by the counts in its header before it reads what they count, and entropy coding may spend next to
+// nothing on an element. So the counts are held against the data first; regular meshes stay below 64 faces per byte.
+constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 24;
+constexpr std::uint64_t kElementsPerByte = 256;
+constexpr std::uint64_t kElementsSlack = std::uint64_t{1} << 16;
+
+struct Counts {
+    std::uint64_t faces = 0;
+    std::uint64_t vertices = 0;
+};
+
+/// Reads the counts that stand before the connectivity (bit-stream specification, sections 3 to 6). False: malformed or
+/// of a version before 2.2, which no glTF file has.
+bool read_counts(std::span<const std::byte> data, Counts& counts) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(data.data()), data.size());
+    std::array<char, 5> magic{};
+    std::uint8_t major = 0;
+    std::uint8_t minor = 0;
+    std::uint8_t geometry = 0;
+    std::uint8_t method = 0;
+    std::uint16_t flags = 0;
+    if (!buffer.Decode(magic.data(), magic.size()) || std::string_view(magic.data(), magic.size()) != "DRACO" ||
+        !buffer.Decode(&major) || !buffer.Decode(&minor) || !buffer.Decode(&geometry) || !buffer.Decode(&method) ||
+        !buffer.Decode(&flags)) {
+        return false;
+    }
+    if (major != 2 || minor < 2 || geometry != draco::TRIANGULAR_MESH) return false;
+    buffer.set_bitstream_version(static_cast<std::uint16_t>(major << 8 | minor));
+    constexpr std::uint16_t kHasMetadata = 0x8000;
+    if ((flags & kHasMetadata) != 0) {
+        draco::GeometryMetadata metadata;
+        draco::MetadataDecoder decoder;
+        if (!decoder.DecodeGeometryMetadata(&buffer, &metadata)) return false;
+    }
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    if (method == draco::MESH_EDGEBREAKER_ENCODING) {
+        std::uint8_t traversal = 0;
+        if (!buffer.Decode(&traversal)) return false;
+    }
+    if (!draco::DecodeVarint(&first, &buffer) || !draco::DecodeVarint(&second, &buffer)) return false;
+    const bool sequential = method == draco::MESH_SEQUENTIAL_ENCODING;
+    counts.faces = sequential ? first : second;
+    counts.vertices = sequential ? second : first;
+    return true;
+}
+
+template <class T>
+void convert(const draco::PointAttribute& attribute, std::size_t count, int component_type, bool normalise,
+             std::vector<float>& values, const std::string& place) {
+    const std::size_t components = attribute.num_components();
+    std::array<T, kMaxComponents> element{};
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto index = attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
+        if (index.value() >= attribute.size() ||
+            !attribute.ConvertValue<T>(index, static_cast<std::int8_t>(components), element.data())) {
+            fail(place, "Draco: vertex " + std::to_string(i) + " has no value that fits the accessor's componentType");
+        }
+        for (std::size_t c = 0; c < components; ++c) {
+            const auto value = static_cast<double>(element[c]);
+            if (!std::isfinite(value)) fail(place, "Draco: vertex " + std::to_string(i) + " is not finite");
+            values.push_back(static_cast<float>(normalise ? normalised(value, component_type) : value));
+        }
+    }
+}
+
+DracoPrimitive::Attribute read_attribute(const Document& document, const draco::PointAttribute& source,
+                                         std::size_t count, int component_type, bool normalise,
+                                         const std::string& place) {
+    DracoPrimitive::Attribute attribute;
+    attribute.components = source.num_components();
+    if (attribute.components == 0 || attribute.components > kMaxComponents) {
+        fail(place, "Draco: an attribute of " + std::to_string(attribute.components) + " components");
+    }
+    if (!source.is_mapping_identity() && source.indices_map_size() < count) {
+        fail(place, "Draco: the attribute does not cover all vertices");
+    }
+    document.budget.take(count, attribute.components * sizeof(float), place);
+    attribute.values.reserve(count * attribute.components);
+    const auto read = [&](auto component) {
+        convert<decltype(component)>(source, count, component_type, normalise, attribute.values, place);
+    };
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE: read(std::int8_t{}); break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: read(std::uint8_t{}); break;
+        case TINYGLTF_COMPONENT_TYPE_SHORT: read(std::int16_t{}); break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: read(std::uint16_t{}); break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: read(std::uint32_t{}); break;
+        default: read(float{}); break;
+    }
+    return attribute;
+}
+
+}  // namespace
+
+const Json* find_draco(const Json& primitive) {
+    const Json* extensions = find(primitive, "extensions");
+    return extensions == nullptr || !extensions->is_object() ? nullptr : find(*extensions, "KHR_draco_mesh_compression");
+}
+
+DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive& primitive, const Json& extension,
+                            const std::string& place) {
+    const std::string here = place + ".extensions.KHR_draco_mesh_compression";
+    const auto data = document.buffers.view(extension["bufferView"].get<std::size_t>(), document.budget);
+    Counts counts;
+    if (!read_counts(data, counts)) fail(here, "Draco: the data does not start with the header of a triangle mesh");
+    const std::uint64_t limit = std::min(kMaxElements, kElementsSlack + data.size() * kElementsPerByte);
+    if (counts.faces > limit || counts.vertices > limit) {
+        fail(here, "Draco: " + std::to_string(data.size()) + " bytes cannot hold " + std::to_string(counts.faces) +
+                       " faces and " + std::to_string(counts.vertices) + " vertices");
+    }
+
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(data.data()), data.size());
+    draco::Decoder decoder;
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) fail(here, "Draco: " + decoded.status().error_msg_string());
+    const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
+    if (mesh == nullptr) fail(here, "Draco: the data holds no mesh");
+
+    DracoPrimitive result;
+    result.count = mesh->num_points();
+    document.budget.take(std::uint64_t{mesh->num_faces()} * 3, sizeof(std::uint32_t), here);
+    result.indices.reserve(std::size_t{mesh->num_faces()} * 3);
+    for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
+        for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(f))) {
+            if (corner.value() >= result.count) fail(here, "Draco: face " + std::to_string(f) + " is out of range");
+            result.indices.push_back(corner.value());
+        }
+    }
+    const Json& attributes = extension["attributes"];
+    for (auto entry = attributes.begin(); entry != attributes.end(); ++entry) {
+        const std::string attribute_place = place + ".attributes." + key(entry.key());
+        const auto id = entry.value().get<std::uint32_t>();
+        const draco::PointAttribute* source = mesh->GetAttributeByUniqueId(id);
+        if (source == nullptr) {
+            fail(here + ".attributes." + key(entry.key()), "Draco: there is no attribute with id " + std::to_string(id));
+        }
+        int component_type = TINYGLTF_COMPONENT_TYPE_FLOAT;
+        bool normalise = false;
+        if (const auto named = primitive.attributes.find(entry.key()); named != primitive.attributes.end()) {
+            const auto& accessor = document.model.accessors[static_cast<std::size_t>(named->second)];
+            component_type = accessor.componentType;
+            normalise = accessor.normalized;
+            if (accessor.count != result.count) {
+                fail(attribute_place, "the accessor has " + std::to_string(accessor.count) +
+                                          " elements, the Draco data " + std::to_string(result.count));
+            }
+        }
+        result.attributes.emplace(entry.key(), read_attribute(document, *source, result.count, component_type,
+                                                              normalise, attribute_place));
+    }
+    return result;
+}
+
+}  // namespace bendy::converter::gltf

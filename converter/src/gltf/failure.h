@@ -1,0 +1,32 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace bendy::converter::gltf {
+
+/// What the importer throws inside this folder when the source is bad; import_gltf catches it and returns the error.
+struct Failure {
+    ImportError error;
+};
+
+[[noreturn]] inline void fail(std::string place, std::string message) {
+    throw Failure{{std::move(place), std::move(message)}};
+}
+
+/// "nodes" and 3 make "nodes[3]".
+inline std::string at(std::string_view array, std::size_t index) {
+    return std::string(array) + '[' + std::to_string(index) + ']';
+}
+
+/// A member's name as part of a place; odd ones are quoted.
+std::string key(const std::string& name);
+
+/// A name from the source, fit to stand in a one-line message: control characters escaped, long ones cut.
+std::string quote(std::string_view name);
+
+}  // namespace bendy::converter::gltf

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "document.h"
+
+#include <bendy/converter/scene.h>
+
+namespace bendy::converter::gltf {
+
+/// Fills Scene::images, in the file's order: encoded bytes as they came, or the URI of a file that is not embedded or not
+/// there.
+void import_images(const Document& document, bool embed, Scene& scene);
+
+}  // namespace bendy::converter::gltf

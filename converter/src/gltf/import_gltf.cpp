@@ -1,0 +1,89 @@
+#include <bendy/converter/import_gltf.h>
+
+#include "animation.h"
+#include "buffers.h"
+#include "check_json.h"
+#include "container.h"
+#include "document.h"
+#include "extensions.h"
+#include "failure.h"
+#include "image.h"
+#include "material.h"
+#include "mesh.h"
+#include "skeleton.h"
+#include "tinygltf.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+
+namespace bendy::converter {
+namespace gltf {
+namespace {
+
+/// Counts objects of the file that have no counterpart in the Scene.
+void report_left_out(const Json& root, const Skeleton& skeleton, Report& report) {
+    std::uint64_t cameras = 0;
+    std::string first_camera;
+    for (const std::uint32_t node : skeleton.node_of_joint) {
+        if (!root["nodes"][node].contains("camera")) continue;
+        if (cameras++ == 0) first_camera = at("nodes", node) + ".camera";
+    }
+    if (cameras > 0) report.warn("camera left out", first_camera, cameras);
+
+    for (const char* kind : {"accessors", "bufferViews", "buffers", "cameras", "images", "samplers", "skins"}) {
+        const Json& array = array_of(root, kind);
+        for (std::size_t i = 0; i < array.size(); ++i) {
+            if (array[i].contains("extras")) {
+                report.warn(std::string("extras of ") + kind + " left out", at(kind, i) + ".extras");
+            }
+        }
+    }
+}
+
+Scene import(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
+    const Container container = open_container(read_file(file, {}));
+    const Json root = parse_json(container.json, report);
+    Budget budget;
+    budget.add_source(container.bytes.size());
+    Buffers buffers(root, container, file, budget);
+    const tinygltf::Model model = read_structure(root);
+    const Document document{file, root, model, buffers, budget, report};
+
+    Scene scene;
+    report_extensions(root, report);
+    const Skeleton skeleton = import_skeleton(document, options.scene, scene);
+    report_left_out(root, skeleton, report);
+    import_images(document, options.embed_images, scene);
+    import_materials(document, scene);
+    const MeshesOfNode meshes = import_meshes(document, skeleton, scene);
+    import_animations(document, skeleton, meshes, scene);
+    scene.source_extras = extras_text(root);
+    scene.asset = root["asset"].dump();
+    return scene;
+}
+
+/// Names from the source may stand in a message: it stays one line.
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+    return text;
+}
+
+}  // namespace
+}  // namespace gltf
+
+Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
+    try {
+        return gltf::import(file, options, report);
+    } catch (const gltf::Failure& failure) {
+        return ImportError{gltf::one_line(failure.error.place), gltf::one_line(failure.error.message)};
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, gltf::one_line(std::string("unexpected: ") + error.what())};
+    }
+}
+
+}  // namespace bendy::converter

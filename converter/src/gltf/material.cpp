@@ -1,0 +1,166 @@
+#include "material.h"
+
+#include "extensions.h"
+#include "failure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace bendy::converter::gltf {
+namespace {
+
+/// A use of a texture: its JSON object has index and texCoord checked, the rest not.
+TextureUse read_texture_use(const Document& document, const Json* json, const std::string& place) {
+    TextureUse use;
+    if (json == nullptr) return use;
+    use.texture = (*json)["index"].get<std::uint32_t>();
+    if (const Json* coords = find(*json, "texCoord"); coords != nullptr) use.coords = coords->get<std::uint32_t>();
+    const Json* extensions = find(*json, "extensions");
+    if (extensions == nullptr || !extensions->is_object()) return use;
+    for (auto extension = extensions->begin(); extension != extensions->end(); ++extension) {
+        if (extension.key() != "KHR_texture_transform") {
+            document.report.warn("extension of a texture use left out: " + quote(extension.key()),
+                                 place + ".extensions");
+        }
+    }
+    const Json* transform = find(*extensions, "KHR_texture_transform");
+    if (transform == nullptr) return use;
+    const std::string here = place + ".extensions.KHR_texture_transform";
+    if (!transform->is_object()) fail(here, "it must be an object");
+    const auto number = [&](const Json& value, const std::string& where) {
+        constexpr double kMax = std::numeric_limits<float>::max();
+        if (!value.is_number() || !(std::abs(value.get<double>()) <= kMax)) fail(where, "a finite number is due");
+        return static_cast<float>(value.get<double>());
+    };
+    const auto read_pair = [&](const char* name, glm::vec2& pair) {
+        const Json* value = find(*transform, name);
+        if (value == nullptr) return;
+        if (!value->is_array() || value->size() != 2) fail(here + '.' + name, "an array of two numbers is due");
+        pair = {number((*value)[0], here + '.' + name), number((*value)[1], here + '.' + name)};
+    };
+    read_pair("offset", use.offset);
+    read_pair("scale", use.scale);
+    if (const Json* rotation = find(*transform, "rotation"); rotation != nullptr) {
+        use.rotation = number(*rotation, here + ".rotation");
+    }
+    if (const Json* coords = find(*transform, "texCoord"); coords != nullptr) {
+        if (!coords->is_number_unsigned() || coords->get<std::uint64_t>() >= kNone) {
+            fail(here + ".texCoord", "a set number is due");
+        }
+        use.coords = coords->get<std::uint32_t>();
+    }
+    return use;
+}
+
+/// The extensions of a material without fields of their own, as JSON text.
+std::string keep_extensions(const Document& document, const Json& material, const std::string& place) {
+    const Json* extensions = find(material, "extensions");
+    if (extensions == nullptr || !extensions->is_object()) return {};
+    Json kept = Json::object();
+    for (auto extension = extensions->begin(); extension != extensions->end(); ++extension) {
+        if (is_interpreted_material_extension(extension.key())) continue;
+        kept.emplace(extension.key(), extension.value());
+        document.report.warn("kept as JSON, not interpreted: " + key(extension.key()), place + ".extensions");
+    }
+    return kept.empty() ? std::string() : kept.dump();
+}
+
+Material read_material(const Document& document, std::size_t index) {
+    const tinygltf::Material& source = document.model.materials[index];
+    const Json& json = document.json["materials"][index];
+    const std::string place = at("materials", index);
+    const auto& pbr = source.pbrMetallicRoughness;
+    Material material;
+    material.name = source.name;
+    for (int i = 0; i < 4; ++i) material.base_colour[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 3; ++i) material.emissive[i] = static_cast<float>(source.emissiveFactor[static_cast<std::size_t>(i)]);
+    material.metallic = static_cast<float>(pbr.metallicFactor);
+    material.roughness = static_cast<float>(pbr.roughnessFactor);
+    material.normal_scale = static_cast<float>(source.normalTexture.scale);
+    material.occlusion_strength = static_cast<float>(source.occlusionTexture.strength);
+    material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+    material.alpha_mode = source.alphaMode == "MASK"    ? AlphaMode::mask
+                          : source.alphaMode == "BLEND" ? AlphaMode::blend
+                                                        : AlphaMode::opaque;
+    material.double_sided = source.doubleSided;
+    const Json* extensions = find(json, "extensions");
+    material.unlit = extensions != nullptr && extensions->is_object() && extensions->contains("KHR_materials_unlit");
+
+    const auto use = [&](const Json* owner, const char* name, const std::string& owner_place) {
+        return read_texture_use(document, owner == nullptr ? nullptr : find(*owner, name), owner_place + '.' + name);
+    };
+    const Json* pbr_json = find(json, "pbrMetallicRoughness");
+    const std::string pbr_place = place + ".pbrMetallicRoughness";
+    material.base_colour_texture = use(pbr_json, "baseColorTexture", pbr_place);
+    material.metallic_roughness_texture = use(pbr_json, "metallicRoughnessTexture", pbr_place);
+    material.normal_texture = use(&json, "normalTexture", place);
+    material.occlusion_texture = use(&json, "occlusionTexture", place);
+    material.emissive_texture = use(&json, "emissiveTexture", place);
+    material.extensions = keep_extensions(document, json, place);
+    material.extras = extras_text(json);
+    return material;
+}
+
+Filter filter_of(int code) {
+    switch (code) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST: return Filter::nearest;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR: return Filter::linear;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST: return Filter::nearest_mipmap_nearest;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST: return Filter::linear_mipmap_nearest;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR: return Filter::nearest_mipmap_linear;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR: return Filter::linear_mipmap_linear;
+        default: return Filter::unspecified;
+    }
+}
+
+Wrap wrap_of(int code) {
+    switch (code) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::clamp_to_edge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::mirrored_repeat;
+        default: return Wrap::repeat;
+    }
+}
+
+Texture read_texture(const Document& document, std::size_t index) {
+    const tinygltf::Texture& source = document.model.textures[index];
+    const Json& json = document.json["textures"][index];
+    Texture texture;
+    texture.name = source.name;
+    const auto add_image = [&](std::uint32_t image) {
+        if (std::find(texture.images.begin(), texture.images.end(), image) == texture.images.end()) {
+            texture.images.push_back(image);
+        }
+    };
+    // What an extension offers is preferred to the fallback that every reader can show.
+    if (const Json* extensions = find(json, "extensions"); extensions != nullptr && extensions->is_object()) {
+        for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "EXT_texture_webp"}) {
+            const Json* extension = find(*extensions, name);
+            const Json* image = extension == nullptr ? nullptr : find(*extension, "source");
+            if (image != nullptr) add_image(image->get<std::uint32_t>());
+        }
+    }
+    if (source.source >= 0) add_image(static_cast<std::uint32_t>(source.source));
+    if (source.sampler >= 0) {
+        const tinygltf::Sampler& sampler = document.model.samplers[static_cast<std::size_t>(source.sampler)];
+        texture.mag_filter = filter_of(sampler.magFilter);
+        texture.min_filter = filter_of(sampler.minFilter);
+        texture.wrap_s = wrap_of(sampler.wrapS);
+        texture.wrap_t = wrap_of(sampler.wrapT);
+    }
+    texture.extras = extras_text(json);
+    return texture;
+}
+
+}  // namespace
+
+void import_materials(const Document& document, Scene& scene) {
+    for (std::size_t i = 0; i < document.model.textures.size(); ++i) scene.textures.push_back(read_texture(document, i));
+    for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+        scene.materials.push_back(read_material(document, i));
+    }
+}
+
+}  // namespace bendy::converter::gltf

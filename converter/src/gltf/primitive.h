@@ -1,0 +1,34 @@
+#pragma once
+
+#include "document.h"
+#include "influences.h"
+
+#include <bendy/converter/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bendy::converter::gltf {
+
+/// The vertices of one primitive, decoded and checked: `mesh` holds streams and targets, the influences still with all
+/// their sets (see trim_influences).
+struct Vertices {
+    Mesh mesh;
+    LargestBone largest_bone;
+    std::vector<std::uint32_t> draco_indices;  ///< the triangles, where Draco stores them
+};
+
+/// Whether the primitive has positions; one without draws nothing.
+bool has_positions(const tinygltf::Primitive& primitive, const Json& json);
+
+/// Decodes the streams of a primitive; influences only if `skinned` and if it has any. `place` is the primitive's.
+Vertices read_vertices(const Document& document, const tinygltf::Primitive& primitive, const Json& json, bool skinned,
+                       const std::string& place);
+
+/// The primitive's list of vertex indices, strips, fans and loops resolved; all below `vertex_count`.
+Part read_part(const Document& document, const tinygltf::Primitive& primitive, const Json& json,
+               std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices, const std::string& place);
+
+}  // namespace bendy::converter::gltf

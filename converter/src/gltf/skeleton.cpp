@@ -1,0 +1,222 @@
+#include "skeleton.h"
+
+#include "failure.h"
+#include "transform.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace bendy::converter::gltf {
+namespace {
+
+using Nodes = std::vector<tinygltf::Node>;
+
+/// Each node's parent or kNone; the nodes form trees.
+std::vector<std::uint32_t> find_parents(const Nodes& nodes) {
+    std::vector<std::uint32_t> parents(nodes.size(), kNone);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& children = nodes[i].children;
+        for (std::size_t c = 0; c < children.size(); ++c) {
+            auto& parent = parents[static_cast<std::size_t>(children[c])];
+            if (parent != kNone) {
+                fail(at("nodes", i) + '.' + at("children", c), "node " + std::to_string(children[c]) +
+                                                                   " has two parents, the other is node " +
+                                                                   std::to_string(parent));
+            }
+            parent = static_cast<std::uint32_t>(i);
+        }
+    }
+    // With one parent each, what cannot be reached from a root lies on a cycle or below one.
+    std::vector<std::uint32_t> pending;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (parents[i] == kNone) pending.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<bool> reached(nodes.size());
+    while (!pending.empty()) {
+        const std::uint32_t node = pending.back();
+        pending.pop_back();
+        reached[node] = true;
+        for (const int child : nodes[node].children) pending.push_back(static_cast<std::uint32_t>(child));
+    }
+    if (const auto lost = std::find(reached.begin(), reached.end(), false); lost != reached.end()) {
+        fail(at("nodes", static_cast<std::size_t>(lost - reached.begin())), "the node is its own ancestor (a cycle)");
+    }
+    return parents;
+}
+
+/// The scene that the option or the file names; nothing if the file has none.
+std::optional<std::size_t> choose_scene(const Document& document, const std::optional<std::string>& option) {
+    const auto& scenes = document.model.scenes;
+    if (option) {
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+            if (scenes[i].name == *option) return i;
+        }
+        std::size_t index = 0;
+        const char* end = option->data() + option->size();
+        const auto parsed = std::from_chars(option->data(), end, index);
+        if (!option->empty() && parsed.ec == std::errc() && parsed.ptr == end && index < scenes.size()) return index;
+        fail("scenes", "there is no scene " + quote(*option) + " (the file has " + std::to_string(scenes.size()) + ")");
+    }
+    if (scenes.empty()) return std::nullopt;
+    return document.model.defaultScene >= 0 ? static_cast<std::size_t>(document.model.defaultScene) : 0;
+}
+
+class Builder {
+public:
+    Builder(const Document& document, Scene& scene)
+        : document_(document),
+          nodes_(document.model.nodes),
+          parents_(find_parents(nodes_)),
+          scene_(scene),
+          included_(nodes_.size()),
+          drawn_(nodes_.size()) {}
+
+    Skeleton build(const std::vector<std::uint32_t>& roots) {
+        for (const std::uint32_t root : roots) draw_tree(root);
+        if (roots_outside_ > 0) {
+            document_.report.warn("the scene lists a node that has a parent; it keeps its parents' transforms", {},
+                                  roots_outside_);
+        }
+        include_skins();
+        Skeleton skeleton;
+        skeleton.joint_of_node.assign(nodes_.size(), kNone);
+        // Trees in the order in which the scene names them, then those that only hold joints of skins.
+        for (const std::uint32_t root : tops_) add_tree(root, skeleton);
+        const auto left_out = static_cast<std::uint64_t>(nodes_.size() - skeleton.node_of_joint.size());
+        if (left_out > 0) document_.report.warn("node outside the chosen scene left out", "nodes", left_out);
+        return skeleton;
+    }
+
+private:
+    /// Marks a node of the scene with all below it.
+    void draw_tree(std::uint32_t root) {
+        if (parents_[root] != kNone && !drawn_[root]) ++roots_outside_;
+        include_with_ancestors(root);
+        std::vector<std::uint32_t> pending{root};
+        while (!pending.empty()) {
+            const std::uint32_t node = pending.back();
+            pending.pop_back();
+            if (drawn_[node]) continue;
+            drawn_[node] = included_[node] = true;
+            for (const int child : nodes_[node].children) pending.push_back(static_cast<std::uint32_t>(child));
+        }
+    }
+
+    void include_with_ancestors(std::uint32_t node) {
+        while (!included_[node]) {
+            included_[node] = true;
+            if (parents_[node] == kNone) {
+                tops_.push_back(node);
+                return;
+            }
+            node = parents_[node];
+        }
+    }
+
+    void include_skins() {
+        std::vector<bool> done(document_.model.skins.size());
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            if (!drawn_[i] || nodes_[i].mesh < 0 || nodes_[i].skin < 0) continue;
+            const auto skin = static_cast<std::size_t>(nodes_[i].skin);
+            if (done[skin]) continue;
+            done[skin] = true;
+            for (const int joint : document_.model.skins[skin].joints) {
+                include_with_ancestors(static_cast<std::uint32_t>(joint));
+            }
+        }
+    }
+
+    void add_tree(std::uint32_t root, Skeleton& skeleton) {
+        std::vector<std::uint32_t> pending{root};
+        while (!pending.empty()) {
+            const std::uint32_t node = pending.back();
+            pending.pop_back();
+            skeleton.joint_of_node[node] = static_cast<std::uint32_t>(scene_.joints.size());
+            skeleton.node_of_joint.push_back(node);
+            skeleton.is_drawn.push_back(drawn_[node]);
+            scene_.joints.push_back(make_joint(node, skeleton));
+            const auto& children = nodes_[node].children;
+            for (auto child = children.rbegin(); child != children.rend(); ++child) {
+                if (included_[static_cast<std::size_t>(*child)]) pending.push_back(static_cast<std::uint32_t>(*child));
+            }
+        }
+    }
+
+    [[nodiscard]] Joint make_joint(std::uint32_t index, const Skeleton& skeleton) const {
+        const tinygltf::Node& node = nodes_[index];
+        Joint joint;
+        joint.name = node.name;
+        if (parents_[index] != kNone) joint.parent = skeleton.joint_of_node[parents_[index]];
+        joint.rest = node.matrix.empty() ? read_trs(node, index) : read_matrix(node, index);
+        joint.extras = extras_text(document_.json["nodes"][index]);
+        return joint;
+    }
+
+    [[nodiscard]] Transform read_trs(const tinygltf::Node& node, std::uint32_t index) const {
+        Transform rest;
+        for (int i = 0; i < 3; ++i) {
+            const auto component = static_cast<std::size_t>(i);
+            if (!node.translation.empty()) rest.translation[i] = static_cast<float>(node.translation[component]);
+            if (!node.scale.empty()) rest.scale[i] = static_cast<float>(node.scale[component]);
+        }
+        if (node.rotation.empty()) return rest;
+        const UnitQuaternion unit =
+            make_unit({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
+        rest.rotation = unit.value;
+        if (unit.length == 0.0) {
+            document_.report.warn("rotation of a node is (0, 0, 0, 0), taken as none", at("nodes", index) + ".rotation");
+        } else if (std::abs(unit.length - 1.0) > kUnitTolerance) {
+            document_.report.warn("rotation of a node is no unit quaternion, normalised", at("nodes", index) + ".rotation");
+        }
+        return rest;
+    }
+
+    [[nodiscard]] static Transform read_matrix(const tinygltf::Node& node, std::uint32_t index) {
+        std::array<double, 16> matrix{};
+        std::copy(node.matrix.begin(), node.matrix.end(), matrix.begin());
+        constexpr double kTolerance = 1e-5;
+        if (std::abs(matrix[3]) > kTolerance || std::abs(matrix[7]) > kTolerance || std::abs(matrix[11]) > kTolerance ||
+            std::abs(matrix[15] - 1.0) > kTolerance) {
+            fail(at("nodes", index) + ".matrix", "its last row is not 0 0 0 1: no affine transform");
+        }
+        return decompose(matrix);
+    }
+
+    const Document& document_;
+    const Nodes& nodes_;
+    std::vector<std::uint32_t> parents_;
+    Scene& scene_;
+    std::vector<bool> included_;        ///< by node: becomes a joint
+    std::vector<bool> drawn_;           ///< by node: in the scene
+    std::vector<std::uint32_t> tops_;   ///< roots of the trees with included nodes
+    std::uint64_t roots_outside_ = 0;  ///< nodes that the scene lists although they have a parent
+};
+
+}  // namespace
+
+Skeleton import_skeleton(const Document& document, const std::optional<std::string>& scene_option, Scene& scene) {
+    const auto chosen = choose_scene(document, scene_option);
+    Builder builder(document, scene);
+    std::vector<std::uint32_t> roots;
+    if (chosen) {
+        for (const int node : document.model.scenes[*chosen].nodes) roots.push_back(static_cast<std::uint32_t>(node));
+        scene.name = document.model.scenes[*chosen].name;
+        scene.extras = extras_text(document.json["scenes"][*chosen]);
+    } else {
+        std::vector<bool> is_child(document.model.nodes.size());
+        for (const auto& node : document.model.nodes) {
+            for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
+        }
+        for (std::size_t i = 0; i < is_child.size(); ++i) {
+            if (!is_child[i]) roots.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    if (roots.empty()) {
+        fail(chosen ? at("scenes", *chosen) : "nodes", "there is nothing to convert: the scene has no nodes");
+    }
+    return builder.build(roots);
+}
+
+}  // namespace bendy::converter::gltf

@@ -1,0 +1,126 @@
+#include "transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy::converter::gltf {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vector scaled(const Vector& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
+
+/// What of `a` is at right angles to the unit vector `axis`; twice, so that rounding cannot leave a trace of it.
+Vector without(Vector a, const Vector& axis) {
+    for (int pass = 0; pass < 2; ++pass) {
+        const double along = dot(a, axis);
+        for (std::size_t i = 0; i < 3; ++i) a[i] -= along * axis[i];
+    }
+    return a;
+}
+
+/// A unit vector at right angles to the unit vector `axis`.
+Vector any_perpendicular(const Vector& axis) {
+    std::size_t smallest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        if (std::abs(axis[i]) < std::abs(axis[smallest])) smallest = i;
+    }
+    Vector basis{};
+    basis[smallest] = 1.0;
+    const Vector side = without(basis, axis);
+    return scaled(side, 1.0 / length(side));
+}
+
+/// Rotation matrix (columns x, y, z) to quaternion, by the largest of its four components (Shepperd 1978).
+std::array<double, 4> to_quaternion(const Vector& x, const Vector& y, const Vector& z) {
+    const double trace = x[0] + y[1] + z[2];
+    if (trace > 0.0) {
+        const double k = 2.0 * std::sqrt(trace + 1.0);
+        return {(y[2] - z[1]) / k, (z[0] - x[2]) / k, (x[1] - y[0]) / k, k / 4.0};
+    }
+    if (x[0] > y[1] && x[0] > z[2]) {
+        const double k = 2.0 * std::sqrt(1.0 + x[0] - y[1] - z[2]);
+        return {k / 4.0, (y[0] + x[1]) / k, (z[0] + x[2]) / k, (y[2] - z[1]) / k};
+    }
+    if (y[1] > z[2]) {
+        const double k = 2.0 * std::sqrt(1.0 + y[1] - x[0] - z[2]);
+        return {(y[0] + x[1]) / k, k / 4.0, (z[1] + y[2]) / k, (z[0] - x[2]) / k};
+    }
+    const double k = 2.0 * std::sqrt(1.0 + z[2] - x[0] - y[1]);
+    return {(z[0] + x[2]) / k, (z[1] + y[2]) / k, k / 4.0, (x[1] - y[0]) / k};
+}
+
+}  // namespace
+
+Transform decompose(const std::array<double, 16>& m) {
+    const Vector a{m[0], m[1], m[2]};
+    const Vector b{m[4], m[5], m[6]};
+    const Vector c{m[8], m[9], m[10]};
+    // A column, or what is left of it beside the earlier ones, counts as zero below this: its direction would be noise.
+    const double largest = std::max({length(a), length(b), length(c)});
+    const double vanishing = largest * 1e-12;
+
+    // Gram-Schmidt: each axis of R is what the column adds to the earlier ones; a column that adds nothing leaves its
+    // axis open, and its place on the diagonal of U zero.
+    Vector x{};
+    Vector y{};
+    Vector z{};
+    const bool has_x = length(a) > vanishing;
+    if (has_x) x = scaled(a, 1.0 / length(a));
+    const Vector b_rest = has_x ? without(b, x) : b;
+    const bool has_y = length(b_rest) > vanishing;
+    if (has_y) y = scaled(b_rest, 1.0 / length(b_rest));
+    Vector c_rest = has_x ? without(c, x) : c;
+    if (has_y) c_rest = without(c_rest, y);
+    const bool has_z = length(c_rest) > vanishing;
+    if (has_z) z = scaled(c_rest, 1.0 / length(c_rest));
+
+    // Fill the open axes to a right-handed frame; with all three given, a mirrored one is righted by turning x round,
+    // which turns the signs of U's first row.
+    if (has_x && has_y && has_z) {
+        if (dot(cross(x, y), z) < 0.0) x = scaled(x, -1.0);
+    } else {
+        if (!has_x && !has_y && !has_z) x = {1.0, 0.0, 0.0};
+        if (!has_x && (has_y || has_z)) x = has_y && has_z ? cross(y, z) : any_perpendicular(has_y ? y : z);
+        if (!has_y) y = has_z ? cross(z, x) : any_perpendicular(x);
+        z = cross(x, y);
+    }
+
+    Transform transform;
+    transform.translation = {static_cast<float>(m[12]), static_cast<float>(m[13]), static_cast<float>(m[14])};
+    transform.rotation = make_unit(to_quaternion(x, y, z)).value;
+    transform.scale = {static_cast<float>(dot(x, a)), static_cast<float>(has_y ? dot(y, b) : 0.0),
+                       static_cast<float>(has_z ? dot(z, c) : 0.0)};
+    // Shear below a float's rounding of the matrix is rounding itself.
+    const double noise = largest * 0x1p-22;
+    const auto shear = [&](double value) { return std::abs(value) <= noise ? 0.0f : static_cast<float>(value); };
+    transform.shear = {shear(dot(x, b)), shear(dot(x, c)), shear(dot(y, c))};
+    return transform;
+}
+
+UnitQuaternion make_unit(const std::array<double, 4>& q) {
+    constexpr double kRounding = 3e-7;
+    UnitQuaternion unit;
+    const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
+    unit.length = 0.0;
+    if (!(largest > 0.0)) return unit;
+    // Scaled by the largest first: the squares of tiny or huge components would vanish or overflow.
+    double sum = 0.0;
+    for (const double component : q) sum += (component / largest) * (component / largest);
+    unit.length = largest * std::sqrt(sum);
+    const double factor = std::abs(unit.length - 1.0) <= kRounding ? 1.0 : 1.0 / unit.length;
+    if (std::isfinite(factor)) {
+        for (int i = 0; i < 4; ++i) unit.value[i] = static_cast<float>(q[static_cast<std::size_t>(i)] * factor);
+    }
+    return unit;
+}
+
+}  // namespace bendy::converter::gltf

@@ -1,0 +1,134 @@
+#include "uri.h"
+
+#include "failure.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <system_error>
+
+namespace bendy::converter::gltf {
+namespace {
+
+std::optional<unsigned> hex_digit(char c) {
+    if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
+    if (c >= 'a' && c <= 'f') return static_cast<unsigned>(c - 'a' + 10);
+    if (c >= 'A' && c <= 'F') return static_cast<unsigned>(c - 'A' + 10);
+    return std::nullopt;
+}
+
+/// Nothing if a `%` is not followed by two hexadecimal digits.
+std::optional<std::string> percent_decode(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        if (text.size() - i < 3) return std::nullopt;
+        const auto high = hex_digit(text[i + 1]);
+        const auto low = hex_digit(text[i + 2]);
+        if (!high || !low) return std::nullopt;
+        decoded += static_cast<char>(*high * 16 + *low);
+        i += 2;
+    }
+    return decoded;
+}
+
+constexpr std::array<std::uint8_t, 256> make_base64_table() {
+    std::array<std::uint8_t, 256> table{};
+    for (auto& entry : table) entry = 255;
+    for (std::uint8_t i = 0; i < 26; ++i) {
+        table[static_cast<std::size_t>('A' + i)] = i;
+        table[static_cast<std::size_t>('a' + i)] = static_cast<std::uint8_t>(26 + i);
+    }
+    for (std::uint8_t i = 0; i < 10; ++i) table['0' + std::size_t{i}] = static_cast<std::uint8_t>(52 + i);
+    table['+'] = table['-'] = 62;  // the URL-safe alphabet is met too
+    table['/'] = table['_'] = 63;
+    return table;
+}
+
+std::vector<std::byte> decode_base64(std::string_view text, const std::string& place) {
+    static constexpr auto kTable = make_base64_table();
+    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    std::vector<std::byte> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    unsigned count = 0;  // of valid bits
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::uint8_t value = kTable[static_cast<unsigned char>(text[i])];
+        if (value == 255) {
+            if (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t') continue;
+            fail(place, "data URI: character " + std::to_string(i) + " of the base64 text is none of its alphabet");
+        }
+        bits = (bits << 6 | value) & 0xffffffu;
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            bytes.push_back(static_cast<std::byte>(bits >> count & 0xffu));
+        }
+    }
+    return bytes;
+}
+
+bool ends_with_base64(std::string_view header) {
+    constexpr std::string_view kMark = ";base64";
+    return header.size() >= kMark.size() && header.substr(header.size() - kMark.size()) == kMark;
+}
+
+}  // namespace
+
+bool is_data_uri(std::string_view uri) {
+    return uri.substr(0, 5) == "data:";
+}
+
+DataUri decode_data_uri(std::string_view uri, const std::string& place) {
+    uri.remove_prefix(5);
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) fail(place, "data URI without a comma");
+    const std::string_view header = uri.substr(0, comma);
+    uri.remove_prefix(comma + 1);
+
+    DataUri data;
+    data.media_type = header.substr(0, header.find(';'));
+    std::optional<std::string> decoded;
+    if (uri.find('%') != std::string_view::npos || !ends_with_base64(header)) {
+        decoded = percent_decode(uri);
+        if (!decoded) fail(place, "data URI: '%' without two hexadecimal digits");
+        uri = *decoded;
+    }
+    if (ends_with_base64(header)) {
+        data.bytes = decode_base64(uri, place);
+    } else {
+        const auto* first = reinterpret_cast<const std::byte*>(uri.data());
+        data.bytes.assign(first, first + uri.size());
+    }
+    return data;
+}
+
+std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
+                                  const std::string& place) {
+    if (uri.empty()) fail(place, "the URI is empty");
+    if (const std::size_t colon = uri.find(':'); colon != std::string::npos && uri.find('/') > colon) {
+        fail(place, "only files beside the source and data URIs are read, not " + quote(uri));
+    }
+    const auto path_of = [&](const std::string& name) {
+        const std::filesystem::path path(std::u8string(name.begin(), name.end()));
+        if (path.is_absolute() || path.has_root_path() || name.find('\0') != std::string::npos) {
+            fail(place, "absolute paths are refused: " + quote(uri));
+        }
+        return source.parent_path() / path;
+    };
+    // Names with a bare '%' exist; and so do files whose real name looks percent-encoded.
+    const auto decoded = percent_decode(uri);
+    const auto path = path_of(decoded.value_or(uri));
+    std::error_code ignored;
+    if (decoded && *decoded != uri && !std::filesystem::exists(path, ignored)) {
+        const auto literal = path_of(uri);
+        if (std::filesystem::exists(literal, ignored)) return literal;
+    }
+    return path;
+}
+
+}  // namespace bendy::converter::gltf

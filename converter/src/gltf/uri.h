@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bendy::converter::gltf {
+
+bool is_data_uri(std::string_view uri);
+
+struct DataUri {
+    std::string media_type;  ///< without parameters, may be empty
+    std::vector<std::byte> bytes;
+};
+
+/// RFC 2397, base64 or percent-encoded. Fails at `place`.
+DataUri decode_data_uri(std::string_view uri, const std::string& place);
+
+/// The file that a relative URI means, beside `source`. `..` is allowed (exporters write it); absolute paths and schemes
+/// are not: fails at `place`.
+std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
+                                  const std::string& place);
+
+}  // namespace bendy::converter::gltf

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/faults.h>
+
+namespace bendy {
+
+/// Holds every chunk against the table chunk_ids.def: a known one stands where it may, is leaf or container as it must be,
+/// as often as it may; an unknown one is skipped with all inside it, unless it is marked required.
+void check_grammar(const ChunkTree& tree, Faults& faults);
+
+}  // namespace bendy

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <bendy/format/byte_reader.h>
+#include <bendy/format/chunk.h>
+#include <bendy/format/limits.h>
+#include <bendy/format/result.h>
+
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace bendy {
+
+/// All chunks of a file, in the order in which they stand: a parent before its children, so chunk n's first child, if it
+/// has one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
+class ChunkTree {
+public:
+    /// Walks over the direct children of a chunk; dereferences to their numbers.
+    class ChildIterator {
+    public:
+        using iterator_category = std::input_iterator_tag;
+        using value_type = std::uint32_t;
+        using difference_type = std::ptrdiff_t;
+        using pointer = const std::uint32_t*;
+        using reference = std::uint32_t;
+
+        ChildIterator() = default;
+        ChildIterator(const Chunk* chunks, std::uint32_t at) : chunks_(chunks), at_(at) {}
+        std::uint32_t operator*() const { return at_; }
+        ChildIterator& operator++() {
+            at_ = chunks_[at_].end;
+            return *this;
+        }
+        ChildIterator operator++(int) {
+            const ChildIterator before = *this;
+            ++*this;
+            return before;
+        }
+        friend bool operator==(const ChildIterator& a, const ChildIterator& b) { return a.at_ == b.at_; }
+
+    private:
+        const Chunk* chunks_ = nullptr;
+        std::uint32_t at_ = 0;
+    };
+    struct ChildRange {
+        ChildIterator first, last;
+        [[nodiscard]] ChildIterator begin() const { return first; }
+        [[nodiscard]] ChildIterator end() const { return last; }
+    };
+
+    ChunkTree() = default;
+    ChunkTree(Bytes bytes, std::vector<Chunk> chunks) : bytes_(bytes), chunks_(std::move(chunks)) {}
+
+    [[nodiscard]] Bytes bytes() const { return bytes_; }
+    [[nodiscard]] std::span<const Chunk> chunks() const { return chunks_; }
+    [[nodiscard]] const Chunk& operator[](std::uint32_t number) const { return chunks_[number]; }
+
+    [[nodiscard]] Bytes payload(std::uint32_t number) const {
+        const Chunk& chunk = chunks_[number];
+        return bytes_.subspan(chunk.payload_offset(), chunk.size);
+    }
+    [[nodiscard]] ChildRange children(std::uint32_t number) const {
+        const std::uint32_t last = chunks_[number].end;
+        return {{chunks_.data(), chunks_[number].is_container() ? number + 1 : last}, {chunks_.data(), last}};
+    }
+    /// Number of the first direct child with this id, or kNone.
+    [[nodiscard]] std::uint32_t find(std::uint32_t number, FourCC id) const {
+        for (const std::uint32_t child : children(number)) {
+            if (chunks_[child].id == id) return child;
+        }
+        return kNone;
+    }
+
+private:
+    Bytes bytes_;
+    std::vector<Chunk> chunks_;
+};
+
+/// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting depth.
+/// Does not recurse, and allocates at most 40 bytes for each chunk header that the file really holds. `bytes` must start on
+/// a 16-byte boundary (mapped files do). Malformed input: the first fault, with its offset.
+Result<ChunkTree> read_chunk_tree(Bytes bytes);
+
+}  // namespace bendy

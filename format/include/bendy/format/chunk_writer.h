@@ -1,0 +1,45 @@
+#pragma once
+
+#include <bendy/format/byte_reader.h>
+#include <bendy/format/chunk.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace bendy {
+
+/// Builds a file in memory: begin and end containers, put leaves; sizes, padding and sums happen here. Misuse (an end too
+/// many, a payload of 2^48 bytes) is the caller's bug and is asserted.
+class ChunkWriter {
+public:
+    void begin(FourCC id, std::uint16_t flags = 0);
+    void end();
+
+    /// A whole leaf from one payload, or from pieces that follow one another.
+    void leaf(FourCC id, Bytes payload, std::uint16_t flags = 0);
+    void leaf(FourCC id, std::span<const Bytes> pieces, std::uint16_t flags = 0);
+    void text_leaf(FourCC id, std::string_view text) { leaf(id, as_byte_span(text)); }
+
+    /// A chunk of another file with all that hangs on it, byte for byte: header, payload, padding.
+    void copy(Bytes whole_chunk);
+
+    /// The finished file; every container must have been ended.
+    std::vector<std::byte> finish() &&;
+
+private:
+    void put_header(FourCC id, std::uint16_t flags);
+
+    std::vector<std::byte> bytes_;
+    std::vector<std::uint64_t> open_;  // offsets of the headers of the containers not yet ended
+};
+
+/// A trivially copyable record or array as payload bytes.
+template <class T>
+Bytes bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+}  // namespace bendy

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/pool.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// CYCL: an animation cycle, with tracks of timed keys or of fixed frames.
+namespace bendy {
+
+/// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values are
+/// keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each key.
+struct TrackView {
+    TrackPath path = TrackPath::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::uint32_t target = 0;  ///< joint; for weights: pool
+    std::uint32_t components = 0;
+    std::uint32_t keys = 0;
+    std::span<const float> times;  ///< seconds, ascending; empty for fixed frames
+    std::span<const float> values;
+};
+
+struct CycleView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    float start = 0.0f;       ///< seconds
+    float end = 0.0f;         ///< seconds
+    float frame_rate = 0.0f;  ///< of fixed frames, per second
+    bool loop = false;
+    std::vector<TrackView> tracks;
+    std::string_view extras;
+};
+
+/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints` and
+/// `pools`, components as the target has them. Faults go to `faults`; a track with a fault is left out.
+CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools, Faults& faults);
+
+/// Faults of meaning that do not endanger memory: key times that do not ascend or lie outside [start, end], numbers that
+/// are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one property.
+void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& faults);
+
+inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1
+
+}  // namespace bendy

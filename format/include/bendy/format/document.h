@@ -1,0 +1,42 @@
+#pragma once
+
+#include <bendy/format/cycle.h>
+#include <bendy/format/joint.h>
+#include <bendy/format/material.h>
+#include <bendy/format/pool.h>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace bendy {
+
+/// OBJE: an object, normally the file's one character.
+struct ObjectView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    SkeletonView skeleton;
+    std::vector<PoolView> pools;
+    std::vector<CycleView> cycles;
+    std::string_view extras;
+};
+
+/// A whole file as typed views into its bytes.
+struct Document {
+    VersionRecord version;
+    std::vector<TextureView> textures;
+    std::vector<MaterialView> materials;        ///< HEAD's MATE chunks, then those of the objects' joints
+    std::uint32_t global_materials = 0;         ///< how many of them are HEAD's
+    std::vector<ObjectView> objects;
+    std::string_view extras;
+};
+
+/// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety hangs
+/// on: chunks in the wrong place or number, record sizes, types, counts, every index. When it adds none, every view, index
+/// and range in the result is good.
+Document read_document(const ChunkTree& tree, Faults& faults);
+
+/// Adds the faults of meaning that do not endanger memory: see the check_*_values functions.
+void check_values(const ChunkTree& tree, const Document& document, Faults& faults);
+
+}  // namespace bendy

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+// SKIN: a joint, nested as the skeleton is nested; PIVO: what belongs to the joint itself; POLY: its polygons.
+namespace bendy {
+
+/// A range of a pool's index list that belongs to a joint.
+struct PolygonView {
+    std::uint32_t chunk = 0;
+    std::uint32_t joint = 0;
+    std::uint32_t pool = 0;
+    std::uint32_t material = kNone;  ///< as in the file: see PolygonRecord
+    Topology topology = Topology::triangles;
+    std::uint32_t first = 0;  ///< in the pool's INDX
+    std::uint32_t count = 0;
+};
+
+struct JointView {
+    std::uint32_t chunk = 0;
+    std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
+    std::string_view name;
+    RestRecord rest;
+    std::string_view extras;
+};
+
+/// The joints of an OBJE in pre-order, which is joint order, and their polygon ranges (not yet held against the pools).
+struct SkeletonView {
+    std::vector<JointView> joints;
+    std::vector<PolygonView> polygons;
+    std::vector<std::uint32_t> local_materials;        ///< MATE chunks inside SKIN, in file order
+    std::vector<std::uint32_t> first_local_material;   ///< of each joint, into local_materials
+};
+
+/// Reads the SKIN tree of an OBJE chunk, without recursion.
+SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& faults);
+
+/// Faults of meaning: rest transforms that are not finite, rotations that are not unit quaternions.
+void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults);
+
+}  // namespace bendy

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+// MATE: a material; TEXT: a texture, which is a sampler and one or more encodings of an image.
+namespace bendy {
+
+struct MaterialView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    SurfaceRecord surface;
+    std::string_view extensions;  ///< JSON object, or empty
+    std::string_view extras;
+};
+
+/// One encoding of a texture's image: embedded bytes, or a URI, or the image of another texture.
+struct ImageView {
+    MediaType media = MediaType::other;
+    Bytes bytes;           ///< of an IMAG
+    std::string_view uri;  ///< of a LINK
+    SameRecord same{kNone, 0};  ///< of a SAME
+};
+
+struct TextureView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    SamplerRecord sampler;
+    std::vector<ImageView> images;  ///< in order of preference
+    std::string_view extras;
+};
+
+/// Reads a MATE chunk; texture numbers are held against `textures`.
+MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t textures, Faults& faults);
+/// Reads a TEXT chunk.
+TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& faults);
+/// Holds every SAME against the textures that it names.
+void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& textures, Faults& faults);
+/// Faults of meaning: numbers that are not finite.
+void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults);
+
+}  // namespace bendy

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/records.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// VECT: a pool of vertices, one leaf chunk per stream.
+namespace bendy {
+
+/// A stream's numbers in place: elements * components of them, without gaps.
+struct StreamView {
+    ComponentType type = ComponentType::f32;
+    bool normalised = false;
+    std::uint32_t components = 0;
+    std::uint32_t elements = 0;
+    std::uint32_t set = 0;  ///< texture coordinate or colour set
+    Bytes data;             ///< elements * components * component_size(type) bytes
+    std::uint32_t chunk = 0;  ///< the leaf that holds it
+
+    /// One number as glTF reads it: normalised integers become [0, 1] or, signed, [-1, 1]; others keep their value.
+    [[nodiscard]] float number(std::uint32_t element, std::uint32_t component) const;
+    /// One unsigned integer of a stream of type u8, u16 or u32.
+    [[nodiscard]] std::uint32_t index(std::uint32_t element, std::uint32_t component) const;
+    /// All numbers in place, if the stream's type is T's (float for f32, ...); T is the caller's to get right.
+    template <class T>
+    [[nodiscard]] std::span<const T> as() const {
+        return view_at<T>(data, 0, std::uint64_t{elements} * components);
+    }
+    [[nodiscard]] bool empty() const { return elements == 0 || components == 0; }
+};
+
+/// Which joints a pool's bones mean, and their inverse bind matrices (pool space to joint space at bind time).
+struct PaletteView {
+    std::span<const std::uint32_t> joints;
+    std::span<const glm::mat4> inverse_bind;  ///< as many, column-major
+};
+
+/// TARG: an inbetweening target. A stream that is absent is not displaced.
+struct TargetView {
+    std::string_view name;
+    float rest_weight = 0.0f;
+    std::optional<StreamView> vertices;  ///< the touched vertices, ascending; absent: all of the pool, in order
+    std::optional<StreamView> positions, normals, tangents;  ///< f32 x 3 displacements, one per touched vertex
+};
+
+/// USER: an attribute of the author's.
+struct AttributeView {
+    std::string_view name;
+    StreamView values;
+};
+
+struct PoolView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    std::uint32_t vertices = 0;
+    std::uint32_t joint = kNone;  ///< the joint that carries the pool
+    StreamView positions;         ///< f32 x 3; empty only in a pool without vertices
+    std::optional<StreamView> normals;   ///< f32 x 3
+    std::optional<StreamView> tangents;  ///< f32 x 4
+    std::vector<StreamView> texture_coords, colours;
+    std::vector<AttributeView> attributes;
+    std::optional<StreamView> bones, weights;  ///< both or neither; a pool without is rigid
+    PaletteView palette;
+    std::vector<TargetView> targets;
+    std::optional<StreamView> indices;  ///< u16 or u32 x 1
+    std::string_view extras;
+
+    [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
+};
+
+/// Reads a VECT chunk and checks all that memory safety hangs on: types, counts, sizes, and every index against the
+/// `joints` of the object, the palette and the pool itself. Faults go to `faults`; a part with a fault is left out.
+PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
+
+/// Faults of meaning that do not endanger memory: numbers that are not finite, weights below zero or that do not sum to 1
+/// within kWeightTolerance.
+void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faults);
+
+inline constexpr float kWeightTolerance = 1e-5f;
+
+}  // namespace bendy

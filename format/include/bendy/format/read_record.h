@@ -1,0 +1,62 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/records.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+// Small steps that the readers of all record families share.
+namespace bendy {
+
+/// The record in the container's one leaf of this id. A missing leaf gives nothing and no fault (check_grammar has said
+/// so); a faulty one gives nothing and its fault.
+template <class R>
+std::optional<R> read_child_record(const ChunkTree& tree, std::uint32_t container, FourCC id, Faults& faults) {
+    const std::uint32_t number = tree.find(container, id);
+    if (number == kNone || tree[number].is_container()) return std::nullopt;
+    const Result<R> record = read_record<R>(tree, number);
+    if (!record) {
+        faults.add(record.error());
+        return std::nullopt;
+    }
+    return *record;
+}
+
+/// Reserved fields must be zero: they may mean something one day.
+template <class Field>
+void check_reserved(const Field& field, std::uint64_t offset, Faults& faults) {
+    for (const auto value : field) {
+        if (value != 0) {
+            faults.add({ErrorCode::kReservedField, offset, value});
+            return;
+        }
+    }
+}
+
+/// True when `value` is below `known`; else a fault.
+inline bool check_enum(unsigned value, unsigned known, std::uint64_t offset, Faults& faults) {
+    if (value < known) return true;
+    faults.add({ErrorCode::kEnumRange, offset, value, known});
+    return false;
+}
+
+/// A fault at the first number that is NaN or infinite.
+inline void check_finite(std::span<const float> numbers, std::uint64_t offset, Faults& faults) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (!std::isfinite(numbers[i])) {
+            faults.add({ErrorCode::kNotFinite, offset, i});
+            return;
+        }
+    }
+}
+
+/// True when x y z w has length 1 within `tolerance`.
+inline bool is_unit(std::span<const float, 4> q, float tolerance) {
+    const double length = std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3]);
+    return std::abs(length - 1.0) <= tolerance;  // false for NaN
+}
+
+}  // namespace bendy

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/limits.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+// The fixed records as they lie in the file: what each field means, its unit and range, stands in records.def.
+namespace bendy {
+
+inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 0x59, 0x0d, 0x0a, 0x1a};
+
+/// A material number of PolygonRecord with this bit set counts among the joint's own MATE chunks.
+inline constexpr std::uint32_t kLocalMaterial = 0x8000'0000u;
+
+struct VersionRecord {
+    std::array<std::uint8_t, 8> signature = kSignature;
+    std::uint16_t major = kVersionMajor;
+    std::uint16_t minor = kVersionMinor;
+    std::uint32_t objects = 0;
+    std::uint32_t joints = 0;
+    std::uint32_t pools = 0;
+    std::uint64_t vertices = 0;
+    std::uint32_t cycles = 0;
+    std::uint32_t materials = 0;
+    std::uint32_t textures = 0;
+    std::uint32_t reserved = 0;
+    std::array<std::uint8_t, 32> generator{};
+};
+
+struct SamplerRecord {
+    std::uint8_t mag_filter = 0;
+    std::uint8_t min_filter = 0;
+    std::uint8_t wrap_s = 0;
+    std::uint8_t wrap_t = 0;
+};
+
+struct SameRecord {
+    std::uint32_t texture = 0;
+    std::uint32_t image = 0;
+};
+
+struct TextureUseRecord {
+    std::uint32_t texture = kNone;
+    std::uint32_t coords = 0;
+    std::array<float, 2> offset{};
+    std::array<float, 2> scale{1.0f, 1.0f};
+    float rotation = 0.0f;
+    std::uint32_t reserved = 0;
+};
+
+struct SurfaceRecord {
+    std::array<float, 4> base_colour{1.0f, 1.0f, 1.0f, 1.0f};
+    std::array<float, 3> emissive{};
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    float normal_scale = 1.0f;
+    float occlusion_strength = 1.0f;
+    float alpha_cutoff = 0.5f;
+    std::uint8_t alpha_mode = 0;
+    std::uint8_t double_sided = 0;
+    std::uint8_t unlit = 0;
+    std::array<std::uint8_t, 13> reserved{};
+    TextureUseRecord base_colour_texture;
+    TextureUseRecord metallic_roughness_texture;
+    TextureUseRecord normal_texture;
+    TextureUseRecord occlusion_texture;
+    TextureUseRecord emissive_texture;
+};
+
+struct RestRecord {
+    std::array<float, 4> rotation{0.0f, 0.0f, 0.0f, 1.0f};
+    std::array<float, 3> translation{};
+    std::array<float, 3> scale{1.0f, 1.0f, 1.0f};
+    std::array<float, 3> shear{};
+};
+
+struct PolygonRecord {
+    std::uint32_t pool = 0;
+    std::uint32_t material = kNone;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    std::uint8_t topology = 0;
+    std::array<std::uint8_t, 3> reserved{};
+};
+
+struct PoolRecord {
+    std::uint32_t vertices = 0;
+    std::uint32_t joint = kNone;
+};
+
+struct TargetRecord {
+    float rest_weight = 0.0f;
+};
+
+struct CycleRecord {
+    float start = 0.0f;
+    float end = 0.0f;
+    float frame_rate = 0.0f;
+    std::uint8_t loop = 0;
+    std::array<std::uint8_t, 3> reserved{};
+};
+
+struct TrackRecord {
+    std::uint32_t target = 0;
+    std::uint8_t path = 0;
+    std::uint8_t interpolation = 0;
+    std::uint16_t components = 0;
+    std::uint32_t keys = 0;
+    std::uint32_t first_time = 0;
+    std::uint64_t first_value = 0;
+};
+
+struct StreamRecord {
+    std::uint8_t component_type = 0;
+    std::uint8_t normalised = 0;
+    std::uint16_t components = 0;
+    std::uint32_t elements = 0;
+    std::uint32_t set = 0;
+    std::uint32_t reserved = 0;
+};
+
+struct PaletteRecord {
+    std::uint32_t entries = 0;
+    std::array<std::uint32_t, 3> reserved{};
+};
+
+struct ImageRecord {
+    std::uint8_t media = 0;
+    std::array<std::uint8_t, 15> reserved{};
+};
+enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
+inline constexpr unsigned kComponentTypes = 6;
+enum class Topology : std::uint8_t { triangles, lines, points };
+inline constexpr unsigned kTopologies = 3;
+enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };
+inline constexpr unsigned kTrackPaths = 4;
+enum class Interpolation : std::uint8_t { step, linear, cubic };
+inline constexpr unsigned kInterpolations = 3;
+enum class Filter : std::uint8_t {
+    unspecified,
+    nearest,
+    linear,
+    nearest_mipmap_nearest,
+    linear_mipmap_nearest,
+    nearest_mipmap_linear,
+    linear_mipmap_linear
+};
+inline constexpr unsigned kMagFilters = 3;
+inline constexpr unsigned kMinFilters = 7;
+enum class Wrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+inline constexpr unsigned kWraps = 3;
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+inline constexpr unsigned kAlphaModes = 3;
+enum class MediaType : std::uint8_t { other, png, jpeg, ktx2, webp, avif };
+inline constexpr unsigned kMediaTypes = 6;
+
+/// Bytes of one number of the type.
+constexpr std::uint32_t component_size(ComponentType type) {
+    constexpr std::array<std::uint32_t, kComponentTypes> kSizes{1, 1, 2, 2, 4, 4};
+    return kSizes[static_cast<std::size_t>(type)];
+}
+/// Indices per polygon: 3, 2, 1.
+constexpr std::uint32_t corners(Topology topology) { return 3 - static_cast<std::uint32_t>(topology); }
+
+/// Bytes that a payload must have at least to hold record R.
+template <class R>
+inline constexpr std::uint64_t kShortest = sizeof(R);
+#define BENDY_RECORD(chunk, Struct, shortest) \
+    template <>                               \
+    inline constexpr std::uint64_t kShortest<Struct> = shortest;
+#define BENDY_FIELD(Struct, field, type, count, offset, what)
+#include <bendy/format/records.def>
+#undef BENDY_RECORD
+#undef BENDY_FIELD
+
+/// The record at the start of a leaf's payload. Fields that the payload is too short for keep their defaults.
+/// RECORD_TOO_SHORT if it does not even hold the ones that must be there; UNSUPPORTED_CODEC if it is encoded.
+template <class R>
+Result<R> read_record(const ChunkTree& tree, std::uint32_t chunk) {
+    const Bytes payload = tree.payload(chunk);
+    const std::uint64_t offset = tree[chunk].offset;
+    if (tree[chunk].codec() != 0) return Error{ErrorCode::kUnsupportedCodec, offset, tree[chunk].codec()};
+    if (payload.size() < kShortest<R>) return Error{ErrorCode::kRecordTooShort, offset, payload.size(), kShortest<R>};
+    R record;
+    copy_at(payload, 0, record);
+    return record;
+}
+
+}  // namespace bendy

@@ -1,0 +1,158 @@
+#include <bendy/format/document.h>
+
+#include <bendy/format/check_grammar.h>
+#include <bendy/format/read_record.h>
+#include <bendy/format/text.h>
+
+#include <algorithm>
+
+namespace bendy {
+namespace {
+
+VersionRecord read_version(const ChunkTree& tree, Faults& faults) {
+    const auto version = read_child_record<VersionRecord>(tree, 0, FourCC("VERS"), faults);
+    if (!version) return {};
+    const std::uint64_t offset = tree[tree.find(0, FourCC("VERS"))].offset;
+    if (version->signature != kSignature) faults.add({ErrorCode::kSignature, offset});
+    if (version->major != kVersionMajor) faults.add({ErrorCode::kUnsupportedVersion, offset, version->major, kVersionMajor});
+    if (version->minor <= kVersionMinor) check_reserved(std::array{version->reserved}, offset, faults);
+    return *version;
+}
+
+/// Holds the polygon ranges of the joints against pools and materials, and turns local material numbers into the
+/// document's. `first_local` is where this object's local materials start in the document.
+void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials, std::uint32_t first_local, Faults& faults) {
+    SkeletonView& skeleton = object.skeleton;
+    for (PolygonView& polygons : skeleton.polygons) {
+        const std::uint64_t offset = tree[polygons.chunk].offset;
+        if (polygons.pool >= object.pools.size()) {
+            faults.add({ErrorCode::kPoolRange, offset, polygons.pool, object.pools.size()});
+            continue;
+        }
+        const auto& indices = object.pools[polygons.pool].indices;
+        const std::uint32_t available = indices ? indices->elements : 0;
+        if (polygons.first > available || polygons.count > available - polygons.first) {
+            faults.add({ErrorCode::kIndexRange, offset, std::uint64_t{polygons.first} + polygons.count, available});
+        }
+        if (polygons.material == kNone) continue;
+        if ((polygons.material & kLocalMaterial) == 0) {
+            if (polygons.material >= global_materials) faults.add({ErrorCode::kMaterialRange, offset, polygons.material, global_materials});
+            continue;
+        }
+        const std::uint32_t local = polygons.material & ~kLocalMaterial;
+        const std::uint32_t first = skeleton.first_local_material[polygons.joint];
+        const std::size_t next = std::size_t{polygons.joint} + 1;
+        const std::size_t end = next < skeleton.joints.size() ? skeleton.first_local_material[next] : skeleton.local_materials.size();
+        if (local >= end - first) {
+            faults.add({ErrorCode::kMaterialRange, offset, local, end - first});
+            continue;
+        }
+        polygons.material = first_local + first + local;
+    }
+}
+
+/// In a rigid pool a vertex is moved by the joint whose polygons use it, so it cannot be used by two.
+void check_rigid_sharing(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
+    std::vector<std::vector<const PolygonView*>> by_pool(object.pools.size());
+    for (const PolygonView& polygons : object.skeleton.polygons) by_pool[polygons.pool].push_back(&polygons);
+    for (std::size_t number = 0; number < object.pools.size(); ++number) {
+        const PoolView& pool = object.pools[number];
+        const auto& list = by_pool[number];
+        if (!pool.is_rigid() || list.empty()) continue;
+        const bool one_joint = std::all_of(list.begin(), list.end(), [&](const PolygonView* p) { return p->joint == list.front()->joint; });
+        if (one_joint) continue;
+        std::vector<std::uint32_t> mover(pool.vertices, kNone);
+        for (const PolygonView* polygons : list) {
+            for (std::uint32_t k = 0; k < polygons->count; ++k) {
+                const std::uint32_t vertex = pool.indices->index(polygons->first + k, 0);
+                if (mover[vertex] == kNone) mover[vertex] = polygons->joint;
+                if (mover[vertex] == polygons->joint) continue;
+                faults.add({ErrorCode::kRigidShared, tree[pool.chunk].offset, vertex});
+                return;
+            }
+        }
+    }
+}
+
+void check_count(std::uint64_t stated, std::uint64_t found, std::uint64_t offset, Faults& faults) {
+    if (stated != found) faults.add({ErrorCode::kCountMismatch, offset, stated, found});
+}
+
+}  // namespace
+
+Document read_document(const ChunkTree& tree, Faults& faults) {
+    Document document;
+    check_grammar(tree, faults);
+    document.version = read_version(tree, faults);
+    document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
+
+    for (const std::uint32_t number : tree.children(0)) {
+        if (tree[number].id == FourCC("TEXT") && tree[number].is_container()) document.textures.push_back(read_texture(tree, number, faults));
+    }
+    check_texture_references(tree, document.textures, faults);
+    const auto textures = static_cast<std::uint32_t>(document.textures.size());
+    for (const std::uint32_t number : tree.children(0)) {
+        if (tree[number].id == FourCC("MATE") && tree[number].is_container()) {
+            document.materials.push_back(read_material(tree, number, textures, faults));
+        }
+    }
+    document.global_materials = static_cast<std::uint32_t>(document.materials.size());
+
+    for (const std::uint32_t number : tree.children(0)) {
+        if (!(tree[number].id == FourCC("OBJE")) || !tree[number].is_container()) continue;
+        ObjectView object;
+        object.chunk = number;
+        object.name = read_text(tree, number, FourCC("NAME"), faults);
+        object.extras = read_text(tree, number, FourCC("EXTR"), faults);
+        object.skeleton = read_skeleton(tree, number, faults);
+        const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
+        for (const std::uint32_t child : tree.children(number)) {
+            if (tree[child].id == FourCC("VECT") && tree[child].is_container()) object.pools.push_back(read_pool(tree, child, joints, faults));
+        }
+        for (const std::uint32_t child : tree.children(number)) {
+            if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {
+                object.cycles.push_back(read_cycle(tree, child, joints, object.pools, faults));
+            }
+        }
+        const auto first_local = static_cast<std::uint32_t>(document.materials.size());
+        for (const std::uint32_t local : object.skeleton.local_materials) {
+            document.materials.push_back(read_material(tree, local, textures, faults));
+        }
+        resolve_polygons(tree, object, document.global_materials, first_local, faults);
+        if (faults.empty()) check_rigid_sharing(tree, object, faults);
+        document.objects.push_back(std::move(object));
+    }
+    return document;
+}
+
+void check_values(const ChunkTree& tree, const Document& document, Faults& faults) {
+    std::uint64_t joints = 0;
+    std::uint64_t pools = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t cycles = 0;
+    for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
+    for (const ObjectView& object : document.objects) {
+        check_skeleton_values(tree, object.skeleton, faults);
+        for (const PoolView& pool : object.pools) {
+            check_pool_values(tree, pool, faults);
+            vertices += pool.vertices;
+        }
+        for (const CycleView& cycle : object.cycles) check_cycle_values(tree, cycle, faults);
+        joints += object.skeleton.joints.size();
+        pools += object.pools.size();
+        cycles += object.cycles.size();
+    }
+    const std::uint32_t number = tree.find(0, FourCC("VERS"));
+    if (number == kNone) return;
+    const std::uint64_t offset = tree[number].offset;
+    const VersionRecord& version = document.version;
+    check_count(version.objects, document.objects.size(), offset, faults);
+    check_count(version.joints, joints, offset, faults);
+    check_count(version.pools, pools, offset, faults);
+    check_count(version.vertices, vertices, offset, faults);
+    check_count(version.cycles, cycles, offset, faults);
+    check_count(version.materials, document.materials.size(), offset, faults);
+    check_count(version.textures, document.textures.size(), offset, faults);
+}
+
+}  // namespace bendy

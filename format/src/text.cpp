@@ -1,0 +1,54 @@
+#include <bendy/format/text.h>
+
+namespace bendy {
+
+bool is_utf8(std::string_view text) {
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+    for (std::size_t at = 0; at < text.size();) {
+        const unsigned lead = byte(at++);
+        if (lead < 0x80) continue;
+        // Length, and the range of the second byte, which rules out overlong forms, surrogates and what lies past U+10FFFF.
+        std::size_t more = 0;
+        unsigned low = 0x80;
+        unsigned high = 0xbf;
+        if (lead >= 0xc2 && lead <= 0xdf) {
+            more = 1;
+        } else if (lead >= 0xe0 && lead <= 0xef) {
+            more = 2;
+            if (lead == 0xe0) low = 0xa0;
+            if (lead == 0xed) high = 0x9f;
+        } else if (lead >= 0xf0 && lead <= 0xf4) {
+            more = 3;
+            if (lead == 0xf0) low = 0x90;
+            if (lead == 0xf4) high = 0x8f;
+        } else {
+            return false;
+        }
+        if (more > text.size() - at) return false;
+        if (byte(at) < low || byte(at) > high) return false;
+        for (std::size_t k = 1; k < more; ++k) {
+            if (byte(at + k) < 0x80 || byte(at + k) > 0xbf) return false;
+        }
+        at += more;
+    }
+    return true;
+}
+
+std::string_view read_text(const ChunkTree& tree, std::uint32_t container, FourCC id, Faults& faults) {
+    const std::uint32_t number = tree.find(container, id);
+    if (number == kNone) return {};
+    const Chunk& chunk = tree[number];
+    if (chunk.is_container()) return {};  // check_grammar says so
+    if (chunk.codec() != 0) {
+        faults.add({ErrorCode::kUnsupportedCodec, chunk.offset, chunk.codec()});
+        return {};
+    }
+    const std::string_view text = as_text(tree.payload(number));
+    if (!is_utf8(text)) {
+        faults.add({ErrorCode::kNotUtf8, chunk.offset});
+        return {};
+    }
+    return text;
+}
+
+}  // namespace bendy

@@ -1,0 +1,21 @@
+#include <bendy/format/validate.h>
+
+#include <bendy/format/check_sums.h>
+#include <bendy/format/document.h>
+
+namespace bendy {
+
+Faults validate(Bytes bytes) {
+    Faults faults;
+    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) {
+        faults.add(tree.error());
+        return faults;
+    }
+    check_sums(*tree, faults);
+    const Document document = read_document(*tree, faults);
+    check_values(*tree, document, faults);
+    return faults;
+}
+
+}  // namespace bendy

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <bendy/format/document.h>
+#include <bendy/format/file.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/transform.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace bendy {
+
+// The format's views are the runtime's data: they lie in the mapped file.
+using Cycle = CycleView;
+using Pool = PoolView;
+using Material = MaterialView;
+using Texture = TextureView;
+
+struct Joint {
+    std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
+    JointTransform rest;           ///< relative to the parent
+    glm::vec3 shear{0.0f};         ///< part of the local matrix that no cycle changes: see transform.h
+    std::string_view name;         ///< UTF-8; may be empty, may be doubled
+    std::string_view extras;       ///< JSON of the author's, or empty
+};
+
+/// A range of a pool's index list with one material: what one draw call draws.
+struct Draw {
+    std::uint32_t pool = 0;
+    std::uint32_t material = kNone;  ///< into Model::materials(), or kNone
+    Topology topology = Topology::triangles;
+    std::uint32_t first = 0;  ///< in Pool::indices
+    std::uint32_t count = 0;
+};
+
+struct OpenOptions {
+    std::uint32_t object = 0;  ///< which of the file's objects
+    bool check_sums = true;    ///< false: skips the integrity sums; accidents on the disk then go unnoticed, safety does not
+};
+
+/// A character: the mapped file and a linear array of its joints, parents before children.
+class Model {
+public:
+    /// Maps and checks a file. The first fault, with its offset in the file, if it is not a good one.
+    static Result<Model> open(const std::filesystem::path& path, const OpenOptions& options = {});
+    /// The same for bytes in memory, which must start on a 16-byte boundary and outlive the model.
+    static Result<Model> from_memory(Bytes bytes, const OpenOptions& options = {});
+
+    [[nodiscard]] std::string_view name() const { return data_->object.name; }
+    [[nodiscard]] std::span<const Joint> joints() const { return data_->joints; }
+    [[nodiscard]] std::span<const Pool> pools() const { return data_->object.pools; }
+    [[nodiscard]] std::span<const Cycle> cycles() const { return data_->object.cycles; }
+    [[nodiscard]] std::span<const Material> materials() const { return data_->document.materials; }
+    [[nodiscard]] std::span<const Texture> textures() const { return data_->document.textures; }
+    [[nodiscard]] std::span<const Draw> draws() const { return data_->draws; }
+    /// Each joint's own polygons: for hits, severed limbs, culling.
+    [[nodiscard]] std::span<const PolygonView> polygons() const { return data_->object.skeleton.polygons; }
+
+    /// The first cycle or joint of that name; null or kNone if there is none.
+    [[nodiscard]] const Cycle* cycle(std::string_view name) const;
+    [[nodiscard]] std::uint32_t joint(std::string_view name) const;
+
+    /// Vertices of all pools together, pool after pool; and where a pool's begin.
+    [[nodiscard]] std::uint64_t vertex_count() const { return data_->first_vertex.back(); }
+    [[nodiscard]] std::uint64_t first_vertex(std::uint32_t pool) const { return data_->first_vertex[pool]; }
+    /// Inbetweening targets of all pools together, pool after pool; and where a pool's begin.
+    [[nodiscard]] std::uint32_t target_count() const { return data_->first_target.back(); }
+    [[nodiscard]] std::uint32_t first_target(std::uint32_t pool) const { return data_->first_target[pool]; }
+    /// Entries of the largest bind palette.
+    [[nodiscard]] std::uint32_t largest_palette() const { return data_->largest_palette; }
+    /// The joint that moves a vertex of a rigid pool, or kNone.
+    [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
+
+private:
+    struct RigidMovers {
+        std::uint32_t joint = kNone;           // of every vertex, if per_vertex is empty
+        std::vector<std::uint32_t> per_vertex;  // only for a pool whose parts hang on several joints
+    };
+    struct Data {
+        MappedFile file;
+        Document document;
+        ObjectView object;
+        std::vector<Joint> joints;
+        std::vector<Draw> draws;
+        std::vector<std::uint64_t> first_vertex;  // one more than pools
+        std::vector<std::uint32_t> first_target;  // one more than pools
+        std::vector<RigidMovers> movers;          // one per pool
+        std::uint32_t largest_palette = 0;
+    };
+
+    explicit Model(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+    static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
+    static RigidMovers find_movers(const ObjectView& object, std::uint32_t pool);
+
+    std::unique_ptr<const Data> data_;  // behind a pointer, so that views into it survive a move of the Model
+};
+
+}  // namespace bendy

@@ -1,0 +1,127 @@
+#include <bendy/runtime/model.h>
+
+#include <bendy/format/check_sums.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace bendy {
+namespace {
+
+Joint make_joint(const JointView& view) {
+    const RestRecord& rest = view.rest;
+    Joint joint;
+    joint.parent = view.parent;
+    joint.rest.rotation = glm::quat(rest.rotation[3], rest.rotation[0], rest.rotation[1], rest.rotation[2]);
+    joint.rest.translation = {rest.translation[0], rest.translation[1], rest.translation[2]};
+    joint.rest.scale = {rest.scale[0], rest.scale[1], rest.scale[2]};
+    joint.shear = {rest.shear[0], rest.shear[1], rest.shear[2]};
+    joint.name = view.name;
+    joint.extras = view.extras;
+    return joint;
+}
+
+/// The polygon ranges in pool order, neighbours of one material joined: writers order a pool by material first and joint
+/// second, so each material comes out as one draw.
+std::vector<Draw> make_draws(std::span<const PolygonView> polygons) {
+    std::vector<Draw> draws;
+    draws.reserve(polygons.size());
+    for (const PolygonView& p : polygons) draws.push_back({p.pool, p.material, p.topology, p.first, p.count});
+    std::sort(draws.begin(), draws.end(), [](const Draw& a, const Draw& b) { return std::tie(a.pool, a.first) < std::tie(b.pool, b.first); });
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < draws.size(); ++i) {
+        Draw& before = draws[last];
+        const Draw& draw = draws[i];
+        const bool continues = before.pool == draw.pool && before.material == draw.material &&
+                               before.topology == draw.topology && before.first + before.count == draw.first;
+        if (continues) {
+            before.count += draw.count;
+        } else {
+            draws[++last] = draw;
+        }
+    }
+    if (!draws.empty()) draws.resize(last + 1);
+    return draws;
+}
+
+}  // namespace
+
+Model::RigidMovers Model::find_movers(const ObjectView& object, std::uint32_t pool) {
+    RigidMovers movers;
+    const Pool& view = object.pools[pool];
+    movers.joint = view.joint;
+    if (!view.is_rigid()) return movers;
+    std::vector<const PolygonView*> ranges;
+    for (const PolygonView& polygons : object.skeleton.polygons) {
+        if (polygons.pool == pool && polygons.count != 0) ranges.push_back(&polygons);
+    }
+    if (std::all_of(ranges.begin(), ranges.end(), [&](const PolygonView* range) { return range->joint == ranges.front()->joint; })) {
+        if (!ranges.empty()) movers.joint = ranges.front()->joint;
+        return movers;
+    }
+    movers.per_vertex.assign(view.vertices, view.joint);
+    for (const PolygonView* range : ranges) {
+        for (std::uint32_t k = 0; k < range->count; ++k) movers.per_vertex[view.indices->index(range->first + k, 0)] = range->joint;
+    }
+    return movers;
+}
+
+Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& options) {
+    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) return tree.error();
+    Faults faults;
+    if (options.check_sums) check_sums(*tree, faults);
+    auto data = std::make_unique<Data>();
+    if (faults.empty()) data->document = read_document(*tree, faults);
+    if (!faults.empty()) return faults.list().front();
+    if (options.object >= data->document.objects.size()) {
+        return Error{ErrorCode::kChunkMissing, 0, FourCC("OBJE").value};
+    }
+    data->file = std::move(file);
+    data->object = std::move(data->document.objects[options.object]);
+    data->document.objects.clear();
+
+    const ObjectView& object = data->object;
+    data->joints.reserve(object.skeleton.joints.size());
+    for (const JointView& joint : object.skeleton.joints) data->joints.push_back(make_joint(joint));
+    data->draws = make_draws(object.skeleton.polygons);
+    data->first_vertex.push_back(0);
+    data->first_target.push_back(0);
+    for (std::uint32_t pool = 0; pool < object.pools.size(); ++pool) {
+        const Pool& view = object.pools[pool];
+        data->first_vertex.push_back(data->first_vertex.back() + view.vertices);
+        data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(view.targets.size()));
+        data->movers.push_back(find_movers(object, pool));
+        data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(view.palette.joints.size()));
+    }
+    return Model(std::move(data));
+}
+
+Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
+    Result<MappedFile> file = MappedFile::open(path);
+    if (!file) return file.error();
+    const Bytes bytes = file->bytes();
+    return build(std::move(*file), bytes, options);
+}
+
+Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) { return build({}, bytes, options); }
+
+const Cycle* Model::cycle(std::string_view name) const {
+    const auto& cycles = data_->object.cycles;
+    const auto found = std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
+    return found == cycles.end() ? nullptr : &*found;
+}
+
+std::uint32_t Model::joint(std::string_view name) const {
+    const auto& joints = data_->joints;
+    const auto found = std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.name == name; });
+    return found == joints.end() ? kNone : static_cast<std::uint32_t>(found - joints.begin());
+}
+
+std::uint32_t Model::rigid_mover(std::uint32_t pool, std::uint32_t vertex) const {
+    const RigidMovers& movers = data_->movers[pool];
+    return movers.per_vertex.empty() ? movers.joint : movers.per_vertex[vertex];
+}
+
+}  // namespace bendy

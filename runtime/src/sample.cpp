@@ -1,0 +1,137 @@
+#include <bendy/runtime/sample.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy {
+namespace {
+
+/// The keys around a time, and how far between them it lies.
+struct Interval {
+    std::size_t left = 0;
+    std::size_t right = 0;   // left itself where nothing is to be interpolated
+    double fraction = 0.0;   // [0, 1)
+    double seconds = 0.0;    // from left to right
+};
+
+Interval timed_interval(std::span<const float> times, float seconds) {
+    const auto after = std::upper_bound(times.begin(), times.end(), seconds);
+    if (after == times.begin()) return {};
+    const auto left = static_cast<std::size_t>(after - times.begin()) - 1;
+    if (after == times.end() || times[left] == seconds) return {left, left};
+    const double length = double{times[left + 1]} - times[left];
+    return {left, left + 1, (double{seconds} - times[left]) / length, length};
+}
+
+Interval frame_interval(const TrackView& track, const Cycle& cycle, float seconds) {
+    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+    const double last = track.keys - 1.0;
+    if (!(frame > 0.0)) return {};
+    if (frame >= last) return {track.keys - std::size_t{1}, track.keys - std::size_t{1}};
+    const double whole = std::floor(frame);
+    const auto left = static_cast<std::size_t>(whole);
+    if (frame == whole) return {left, left};
+    return {left, left + 1, frame - whole, 1.0 / cycle.frame_rate};
+}
+
+void slerp(std::span<const float> a, std::span<const float> b, double u, std::span<float> out) {
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) dot += double{a[c]} * b[c];
+    const double sign = dot < 0.0 ? -1.0 : 1.0;
+    const double angle = std::acos(std::min(1.0, std::abs(dot)));
+    double weight_a = 1.0 - u;
+    double weight_b = u;
+    constexpr double kStraight = 1e-6;  // below it sin(angle) is angle and slerp is linear
+    if (angle >= kStraight) {
+        weight_a = std::sin(angle * (1.0 - u)) / std::sin(angle);
+        weight_b = std::sin(angle * u) / std::sin(angle);
+    }
+    for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(weight_a * a[c] + sign * weight_b * b[c]);
+}
+
+void hermite(std::span<const float> left, std::span<const float> right, const Interval& at, std::span<float> out) {
+    const std::size_t n = out.size();  // a key is in-tangent, value, out-tangent, n numbers each
+    const double u = at.fraction;
+    const double u2 = u * u;
+    const double u3 = u2 * u;
+    for (std::size_t c = 0; c < n; ++c) {
+        const double value = (2.0 * u3 - 3.0 * u2 + 1.0) * left[n + c] + at.seconds * (u3 - 2.0 * u2 + u) * left[2 * n + c] +
+                             (-2.0 * u3 + 3.0 * u2) * right[n + c] + at.seconds * (u3 - u2) * right[c];
+        out[c] = static_cast<float>(value);
+    }
+}
+
+void normalise(std::span<float> q) {
+    double square = 0.0;
+    for (const float c : q) square += double{c} * c;
+    if (!(square > 0.0)) return;
+    const double length = std::sqrt(square);
+    for (float& c : q) c = static_cast<float>(c / length);
+}
+
+void set_joint(const TrackView& track, std::span<const float> value, JointTransform& joint) {
+    switch (track.path) {
+        case TrackPath::translation: joint.translation = {value[0], value[1], value[2]}; break;
+        case TrackPath::rotation: joint.rotation = glm::quat(value[3], value[0], value[1], value[2]); break;
+        case TrackPath::scale: joint.scale = {value[0], value[1], value[2]}; break;
+        case TrackPath::weights: break;
+    }
+}
+
+}  // namespace
+
+void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value) {
+    assert(value.size() == track.components);
+    const std::size_t n = value.size();
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    const std::size_t per_key = cubic ? 3 * n : n;
+    const auto key = [&](std::size_t k) { return track.values.subspan(k * per_key, per_key); };
+    const auto key_value = [&](std::size_t k) { return key(k).subspan(cubic ? n : 0, n); };
+
+    const Interval at = track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
+    if (at.left == at.right || track.interpolation == Interpolation::step) {
+        std::copy_n(key_value(at.left).begin(), n, value.begin());
+        return;
+    }
+    if (cubic) {
+        hermite(key(at.left), key(at.right), at, value);
+        if (track.path == TrackPath::rotation) normalise(value);
+        return;
+    }
+    const auto left = key_value(at.left);
+    const auto right = key_value(at.right);
+    if (track.path == TrackPath::rotation) {
+        slerp(left, right, at.fraction, value);
+        return;
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+        value[c] = static_cast<float>((1.0 - at.fraction) * left[c] + at.fraction * right[c]);
+    }
+}
+
+bool sample(const Cycle* cycle, float seconds, Pose& pose) {
+    pose.set_rest();
+    if (cycle == nullptr || std::isnan(seconds)) return false;
+    const Model& model = pose.model();
+    const std::span<JointTransform> local = pose.change_local();
+    const std::span<float> weights = pose.change_target_weights();
+    for (const TrackView& track : cycle->tracks) {
+        if (track.path == TrackPath::weights) {
+            if (track.target >= model.pools().size()) continue;  // a cycle of another model
+            const std::size_t first = model.first_target(track.target);
+            if (first + track.components > weights.size()) continue;
+            sample_track(track, *cycle, seconds, weights.subspan(first, track.components));
+            continue;
+        }
+        if (track.target >= local.size()) continue;
+        std::array<float, 4> value{};
+        sample_track(track, *cycle, seconds, std::span(value).first(track.components));
+        set_joint(track, value, local[track.target]);
+    }
+    return true;
+}
+
+}  // namespace bendy

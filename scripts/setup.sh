@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what the build and the tests need, if it is missing and we may; else names it in one line.
+#   scripts/setup.sh [build|test]   build (default): compiler and libraries; test: also what only the tests need
+set -euo pipefail
+
+need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
+    case "$1" in
+        /*) [ -e "$1" ] ;;
+        *) command -v "$1" >/dev/null ;;
+    esac || missing+=("$2")
+}
+
+missing=()
+need g++ g++
+need cmake cmake
+need ninja ninja-build
+need /usr/include/glm/glm.hpp libglm-dev
+need /usr/include/tiny_gltf.h libtinygltf-dev
+need /usr/include/nlohmann/json.hpp nlohmann-json3-dev
+need /usr/include/CLI/App.hpp libcli11-dev
+need /usr/include/meshoptimizer.h libmeshoptimizer-dev
+need /usr/include/draco/compression/decode.h libdraco-dev
+if [ "${1:-build}" = test ]; then
+    need /usr/include/gtest/gtest.h libgtest-dev
+    need clang++ clang
+    need clang-format clang-format
+    need clang-tidy clang-tidy
+    need git git
+    need python3 python3
+    need node nodejs
+fi
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+    as_root=()
+elif sudo -n true 2>/dev/null; then
+    as_root=(sudo -n)
+else
+    echo "Missing packages. Install them with: sudo apt-get install ${missing[*]}" >&2
+    exit 1
+fi
+echo "Installing: ${missing[*]}" >&2
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

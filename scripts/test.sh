@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Runs every check that the project has; .ci/run calls this and nothing else.
+#   scripts/test.sh         all of it
+#   scripts/test.sh quick   one optimised build and its tests
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+step() { printf '\n== %s\n' "$*"; }
+
+scripts/setup.sh test
+
+step "optimised build, warnings are errors"
+cmake --preset release -DBENDY_TESTS=ON -DBENDY_WARNINGS_AS_ERRORS=ON >/dev/null
+cmake --build --preset release
+if [ "${1:-}" != quick ]; then
+    step "format and lint"
+    scripts/lint.sh build/release
+
+    step "every public header compiles by itself"
+    cmake --build --preset release --target all_verify_interface_header_sets
+
+    step "clang, and the embeddable part without exceptions and RTTI"
+    cmake --preset clang >/dev/null
+    cmake --build --preset clang
+    cmake --preset no-exceptions >/dev/null
+    cmake --build --preset no-exceptions
+
+    step "tests under AddressSanitizer and UndefinedBehaviorSanitizer"
+    cmake --preset asan-ubsan >/dev/null
+    cmake --build --preset asan-ubsan
+    ctest --preset asan-ubsan
+fi
+step "the corpus: files converted, files refused, worst error"
+ctest --preset release -L corpus --verbose
+
+step "tests"
+ctest --preset release -LE corpus

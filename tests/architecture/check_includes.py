@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Holds every #include of the project against the edges of ARCHITECTURE.md: check_includes.py SOURCE_DIR"""
+
+import re
+import sys
+from pathlib import Path
+
+# folder: the bendy/ include folders it may use beside its own
+MAY_USE = {
+    "format": set(),
+    "runtime": {"format"},
+    "converter": {"format"},
+    "cli": {"format", "runtime", "converter"},
+}
+# header: the folders that may include it
+PRIVATE = {
+    "tiny_gltf.h": "converter/src/gltf/",
+    "meshoptimizer.h": "converter/src/",
+    "draco/": "converter/src/",
+    "nlohmann/": ("converter/src/", "cli/"),
+    "CLI/": "cli/",
+    "gtest/": "tests/",
+}
+# What format and runtime may take from outside: the C++ library and the system have no folder in their names.
+EMBEDDABLE_MAY_USE = ("bendy/", "glm/", "sys/")
+
+
+def faults_of(source: Path):
+    faults = []
+    seen = 0
+    for folder, allowed in MAY_USE.items():
+        for file in sorted((source / folder).rglob("*")):
+            if file.suffix not in (".h", ".cpp"):
+                continue
+            name = file.relative_to(source).as_posix()
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+                match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+                if not match:
+                    continue
+                seen += 1
+                header = match.group(1)
+                place = f"{name}:{number}: {header}"
+                for private, where in PRIVATE.items():
+                    if header.startswith(private) and not name.startswith(where):
+                        faults.append(f"{place}: may be included from {where} only")
+                project = re.match(r"bendy/(\w+)(?:\.h|/)", header)
+                if project and project.group(1) != folder and project.group(1) not in allowed:
+                    faults.append(f"{place}: {folder} may not use {project.group(1)}")
+                if folder in ("format", "runtime") and "/" in header and not header.startswith(EMBEDDABLE_MAY_USE):
+                    faults.append(f"{place}: {folder} may use the C++ library and GLM only")
+    if seen == 0:
+        faults.append(f"no #include found under {source}: is this the source folder?")
+    return faults
+
+
+def main():
+    faults = faults_of(Path(sys.argv[1]))
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,316 @@
+#pragma once
+
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/chunk_writer.h>
+#include <bendy/format/records.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// A small file that holds at least one of every chunk that is not reserved, and is good in every respect:
+//
+//     HEAD
+//      VERS
+//      TEXT      a link, with a name and its author's data
+//      TEXT[1]   embedded bytes
+//      TEXT[2]   the image of TEXT[1]
+//      MATE      global material
+//      OBJE
+//       SKIN     joint 0 "hip", a local MATE, POLY: triangle of pool 0
+//        SKIN    joint 1 "spine", POLY: triangle of pool 0, POLY[1]: point of pool 1
+//         SKIN   joint 2 "head", POLY: triangle of pool 1 in the global material, POLY[1]: line of pool 1
+//        SKIN[1] joint 3 "tail"
+//       VECT     pool 0: skinned by joints 0 and 1, four vertices, a dense and a sparse target
+//       VECT[1]  pool 1: rigid, six vertices
+//       CYCL     translation linear, rotation cubic, scale step, weights linear, rotation in fixed frames
+//      EXTR
+namespace bendy::test {
+
+using Buffer = std::vector<std::byte>;
+
+/// The numbers as payload bytes.
+template <class T>
+Bytes bytes_of_all(const std::vector<T>& numbers) {
+    return std::as_bytes(std::span(numbers));
+}
+
+template <class T>
+constexpr ComponentType component_type_of() {
+    if (std::is_same_v<T, std::uint8_t>) return ComponentType::u8;
+    if (std::is_same_v<T, std::int8_t>) return ComponentType::i8;
+    if (std::is_same_v<T, std::uint16_t>) return ComponentType::u16;
+    if (std::is_same_v<T, std::int16_t>) return ComponentType::i16;
+    if (std::is_same_v<T, std::uint32_t>) return ComponentType::u32;
+    return ComponentType::f32;
+}
+
+/// A stream's payload: its record, then its numbers.
+template <class T>
+Buffer stream_payload(std::uint16_t components, const std::vector<T>& numbers, bool normalised = false, std::uint32_t set = 0) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(component_type_of<T>());
+    record.normalised = normalised ? 1 : 0;
+    record.components = components;
+    record.elements = static_cast<std::uint32_t>(numbers.size() / components);
+    record.set = set;
+    const Bytes head = bytes_of(record);
+    const Bytes tail = bytes_of_all(numbers);
+    Buffer payload(head.begin(), head.end());
+    payload.insert(payload.end(), tail.begin(), tail.end());
+    return payload;
+}
+
+/// A palette's payload: record, joints, zeros up to 16 bytes, matrices.
+inline Buffer palette_payload(const std::vector<std::uint32_t>& joints) {
+    PaletteRecord record;
+    record.entries = static_cast<std::uint32_t>(joints.size());
+    const Bytes head = bytes_of(record);
+    const Bytes numbers = bytes_of_all(joints);
+    Buffer payload(head.begin(), head.end());
+    payload.insert(payload.end(), numbers.begin(), numbers.end());
+    payload.resize(padded(payload.size()));
+    for (std::size_t entry = 0; entry < joints.size(); ++entry) {
+        std::array<float, 16> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        matrix[13] = -static_cast<float>(entry);  // down by one metre a joint
+        const Bytes bytes = bytes_of(matrix);
+        payload.insert(payload.end(), bytes.begin(), bytes.end());
+    }
+    return payload;
+}
+
+inline void begin_joint(ChunkWriter& writer, std::string_view name, float up) {
+    writer.begin(FourCC("SKIN"));
+    writer.text_leaf(FourCC("NAME"), name);
+    writer.begin(FourCC("PIVO"));
+    RestRecord rest;
+    rest.translation = {0.0f, up, 0.0f};
+    writer.leaf(FourCC("REST"), bytes_of(rest));
+    writer.end();
+}
+
+inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t material, Topology topology, std::uint32_t first, std::uint32_t count) {
+    PolygonRecord record;
+    record.pool = pool;
+    record.material = material;
+    record.topology = static_cast<std::uint8_t>(topology);
+    record.first = first;
+    record.count = count;
+    writer.leaf(FourCC("POLY"), bytes_of(record));
+}
+
+inline void put_skeleton(ChunkWriter& writer) {
+    begin_joint(writer, "hip", 1.0f);
+    writer.text_leaf(FourCC("EXTR"), R"({"mass":3})");
+    put_polygons(writer, 0, kLocalMaterial | 0u, Topology::triangles, 0, 3);
+    writer.begin(FourCC("MATE"));
+    SurfaceRecord local;
+    local.metallic = 0.25f;
+    writer.leaf(FourCC("SURF"), bytes_of(local));
+    writer.end();
+
+    begin_joint(writer, "spine", 0.5f);
+    put_polygons(writer, 0, kNone, Topology::triangles, 3, 3);
+    put_polygons(writer, 1, kNone, Topology::points, 5, 1);
+
+    begin_joint(writer, "head", 0.25f);
+    put_polygons(writer, 1, 0, Topology::triangles, 0, 3);
+    put_polygons(writer, 1, 0, Topology::lines, 3, 2);
+    writer.end();  // head
+    writer.end();  // spine
+    begin_joint(writer, "tail \xc3\xa9", -0.25f);
+    writer.end();  // tail
+    writer.end();  // hip
+}
+
+inline void put_skinned_pool(ChunkWriter& writer) {
+    writer.begin(FourCC("VECT"));
+    writer.text_leaf(FourCC("NAME"), "fur");
+    writer.text_leaf(FourCC("EXTR"), "{}");
+    PoolRecord info;
+    info.vertices = 4;
+    writer.leaf(FourCC("VINF"), bytes_of(info));
+    writer.leaf(FourCC("POSI"), stream_payload<float>(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}));
+    writer.leaf(FourCC("NORM"), stream_payload<float>(3, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
+    writer.leaf(FourCC("TANG"), stream_payload<float>(4, {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1, 1, 0, 0, -1}));
+    writer.leaf(FourCC("TEXC"), stream_payload<float>(2, {0, 0, 1, 0, 0, 1, 1, 1}));
+    writer.leaf(FourCC("TEXC"), stream_payload<std::uint16_t>(2, {0, 0, 65535, 0, 0, 65535, 65535, 65535}, true, 1));
+    writer.leaf(FourCC("COLR"), stream_payload<std::uint8_t>(3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 51, 51, 51}, true));
+    writer.leaf(FourCC("BONE"), stream_payload<std::uint8_t>(2, {0, 1, 0, 1, 1, 0, 1, 1}));
+    writer.leaf(FourCC("WGHT"), stream_payload<float>(2, {1, 0, 0.75f, 0.25f, 0.5f, 0.5f, 1, 0}));
+    writer.leaf(FourCC("PALT"), palette_payload({0, 1}));
+    writer.begin(FourCC("USER"));
+    writer.text_leaf(FourCC("NAME"), "_WIND");
+    writer.leaf(FourCC("VALS"), stream_payload<std::int16_t>(1, {-32768, 0, 1, 32767}));
+    writer.end();
+
+    TargetRecord target;
+    target.rest_weight = 0.125f;
+    writer.begin(FourCC("TARG"));  // dense
+    writer.text_leaf(FourCC("NAME"), "smile");
+    writer.leaf(FourCC("TINF"), bytes_of(target));
+    writer.leaf(FourCC("POSI"), stream_payload<float>(3, {0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4}));
+    writer.leaf(FourCC("NORM"), stream_payload<float>(3, {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}));
+    writer.end();
+    writer.begin(FourCC("TARG"));  // sparse
+    writer.leaf(FourCC("TINF"), bytes_of(TargetRecord{}));
+    writer.leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, {1, 3}));
+    writer.leaf(FourCC("POSI"), stream_payload<float>(3, {9, 0, 0, 0, 9, 0}));
+    writer.leaf(FourCC("TANG"), stream_payload<float>(3, {0, 0, 9, 0, 0, 8}));
+    writer.end();
+    writer.leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, {0, 1, 2, 2, 1, 3}));
+    writer.end();
+}
+
+inline void put_rigid_pool(ChunkWriter& writer) {
+    writer.begin(FourCC("VECT"));
+    PoolRecord info;
+    info.vertices = 6;
+    info.joint = 2;
+    writer.leaf(FourCC("VINF"), bytes_of(info));
+    writer.leaf(FourCC("POSI"), stream_payload<float>(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2}));
+    writer.leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, {0, 1, 2, 3, 4, 5}));
+    writer.end();
+}
+
+/// One line of a TRAK table.
+inline TrackRecord track(std::uint32_t target, TrackPath path, Interpolation interpolation, std::uint16_t components, std::uint32_t keys,
+                         std::uint32_t first_time, std::uint64_t first_value) {
+    TrackRecord record;
+    record.target = target;
+    record.path = static_cast<std::uint8_t>(path);
+    record.interpolation = static_cast<std::uint8_t>(interpolation);
+    record.components = components;
+    record.keys = keys;
+    record.first_time = first_time;
+    record.first_value = first_value;
+    return record;
+}
+
+inline void put_cycle(ChunkWriter& writer) {
+    writer.begin(FourCC("CYCL"));
+    writer.text_leaf(FourCC("NAME"), "run");
+    writer.text_leaf(FourCC("EXTR"), "[]");
+    CycleRecord info;
+    info.start = 0.5f;
+    info.end = 1.0f;
+    info.frame_rate = 4.0f;
+    info.loop = 1;
+    writer.leaf(FourCC("CINF"), bytes_of(info));
+    const std::vector<TrackRecord> tracks{
+        track(0, TrackPath::translation, Interpolation::linear, 3, 3, 0, 0),
+        track(1, TrackPath::rotation, Interpolation::cubic, 4, 2, 3, 9),
+        track(2, TrackPath::scale, Interpolation::step, 3, 3, 0, 0),
+        track(0, TrackPath::weights, Interpolation::linear, 2, 2, 3, 33),
+        track(2, TrackPath::rotation, Interpolation::linear, 4, 3, kNone, 37),
+    };
+    writer.leaf(FourCC("TRAK"), bytes_of_all(tracks));
+    writer.leaf(FourCC("TIME"), bytes_of_all<float>({0.5f, 0.75f, 1.0f, 0.5f, 1.0f}));
+    writer.leaf(FourCC("KEYV"), bytes_of_all<float>({
+                                    1, 1, 1, 2, 2, 2, 3, 3, 3,                 // 0: translation of joint 0, scale of joint 2
+                                    0, 0, 0, 5, 0, 0, 0, 1, 0, 0, 0, 6,        // 9: in-tangent, rotation, out-tangent
+                                    0, 0, 0, 7, 0, 0, 1, 0, 0, 0, 0, 8,        //
+                                    0, 0.5f, 1, 0.25f,                         // 33: weights of two targets
+                                    0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 0,        // 37: three rotations
+                                }));
+    writer.end();
+}
+
+inline void put_textures(ChunkWriter& writer) {
+    SamplerRecord sampler;
+    sampler.mag_filter = static_cast<std::uint8_t>(Filter::linear);
+    sampler.min_filter = static_cast<std::uint8_t>(Filter::linear_mipmap_linear);
+    sampler.wrap_t = static_cast<std::uint8_t>(Wrap::mirrored_repeat);
+    writer.begin(FourCC("TEXT"));
+    writer.text_leaf(FourCC("NAME"), "skin");
+    writer.text_leaf(FourCC("EXTR"), "1");
+    writer.leaf(FourCC("SAMP"), bytes_of(sampler));
+    writer.text_leaf(FourCC("LINK"), "skin.png");
+    writer.end();
+
+    ImageRecord image;
+    image.media = static_cast<std::uint8_t>(MediaType::webp);
+    writer.begin(FourCC("TEXT"));
+    writer.leaf(FourCC("SAMP"), bytes_of(SamplerRecord{}));
+    writer.leaf(FourCC("IMAG"), std::array{bytes_of(image), as_byte_span("RIFF?")});
+    writer.end();
+
+    SameRecord same;
+    same.texture = 1;
+    writer.begin(FourCC("TEXT"));
+    writer.leaf(FourCC("SAMP"), bytes_of(SamplerRecord{}));
+    writer.leaf(FourCC("SAME"), bytes_of(same));
+    writer.end();
+}
+
+inline VersionRecord sample_version() {
+    VersionRecord version;
+    version.objects = 1;
+    version.joints = 4;
+    version.pools = 2;
+    version.vertices = 10;
+    version.cycles = 1;
+    version.materials = 2;
+    version.textures = 3;
+    std::memcpy(version.generator.data(), "sample", 6);
+    return version;
+}
+
+inline Buffer sample_file() {
+    ChunkWriter writer;
+    writer.begin(FourCC("HEAD"));
+    writer.leaf(FourCC("VERS"), bytes_of(sample_version()));
+    put_textures(writer);
+
+    SurfaceRecord surface;
+    surface.alpha_mode = static_cast<std::uint8_t>(AlphaMode::blend);
+    surface.base_colour_texture.texture = 2;
+    surface.emissive_texture.texture = 0;
+    writer.begin(FourCC("MATE"));
+    writer.text_leaf(FourCC("NAME"), "red");
+    writer.leaf(FourCC("SURF"), bytes_of(surface));
+    writer.text_leaf(FourCC("EXTN"), "{\"KHR_x\":{}}");
+    writer.text_leaf(FourCC("EXTR"), "null");
+    writer.end();
+
+    writer.begin(FourCC("OBJE"));
+    writer.text_leaf(FourCC("NAME"), "fox");
+    writer.text_leaf(FourCC("EXTR"), "{\"a\":1}");
+    put_skeleton(writer);
+    put_skinned_pool(writer);
+    put_rigid_pool(writer);
+    put_cycle(writer);
+    writer.end();
+    writer.text_leaf(FourCC("EXTR"), "{\"file\":true}");
+    writer.end();
+    return std::move(writer).finish();
+}
+
+/// A file whose one object is a rope of `joints` joints, each inside the one before.
+inline Buffer rope_file(std::uint32_t joints) {
+    ChunkWriter writer;
+    writer.begin(FourCC("HEAD"));
+    VersionRecord version;
+    version.objects = 1;
+    version.joints = joints;
+    writer.leaf(FourCC("VERS"), bytes_of(version));
+    writer.begin(FourCC("OBJE"));
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        writer.begin(FourCC("SKIN"));
+        writer.begin(FourCC("PIVO"));
+        writer.leaf(FourCC("REST"), bytes_of(RestRecord{}));
+        writer.end();
+    }
+    for (std::uint32_t joint = 0; joint < joints; ++joint) writer.end();
+    writer.end();
+    writer.end();
+    return std::move(writer).finish();
+}
+
+}  // namespace bendy::test
