@@ -14,20 +14,22 @@ struct Rule {
     Shape shape;
     std::string_view parents;
     Times times;
+    bool is_reserved;  // a later version's: to this one, unknown
 };
 
 constexpr Rule kRules[] = {
-#define BENDY_CHUNK(id, shape, parents, times, what) {FourCC(#id), Shape::shape, parents, Times::times},
+#define BENDY_CHUNK(id, shape, parents, times, what) \
+    {FourCC(#id), Shape::shape, parents, Times::times, std::string_view(what).ends_with("(reserved)")},
 #include <bendy/format/chunk_ids.def>
 #undef BENDY_CHUNK
 };
 constexpr std::size_t kRuleCount = std::size(kRules);
 
-/// Number of the id's rule, or kRuleCount.
+/// Number of the id's rule, or kRuleCount if this version does not know it.
 std::size_t find_rule(FourCC id) {
     std::size_t rule = 0;
     while (rule < kRuleCount && !(kRules[rule].id == id)) ++rule;
-    return rule;
+    return rule < kRuleCount && !kRules[rule].is_reserved ? rule : kRuleCount;
 }
 
 bool may_stand_in(const Rule& rule, FourCC parent) {

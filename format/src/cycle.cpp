@@ -4,7 +4,7 @@
 #include <bendy/format/text.h>
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace bendy {
 namespace {
@@ -35,6 +35,79 @@ std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<cons
     return 0;
 }
 
+/// Each track's times must ascend.
+void check_key_order(const CycleView& cycle, std::span<const float> times, std::uint64_t offset, Faults& faults) {
+    std::vector<std::size_t> run_start(times.size());  // where the ascending run that holds each time begins
+    for (std::size_t k = 1; k < times.size(); ++k) run_start[k] = times[k] > times[k - 1] ? run_start[k - 1] : k;
+    for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
+        const TrackView& track = cycle.tracks[index];
+        if (track.times.empty()) continue;
+        const auto first = static_cast<std::size_t>(track.times.data() - times.data());
+        if (run_start[first + track.keys - 1] > first) faults.add({ErrorCode::kKeyOrder, offset, index});
+    }
+}
+
+/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's values
+/// are unit quaternions.
+void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
+    struct Share {
+        const float* first;
+        const float* last;
+        bool is_rotation;
+        std::size_t track;
+    };
+    std::vector<Share> shares;
+    for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
+        const TrackView& track = cycle.tracks[index];
+        shares.push_back({track.values.data(), track.values.data() + track.values.size(), track.path == TrackPath::rotation, index});
+    }
+    std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+        return std::tie(a.first, a.last, a.is_rotation, a.track) < std::tie(b.first, b.last, b.is_rotation, b.track);
+    });
+    const Share* before = nullptr;
+    for (const Share& share : shares) {
+        const bool is_same = before != nullptr && before->first == share.first && before->last == share.last;
+        if (before != nullptr && !is_same && share.first < before->last) {
+            faults.add({ErrorCode::kKeyOverlap, offset, share.track});
+            return;
+        }
+        const bool is_checked = is_same && before->is_rotation;
+        before = &share;
+        if (!share.is_rotation || is_checked) continue;
+        const TrackView& track = cycle.tracks[share.track];
+        const bool cubic = track.interpolation == Interpolation::cubic;
+        for (std::size_t key = 0; key < track.keys; ++key) {
+            if (is_unit(track.values.subspan(cubic ? key * 12 + 4 : key * 4).first<4>(), kUnitTolerance)) continue;
+            faults.add({ErrorCode::kRotationNotUnit, offset, key});
+            break;
+        }
+    }
+}
+
+/// True when start and end ascend and no key lies outside them.
+bool holds_all_keys(const CycleView& cycle) {
+    if (!(cycle.start <= cycle.end && cycle.frame_rate >= 0.0f)) return false;
+    return std::all_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const TrackView& track) {
+        if (!track.times.empty()) return track.times.front() >= cycle.start && track.times.back() <= cycle.end;
+        constexpr double kFrames = 1e-3;  // of a frame: `end` is a rounded float
+        return track.keys - 1.0 <= (double{cycle.end} - cycle.start) * cycle.frame_rate + kFrames;
+    });
+}
+
+void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
+    std::vector<std::tuple<std::uint32_t, TrackPath, std::size_t>> properties;
+    for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
+        properties.emplace_back(cycle.tracks[index].target, cycle.tracks[index].path, index);
+    }
+    std::sort(properties.begin(), properties.end());
+    for (std::size_t k = 1; k < properties.size(); ++k) {
+        const auto& [target, path, index] = properties[k];
+        if (target == std::get<0>(properties[k - 1]) && path == std::get<1>(properties[k - 1])) {
+            faults.add({ErrorCode::kTrackRepeated, offset, index});
+        }
+    }
+}
+
 }  // namespace
 
 CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools, Faults& faults) {
@@ -47,8 +120,9 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     cycle.end = info.end;
     cycle.frame_rate = info.frame_rate;
     cycle.loop = info.loop == 1;
-    check_enum(info.loop, 2, tree[chunk].offset, faults);
-    check_reserved(info.reserved, tree[chunk].offset, faults);
+    const std::uint64_t info_offset = offset_of(tree, chunk, FourCC("CINF"));
+    check_enum(info.loop, 2, info_offset, faults);
+    check_reserved(info.reserved, info_offset, faults);
 
     const std::uint32_t table = tree.find(chunk, FourCC("TRAK"));
     if (table == kNone || tree[table].is_container()) return cycle;
@@ -104,37 +178,19 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
 }
 
 void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& faults) {
-    const std::uint64_t offset = tree[cycle.chunk].offset;
-    check_finite(std::array{cycle.start, cycle.end, cycle.frame_rate}, offset, faults);
-    bool length_holds = cycle.start <= cycle.end && cycle.frame_rate >= 0.0f;
-    std::vector<std::pair<std::uint64_t, std::size_t>> properties;
-    for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
-        const TrackView& track = cycle.tracks[index];
-        properties.emplace_back(std::uint64_t{track.target} << 8 | static_cast<std::uint64_t>(track.path), index);
-        check_finite(track.values, offset, faults);
-        check_finite(track.times, offset, faults);
-        for (std::size_t key = 1; key < track.times.size(); ++key) {
-            if (track.times[key] > track.times[key - 1]) continue;
-            faults.add({ErrorCode::kKeyOrder, offset, index});
-            break;
-        }
-        if (!track.times.empty()) {
-            length_holds = length_holds && track.times.front() >= cycle.start && track.times.back() <= cycle.end;
-        }
-        if (track.path != TrackPath::rotation) continue;
-        const bool cubic = track.interpolation == Interpolation::cubic;
-        for (std::size_t key = 0; key < track.keys; ++key) {
-            const auto rotation = track.values.subspan(cubic ? key * 12 + 4 : key * 4).first<4>();
-            if (is_unit(rotation, kUnitTolerance)) continue;
-            faults.add({ErrorCode::kRotationNotUnit, offset, key});
-            break;
-        }
-    }
-    if (!length_holds) faults.add({ErrorCode::kCycleLength, offset});
-    std::sort(properties.begin(), properties.end());
-    for (std::size_t k = 1; k < properties.size(); ++k) {
-        if (properties[k].first == properties[k - 1].first) faults.add({ErrorCode::kTrackRepeated, offset, properties[k].second});
-    }
+    const std::uint64_t info_offset = offset_of(tree, cycle.chunk, FourCC("CINF"));
+    const std::uint64_t table_offset = offset_of(tree, cycle.chunk, FourCC("TRAK"));
+    check_finite(std::array{cycle.start, cycle.end, cycle.frame_rate}, info_offset, faults);
+
+    // Many tracks may share keys, so what takes a look at each key looks at the arrays once, not at each track's share.
+    Faults unread;  // read_cycle has said it
+    const auto times = read_floats(tree, cycle.chunk, FourCC("TIME"), unread);
+    check_finite(times, offset_of(tree, cycle.chunk, FourCC("TIME")), faults);
+    check_finite(read_floats(tree, cycle.chunk, FourCC("KEYV"), unread), offset_of(tree, cycle.chunk, FourCC("KEYV")), faults);
+    check_key_order(cycle, times, table_offset, faults);
+    check_shared_values(cycle, table_offset, faults);
+    if (!holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
+    check_repeated_tracks(cycle, table_offset, faults);
 }
 
 }  // namespace bendy

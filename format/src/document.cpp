@@ -5,18 +5,25 @@
 #include <bendy/format/text.h>
 
 #include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
 
 namespace bendy {
 namespace {
 
-VersionRecord read_version(const ChunkTree& tree, Faults& faults) {
+std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults) {
     const auto version = read_child_record<VersionRecord>(tree, 0, FourCC("VERS"), faults);
-    if (!version) return {};
-    const std::uint64_t offset = tree[tree.find(0, FourCC("VERS"))].offset;
+    if (!version) return version;
+    const std::uint64_t offset = offset_of(tree, 0, FourCC("VERS"));
     if (version->signature != kSignature) faults.add({ErrorCode::kSignature, offset});
     if (version->major != kVersionMajor) faults.add({ErrorCode::kUnsupportedVersion, offset, version->major, kVersionMajor});
-    if (version->minor <= kVersionMinor) check_reserved(std::array{version->reserved}, offset, faults);
-    return *version;
+    check_reserved(std::array{version->reserved}, offset, faults);
+    const auto& generator = version->generator;
+    const auto end = std::find(generator.begin(), generator.end(), 0);
+    if (!is_utf8(as_text(std::as_bytes(std::span(generator.begin(), end))))) faults.add({ErrorCode::kNotUtf8, offset});
+    check_reserved(std::span(end, generator.end()), offset, faults);
+    return version;
 }
 
 /// Holds the polygon ranges of the joints against pools and materials, and turns local material numbers into the
@@ -51,26 +58,42 @@ void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t g
     }
 }
 
-/// In a rigid pool a vertex is moved by the joint whose polygons use it, so it cannot be used by two.
-void check_rigid_sharing(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
-    std::vector<std::vector<const PolygonView*>> by_pool(object.pools.size());
-    for (const PolygonView& polygons : object.skeleton.polygons) by_pool[polygons.pool].push_back(&polygons);
-    for (std::size_t number = 0; number < object.pools.size(); ++number) {
-        const PoolView& pool = object.pools[number];
-        const auto& list = by_pool[number];
-        if (!pool.is_rigid() || list.empty()) continue;
-        const bool one_joint = std::all_of(list.begin(), list.end(), [&](const PolygonView* p) { return p->joint == list.front()->joint; });
-        if (one_joint) continue;
-        std::vector<std::uint32_t> mover(pool.vertices, kNone);
-        for (const PolygonView* polygons : list) {
-            for (std::uint32_t k = 0; k < polygons->count; ++k) {
-                const std::uint32_t vertex = pool.indices->index(polygons->first + k, 0);
-                if (mover[vertex] == kNone) mover[vertex] = polygons->joint;
-                if (mover[vertex] == polygons->joint) continue;
-                faults.add({ErrorCode::kRigidShared, tree[pool.chunk].offset, vertex});
-                return;
-            }
+void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<const PolygonView* const> ranges, Faults& faults) {
+    std::vector<std::uint32_t> mover(pool.vertices, kNone);
+    for (const PolygonView* range : ranges) {
+        for (std::uint32_t k = 0; k < range->count; ++k) {
+            const std::uint32_t vertex = pool.indices->index(range->first + k, 0);
+            if (mover[vertex] == kNone) mover[vertex] = range->joint;
+            if (mover[vertex] == range->joint) continue;
+            faults.add({ErrorCode::kRigidShared, tree[range->chunk].offset, vertex});
+            return;
         }
+    }
+}
+
+/// The ranges of a pool may not overlap, so that walking over them all is linear in the pool. In a rigid pool a vertex is
+/// moved by the joint whose polygons use it, so it cannot be used by two.
+void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
+    std::vector<const PolygonView*> ranges;
+    for (const PolygonView& polygons : object.skeleton.polygons) {
+        if (polygons.count != 0) ranges.push_back(&polygons);
+    }
+    std::sort(ranges.begin(), ranges.end(), [](const PolygonView* a, const PolygonView* b) {
+        return std::tie(a->pool, a->first) < std::tie(b->pool, b->first);
+    });
+    for (std::size_t i = 1; i < ranges.size(); ++i) {
+        const PolygonView& before = *ranges[i - 1];
+        if (before.pool == ranges[i]->pool && ranges[i]->first - before.first < before.count) {
+            faults.add({ErrorCode::kPolygonOverlap, tree[ranges[i]->chunk].offset});
+            return;
+        }
+    }
+    for (auto begin = ranges.begin(); begin != ranges.end();) {
+        const PoolView& pool = object.pools[(*begin)->pool];
+        const auto end = std::find_if(begin, ranges.end(), [&](const PolygonView* range) { return range->pool != (*begin)->pool; });
+        const bool one_joint = std::all_of(begin, end, [&](const PolygonView* range) { return range->joint == (*begin)->joint; });
+        if (pool.is_rigid() && !one_joint) check_rigid_sharing(tree, pool, {begin, end}, faults);
+        begin = end;
     }
 }
 
@@ -119,7 +142,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
             document.materials.push_back(read_material(tree, local, textures, faults));
         }
         resolve_polygons(tree, object, document.global_materials, first_local, faults);
-        if (faults.empty()) check_rigid_sharing(tree, object, faults);
+        if (faults.empty()) check_ranges(tree, object, faults);
         document.objects.push_back(std::move(object));
     }
     return document;
@@ -142,10 +165,9 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
         pools += object.pools.size();
         cycles += object.cycles.size();
     }
-    const std::uint32_t number = tree.find(0, FourCC("VERS"));
-    if (number == kNone) return;
-    const std::uint64_t offset = tree[number].offset;
-    const VersionRecord& version = document.version;
+    if (!document.version) return;
+    const std::uint64_t offset = offset_of(tree, 0, FourCC("VERS"));
+    const VersionRecord& version = *document.version;
     check_count(version.objects, document.objects.size(), offset, faults);
     check_count(version.joints, joints, offset, faults);
     check_count(version.pools, pools, offset, faults);

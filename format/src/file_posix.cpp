@@ -48,7 +48,8 @@ bool write_all(int descriptor, Bytes bytes) {
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    // O_NONBLOCK: a pipe without a writer would keep us waiting here, before we can refuse it.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) return system_error(ErrorCode::kCannotOpen);
     struct stat status {};
     if (::fstat(file.number(), &status) != 0) return system_error(ErrorCode::kCannotRead);

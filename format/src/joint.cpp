@@ -73,7 +73,8 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
 void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults) {
     for (std::uint32_t joint = 0; joint < skeleton.joints.size(); ++joint) {
         const JointView& view = skeleton.joints[joint];
-        const std::uint64_t offset = tree[view.chunk].offset;
+        const std::uint32_t pivot = tree.find(view.chunk, FourCC("PIVO"));
+        const std::uint64_t offset = pivot == kNone ? tree[view.chunk].offset : offset_of(tree, pivot, FourCC("REST"));
         const RestRecord& rest = view.rest;
         check_finite(rest.translation, offset, faults);
         check_finite(rest.scale, offset, faults);

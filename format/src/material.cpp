@@ -13,7 +13,7 @@ MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint
     material.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
     material.surface = read_child_record<SurfaceRecord>(tree, chunk, FourCC("SURF"), faults).value_or(SurfaceRecord{});
 
-    const std::uint64_t offset = tree[chunk].offset;
+    const std::uint64_t offset = offset_of(tree, chunk, FourCC("SURF"));
     SurfaceRecord& surface = material.surface;
     if (!check_enum(surface.alpha_mode, kAlphaModes, offset, faults)) surface.alpha_mode = 0;
     check_enum(surface.double_sided, 2, offset, faults);
@@ -36,7 +36,7 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
     texture.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
     texture.sampler = read_child_record<SamplerRecord>(tree, chunk, FourCC("SAMP"), faults).value_or(SamplerRecord{});
     SamplerRecord& sampler = texture.sampler;
-    const std::uint64_t offset = tree[chunk].offset;
+    const std::uint64_t offset = offset_of(tree, chunk, FourCC("SAMP"));
     if (!check_enum(sampler.mag_filter, kMagFilters, offset, faults)) sampler.mag_filter = 0;
     if (!check_enum(sampler.min_filter, kMinFilters, offset, faults)) sampler.min_filter = 0;
     if (!check_enum(sampler.wrap_s, kWraps, offset, faults)) sampler.wrap_s = 0;
@@ -57,6 +57,10 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
             image.media = static_cast<MediaType>(record->media);
             image.bytes = tree.payload(number).subspan(sizeof(ImageRecord));
         } else if (child.id == FourCC("LINK")) {
+            if (child.codec() != 0) {
+                faults.add({ErrorCode::kUnsupportedCodec, child.offset, child.codec()});
+                continue;
+            }
             image.uri = as_text(tree.payload(number));
             if (!is_utf8(image.uri)) {
                 faults.add({ErrorCode::kNotUtf8, child.offset});
@@ -80,13 +84,13 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
 void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& textures, Faults& faults) {
     for (const TextureView& texture : textures) {
         for (const ImageView& image : texture.images) {
-            const SameRecord& same = image.same;
-            if (same.texture == kNone) continue;
+            if (!image.same) continue;
+            const SameRecord& same = *image.same;
             const std::uint64_t offset = tree[texture.chunk].offset;
             if (same.texture >= textures.size()) {
                 faults.add({ErrorCode::kTextureRange, offset, same.texture, textures.size()});
             } else if (same.image >= textures[same.texture].images.size() ||
-                       textures[same.texture].images[same.image].same.texture != kNone) {
+                       textures[same.texture].images[same.image].same.has_value()) {
                 faults.add({ErrorCode::kIndexRange, offset, same.image, textures[same.texture].images.size()});
             }
         }
@@ -94,7 +98,7 @@ void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& t
 }
 
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults) {
-    const std::uint64_t offset = tree[material.chunk].offset;
+    const std::uint64_t offset = offset_of(tree, material.chunk, FourCC("SURF"));
     const SurfaceRecord& surface = material.surface;
     const std::array scalars{surface.metallic, surface.roughness, surface.normal_scale, surface.occlusion_strength, surface.alpha_cutoff};
     check_finite(surface.base_colour, offset, faults);

@@ -35,10 +35,10 @@ const StreamRule kAnything{{ComponentType::u8, ComponentType::i8, ComponentType:
 
 /// Integer streams that stand for numbers are normalised; bones and indices are not; floats cannot be.
 bool normalisation_fits(const StreamRecord& record, const StreamRule& rule) {
-    if (&rule == &kAnything) return true;
-    const bool is_number = &rule != &kBones && &rule != &kIndices;
-    const bool is_float = static_cast<ComponentType>(record.component_type) == ComponentType::f32;
-    return record.normalised == (is_number && !is_float ? 1 : 0);
+    const auto type = static_cast<ComponentType>(record.component_type);
+    const bool may_be = type != ComponentType::f32 && type != ComponentType::u32 && &rule != &kBones && &rule != &kIndices;
+    const bool must_be = may_be && &rule != &kAnything;
+    return record.normalised == 1 ? may_be : !must_be;
 }
 
 class PoolReader {
@@ -60,6 +60,7 @@ public:
             !normalisation_fits(*record, rule)) {
             return fault({ErrorCode::kStreamType, chunk.offset});
         }
+        if (record->set != 0 && &rule != &kCoords && &rule != &kColour) return fault({ErrorCode::kStreamSet, chunk.offset, record->set});
         if (elements && record->elements != *elements) {
             return fault({ErrorCode::kStreamCount, chunk.offset, record->elements, *elements});
         }
@@ -81,6 +82,18 @@ public:
         return std::nullopt;
     }
 
+    /// Adds the stream in leaf `number` to those of its kind, whose sets must differ.
+    void add_set(std::vector<StreamView>& streams, std::uint32_t number, const StreamRule& rule, std::uint32_t elements) {
+        const auto added = stream(number, rule, elements);
+        if (!added) return;
+        const bool taken = std::any_of(streams.begin(), streams.end(), [&](const StreamView& other) { return other.set == added->set; });
+        if (taken) {
+            faults_.add({ErrorCode::kStreamSet, tree_[number].offset, added->set});
+        } else {
+            streams.push_back(*added);
+        }
+    }
+
     /// Every index of the stream must be below `limit`.
     void check_indices(const std::optional<StreamView>& stream, std::uint64_t limit, ErrorCode code) {
         if (!stream) return;
@@ -91,27 +104,33 @@ public:
         if (!stream->empty() && largest >= limit) faults_.add({code, tree_[stream->chunk].offset, largest, limit});
     }
 
-    PaletteView palette(std::uint32_t number, std::uint32_t joints) {
+    std::optional<PaletteView> palette(std::uint32_t number, std::uint32_t joints) {
         const Chunk& chunk = tree_[number];
         const Result<PaletteRecord> record = read_record<PaletteRecord>(tree_, number);
         if (!record) {
             faults_.add(record.error());
-            return {};
+            return std::nullopt;
         }
         check_reserved(record->reserved, chunk.offset, faults_);
         const std::uint64_t matrices_at = sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
         const std::uint64_t size = matrices_at + std::uint64_t{record->entries} * sizeof(glm::mat4);
         if (size != chunk.size) {
             faults_.add({ErrorCode::kRecordSize, chunk.offset, chunk.size, size});
-            return {};
+            return std::nullopt;
         }
         const Bytes payload = tree_.payload(number);
+        const std::uint64_t joints_end = sizeof(PaletteRecord) + std::uint64_t{record->entries} * sizeof(std::uint32_t);
+        for (const std::byte gap : payload.subspan(joints_end, matrices_at - joints_end)) {
+            if (gap == std::byte{0}) continue;
+            faults_.add({ErrorCode::kReservedField, chunk.offset, std::to_integer<std::uint64_t>(gap)});
+            break;
+        }
         PaletteView palette{view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record->entries),
                             view_at<glm::mat4>(payload, matrices_at, record->entries)};
         for (const std::uint32_t joint : palette.joints) {
             if (joint < joints) continue;
             faults_.add({ErrorCode::kJointRange, chunk.offset, joint, joints});
-            return {};
+            return std::nullopt;
         }
         return palette;
     }
@@ -191,16 +210,16 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     pool.vertices = record->vertices;
     pool.joint = record->joint;
     if (pool.joint != kNone && pool.joint >= joints) {
-        faults.add({ErrorCode::kJointRange, offset, pool.joint, joints});
+        faults.add({ErrorCode::kJointRange, offset_of(tree, chunk, FourCC("VINF")), pool.joint, joints});
         pool.joint = kNone;
     }
 
     for (const std::uint32_t number : tree.children(chunk)) {
         const FourCC id = tree[number].id;
         if (id == FourCC("TEXC")) {
-            if (const auto stream = reader.stream(number, kCoords, pool.vertices)) pool.texture_coords.push_back(*stream);
+            reader.add_set(pool.texture_coords, number, kCoords, pool.vertices);
         } else if (id == FourCC("COLR")) {
-            if (const auto stream = reader.stream(number, kColour, pool.vertices)) pool.colours.push_back(*stream);
+            reader.add_set(pool.colours, number, kColour, pool.vertices);
         } else if (id == FourCC("USER")) {
             const auto values = reader.find(number, FourCC("VALS"), kAnything, pool.vertices);
             if (values) pool.attributes.push_back({read_text(tree, number, FourCC("NAME"), faults), *values});
@@ -220,12 +239,19 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
 
     pool.bones = reader.find(chunk, FourCC("BONE"), kBones, pool.vertices);
     pool.weights = reader.find(chunk, FourCC("WGHT"), kWeights, pool.vertices);
-    const std::uint32_t palette = tree.find(chunk, FourCC("PALT"));
-    if (palette != kNone && !tree[palette].is_container()) pool.palette = reader.palette(palette, joints);
-    const bool has_palette = palette != kNone;
-    if (pool.bones.has_value() != pool.weights.has_value() || pool.bones.has_value() != has_palette ||
-        (pool.bones && pool.bones->components != pool.weights->components)) {
+    const std::uint32_t palette_chunk = tree.find(chunk, FourCC("PALT"));
+    const bool has_palette = palette_chunk != kNone;
+    std::optional<PaletteView> palette;
+    if (has_palette && !tree[palette_chunk].is_container()) palette = reader.palette(palette_chunk, joints);
+    if (palette) pool.palette = *palette;
+    const bool has_bones = tree.find(chunk, FourCC("BONE")) != kNone;
+    const bool has_weights = tree.find(chunk, FourCC("WGHT")) != kNone;
+    if (has_bones != has_weights || has_bones != has_palette ||
+        (pool.bones && pool.weights && pool.bones->components != pool.weights->components)) {
         faults.add({ErrorCode::kStreamIncomplete, offset});
+        palette.reset();
+    }
+    if (!pool.bones || !pool.weights || !palette) {  // a rigid pool, or one with a fault
         pool.bones.reset();
         pool.weights.reset();
     }

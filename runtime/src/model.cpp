@@ -47,22 +47,15 @@ std::vector<Draw> make_draws(std::span<const PolygonView> polygons) {
 
 }  // namespace
 
-Model::RigidMovers Model::find_movers(const ObjectView& object, std::uint32_t pool) {
-    RigidMovers movers;
-    const Pool& view = object.pools[pool];
-    movers.joint = view.joint;
-    if (!view.is_rigid()) return movers;
-    std::vector<const PolygonView*> ranges;
-    for (const PolygonView& polygons : object.skeleton.polygons) {
-        if (polygons.pool == pool && polygons.count != 0) ranges.push_back(&polygons);
-    }
-    if (std::all_of(ranges.begin(), ranges.end(), [&](const PolygonView* range) { return range->joint == ranges.front()->joint; })) {
-        if (!ranges.empty()) movers.joint = ranges.front()->joint;
-        return movers;
-    }
-    movers.per_vertex.assign(view.vertices, view.joint);
-    for (const PolygonView* range : ranges) {
-        for (std::uint32_t k = 0; k < range->count; ++k) movers.per_vertex[view.indices->index(range->first + k, 0)] = range->joint;
+std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
+    std::vector<RigidMovers> movers(object.pools.size());
+    for (std::size_t pool = 0; pool < movers.size(); ++pool) movers[pool].joint = object.pools[pool].joint;
+    for (const PolygonView& range : object.skeleton.polygons) {
+        RigidMovers& mover = movers[range.pool];
+        const Pool& pool = object.pools[range.pool];
+        if (!pool.is_rigid() || range.joint == mover.joint || range.count == 0) continue;
+        if (mover.per_vertex.empty()) mover.per_vertex.assign(pool.vertices, mover.joint);
+        for (std::uint32_t k = 0; k < range.count; ++k) mover.per_vertex[pool.indices->index(range.first + k, 0)] = range.joint;
     }
     return movers;
 }
@@ -86,13 +79,13 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
     data->joints.reserve(object.skeleton.joints.size());
     for (const JointView& joint : object.skeleton.joints) data->joints.push_back(make_joint(joint));
     data->draws = make_draws(object.skeleton.polygons);
+    data->movers = find_movers(object);
     data->first_vertex.push_back(0);
     data->first_target.push_back(0);
     for (std::uint32_t pool = 0; pool < object.pools.size(); ++pool) {
         const Pool& view = object.pools[pool];
         data->first_vertex.push_back(data->first_vertex.back() + view.vertices);
         data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(view.targets.size()));
-        data->movers.push_back(find_movers(object, pool));
         data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(view.palette.joints.size()));
     }
     return Model(std::move(data));

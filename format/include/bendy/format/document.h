@@ -6,6 +6,7 @@
 #include <bendy/format/pool.h>
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct ObjectView {
 
 /// A whole file as typed views into its bytes.
 struct Document {
-    VersionRecord version;
+    std::optional<VersionRecord> version;  ///< absent only beside a fault
     std::vector<TextureView> textures;
     std::vector<MaterialView> materials;        ///< HEAD's MATE chunks, then those of the objects' joints
     std::uint32_t global_materials = 0;         ///< how many of them are HEAD's

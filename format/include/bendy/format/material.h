@@ -4,6 +4,7 @@
 #include <bendy/format/records.h>
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -21,9 +22,9 @@ struct MaterialView {
 /// One encoding of a texture's image: embedded bytes, or a URI, or the image of another texture.
 struct ImageView {
     MediaType media = MediaType::other;
-    Bytes bytes;           ///< of an IMAG
-    std::string_view uri;  ///< of a LINK
-    SameRecord same{kNone, 0};  ///< of a SAME
+    Bytes bytes;                     ///< of an IMAG
+    std::string_view uri;            ///< of a LINK
+    std::optional<SameRecord> same;  ///< of a SAME
 };
 
 struct TextureView {

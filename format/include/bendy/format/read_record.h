@@ -25,6 +25,12 @@ std::optional<R> read_child_record(const ChunkTree& tree, std::uint32_t containe
     return *record;
 }
 
+/// Where a container's leaf of this id stands, for faults in it; the container's own place if it has none.
+inline std::uint64_t offset_of(const ChunkTree& tree, std::uint32_t container, FourCC id) {
+    const std::uint32_t number = tree.find(container, id);
+    return tree[number == kNone ? container : number].offset;
+}
+
 /// Reserved fields must be zero: they may mean something one day.
 template <class Field>
 void check_reserved(const Field& field, std::uint64_t offset, Faults& faults) {

@@ -132,6 +132,9 @@ struct ImageRecord {
     std::uint8_t media = 0;
     std::array<std::uint8_t, 15> reserved{};
 };
+
+// The numbers of the records' enumerations, and how many there are of each.
+
 enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
 inline constexpr unsigned kComponentTypes = 6;
 enum class Topology : std::uint8_t { triangles, lines, points };
@@ -177,14 +180,18 @@ inline constexpr std::uint64_t kShortest = sizeof(R);
 #undef BENDY_RECORD
 #undef BENDY_FIELD
 
-/// The record at the start of a leaf's payload. Fields that the payload is too short for keep their defaults.
-/// RECORD_TOO_SHORT if it does not even hold the ones that must be there; UNSUPPORTED_CODEC if it is encoded.
+/// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their defaults;
+/// or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than the form that
+/// it must have; UNSUPPORTED_CODEC if it is encoded.
 template <class R>
 Result<R> read_record(const ChunkTree& tree, std::uint32_t chunk) {
     const Bytes payload = tree.payload(chunk);
     const std::uint64_t offset = tree[chunk].offset;
     if (tree[chunk].codec() != 0) return Error{ErrorCode::kUnsupportedCodec, offset, tree[chunk].codec()};
     if (payload.size() < kShortest<R>) return Error{ErrorCode::kRecordTooShort, offset, payload.size(), kShortest<R>};
+    if (payload.size() > kShortest<R> && payload.size() < sizeof(R)) {
+        return Error{ErrorCode::kRecordTooShort, offset, payload.size(), sizeof(R)};
+    }
     R record;
     copy_at(payload, 0, record);
     return record;

@@ -77,8 +77,8 @@ public:
 
 private:
     struct RigidMovers {
-        std::uint32_t joint = kNone;           // of every vertex, if per_vertex is empty
-        std::vector<std::uint32_t> per_vertex;  // only for a pool whose parts hang on several joints
+        std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
+        std::vector<std::uint32_t> per_vertex;  // only for a pool with polygons of other joints
     };
     struct Data {
         MappedFile file;
@@ -94,7 +94,7 @@ private:
 
     explicit Model(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
-    static RigidMovers find_movers(const ObjectView& object, std::uint32_t pool);
+    static std::vector<RigidMovers> find_movers(const ObjectView& object);
 
     std::unique_ptr<const Data> data_;  // behind a pointer, so that views into it survive a move of the Model
 };

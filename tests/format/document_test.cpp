@@ -1,0 +1,231 @@
+#include <bendy/format/document.h>
+
+#include "edit_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using namespace test;
+
+TEST(Document, GivesTheWholeFile) {
+    const Loaded sample(sample_file());
+    EXPECT_EQ(sample.lines(), Lines{});
+    const Document& document = sample.document;
+    EXPECT_EQ(document.version.major, kVersionMajor);
+    EXPECT_EQ(document.version.vertices, 10u);
+    EXPECT_STREQ(reinterpret_cast<const char*>(document.version.generator.data()), "sample");
+    EXPECT_EQ(document.extras, "{\"file\":true}");
+    EXPECT_EQ(document.textures.size(), 3u);
+    EXPECT_EQ(document.materials.size(), 2u);
+    ASSERT_EQ(document.objects.size(), 1u);
+    const ObjectView& object = document.objects[0];
+    EXPECT_EQ(object.name, "fox");
+    EXPECT_EQ(object.extras, "{\"a\":1}");
+    EXPECT_EQ(object.skeleton.joints.size(), 4u);
+    EXPECT_EQ(object.pools.size(), 2u);
+    EXPECT_EQ(object.cycles.size(), 1u);
+}
+
+TEST(Document, TakesAFileWithNothingButItsVersion) {
+    const Node root = make_container(FourCC("HEAD"), {make_leaf(FourCC("VERS"), bytes_of(VersionRecord{}))});
+    EXPECT_EQ(faults_in(root), Lines{});
+    EXPECT_TRUE(Loaded(root).document.objects.empty());
+}
+
+TEST(Document, ReadsSiblingsInAnyOrder) {
+    Node root = sample();
+    const auto reverse = [](Node& node) { std::reverse(node.children.begin(), node.children.end()); };
+    reverse(at(root, "HEAD/MATE"));
+    reverse(at(root, "HEAD/TEXT"));
+    reverse(at(root, "HEAD/OBJE/CYCL"));
+    reverse(at(root, "HEAD/OBJE/VECT[1]"));
+    reverse(at(root, "HEAD/OBJE/VECT/USER"));
+    reverse(at(root, "HEAD/OBJE/SKIN/SKIN[1]"));
+    // The object's cycle and pools before its joints; HEAD's object before its materials and textures.
+    Node& object = at(root, "HEAD/OBJE");
+    std::stable_partition(object.children.begin(), object.children.end(), [](const Node& node) { return node.id == FourCC("CYCL"); });
+    std::stable_partition(object.children.begin(), object.children.end(), [](const Node& node) { return node.id != FourCC("SKIN"); });
+    std::stable_partition(root.children.begin(), root.children.end(), [](const Node& node) { return node.id == FourCC("OBJE"); });
+    EXPECT_EQ(faults_in(root), Lines{});
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.document.objects.at(0).cycles.at(0).tracks.size(), 5u);
+    EXPECT_EQ(loaded.document.materials.at(0).name, "red");
+    EXPECT_EQ(loaded.document.textures.at(0).images.at(0).uri, "skin.png");
+}
+
+TEST(Document, TurnsLocalMaterialNumbersIntoItsOwn) {
+    const Loaded sample(sample_file());
+    const auto& polygons = sample.document.objects.at(0).skeleton.polygons;
+    EXPECT_EQ(polygons[0].material, 1u);  // the local one, after the global one
+    EXPECT_EQ(polygons[1].material, kNone);
+    EXPECT_EQ(polygons[3].material, 0u);
+}
+
+TEST(Document, KeepsLocalMaterialsOfSeveralObjectsApart) {
+    Node root = sample();
+    Node second = at(root, "HEAD/OBJE");
+    Node& spine = at(second, "OBJE/SKIN/SKIN");
+    spine.children.insert(spine.children.begin(), at(second, "OBJE/SKIN/MATE"));
+    edit<PolygonRecord>(child(spine, "POLY"), [](auto& polygons) { polygons.material = kLocalMaterial; });
+    root.children.push_back(second);
+    edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) {
+        version = sample_version();
+        version.objects = 2, version.joints = 8, version.pools = 4, version.vertices = 20, version.cycles = 2, version.materials = 4;
+    });
+    EXPECT_EQ(faults_in(root), Lines{});
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.document.objects.at(0).skeleton.polygons[0].material, 1u);
+    EXPECT_EQ(loaded.document.objects.at(1).skeleton.polygons[0].material, 2u);
+    EXPECT_EQ(loaded.document.objects.at(1).skeleton.polygons[1].material, 3u);
+}
+
+template <class Change>
+Lines faults_with_polygons(const char* path, Change change) {
+    Node root = sample();
+    edit<PolygonRecord>(at(root, path), change);
+    return faults_in(root);
+}
+
+TEST(Document, RefusesMaterialsThatAreNotThere) {
+    const char* const hip = "HEAD/OBJE/SKIN/POLY";
+    const Lines bad{"MATERIAL_RANGE HEAD/OBJE/SKIN/POLY"};
+    EXPECT_EQ(faults_with_polygons(hip, [](auto& polygons) { polygons.material = 0; }), Lines{});
+    for (const std::uint32_t material : {1u, 2u, 0x7fff'ffffu, kLocalMaterial | 1u, kNone - 1}) {
+        EXPECT_EQ(faults_with_polygons(hip, [=](auto& polygons) { polygons.material = material; }), bad) << material;
+    }
+    // The spine has no local materials; the last joint's are the end of the table.
+    EXPECT_EQ(faults_with_polygons("HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.material = kLocalMaterial; }),
+              Lines{"MATERIAL_RANGE HEAD/OBJE/SKIN/SKIN/POLY"});
+    Node root = sample();
+    Node& tail = at(root, "HEAD/OBJE/SKIN/SKIN[1]");
+    Node polygons = at(root, "HEAD/OBJE/SKIN/POLY");
+    tail.children.push_back(polygons);
+    EXPECT_EQ(Loaded(root).lines(), Lines{"MATERIAL_RANGE HEAD/OBJE/SKIN/SKIN[1]/POLY"});
+}
+
+TEST(Document, RefusesPoolsThatAreNotThere) {
+    for (const std::uint32_t pool : {2u, 0x8000'0000u, kNone}) {
+        EXPECT_EQ(faults_with_polygons("HEAD/OBJE/SKIN/POLY", [=](auto& polygons) { polygons.pool = pool; }),
+                  Lines{"POOL_RANGE HEAD/OBJE/SKIN/POLY"});
+    }
+}
+
+TEST(Document, RefusesPolygonsPastTheIndices) {
+    const char* const hip = "HEAD/OBJE/SKIN/POLY";
+    const Lines bad{"INDEX_RANGE HEAD/OBJE/SKIN/POLY"};
+    const auto faults = [&](std::uint32_t first, std::uint32_t count) {
+        return faults_with_polygons(hip, [=](auto& polygons) { polygons.first = first, polygons.count = count; });
+    };
+    EXPECT_EQ(faults(0, 6), Lines{});
+    EXPECT_EQ(faults(3, 3), Lines{});
+    EXPECT_EQ(faults(6, 0), Lines{});
+    EXPECT_EQ(faults(4, 3), bad);
+    EXPECT_EQ(faults(7, 0), bad);
+    EXPECT_EQ(faults(0, 9), bad);
+    EXPECT_EQ(faults(kNone, 3), bad);
+    EXPECT_EQ(faults(3, 0xffff'fffdu), bad);  // whose sum wraps to 0 in 32 bits
+}
+
+TEST(Document, RefusesPolygonsOfAPoolWithoutIndices) {
+    Node root = sample();
+    remove(at(root, "HEAD/OBJE/VECT"), "INDX");
+    EXPECT_EQ(faults_in(root), (Lines{"INDEX_RANGE HEAD/OBJE/SKIN/POLY", "INDEX_RANGE HEAD/OBJE/SKIN/SKIN/POLY"}));
+}
+
+TEST(Document, RefusesAVertexOfARigidPoolThatTwoJointsMove) {
+    Node root = sample();
+    Node& indices = at(root, "HEAD/OBJE/VECT[1]/INDX");
+    set(indices, sizeof(StreamRecord) + 5 * sizeof(std::uint32_t), 2u);  // the spine's point, a corner of the head's triangle
+    EXPECT_EQ(faults_in(root), Lines{"RIGID_SHARED HEAD/OBJE/VECT[1]"});
+    set(indices, sizeof(StreamRecord) + 5 * sizeof(std::uint32_t), 5u);
+    set(indices, sizeof(StreamRecord) + 3 * sizeof(std::uint32_t), 2u);  // the head's line: the same joint
+    EXPECT_EQ(faults_in(root), Lines{});
+}
+
+TEST(Document, LetsJointsShareTheVerticesOfASkinnedPool) {
+    EXPECT_EQ(faults_with_polygons("HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.first = 0; }), Lines{});
+}
+
+TEST(Document, HoldsEveryCountOfTheVersionAgainstTheFile) {
+    for (const std::size_t offset : {offsetof(VersionRecord, objects), offsetof(VersionRecord, joints), offsetof(VersionRecord, pools),
+                                     offsetof(VersionRecord, vertices), offsetof(VersionRecord, cycles), offsetof(VersionRecord, materials),
+                                     offsetof(VersionRecord, textures)}) {
+        for (const std::uint32_t change : {1u, ~0u}) {
+            Node root = sample();
+            edit<std::uint32_t>(at(root, "HEAD/VERS"), [=](std::uint32_t& count) { count += change; }, offset);
+            EXPECT_EQ(faults_in(root), Lines{"COUNT_MISMATCH HEAD/VERS"}) << offset;
+        }
+    }
+    Node root = sample();
+    edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) { version.vertices |= std::uint64_t{1} << 32; });
+    EXPECT_EQ(faults_in(root), Lines{"COUNT_MISMATCH HEAD/VERS"});
+}
+
+TEST(Document, RefusesOtherSignaturesAndMajorVersions) {
+    for (std::size_t byte = 0; byte < kSignature.size(); ++byte) {
+        Node root = sample();
+        edit<VersionRecord>(at(root, "HEAD/VERS"), [=](auto& version) { version.signature[byte] ^= 0x20; });
+        EXPECT_EQ(faults_in(root), Lines{"SIGNATURE HEAD/VERS"}) << byte;
+    }
+    Node root = sample();
+    edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) { version.major = kVersionMajor + 1; });
+    EXPECT_EQ(faults_in(root), Lines{"UNSUPPORTED_VERSION HEAD/VERS"});
+}
+
+TEST(Document, TakesLaterMinorVersionsWithWhatTheyAdd) {
+    Node root = sample();
+    Node& version = at(root, "HEAD/VERS");
+    edit<VersionRecord>(version, [](auto& record) { record.minor = 65535, record.reserved = 7; });
+    version.payload.resize(version.payload.size() + 100, std::byte{0xee});
+    EXPECT_EQ(faults_in(root), Lines{});
+    edit<VersionRecord>(version, [](auto& record) { record.minor = kVersionMinor; });
+    EXPECT_EQ(faults_in(root), Lines{"RESERVED_FIELD HEAD/VERS"});
+}
+
+TEST(Document, ReadsAVersionWithoutAGenerator) {
+    Node root = sample();
+    Node& version = at(root, "HEAD/VERS");
+    version.payload.resize(offsetof(VersionRecord, generator));
+    EXPECT_EQ(faults_in(root), Lines{});
+    version.payload.pop_back();
+    EXPECT_EQ(faults_in(root).at(0), "RECORD_TOO_SHORT HEAD/VERS");
+}
+
+TEST(Document, SurvivesKnownChunksOfTheWrongShapeAnywhere) {
+    const Loaded good(sample_file());
+    for (std::uint32_t number = 1; number < good.tree.chunks().size(); ++number) {
+        const std::string path = chunk_path(good.file, good.tree[number].offset);
+        Node root = sample();
+        Node& node = at(root, path);
+        if (node.is_container()) {
+            node = make_leaf(node.id, Buffer(40, std::byte{1}));
+        } else {
+            node = make_container(node.id, {make_leaf(FourCC("NAME"), as_byte_span("x")), make_container(FourCC("SKIN"))});
+        }
+        EXPECT_FALSE(faults_in(root).empty()) << path;
+    }
+}
+
+TEST(Document, SurvivesTheLossOfAnyChunk) {
+    const Loaded good(sample_file());
+    for (std::uint32_t number = 1; number < good.tree.chunks().size(); ++number) {
+        const std::string path = chunk_path(good.file, good.tree[number].offset);
+        Node root = sample();
+        Node& parent = at(root, chunk_path(good.file, good.tree[good.tree[number].parent].offset));
+        const auto index = &at(root, path) - parent.children.data();
+        parent.children.erase(parent.children.begin() + index);
+        const Faults faults = validate(to_file(root));
+        for (const Error& fault : faults.list()) EXPECT_EQ(error_class(fault.code), ErrorClass::invalid) << path;
+    }
+}
+
+}  // namespace
+}  // namespace bendy

@@ -1,0 +1,441 @@
+#!/usr/bin/env python3
+"""Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
+
+Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
+flags of chunk.h, the stream rules of pool.cpp) with the tables of spec/, in both directions; follows the links between
+pages; and asks make_bytes.py whether its dumps and files are what it makes now. One line for each difference; exit 1 if
+there is one. Python 3, nothing else.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+SIZES = {'u8': 1, 'u16': 2, 'u32': 4, 'u64': 8, 'f32': 4}
+
+
+class Check:
+    def __init__(self, source):
+        self.source = source
+        self.spec = source / 'spec'
+        self.include = source / 'format' / 'include' / 'bendy' / 'format'
+        self.differences = 0
+        self.comparisons = 0
+
+    def fail(self, page, message):
+        self.differences += 1
+        print('%s: %s' % (page, message))
+
+    def same(self, page, what, in_spec, in_code):
+        self.comparisons += 1
+        if in_spec != in_code:
+            self.fail(page, '%s: the page has %s, the code %s' % (what, show(in_spec), show(in_code)))
+
+    def same_keys(self, page, what, in_spec, in_code):
+        self.comparisons += 1
+        for key in in_code:
+            if key not in in_spec:
+                self.fail(page, '%s %s is in the code and missing here' % (what, show(key)))
+        for key in in_spec:
+            if key not in in_code:
+                self.fail(page, '%s %s is here and not in the code' % (what, show(key)))
+
+    def code(self, name):
+        return (self.include / name).read_text(encoding='utf-8')
+
+    def page(self, name):
+        path = self.spec / name
+        if not path.is_file():
+            self.fail('spec/' + name, 'the page is missing')
+            return ''
+        return path.read_text(encoding='utf-8')
+
+    def understood(self, found, where):
+        if not found:
+            sys.exit('check_spec: nothing was found in %s: its form has changed, teach check_spec.py the new one' % where)
+        return found
+
+
+def show(value):
+    if isinstance(value, (tuple, list, set)):
+        return ' '.join(str(part) for part in (sorted(value) if isinstance(value, set) else value)) or 'nothing'
+    return str(value)
+
+
+# --- the code's tables -----------------------------------------------------------------------------------------------
+
+def strip_comments(code):
+    return re.sub(r'//[^\n]*', '', code)
+
+
+def read_chunks(check):
+    """id -> shape, parents, times, what, reserved"""
+    pattern = r'^BENDY_CHUNK\(\s*(\w{4}),\s*(\w+),\s*"([^"]*)",\s*(\w+),\s*"([^"]*)"\s*\)'
+    chunks = {}
+    for chunk, shape, parents, times, what in re.findall(pattern, check.code('chunk_ids.def'), re.MULTILINE):
+        chunks[chunk] = {'shape': shape, 'parents': set() if parents == '-' else set(parents.split()), 'times': times,
+                         'what': what, 'reserved': '(reserved)' in what}
+    return check.understood(chunks, 'chunk_ids.def')
+
+
+def read_records(check):
+    """struct -> chunk, shortest, [(offset, type, count, field)]"""
+    code = check.code('records.def')
+    records = {}
+    for chunk, struct, shortest in re.findall(r'^BENDY_RECORD\(\s*(\w+),\s*(\w+),\s*(\d+)\s*\)', code, re.MULTILINE):
+        records[struct] = {'chunk': chunk, 'shortest': int(shortest), 'fields': []}
+    fields = re.findall(r'^BENDY_FIELD\(\s*(\w+),\s*(\w+),\s*(\w+),\s*(\d+),\s*(\d+),', code, re.MULTILINE)
+    for struct, field, kind, count, offset in fields:
+        records[struct]['fields'].append((int(offset), kind, int(count), field))
+    check.understood(fields, 'records.def')
+    lines = len(re.findall(r'^BENDY_FIELD\(', code, re.MULTILINE))
+    check.understood(lines == len(fields), 'some lines of records.def')
+    return records
+
+
+def size_of(struct, records):
+    offset, kind, count, _ = max(records[struct]['fields'])
+    return offset + count * (SIZES[kind] if kind in SIZES else size_of(kind, records))
+
+
+def read_constants(check):
+    def value(expression):
+        expression = re.sub(r'std::uint\d+_t\{(\w+)\}', r'\1', expression).replace("'", '')
+        if re.fullmatch(r'[\d.e-]+f', expression):
+            return float(expression[:-1])
+        check.understood(re.fullmatch(r'[0-9a-fx()<\-+* ]+', expression), 'the constant ' + expression)
+        return eval(expression)  # digits and operators only, see above
+    pattern = r'inline constexpr [\w:]+ (k\w+) = ([^;]+);'
+    limits = {name: value(text) for name, text in re.findall(pattern, check.code('limits.h'))}
+    tolerances = {}
+    for header in ('pool.h', 'cycle.h', 'joint.h'):
+        tolerances.update({name: value(text) for name, text in re.findall(pattern, check.code(header)) if 'Tolerance' in name})
+    return check.understood(limits, 'limits.h'), check.understood(tolerances, 'the tolerances of pool.h and cycle.h')
+
+
+def read_stream_rules(check):
+    """(parent, chunk) -> types, fewest, most"""
+    code = ' '.join(strip_comments((check.source / 'format' / 'src' / 'pool.cpp').read_text(encoding='utf-8')).split())
+    limits, _ = read_constants(check)
+    rules = {}
+    for rule, types, fewest, most in re.findall(r'const StreamRule (k\w+)\{\{([^}]*)\}, (\w+), (\w+)\};', code):
+        numbers = [limits[n] if n in limits else int(n, 0) for n in (fewest, most)]
+        rules[rule] = (re.findall(r'ComponentType::(\w+)', types), numbers[0], numbers[1])
+    check.understood(rules, 'the StreamRule constants of pool.cpp')
+    uses = {}
+    for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), (k\w+)', code):
+        parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
+        uses[parent, chunk] = rules[rule]
+    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ if \(const auto stream = reader\.stream\(number, (k\w+)', code):
+        uses['VECT', chunk] = rules[rule]
+    for rule in re.findall(r'stream\(index_chunk, (k\w+)', code):
+        uses['TARG', 'INDX'] = rules[rule]
+    check.understood(len(uses) >= 13, 'all uses of the StreamRule constants of pool.cpp')
+    return uses
+
+
+# --- the pages' tables -----------------------------------------------------------------------------------------------
+
+def tables(page):
+    """Every table of a page: (the text line before it, header cells, rows of cells)."""
+    lines = page.splitlines()
+    at = 0
+    while at < len(lines):
+        if not lines[at].startswith('|'):
+            at += 1
+            continue
+        before = next((line for line in reversed(lines[:at]) if line.strip()), '')
+        start = at
+        while at < len(lines) and lines[at].startswith('|'):
+            at += 1
+        rows = [[cell.strip() for cell in line.strip().strip('|').split('|')] for line in lines[start:at]]
+        yield before, rows[0], rows[2:]
+
+
+def parents_of_path(path):
+    steps = path.split('/')
+    last = steps[-1].rstrip('+')
+    parents = {steps[-2].rstrip('+')} if len(steps) > 1 else set()
+    if steps[-1].endswith('+'):
+        parents.add(last)
+    return parents
+
+
+def check_chunk_pages(check, chunks):
+    pages = {path.stem for path in (check.spec / 'chunks').glob('*.md')}
+    check.same_keys('spec/chunks', 'page', sorted(pages), sorted(chunks))
+    limits, _ = read_constants(check)
+    for chunk in sorted(pages & set(chunks)):
+        name = 'spec/chunks/%s.md' % chunk
+        rule = chunks[chunk]
+        page = check.page('chunks/%s.md' % chunk)
+        check.same(name, 'title', page.splitlines()[0], '# %s: %s' % (chunk, rule['what']))
+        facts = {}
+        for _, header, rows in tables(page):
+            if header == ['', '']:
+                facts = {row[0]: row[1] for row in rows}
+                break
+        check.same_keys(name, 'fact', list(facts), ['path', 'shape', 'occurs', 'since'])
+        check.same(name, 'shape', facts.get('shape'), rule['shape'])
+        check.same(name, 'occurs', facts.get('occurs'), rule['times'])
+        since = re.fullmatch(r'(\d+)\.(\d+)(, reserved)?', facts.get('since', ''))
+        if not since:
+            check.fail(name, 'since is not like "0.1" or "0.1, reserved"')
+        else:
+            now = (limits['kVersionMajor'], limits['kVersionMinor'])
+            if (int(since[1]), int(since[2])) > now:
+                check.fail(name, 'since %s.%s is later than the version, %d.%d' % (since[1], since[2], *now))
+            check.same(name, 'reserved', bool(since[3]), rule['reserved'])
+        parents = set()
+        for path in re.findall(r'`([^`]+)`', facts.get('path', '')):
+            steps = path.split('/')
+            if steps[-1].rstrip('+') != chunk or steps[0] != 'HEAD':
+                check.fail(name, 'the path %s does not lead from HEAD to %s' % (path, chunk))
+            for parent, child in zip(steps, steps[1:]):
+                if parent.rstrip('+') not in chunks.get(child.rstrip('+'), {'parents': ()})['parents']:
+                    check.fail(name, 'on the path %s, %s may not stand in %s' % (path, child, parent))
+            parents |= parents_of_path(path)
+        check.same(name, 'parents', parents, rule['parents'])
+        has_example = '<!-- make_bytes: chunk %s -->' % chunk in page
+        check.same(name, 'has an example', has_example, not rule['reserved'])
+
+
+def check_index(check, chunks):
+    rows = {}
+    for _, header, body in tables(check.page('README.md')):
+        if header == ['chunk', 'what', 'in', 'occurs']:
+            for chunk, what, parents, times in body:
+                link = re.fullmatch(r'\[(\w+)\]\(chunks/(\w+)\.md\)', chunk)
+                if not link or link[1] != link[2]:
+                    check.fail('spec/README.md', 'the index has %s for a link' % chunk)
+                    continue
+                rows[link[1]] = (what, set() if parents == 'the root' else set(parents.split()), times)
+    check.same_keys('spec/README.md', 'chunk', list(rows), list(chunks))
+    for chunk in rows.keys() & chunks.keys():
+        rule = chunks[chunk]
+        for what, in_spec, in_code in zip(('what', 'parents', 'occurs'), rows[chunk], (rule['what'], rule['parents'], rule['times'])):
+            check.same('spec/README.md', '%s of %s' % (what, chunk), in_spec, in_code)
+
+
+def check_tree(check, chunks):
+    name = 'spec/tree.md'
+    block = re.search(r'```\n(HEAD.*?)```', check.page('tree.md'), re.DOTALL)
+    if not block:
+        check.fail(name, 'the tree is missing')
+        return
+    marks = {'': 'one', '?': 'optional', '*': 'many'}
+    edges = set()
+    open_chunks = []
+    for line in block[1].splitlines():
+        entry = re.match(r'( *)(\w{4})([?*]?)(?:\s|$)', line)
+        if not entry or len(entry[1]) % 2 or len(entry[1]) // 2 > len(open_chunks):
+            check.fail(name, 'cannot read the line: ' + line)
+            continue
+        depth = len(entry[1]) // 2
+        del open_chunks[depth:]
+        if depth:
+            edges.add((open_chunks[-1], entry[2], marks[entry[3]]))
+        open_chunks.append(entry[2])
+        if entry[2] in chunks:
+            check.same(name, '%s is marked reserved' % entry[2], '(reserved)' in line, chunks[entry[2]]['reserved'])
+    expected = {(parent, chunk, rule['times']) for chunk, rule in chunks.items() for parent in rule['parents']}
+    check.same_keys(name, 'line', sorted(edges), sorted(expected))
+
+
+def check_records(check, records):
+    found = {}
+    for path in sorted(check.spec.glob('**/*.md')):
+        name = path.relative_to(check.source).as_posix()
+        for before, header, rows in tables(path.read_text(encoding='utf-8')):
+            if header != ['offset', 'type', 'count', 'field', 'meaning']:
+                continue
+            caption = re.fullmatch(r'`(\w+)`: (\d+) bytes(?:, the first (\d+) needed)?(, repeated to the end of the payload)?\.', before)
+            if not caption:
+                check.fail(name, 'a field table has no caption like "`RestRecord`: 52 bytes, the first 40 needed."')
+                continue
+            struct = caption[1]
+            if struct in found:
+                check.fail(name, '%s stands here and in %s' % (struct, found[struct]))
+            found[struct] = name
+            if struct not in records:
+                continue
+            record = records[struct]
+            place = 'spec/streams.md' if struct == 'StreamRecord' else 'spec/chunks/%s.md' % record['chunk']
+            check.same(name, 'page of ' + struct, name, place)
+            total = size_of(struct, records)
+            check.same(name, 'size of ' + struct, int(caption[2]), total)
+            needed = 0 if caption[4] else int(caption[3] or caption[2])
+            check.same(name, 'needed bytes of ' + struct, needed, record['shortest'])
+            in_spec = {row[3]: (row[0], row[1], row[2]) for row in rows if len(row) == 5}
+            in_code = {field: (str(offset), kind, str(count)) for offset, kind, count, field in record['fields']}
+            if len(in_spec) != len(rows):
+                check.fail(name, 'a row of %s has not five cells, or names a field twice' % struct)
+            check.same_keys(name, 'field of %s:' % struct, list(in_spec), list(in_code))
+            check.same(name, 'order of %s' % struct, [f for f in in_spec if f in in_code], [f for f in in_code if f in in_spec])
+            for field in in_spec.keys() & in_code.keys():
+                for what, a, b in zip(('offset', 'type', 'count'), in_spec[field], in_code[field]):
+                    check.same(name, '%s of %s.%s' % (what, struct, field), a, b)
+            for row in rows:
+                if len(row) == 5 and not row[4]:
+                    check.fail(name, '%s.%s has no meaning' % (struct, row[3]))
+    check.same_keys('spec', 'record', list(found), list(records))
+
+
+def check_enumerations(check):
+    code = {}
+    for enum, body in re.findall(r'enum class (\w+) : std::uint8_t \{([^}]*)\};', strip_comments(check.code('records.h'))):
+        code[enum] = re.findall(r'\w+', body)
+    check.understood(code, 'the enumerations of records.h')
+    spec = {}
+    for path in sorted(check.spec.glob('**/*.md')):
+        for _, header, rows in tables(path.read_text(encoding='utf-8')):
+            if header[0] == 'value' and header[1] in code:
+                name = path.relative_to(check.source).as_posix()
+                spec[header[1]] = [row[1] for row in rows]
+                check.same(name, 'values of ' + header[1], [row[0] for row in rows], [str(k) for k in range(len(rows))])
+                check.same(name, 'names of ' + header[1], spec[header[1]], code[header[1]])
+                if header[1] == 'ComponentType':
+                    sizes = re.search(r'kSizes\{([\d, ]+)\}', check.code('records.h'))
+                    check.understood(sizes, 'component_size of records.h')
+                    check.same(name, 'bytes of ComponentType', [row[2] for row in rows], re.findall(r'\d+', sizes[1]))
+    check.same_keys('spec', 'enumeration', list(spec), list(code))
+
+
+def check_streams(check):
+    name = 'spec/streams.md'
+    spec = {}
+    for _, header, rows in tables(check.page('streams.md')):
+        if header[:4] == ['chunk', 'in', 'types', 'components']:
+            for chunk, parent, types, components, *_ in rows:
+                fewest, _, most = components.partition('–')
+                spec[parent, re.sub(r'\[(\w+)\].*', r'\1', chunk)] = (set(types.split()), fewest, most or fewest)
+    code = {key: (set(types), str(fewest), str(most)) for key, (types, fewest, most) in read_stream_rules(check).items()}
+    check.same_keys(name, 'stream', sorted(spec), sorted(code))
+    for key in spec.keys() & code.keys():
+        for what, a, b in zip(('types', 'fewest components', 'most components'), spec[key], code[key]):
+            check.same(name, '%s of %s in %s' % (what, key[1], key[0]), a, b)
+
+
+def check_codes(check):
+    name = 'spec/diagnostics.md'
+    pattern = r'^BENDY_ERROR\(\s*\w+,\s*(\w+),\s*"(\w+)",\s*"([^"]*)"\s*\)'
+    code = {c: (kind, text) for kind, c, text in re.findall(pattern, check.code('error_codes.def'), re.MULTILINE)}
+    check.understood(code, 'error_codes.def')
+    check.understood(len(code) == len(re.findall(r'^BENDY_ERROR\(', check.code('error_codes.def'), re.MULTILINE)), 'some lines of error_codes.def')
+    spec = {}
+    for _, header, rows in tables(check.page('diagnostics.md')):
+        if header == ['code', 'class', 'text', 'what to do']:
+            for row in rows:
+                if len(row) != 4 or not row[3]:
+                    check.fail(name, '%s does not say what to do' % row[0])
+                    continue
+                if row[0].strip('`') in spec:
+                    check.fail(name, '%s stands twice' % row[0])
+                spec[row[0].strip('`')] = (row[1], row[2])
+    check.same_keys(name, 'code', list(spec), list(code))
+    for key in spec.keys() & code.keys():
+        for what, a, b in zip(('class', 'text'), spec[key], code[key]):
+            check.same(name, '%s of %s' % (what, key), a, b)
+    used = set()
+    for path in sorted(check.spec.glob('**/*.md')):
+        if path.name == 'diagnostics.md':
+            continue
+        words = set(re.findall(r'`([A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*)`', path.read_text(encoding='utf-8')))
+        used |= words & set(code)
+        for word in sorted(words - set(code)):
+            if '_' in word:
+                check.fail(path.relative_to(check.source).as_posix(), '%s is no code of error_codes.def' % word)
+    for key, (kind, _) in code.items():
+        if kind != 'io' and key not in used:
+            check.fail('spec', 'no page but diagnostics.md says when %s comes' % key)
+
+
+def check_limits(check):
+    name = 'spec/limits.md'
+    limits, tolerances = read_constants(check)
+    code = {**limits, **tolerances}
+    spec = {}
+    for _, header, rows in tables(check.page('limits.md')):
+        if header == ['constant', 'value', 'meaning']:
+            spec.update({row[0]: row[1] for row in rows})
+    check.same_keys(name, 'constant', list(spec), list(code))
+    for key in spec.keys() & code.keys():
+        try:
+            value = float(spec[key]) if isinstance(code[key], float) else int(spec[key])
+        except ValueError:
+            value = spec[key]
+        check.same(name, key, value, code[key])
+    version = '%d.%d' % (limits['kVersionMajor'], limits['kVersionMinor'])
+    for page, pattern in (('README.md', r'^Version \*\*([\d.]+)\*\*'), ('versions.md', r'This specification describes version \*\*([\d.]+)\*\*')):
+        found = re.search(pattern, check.page(page), re.MULTILINE)
+        check.same('spec/' + page, 'version', found[1] if found else 'none', version)
+
+
+def check_flags(check):
+    name = 'spec/grammar.md'
+    masks = {}
+    pattern = r'k(\w+?)(?:Flags?|Mask) = (?:1u << (\d+)|0x([0-9a-f]+)u),'
+    for flag, shift, mask in re.findall(pattern, check.code('chunk.h')):
+        masks[flag.lower()] = 1 << int(shift) if shift else int(mask, 16)
+    check.understood(masks, 'the flags of chunk.h')
+    spec = {}
+    for _, header, rows in tables(check.page('grammar.md')):
+        if header == ['bits', 'name', 'meaning']:
+            for bits, flag, _ in rows:
+                first, _, last = bits.partition('–')
+                spec[flag.lower()] = sum(1 << bit for bit in range(int(first), int(last or first) + 1))
+    check.same_keys(name, 'flag', list(spec), list(masks))
+    for flag in spec.keys() & masks.keys():
+        check.same(name, 'bits of ' + flag, hex(spec[flag]), hex(masks[flag]))
+
+
+def anchors(page):
+    outside = re.sub(r'```.*?```', '', page, flags=re.DOTALL)
+    for heading in re.findall(r'^#+ (.*)$', outside, re.MULTILINE):
+        yield re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-')
+
+
+def check_links(check):
+    for path in sorted(check.spec.glob('**/*.md')):
+        page = path.read_text(encoding='utf-8')
+        name = path.relative_to(check.source).as_posix()
+        for target, anchor in re.findall(r'\]\(([^)#\s]*)(?:#([^)\s]*))?\)', re.sub(r'```.*?```', '', page, flags=re.DOTALL)):
+            check.comparisons += 1
+            other = path.parent / target if target else path
+            if not other.exists():
+                check.fail(name, 'the link %s leads nowhere' % target)
+            elif anchor and anchor not in anchors(other.read_text(encoding='utf-8')):
+                check.fail(name, 'the link %s#%s leads to no heading' % (target, anchor))
+
+
+def check_bytes(check):
+    made = subprocess.run([sys.executable, '-B', str(check.spec / 'make_bytes.py'), '--check'], capture_output=True, text=True)
+    if made.returncode != 0:
+        for line in (made.stdout + made.stderr).splitlines():
+            check.fail('spec/make_bytes.py', line)
+    check.comparisons += 1
+
+
+def main(arguments):
+    source = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent.parent).resolve()
+    check = Check(source)
+    chunks = read_chunks(check)
+    records = read_records(check)
+    check_chunk_pages(check, chunks)
+    check_index(check, chunks)
+    check_tree(check, chunks)
+    check_records(check, records)
+    check_enumerations(check)
+    check_streams(check)
+    check_codes(check)
+    check_limits(check)
+    check_flags(check)
+    check_links(check)
+    check_bytes(check)
+    print('%d comparisons, %d differences' % (check.comparisons, check.differences))
+    return 1 if check.differences else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
