@@ -57,7 +57,8 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
     std::uint64_t triangles = 0;
     std::uint64_t most_influences = 0;
     for (const Draw& draw : model->draws()) triangles += draw.topology == Topology::triangles ? draw.count / 3 : 0;
-    for (const Pool& pool : model->pools()) most_influences = std::max<std::uint64_t>(most_influences, pool.bones ? pool.bones->components : 0);
+    for (const Pool& pool : model->pools())
+        most_influences = std::max<std::uint64_t>(most_influences, pool.bones ? pool.bones->components : 0);
     std::set<std::string_view> targets;
     for (const Pool& pool : model->pools()) {
         for (const TargetView& target : pool.targets) targets.insert(target.name);
@@ -72,7 +73,8 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
     std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
     std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
-    if (most_influences != 0) std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
+    if (most_influences != 0)
+        std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
     if (model->target_count() != 0) {
         std::cout << "\n  targets    " << grouped(model->target_count());
         const char* separator = ": ";
@@ -99,8 +101,10 @@ void run(Arguments arguments) {
         fail(arguments.input, printable(error.place.empty() ? error.message : error.place + ": " + error.message));
     }
     std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
-    if (const auto written = write_file(arguments.output, *bytes); !written) fail(arguments.output, describe(written.error()));
+    if (std::filesystem::equivalent(arguments.input, arguments.output, ignored))
+        fail(arguments.output, "is the input itself");
+    if (const auto written = write_file(arguments.output, *bytes); !written)
+        fail(arguments.output, describe(written.error()));
     print_warnings(arguments.input, report);
     if (!arguments.quiet) print_summary(arguments, *bytes);
 }
@@ -112,13 +116,16 @@ void add_convert(CLI::App& program) {
     CLI::App* command = program.add_subcommand("convert", "Convert a glTF 2.0 character (.gltf, .glb) to a bendy file");
     command->add_option("IN", arguments->input, "a .gltf or .glb file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
-    command->add_option("--scene", arguments->scene, "the scene to take, by name or number; the file's default if not given");
-    command->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
+    command->add_option("--scene", arguments->scene,
+                        "the scene to take, by name or number; the file's default if not given");
+    command
+        ->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
-    command->footer("Everything is kept exactly; what the format cannot hold is named in a warning.\n"
-                    "Example: bendy convert fox.glb -o build/fox.bendy");
+    command->footer(
+        "Everything is kept exactly; what the format cannot hold is named in a warning.\n"
+        "Example: bendy convert fox.glb -o build/fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }
 

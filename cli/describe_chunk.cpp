@@ -7,6 +7,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 
 namespace bendy::cli {
@@ -43,7 +44,9 @@ std::string_view record_of(FourCC id) {
     return record;
 }
 
-bool is_text(FourCC id) { return id == FourCC("NAME") || id == FourCC("EXTR") || id == FourCC("EXTN") || id == FourCC("LINK"); }
+bool is_text(FourCC id) {
+    return id == FourCC("NAME") || id == FourCC("EXTR") || id == FourCC("EXTN") || id == FourCC("LINK");
+}
 
 template <class T>
 nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint32_t count) {
@@ -63,7 +66,8 @@ nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::ui
         if (field.record != record || field.name.starts_with("reserved") || offset >= payload.size()) continue;
         const std::string name(field.name);
         if (field.name == "generator") {
-            const std::string_view text = as_text(payload.subspan(offset, std::min<std::uint64_t>(field.count, payload.size() - offset)));
+            const std::string_view text =
+                as_text(payload.subspan(offset, std::min<std::uint64_t>(field.count, payload.size() - offset)));
             fields[name] = text.substr(0, text.find('\0'));
         } else if (field.type == "u8") {
             fields[name] = numbers_at<std::uint8_t>(payload, offset, field.count);
@@ -89,10 +93,13 @@ R record_at(const ChunkTree& tree, std::uint32_t number) {
     return record;
 }
 
-/// A number with up to four significant digits.
+/// A number with up to four significant digits; what is next to nothing is 0, as in a rest pose's rounding errors.
 std::string brief(float number) {
+    constexpr float kNextToNothing = 5e-7f;
+    if (std::abs(number) < kNextToNothing) return "0";
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 4).ptr;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 4).ptr;
     return {digits.data(), end};
 }
 
@@ -117,15 +124,17 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
     text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
     if (record.normalised != 0) text += " normalised";
-    if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR")) text += ", set " + std::to_string(record.set);
+    if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
+        text += ", set " + std::to_string(record.set);
     return text;
 }
 
+constexpr std::array<std::string_view, kTopologies> kTopologyNames{"triangles", "lines", "points"};
+
 std::string polygons_text(const PolygonRecord& record) {
-    constexpr std::array<std::string_view, kTopologies> kNames{"triangles", "lines", "points"};
     if (record.topology >= kTopologies) return "?";
     std::string text = grouped(record.count / corners(static_cast<Topology>(record.topology))) + ' ';
-    text += kNames[record.topology];
+    text += kTopologyNames[record.topology];
     text += " of pool " + std::to_string(record.pool);
     if (record.material != kNone) {
         const bool is_local = (record.material & kLocalMaterial) != 0;
@@ -135,10 +144,26 @@ std::string polygons_text(const PolygonRecord& record) {
     return text;
 }
 
+/// Where the joint is, what moves with it, and whether the author left data on it.
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
+    std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (pivot == kNone) return {};
-    return "at " + brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation);
+    if (pivot != kNone) text = "at " + brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation);
+    std::array<std::uint64_t, kTopologies> polygons{};
+    std::uint64_t extras = 0;
+    for (const std::uint32_t child : tree.children(number)) {
+        if (tree[child].id == FourCC("EXTR")) extras = tree[child].size;
+        if (!(tree[child].id == FourCC("POLY"))) continue;
+        const auto record = record_at<PolygonRecord>(tree, child);
+        if (record.topology < kTopologies)
+            polygons[record.topology] += record.count / corners(static_cast<Topology>(record.topology));
+    }
+    for (std::size_t topology = 0; topology < kTopologies; ++topology) {
+        if (polygons[topology] != 0)
+            text += ", " + grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]);
+    }
+    if (extras != 0) text += ", extras";
+    return text;
 }
 
 std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
@@ -152,8 +177,10 @@ std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
 }
 
 std::string material_text(const SurfaceRecord& surface) {
-    std::string text = "base " + brief(surface.base_colour) + ", metallic " + brief(surface.metallic) + ", roughness " + brief(surface.roughness);
-    if (surface.base_colour_texture.texture != kNone) text += ", texture " + std::to_string(surface.base_colour_texture.texture);
+    std::string text = "base " + brief(surface.base_colour) + ", metallic " + brief(surface.metallic) + ", roughness " +
+                       brief(surface.roughness);
+    if (surface.base_colour_texture.texture != kNone)
+        text += ", texture " + std::to_string(surface.base_colour_texture.texture);
     if (surface.unlit != 0) text += ", unlit";
     return text;
 }
@@ -179,16 +206,20 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number) {
     if (chunk.id == FourCC("SKIN")) return joint_text(tree, number);
     if (chunk.id == FourCC("REST")) {
         const auto rest = record_at<RestRecord>(tree, number);
-        return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " + brief(rest.scale);
+        return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
+               brief(rest.scale);
     }
     if (chunk.id == FourCC("POLY")) return polygons_text(record_at<PolygonRecord>(tree, number));
-    if (chunk.id == FourCC("VECT")) return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
+    if (chunk.id == FourCC("VECT"))
+        return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
     if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
-    if (chunk.id == FourCC("TARG")) return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+    if (chunk.id == FourCC("TARG"))
+        return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
     if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
     if (chunk.id == FourCC("TRAK")) return grouped(chunk.size / sizeof(TrackRecord)) + " tracks";
     if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV")) return grouped(chunk.size / sizeof(float)) + " f32";
-    if (chunk.id == FourCC("MATE")) return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
+    if (chunk.id == FourCC("MATE"))
+        return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
     if (chunk.id == FourCC("IMAG")) {
         const auto image = record_at<ImageRecord>(tree, number);
         return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
@@ -214,7 +245,8 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number) {
     } else {
         add("encoded with codec " + std::to_string(tree[number].codec()), " ");
     }
-    if (chunk_meaning(tree[number].id) == "unknown") add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
+    if (chunk_meaning(tree[number].id) == "unknown")
+        add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
     return text;
 }
 
@@ -230,7 +262,8 @@ nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number)
         return fields_at(payload, record, 0);
     }
     nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
-    for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord)) tracks.push_back(fields_at(payload, record, at));
+    for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord))
+        tracks.push_back(fields_at(payload, record, at));
     return {{"tracks", tracks}};
 }
 

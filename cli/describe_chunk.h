@@ -9,8 +9,8 @@
 
 namespace bendy::cli {
 
-/// What is in a chunk, in a few words for the tree: a name, counts, the values that matter. Works on any tree, whatever its
-/// records hold.
+/// What is in a chunk, in a few words for the tree: a name, counts, the values that matter. Works on any tree, whatever
+/// its records hold.
 std::string describe_chunk(const ChunkTree& tree, std::uint32_t number);
 
 /// The fields of a chunk's record by name, as records.def has them; text chunks give {"text": ...}. Empty for chunks

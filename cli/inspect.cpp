@@ -26,15 +26,18 @@ struct Arguments {
 };
 
 /// Chunks whose content the line of their parent already tells.
-bool is_folded(const Chunk& chunk) {
+bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
     constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
-                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP")};
+                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY")};
+    if (chunk.id == FourCC("EXTR")) return tree[chunk.parent].id == FourCC("SKIN");
     return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
 }
 
-/// True where the chunk has a number of its own kind that other records refer to: joint, pool, material, texture, cycle.
+/// True where the chunk has a number of its own kind that other records refer to: joint, pool, material, texture,
+/// cycle.
 bool is_numbered(FourCC id) {
-    return id == FourCC("SKIN") || id == FourCC("VECT") || id == FourCC("MATE") || id == FourCC("TEXT") || id == FourCC("CYCL");
+    return id == FourCC("SKIN") || id == FourCC("VECT") || id == FourCC("MATE") || id == FourCC("TEXT") ||
+           id == FourCC("CYCL");
 }
 
 std::string indentation(std::size_t depth) {
@@ -46,21 +49,24 @@ std::string indentation(std::size_t depth) {
 void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
     std::cout << "      offset         size  chunk\n";
     std::vector<std::uint32_t> ends;  // of the containers that we are in
-    std::array<std::pair<FourCC, std::uint32_t>, 5> counters{{{FourCC("SKIN"), 0}, {FourCC("VECT"), 0}, {FourCC("MATE"), 0}, {FourCC("TEXT"), 0}, {FourCC("CYCL"), 0}}};
+    std::array<std::pair<FourCC, std::uint32_t>, 5> counters{
+        {{FourCC("SKIN"), 0}, {FourCC("VECT"), 0}, {FourCC("MATE"), 0}, {FourCC("TEXT"), 0}, {FourCC("CYCL"), 0}}};
     const auto next_number = [&](FourCC id) {
-        const auto counter = std::find_if(counters.begin(), counters.end(), [&](const auto& entry) { return entry.first == id; });
+        const auto counter =
+            std::find_if(counters.begin(), counters.end(), [&](const auto& entry) { return entry.first == id; });
         return counter->second++;
     };
     for (std::uint32_t number = 0; number < tree[root].end;) {
         const Chunk& chunk = tree[number];
-        if (chunk.id == FourCC("OBJE")) counters[0].second = counters[1].second = counters[4].second = 0;  // numbered inside it
+        if (chunk.id == FourCC("OBJE"))
+            counters[0].second = counters[1].second = counters[4].second = 0;  // numbered inside it
         const std::string label = is_numbered(chunk.id) ? ' ' + std::to_string(next_number(chunk.id)) : std::string();
         if (number < root) {
             ++number;  // only counted
             continue;
         }
         while (!ends.empty() && number >= ends.back()) ends.pop_back();
-        if (!all && number != root && is_folded(chunk)) {
+        if (!all && number != root && is_folded(tree, chunk)) {
             number = chunk.end;
             continue;
         }
@@ -106,7 +112,9 @@ void run(const Arguments& arguments) {
     const Result<ChunkTree> tree = read_chunk_tree(file->bytes());
     if (!tree) fail(arguments.file, tree.error(), file->bytes());
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
-    if (root == kNone) fail(arguments.file, "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
+    if (root == kNone)
+        fail(arguments.file,
+             "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
 
     if (arguments.json) {
         std::cout << chunks_as_json(arguments.file.string(), *tree, root);
@@ -115,8 +123,8 @@ void run(const Arguments& arguments) {
         print_hex(file->bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
         if (root == 0) {
-            std::cout << printable(arguments.file.filename().string()) << ", " << grouped(file->bytes().size()) << " bytes, "
-                      << grouped(tree->chunks().size()) << " chunks\n";
+            std::cout << printable(arguments.file.filename().string()) << ", " << grouped(file->bytes().size())
+                      << " bytes, " << grouped(tree->chunks().size()) << " chunks\n";
         }
         print_tree(*tree, root, arguments.all);
     }
@@ -124,7 +132,8 @@ void run(const Arguments& arguments) {
     check_sums(*tree, faults);
     if (faults.empty()) read_document(*tree, faults);
     if (!faults.empty()) {
-        warn(arguments.file, "the file has faults, `bendy validate` lists them; the first: " + describe_with_place(faults.list().front(), file->bytes()));
+        warn(arguments.file, "the file has faults, `bendy validate` lists them; the first: " +
+                                 describe_with_place(faults.list().front(), file->bytes()));
     }
 }
 
@@ -132,7 +141,8 @@ void run(const Arguments& arguments) {
 
 void add_inspect(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
+    CLI::App* command =
+        program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
     CLI::Option* json = command->add_flag("--json", arguments->json, "print JSON, with every record's fields");

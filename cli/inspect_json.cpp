@@ -13,20 +13,22 @@ std::string chunks_as_json(const std::string& file, const ChunkTree& tree, std::
         const Chunk& chunk = tree[number];
         std::array<char, 11> sum{};
         std::snprintf(sum.data(), sum.size(), "0x%08x", chunk.sum);
-        nlohmann::ordered_json entry{{"number", number - root},
-                                     {"parent", number == root ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(chunk.parent - root)},
-                                     {"id", chunk.id.letters().data()},
-                                     {"meaning", chunk_meaning(chunk.id)},
-                                     {"offset", chunk.offset},
-                                     {"size", chunk.size},
-                                     {"sum", sum.data()},
-                                     {"container", chunk.is_container()}};
+        nlohmann::ordered_json entry{
+            {"number", number - root},
+            {"parent", number == root ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(chunk.parent - root)},
+            {"id", chunk.id.letters().data()},
+            {"meaning", chunk_meaning(chunk.id)},
+            {"offset", chunk.offset},
+            {"size", chunk.size},
+            {"sum", sum.data()},
+            {"container", chunk.is_container()}};
         if (chunk.is_required()) entry["required"] = true;
         if (chunk.codec() != 0) entry["codec"] = chunk.codec();
         if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
         chunks.push_back(std::move(entry));
     }
-    const nlohmann::ordered_json document{{"file", file}, {"bytes", tree.bytes().size()}, {"chunks", std::move(chunks)}};
+    const nlohmann::ordered_json document{
+        {"file", file}, {"bytes", tree.bytes().size()}, {"chunks", std::move(chunks)}};
     return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

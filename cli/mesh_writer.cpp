@@ -33,7 +33,8 @@ void put_vectors(std::string& out, std::string_view keyword, std::span<const glm
 }
 
 /// OBJ elements of `corners` vertices each; `base` is the number of the mesh's first vertex, OBJ counts from 1.
-void put_elements(std::string& out, char keyword, std::span<const std::uint32_t> indices, std::size_t corners, std::uint64_t base, bool normals) {
+void put_elements(std::string& out, char keyword, std::span<const std::uint32_t> indices, std::size_t corners,
+                  std::uint64_t base, bool normals) {
     for (std::size_t at = 0; at + corners <= indices.size(); at += corners) {
         out += keyword;
         for (const std::uint32_t index : indices.subspan(at, corners)) {
@@ -74,7 +75,8 @@ std::string quoted(const std::string& text) {
 
 /// Normals are written for all vertices or for none: OBJ counts them with the vertices, PLY has one vertex layout.
 bool have_normals(const PosedObject& object) {
-    return std::any_of(object.meshes.begin(), object.meshes.end(), [](const PosedMesh& mesh) { return !mesh.normals.empty(); });
+    return std::any_of(object.meshes.begin(), object.meshes.end(),
+                       [](const PosedMesh& mesh) { return !mesh.normals.empty(); });
 }
 
 std::vector<glm::vec3> normals_or_zeros(const PosedMesh& mesh) {
@@ -84,7 +86,8 @@ std::vector<glm::vec3> normals_or_zeros(const PosedMesh& mesh) {
 }  // namespace
 
 std::string write_obj(const PosedObject& object) {
-    std::string out = "# " + printable(object.file) + (object.clip.empty() ? ", rest pose" : ", " + printable(object.clip)) + '\n';
+    std::string out =
+        "# " + printable(object.file) + (object.clip.empty() ? ", rest pose" : ", " + printable(object.clip)) + '\n';
     const bool normals = have_normals(object);
     std::uint64_t base = 0;
     for (const PosedMesh& mesh : object.meshes) {
@@ -139,7 +142,8 @@ std::string write_ply(const PosedObject& object) {
 }
 
 std::string write_json(const PosedObject& object) {
-    std::string out = "{\"file\":" + quoted(object.file) + ",\"clip\":" + (object.clip.empty() ? "null" : quoted(object.clip)) + ",\"time\":";
+    std::string out = "{\"file\":" + quoted(object.file) +
+                      ",\"clip\":" + (object.clip.empty() ? "null" : quoted(object.clip)) + ",\"time\":";
     put(out, object.time);
     out += ",\"joints\":[";
     for (std::size_t i = 0; i < object.joints.size(); ++i) {

@@ -11,8 +11,8 @@ namespace bendy::cli {
 /// A pool's posed vertices and what connects them.
 struct PosedMesh {
     std::string name;
-    std::vector<glm::vec3> positions;  ///< model space
-    std::vector<glm::vec3> normals;    ///< as many, or none
+    std::vector<glm::vec3> positions;                     ///< model space
+    std::vector<glm::vec3> normals;                       ///< as many, or none
     std::vector<std::uint32_t> triangles, lines, points;  ///< 3, 2 and 1 vertices each
 };
 

@@ -37,8 +37,9 @@ const Cycle& find_cycle(const Arguments& arguments, const Model& model) {
 
     std::string known;
     for (const Cycle& cycle : model.cycles()) known += (known.empty() ? "" : ", ") + printable(cycle.name);
-    fail(arguments.file, "there is no cycle \"" + printable(clip) + "\"; there " +
-                             (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));
+    fail(arguments.file,
+         "there is no cycle \"" + printable(clip) + "\"; there " +
+             (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));
 }
 
 /// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
@@ -118,9 +119,13 @@ void add_pose(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a cycle");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
-    CLI::Option* clip = command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
-    command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")->capture_default_str()->needs(clip);
-    command->add_option("-o,--output", arguments->output, "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
+    CLI::Option* clip =
+        command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
+    command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")
+        ->capture_default_str()
+        ->needs(clip);
+    command->add_option("-o,--output", arguments->output,
+                        "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
     command->footer("Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj");
     command->callback([arguments, clip] {
         arguments->has_clip = clip->count() != 0;

@@ -13,7 +13,9 @@ void fail(const std::filesystem::path& file, std::string_view what) {
     throw Failed{};
 }
 
-void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) { fail(file, describe_with_place(error, bytes)); }
+void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
+    fail(file, describe_with_place(error, bytes));
+}
 
 void warn(const std::filesystem::path& file, std::string_view what) {
     std::cerr << "bendy: warning: " << printable(file.string()) << ": " << what << '\n';

@@ -20,19 +20,25 @@ struct Arguments {
 
 const char* class_name(ErrorClass kind) {
     switch (kind) {
-        case ErrorClass::malformed: return "malformed";
-        case ErrorClass::invalid: return "invalid";
-        case ErrorClass::unsupported: return "unsupported";
-        case ErrorClass::io: return "io";
+        case ErrorClass::malformed:
+            return "malformed";
+        case ErrorClass::invalid:
+            return "invalid";
+        case ErrorClass::unsupported:
+            return "unsupported";
+        case ErrorClass::io:
+            return "io";
     }
     return "";
 }
 
 void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
     for (const Error& fault : faults.list()) {
-        std::cout << printable(file.string()) << ": " << code_name(fault.code) << ": " << describe_with_place(fault, bytes) << '\n';
+        std::cout << printable(file.string()) << ": " << code_name(fault.code) << ": "
+                  << describe_with_place(fault, bytes) << '\n';
     }
-    if (faults.left_out() != 0) std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
+    if (faults.left_out() != 0)
+        std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
 }
 
 nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
@@ -80,8 +86,9 @@ void add_validate(CLI::App& program) {
     CLI::App* command = program.add_subcommand("validate", "Say everything that is wrong with files, and where");
     command->add_option("FILE", arguments->files, "bendy files")->required();
     command->add_flag("--json", arguments->json, "print a JSON report");
-    command->footer("Prints nothing and exits with 0 when all is well; else a line a fault, and 1.\n"
-                    "Example: bendy validate fox.bendy");
+    command->footer(
+        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1.\n"
+        "Example: bendy validate fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -27,7 +27,8 @@ void put_text(ChunkWriter& out, FourCC id, const std::string& text) {
     if (!text.empty()) out.text_leaf(id, text);
 }
 
-void put_stream(ChunkWriter& out, FourCC id, const StoredNumbers& numbers, std::uint32_t components, std::uint32_t elements, std::uint32_t set = 0) {
+void put_stream(ChunkWriter& out, FourCC id, const StoredNumbers& numbers, std::uint32_t components,
+                std::uint32_t elements, std::uint32_t set = 0) {
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(numbers.type);
     record.normalised = numbers.normalised ? 1 : 0;
@@ -68,8 +69,9 @@ void put_textures(ChunkWriter& out, const Scene& scene) {
         const Texture& texture = scene.textures[number];
         out.begin(FourCC("TEXT"));
         put_text(out, FourCC("NAME"), texture.name);
-        const SamplerRecord sampler{static_cast<std::uint8_t>(texture.mag_filter), static_cast<std::uint8_t>(texture.min_filter),
-                                    static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
+        const SamplerRecord sampler{
+            static_cast<std::uint8_t>(texture.mag_filter), static_cast<std::uint8_t>(texture.min_filter),
+            static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
         out.leaf(FourCC("SAMP"), bytes_of(sampler));
         put_text(out, FourCC("EXTR"), texture.extras);
         for (std::uint32_t place = 0; place < texture.images.size(); ++place) {
@@ -179,7 +181,9 @@ void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& pol
 // --- pools
 
 bool is_touched(const Target& target, std::size_t vertex) {
-    const auto moves = [&](const std::vector<glm::vec3>& stream) { return !stream.empty() && stream[vertex] != glm::vec3(0.0f); };
+    const auto moves = [&](const std::vector<glm::vec3>& stream) {
+        return !stream.empty() && stream[vertex] != glm::vec3(0.0f);
+    };
     return moves(target.positions) || moves(target.normals) || moves(target.tangents);
 }
 
@@ -197,11 +201,13 @@ void put_target(ChunkWriter& out, const Target& target, std::uint32_t vertices) 
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         if (is_touched(target, vertex)) touched.push_back(vertex);
     }
-    const auto present = static_cast<std::uint64_t>(!target.positions.empty()) + static_cast<std::uint64_t>(!target.normals.empty()) +
+    const auto present = static_cast<std::uint64_t>(!target.positions.empty()) +
+                         static_cast<std::uint64_t>(!target.normals.empty()) +
                          static_cast<std::uint64_t>(!target.tangents.empty());
     const std::uint64_t dense = vertices * present * sizeof(glm::vec3);
     const StoredNumbers indices = narrow_indices(touched, vertices, false);
-    const std::uint64_t sparse = kChunkHeaderSize + sizeof(StreamRecord) + indices.bytes.size() + touched.size() * present * sizeof(glm::vec3);
+    const std::uint64_t sparse =
+        kChunkHeaderSize + sizeof(StreamRecord) + indices.bytes.size() + touched.size() * present * sizeof(glm::vec3);
 
     out.begin(FourCC("TARG"));
     put_text(out, FourCC("NAME"), target.name);
@@ -226,7 +232,8 @@ void put_palette(ChunkWriter& out, const Palette& palette) {
     const auto joints = std::as_bytes(std::span(palette.joints));
     const std::array<std::byte, kChunkAlignment> zeros{};
     const auto gap = std::span(zeros).first(padded(joints.size()) - joints.size());
-    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap), Bytes(std::as_bytes(std::span(palette.inverse_bind)))});
+    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap),
+                                        Bytes(std::as_bytes(std::span(palette.inverse_bind)))});
 }
 
 void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices) {
@@ -249,15 +256,18 @@ void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t>
         out.begin(FourCC("USER"));
         put_text(out, FourCC("NAME"), stream.name);
         const auto bytes = std::as_bytes(std::span(stream.values));
-        put_stream(out, FourCC("VALS"), {ComponentType::f32, false, {bytes.begin(), bytes.end()}}, stream.components, vertices);
+        put_stream(out, FourCC("VALS"), {ComponentType::f32, false, {bytes.begin(), bytes.end()}}, stream.components,
+                   vertices);
         out.end();
     }
     if (mesh.influences != 0) {
-        put_stream(out, FourCC("BONE"), narrow_indices(mesh.bones, mesh.palette.joints.size(), true), mesh.influences, vertices);
+        put_stream(out, FourCC("BONE"), narrow_indices(mesh.bones, mesh.palette.joints.size(), true), mesh.influences,
+                   vertices);
         put_stream(out, FourCC("WGHT"), narrow_fractions(mesh.weights), mesh.influences, vertices);
     }
     if (!indices.empty()) {
-        put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1, static_cast<std::uint32_t>(indices.size()));
+        put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1,
+                   static_cast<std::uint32_t>(indices.size()));
     }
     for (const Target& target : mesh.targets) put_target(out, target, vertices);
     out.end();
@@ -342,7 +352,8 @@ void warn_of_unused_images(const Scene& scene, Report& report) {
         for (const std::uint32_t image : texture.images) used[image] = true;
     }
     for (std::size_t image = 0; image < used.size(); ++image) {
-        if (!used[image]) report.warn("image that no texture uses is left out", "images[" + std::to_string(image) + "]");
+        if (!used[image])
+            report.warn("image that no texture uses is left out", "images[" + std::to_string(image) + "]");
     }
 }
 
@@ -354,7 +365,8 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     polygons.reserve(scene.meshes.size());
     for (const Mesh& mesh : scene.meshes) polygons.push_back(assign_polygons(mesh));
 
-    const bool embeds = std::any_of(scene.images.begin(), scene.images.end(), [](const Image& image) { return !image.bytes.empty(); });
+    const bool embeds =
+        std::any_of(scene.images.begin(), scene.images.end(), [](const Image& image) { return !image.bytes.empty(); });
     ChunkWriter out;
     out.begin(FourCC("HEAD"));
     out.leaf(FourCC("VERS"), bytes_of(make_version(scene, generator)));
@@ -365,7 +377,8 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
     put_joints(out, scene, sort_by_joint(scene, polygons));
-    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) put_pool(out, scene.meshes[pool], polygons[pool].indices);
+    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool)
+        put_pool(out, scene.meshes[pool], polygons[pool].indices);
     for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
     out.end();
     if (embeds) put_textures(out, scene);

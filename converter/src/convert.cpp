@@ -13,14 +13,16 @@ constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 
 }  // namespace
 
-Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options, Report& report) {
+Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
+                                                    Report& report) {
     const auto scene = import_gltf(file, options.gltf, report);
     if (!scene) return scene.error();
     try {
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
-        if (!faults.empty()) return ImportError{{}, "cannot be held: " + describe_with_place(faults.list().front(), bytes)};
+        if (!faults.empty())
+            return ImportError{{}, "cannot be held: " + describe_with_place(faults.list().front(), bytes)};
         return bytes;
     } catch (const std::bad_alloc&) {
         return ImportError{{}, "there is not enough memory"};

@@ -6,7 +6,8 @@
 namespace bendy::converter {
 
 void Report::warn(std::string message, std::string place, std::uint64_t count) {
-    const auto same = std::find_if(warnings_.begin(), warnings_.end(), [&](const Warning& warning) { return warning.message == message; });
+    const auto same = std::find_if(warnings_.begin(), warnings_.end(),
+                                   [&](const Warning& warning) { return warning.message == message; });
     if (same != warnings_.end()) {
         same->count += count;
         return;

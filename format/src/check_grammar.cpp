@@ -54,7 +54,8 @@ void check_children(const ChunkTree& tree, std::uint32_t container, Faults& faul
             faults.add({ErrorCode::kChunkRepeated, chunk.offset});
         }
         seen[index] = true;
-        if (rule.shape == Shape::container && !chunk.is_container()) faults.add({ErrorCode::kNotAContainer, chunk.offset});
+        if (rule.shape == Shape::container && !chunk.is_container())
+            faults.add({ErrorCode::kNotAContainer, chunk.offset});
         if (rule.shape == Shape::leaf && chunk.is_container()) faults.add({ErrorCode::kNotALeaf, chunk.offset});
     }
     for (std::size_t index = 0; index < kRuleCount; ++index) {

@@ -40,7 +40,8 @@ Result<void> check_header(const Chunk& chunk) {
 }  // namespace
 
 Result<ChunkTree> read_chunk_tree(Bytes bytes) {
-    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % kChunkAlignment != 0) return Error{ErrorCode::kUnalignedBuffer};
+    if (reinterpret_cast<std::uintptr_t>(bytes.data()) % kChunkAlignment != 0)
+        return Error{ErrorCode::kUnalignedBuffer};
     if (bytes.size() < kChunkHeaderSize) return Error{ErrorCode::kNotABendyFile};
 
     Chunk root = read_header(bytes, 0);
@@ -49,7 +50,8 @@ Result<ChunkTree> read_chunk_tree(Bytes bytes) {
     if (!root.is_container()) return Error{ErrorCode::kNotAContainer};
     const std::uint64_t available = bytes.size() - kChunkHeaderSize;
     if (root.size > available) return Error{ErrorCode::kTruncated, 0, root.size, available};
-    if (root.size < available) return Error{ErrorCode::kTrailingBytes, root.size + kChunkHeaderSize, available - root.size};
+    if (root.size < available)
+        return Error{ErrorCode::kTrailingBytes, root.size + kChunkHeaderSize, available - root.size};
 
     std::vector<Chunk> chunks{root};
     std::vector<std::uint32_t> open{0};  // the containers that `at` is in, outermost first

@@ -29,7 +29,9 @@ void ChunkWriter::put_header(FourCC id, std::uint16_t flags) {
     open_.push_back(offset);
 }
 
-void ChunkWriter::begin(FourCC id, std::uint16_t flags) { put_header(id, static_cast<std::uint16_t>(flags | kContainerFlag)); }
+void ChunkWriter::begin(FourCC id, std::uint16_t flags) {
+    put_header(id, static_cast<std::uint16_t>(flags | kContainerFlag));
+}
 
 void ChunkWriter::end() {
     assert(!open_.empty());
@@ -44,7 +46,9 @@ void ChunkWriter::end() {
     store(bytes_, offset + kSumAt, chunk_sum(Bytes(bytes_).subspan(offset)));
 }
 
-void ChunkWriter::leaf(FourCC id, Bytes payload, std::uint16_t flags) { leaf(id, std::span(&payload, 1), flags); }
+void ChunkWriter::leaf(FourCC id, Bytes payload, std::uint16_t flags) {
+    leaf(id, std::span(&payload, 1), flags);
+}
 
 void ChunkWriter::leaf(FourCC id, std::span<const Bytes> pieces, std::uint16_t flags) {
     assert((flags & kContainerFlag) == 0);

@@ -40,7 +40,8 @@ std::uint32_t crc32c(Bytes bytes, std::uint32_t before) {
         sum = 0;
         for (std::size_t k = 0; k < 8; ++k) sum ^= kTables[7 - k][word >> (8 * k) & 0xffu];
     }
-    for (; at < bytes.size(); ++at) sum = (sum >> 8) ^ kTables[0][(sum ^ std::to_integer<std::uint32_t>(bytes[at])) & 0xffu];
+    for (; at < bytes.size(); ++at)
+        sum = (sum >> 8) ^ kTables[0][(sum ^ std::to_integer<std::uint32_t>(bytes[at])) & 0xffu];
     return ~sum;
 }
 

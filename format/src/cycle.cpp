@@ -28,9 +28,12 @@ std::span<const float> read_floats(const ChunkTree& tree, std::uint32_t cycle, F
 std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<const PoolView> pools) {
     switch (path) {
         case TrackPath::translation:
-        case TrackPath::scale: return 3;
-        case TrackPath::rotation: return 4;
-        case TrackPath::weights: return static_cast<std::uint32_t>(pools[target].targets.size());
+        case TrackPath::scale:
+            return 3;
+        case TrackPath::rotation:
+            return 4;
+        case TrackPath::weights:
+            return static_cast<std::uint32_t>(pools[target].targets.size());
     }
     return 0;
 }
@@ -47,8 +50,8 @@ void check_key_order(const CycleView& cycle, std::span<const float> times, std::
     }
 }
 
-/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's values
-/// are unit quaternions.
+/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's
+/// values are unit quaternions.
 void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
     struct Share {
         const float* first;
@@ -59,7 +62,8 @@ void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& f
     std::vector<Share> shares;
     for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
         const TrackView& track = cycle.tracks[index];
-        shares.push_back({track.values.data(), track.values.data() + track.values.size(), track.path == TrackPath::rotation, index});
+        shares.push_back(
+            {track.values.data(), track.values.data() + track.values.size(), track.path == TrackPath::rotation, index});
     }
     std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
         return std::tie(a.first, a.last, a.is_rotation, a.track) < std::tie(b.first, b.last, b.is_rotation, b.track);
@@ -110,7 +114,8 @@ void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults&
 
 }  // namespace
 
-CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools, Faults& faults) {
+CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
+                     Faults& faults) {
     CycleView cycle;
     cycle.chunk = chunk;
     cycle.name = read_text(tree, chunk, FourCC("NAME"), faults);
@@ -162,10 +167,13 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
             continue;
         }
         const bool fixed_frames = record.first_time == kNone;
-        const std::uint64_t per_key = std::uint64_t{track.components} * (track.interpolation == Interpolation::cubic ? 3 : 1);
-        const bool times_fit = fixed_frames ? cycle.frame_rate > 0.0f
-                                            : record.first_time <= times.size() && track.keys <= times.size() - record.first_time;
-        const bool values_fit = record.first_value <= values.size() && track.keys <= (values.size() - record.first_value) / per_key;
+        const std::uint64_t per_key =
+            std::uint64_t{track.components} * (track.interpolation == Interpolation::cubic ? 3 : 1);
+        const bool times_fit =
+            fixed_frames ? cycle.frame_rate > 0.0f
+                         : record.first_time <= times.size() && track.keys <= times.size() - record.first_time;
+        const bool values_fit =
+            record.first_value <= values.size() && track.keys <= (values.size() - record.first_value) / per_key;
         if (track.keys == 0 || !times_fit || !values_fit) {
             faults.add({ErrorCode::kKeyRange, offset, index});
             continue;
@@ -186,7 +194,8 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
     Faults unread;  // read_cycle has said it
     const auto times = read_floats(tree, cycle.chunk, FourCC("TIME"), unread);
     check_finite(times, offset_of(tree, cycle.chunk, FourCC("TIME")), faults);
-    check_finite(read_floats(tree, cycle.chunk, FourCC("KEYV"), unread), offset_of(tree, cycle.chunk, FourCC("KEYV")), faults);
+    check_finite(read_floats(tree, cycle.chunk, FourCC("KEYV"), unread), offset_of(tree, cycle.chunk, FourCC("KEYV")),
+                 faults);
     check_key_order(cycle, times, table_offset, faults);
     check_shared_values(cycle, table_offset, faults);
     if (!holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});

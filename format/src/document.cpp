@@ -17,7 +17,8 @@ std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults)
     if (!version) return version;
     const std::uint64_t offset = offset_of(tree, 0, FourCC("VERS"));
     if (version->signature != kSignature) faults.add({ErrorCode::kSignature, offset});
-    if (version->major != kVersionMajor) faults.add({ErrorCode::kUnsupportedVersion, offset, version->major, kVersionMajor});
+    if (version->major != kVersionMajor)
+        faults.add({ErrorCode::kUnsupportedVersion, offset, version->major, kVersionMajor});
     check_reserved(std::array{version->reserved}, offset, faults);
     const auto& generator = version->generator;
     const auto end = std::find(generator.begin(), generator.end(), 0);
@@ -28,7 +29,8 @@ std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults)
 
 /// Holds the polygon ranges of the joints against pools and materials, and turns local material numbers into the
 /// document's. `first_local` is where this object's local materials start in the document.
-void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials, std::uint32_t first_local, Faults& faults) {
+void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials,
+                      std::uint32_t first_local, Faults& faults) {
     SkeletonView& skeleton = object.skeleton;
     for (PolygonView& polygons : skeleton.polygons) {
         const std::uint64_t offset = tree[polygons.chunk].offset;
@@ -43,13 +45,15 @@ void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t g
         }
         if (polygons.material == kNone) continue;
         if ((polygons.material & kLocalMaterial) == 0) {
-            if (polygons.material >= global_materials) faults.add({ErrorCode::kMaterialRange, offset, polygons.material, global_materials});
+            if (polygons.material >= global_materials)
+                faults.add({ErrorCode::kMaterialRange, offset, polygons.material, global_materials});
             continue;
         }
         const std::uint32_t local = polygons.material & ~kLocalMaterial;
         const std::uint32_t first = skeleton.first_local_material[polygons.joint];
         const std::size_t next = std::size_t{polygons.joint} + 1;
-        const std::size_t end = next < skeleton.joints.size() ? skeleton.first_local_material[next] : skeleton.local_materials.size();
+        const std::size_t end =
+            next < skeleton.joints.size() ? skeleton.first_local_material[next] : skeleton.local_materials.size();
         if (local >= end - first) {
             faults.add({ErrorCode::kMaterialRange, offset, local, end - first});
             continue;
@@ -58,7 +62,8 @@ void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t g
     }
 }
 
-void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<const PolygonView* const> ranges, Faults& faults) {
+void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<const PolygonView* const> ranges,
+                         Faults& faults) {
     std::vector<std::uint32_t> mover(pool.vertices, kNone);
     for (const PolygonView* range : ranges) {
         for (std::uint32_t k = 0; k < range->count; ++k) {
@@ -71,8 +76,8 @@ void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<
     }
 }
 
-/// The ranges of a pool may not overlap, so that walking over them all is linear in the pool. In a rigid pool a vertex is
-/// moved by the joint whose polygons use it, so it cannot be used by two.
+/// The ranges of a pool may not overlap, so that walking over them all is linear in the pool. In a rigid pool a vertex
+/// is moved by the joint whose polygons use it, so it cannot be used by two.
 void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
     std::vector<const PolygonView*> ranges;
     for (const PolygonView& polygons : object.skeleton.polygons) {
@@ -90,8 +95,10 @@ void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& fault
     }
     for (auto begin = ranges.begin(); begin != ranges.end();) {
         const PoolView& pool = object.pools[(*begin)->pool];
-        const auto end = std::find_if(begin, ranges.end(), [&](const PolygonView* range) { return range->pool != (*begin)->pool; });
-        const bool one_joint = std::all_of(begin, end, [&](const PolygonView* range) { return range->joint == (*begin)->joint; });
+        const auto end =
+            std::find_if(begin, ranges.end(), [&](const PolygonView* range) { return range->pool != (*begin)->pool; });
+        const bool one_joint =
+            std::all_of(begin, end, [&](const PolygonView* range) { return range->joint == (*begin)->joint; });
         if (pool.is_rigid() && !one_joint) check_rigid_sharing(tree, pool, {begin, end}, faults);
         begin = end;
     }
@@ -110,7 +117,8 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
 
     for (const std::uint32_t number : tree.children(0)) {
-        if (tree[number].id == FourCC("TEXT") && tree[number].is_container()) document.textures.push_back(read_texture(tree, number, faults));
+        if (tree[number].id == FourCC("TEXT") && tree[number].is_container())
+            document.textures.push_back(read_texture(tree, number, faults));
     }
     check_texture_references(tree, document.textures, faults);
     const auto textures = static_cast<std::uint32_t>(document.textures.size());
@@ -130,7 +138,8 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
         for (const std::uint32_t child : tree.children(number)) {
-            if (tree[child].id == FourCC("VECT") && tree[child].is_container()) object.pools.push_back(read_pool(tree, child, joints, faults));
+            if (tree[child].id == FourCC("VECT") && tree[child].is_container())
+                object.pools.push_back(read_pool(tree, child, joints, faults));
         }
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {

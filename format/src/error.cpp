@@ -17,12 +17,20 @@ constexpr Entry kEntries[] = {
 #undef BENDY_ERROR
 };
 
-const Entry& entry(ErrorCode code) { return kEntries[static_cast<std::size_t>(code)]; }
+const Entry& entry(ErrorCode code) {
+    return kEntries[static_cast<std::size_t>(code)];
+}
 
 }  // namespace
 
-const char* code_name(ErrorCode code) { return entry(code).name; }
-ErrorClass error_class(ErrorCode code) { return entry(code).kind; }
-const char* error_text(ErrorCode code) { return entry(code).text; }
+const char* code_name(ErrorCode code) {
+    return entry(code).name;
+}
+ErrorClass error_class(ErrorCode code) {
+    return entry(code).kind;
+}
+const char* error_text(ErrorCode code) {
+    return entry(code).text;
+}
 
 }  // namespace bendy

@@ -14,7 +14,9 @@
 namespace bendy {
 namespace {
 
-Error system_error(ErrorCode code) { return {code, 0, static_cast<std::uint64_t>(errno)}; }
+Error system_error(ErrorCode code) {
+    return {code, 0, static_cast<std::uint64_t>(errno)};
+}
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -77,7 +79,8 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
 }
 
 MappedFile::~MappedFile() {
-    if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);  // NOLINT(*-const-cast): munmap's own signature
+    if (data_ != nullptr)
+        ::munmap(const_cast<std::byte*>(data_), size_);  // NOLINT(*-const-cast): munmap's own signature
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {

@@ -13,7 +13,8 @@ RestRecord read_rest(const ChunkTree& tree, std::uint32_t skin, Faults& faults) 
     return read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults).value_or(RestRecord{});
 }
 
-void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, std::vector<PolygonView>& polygons, Faults& faults) {
+void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, std::vector<PolygonView>& polygons,
+                   Faults& faults) {
     const Result<PolygonRecord> record = read_record<PolygonRecord>(tree, chunk);
     if (!record) {
         faults.add(record.error());
@@ -23,7 +24,8 @@ void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     check_reserved(record->reserved, offset, faults);
     if (!check_enum(record->topology, kTopologies, offset, faults)) return;
     const auto topology = static_cast<Topology>(record->topology);
-    if (record->count % corners(topology) != 0) faults.add({ErrorCode::kPolygonCut, offset, record->count, corners(topology)});
+    if (record->count % corners(topology) != 0)
+        faults.add({ErrorCode::kPolygonCut, offset, record->count, corners(topology)});
     polygons.push_back({chunk, joint, record->pool, record->material, topology, record->first, record->count});
 }
 
@@ -43,8 +45,9 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
         const bool in_joint = !open.empty();
         if (chunk.id == FourCC("SKIN") && chunk.is_container()) {
             const auto joint = static_cast<std::uint32_t>(skeleton.joints.size());
-            skeleton.joints.push_back({number, in_joint ? open.back().joint : kNone, read_text(tree, number, FourCC("NAME"), faults),
-                                       read_rest(tree, number, faults), read_text(tree, number, FourCC("EXTR"), faults)});
+            skeleton.joints.push_back({number, in_joint ? open.back().joint : kNone,
+                                       read_text(tree, number, FourCC("NAME"), faults), read_rest(tree, number, faults),
+                                       read_text(tree, number, FourCC("EXTR"), faults)});
             skeleton.first_local_material.push_back(static_cast<std::uint32_t>(skeleton.local_materials.size()));
             open.push_back({chunk.end, joint});
             ++number;  // into it
@@ -53,8 +56,8 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
         if (in_joint && chunk.id == FourCC("POLY") && !chunk.is_container()) {
             read_polygons(tree, number, open.back().joint, skeleton.polygons, faults);
         }
-        // A joint's own materials; its children's come later in the file, so a joint's are consecutive only if they stand
-        // before its first SKIN, which is where the table below needs them.
+        // A joint's own materials; its children's come later in the file, so a joint's are consecutive only if they
+        // stand before its first SKIN, which is where the table below needs them.
         if (in_joint && chunk.id == FourCC("MATE") && chunk.is_container()) {
             if (open.back().joint + 1 == skeleton.joints.size()) {
                 skeleton.local_materials.push_back(number);

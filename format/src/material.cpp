@@ -19,8 +19,8 @@ MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint
     check_enum(surface.double_sided, 2, offset, faults);
     check_enum(surface.unlit, 2, offset, faults);
     check_reserved(surface.reserved, offset, faults);
-    for (TextureUseRecord* use : {&surface.base_colour_texture, &surface.metallic_roughness_texture, &surface.normal_texture,
-                                  &surface.occlusion_texture, &surface.emissive_texture}) {
+    for (TextureUseRecord* use : {&surface.base_colour_texture, &surface.metallic_roughness_texture,
+                                  &surface.normal_texture, &surface.occlusion_texture, &surface.emissive_texture}) {
         check_reserved(std::array{use->reserved}, offset, faults);
         if (use->texture == kNone || use->texture < textures) continue;
         faults.add({ErrorCode::kTextureRange, offset, use->texture, textures});
@@ -100,13 +100,15 @@ void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& t
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults) {
     const std::uint64_t offset = offset_of(tree, material.chunk, FourCC("SURF"));
     const SurfaceRecord& surface = material.surface;
-    const std::array scalars{surface.metallic, surface.roughness, surface.normal_scale, surface.occlusion_strength, surface.alpha_cutoff};
+    const std::array scalars{surface.metallic, surface.roughness, surface.normal_scale, surface.occlusion_strength,
+                             surface.alpha_cutoff};
     check_finite(surface.base_colour, offset, faults);
     check_finite(surface.emissive, offset, faults);
     check_finite(scalars, offset, faults);
-    for (const TextureUseRecord& use : {surface.base_colour_texture, surface.metallic_roughness_texture, surface.normal_texture,
-                                        surface.occlusion_texture, surface.emissive_texture}) {
-        check_finite(std::array{use.offset[0], use.offset[1], use.scale[0], use.scale[1], use.rotation}, offset, faults);
+    for (const TextureUseRecord& use : {surface.base_colour_texture, surface.metallic_roughness_texture,
+                                        surface.normal_texture, surface.occlusion_texture, surface.emissive_texture}) {
+        check_finite(std::array{use.offset[0], use.offset[1], use.scale[0], use.scale[1], use.rotation}, offset,
+                     faults);
     }
 }
 

@@ -31,12 +31,16 @@ const StreamRule kColour{{ComponentType::f32, ComponentType::u8, ComponentType::
 const StreamRule kBones{{ComponentType::u8, ComponentType::u16}, 1, kMaxInfluences};
 const StreamRule kWeights{{ComponentType::f32, ComponentType::u8, ComponentType::u16}, 1, kMaxInfluences};
 const StreamRule kIndices{{ComponentType::u16, ComponentType::u32}, 1, 1};
-const StreamRule kAnything{{ComponentType::u8, ComponentType::i8, ComponentType::u16, ComponentType::i16, ComponentType::u32, ComponentType::f32}, 1, 0xffff};
+const StreamRule kAnything{{ComponentType::u8, ComponentType::i8, ComponentType::u16, ComponentType::i16,
+                            ComponentType::u32, ComponentType::f32},
+                           1,
+                           0xffff};
 
 /// Integer streams that stand for numbers are normalised; bones and indices are not; floats cannot be.
 bool normalisation_fits(const StreamRecord& record, const StreamRule& rule) {
     const auto type = static_cast<ComponentType>(record.component_type);
-    const bool may_be = type != ComponentType::f32 && type != ComponentType::u32 && &rule != &kBones && &rule != &kIndices;
+    const bool may_be =
+        type != ComponentType::f32 && type != ComponentType::u32 && &rule != &kBones && &rule != &kIndices;
     const bool must_be = may_be && &rule != &kAnything;
     return record.normalised == 1 ? may_be : !must_be;
 }
@@ -46,7 +50,8 @@ public:
     PoolReader(const ChunkTree& tree, Faults& faults) : tree_(tree), faults_(faults) {}
 
     /// The stream in leaf `number`; nothing, and a fault, if it is not as `rule` and the counts have it.
-    std::optional<StreamView> stream(std::uint32_t number, const StreamRule& rule, std::optional<std::uint32_t> elements) {
+    std::optional<StreamView> stream(std::uint32_t number, const StreamRule& rule,
+                                     std::optional<std::uint32_t> elements) {
         const Chunk& chunk = tree_[number];
         if (chunk.is_container()) return std::nullopt;
         const Result<StreamRecord> record = read_record<StreamRecord>(tree_, number);
@@ -60,19 +65,23 @@ public:
             !normalisation_fits(*record, rule)) {
             return fault({ErrorCode::kStreamType, chunk.offset});
         }
-        if (record->set != 0 && &rule != &kCoords && &rule != &kColour) return fault({ErrorCode::kStreamSet, chunk.offset, record->set});
+        if (record->set != 0 && &rule != &kCoords && &rule != &kColour)
+            return fault({ErrorCode::kStreamSet, chunk.offset, record->set});
         if (elements && record->elements != *elements) {
             return fault({ErrorCode::kStreamCount, chunk.offset, record->elements, *elements});
         }
         // 2^32 elements of 2^16 components of 2^2 bytes: no overflow in 64 bits.
         const std::uint64_t size = std::uint64_t{record->elements} * record->components * component_size(type);
         const Bytes data = tree_.payload(number).subspan(sizeof(StreamRecord));
-        if (data.size() != size) return fault({ErrorCode::kRecordSize, chunk.offset, chunk.size, size + sizeof(StreamRecord)});
-        return StreamView{type, record->normalised != 0, record->components, record->elements, record->set, data, number};
+        if (data.size() != size)
+            return fault({ErrorCode::kRecordSize, chunk.offset, chunk.size, size + sizeof(StreamRecord)});
+        return StreamView{type,  record->normalised != 0, record->components, record->elements, record->set, data,
+                          number};
     }
 
     /// The one stream with this id among a container's children, if it is there.
-    std::optional<StreamView> find(std::uint32_t container, FourCC id, const StreamRule& rule, std::optional<std::uint32_t> elements) {
+    std::optional<StreamView> find(std::uint32_t container, FourCC id, const StreamRule& rule,
+                                   std::optional<std::uint32_t> elements) {
         const std::uint32_t number = tree_.find(container, id);
         return number == kNone ? std::nullopt : stream(number, rule, elements);
     }
@@ -83,10 +92,12 @@ public:
     }
 
     /// Adds the stream in leaf `number` to those of its kind, whose sets must differ.
-    void add_set(std::vector<StreamView>& streams, std::uint32_t number, const StreamRule& rule, std::uint32_t elements) {
+    void add_set(std::vector<StreamView>& streams, std::uint32_t number, const StreamRule& rule,
+                 std::uint32_t elements) {
         const auto added = stream(number, rule, elements);
         if (!added) return;
-        const bool taken = std::any_of(streams.begin(), streams.end(), [&](const StreamView& other) { return other.set == added->set; });
+        const bool taken = std::any_of(streams.begin(), streams.end(),
+                                       [&](const StreamView& other) { return other.set == added->set; });
         if (taken) {
             faults_.add({ErrorCode::kStreamSet, tree_[number].offset, added->set});
         } else {
@@ -112,7 +123,8 @@ public:
             return std::nullopt;
         }
         check_reserved(record->reserved, chunk.offset, faults_);
-        const std::uint64_t matrices_at = sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
+        const std::uint64_t matrices_at =
+            sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
         const std::uint64_t size = matrices_at + std::uint64_t{record->entries} * sizeof(glm::mat4);
         if (size != chunk.size) {
             faults_.add({ErrorCode::kRecordSize, chunk.offset, chunk.size, size});
@@ -138,7 +150,9 @@ public:
     TargetView target(std::uint32_t number, std::uint32_t vertices) {
         TargetView target;
         target.name = read_text(tree_, number, FourCC("NAME"), faults_);
-        target.rest_weight = read_child_record<TargetRecord>(tree_, number, FourCC("TINF"), faults_).value_or(TargetRecord{}).rest_weight;
+        target.rest_weight = read_child_record<TargetRecord>(tree_, number, FourCC("TINF"), faults_)
+                                 .value_or(TargetRecord{})
+                                 .rest_weight;
         std::uint32_t touched = vertices;
         const std::uint32_t index_chunk = tree_.find(number, FourCC("INDX"));
         if (index_chunk != kNone) {
@@ -164,7 +178,8 @@ private:
 };
 
 void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>& stream, Faults& faults) {
-    if (stream && stream->type == ComponentType::f32) check_finite(stream->as<float>(), tree[stream->chunk].offset, faults);
+    if (stream && stream->type == ComponentType::f32)
+        check_finite(stream->as<float>(), tree[stream->chunk].offset, faults);
 }
 
 }  // namespace
@@ -177,12 +192,18 @@ float StreamView::number(std::uint32_t element, std::uint32_t component) const {
         return normalised ? std::max(number / largest, -1.0f) : number;
     };
     switch (type) {
-        case ComponentType::u8: return scaled(load<std::uint8_t>(data, at), 255.0f);
-        case ComponentType::i8: return scaled(load<std::int8_t>(data, at), 127.0f);
-        case ComponentType::u16: return scaled(load<std::uint16_t>(data, at), 65535.0f);
-        case ComponentType::i16: return scaled(load<std::int16_t>(data, at), 32767.0f);
-        case ComponentType::u32: return static_cast<float>(load<std::uint32_t>(data, at));
-        case ComponentType::f32: return load<float>(data, at);
+        case ComponentType::u8:
+            return scaled(load<std::uint8_t>(data, at), 255.0f);
+        case ComponentType::i8:
+            return scaled(load<std::int8_t>(data, at), 127.0f);
+        case ComponentType::u16:
+            return scaled(load<std::uint16_t>(data, at), 65535.0f);
+        case ComponentType::i16:
+            return scaled(load<std::int16_t>(data, at), 32767.0f);
+        case ComponentType::u32:
+            return static_cast<float>(load<std::uint32_t>(data, at));
+        case ComponentType::f32:
+            return load<float>(data, at);
     }
     return 0.0f;
 }
@@ -191,10 +212,14 @@ std::uint32_t StreamView::index(std::uint32_t element, std::uint32_t component) 
     assert(element < elements && component < components);
     const std::uint64_t at = std::uint64_t{element} * components + component;
     switch (type) {
-        case ComponentType::u8: return load<std::uint8_t>(data, at);
-        case ComponentType::u16: return load<std::uint16_t>(data, at);
-        case ComponentType::u32: return load<std::uint32_t>(data, at);
-        default: return 0;
+        case ComponentType::u8:
+            return load<std::uint8_t>(data, at);
+        case ComponentType::u16:
+            return load<std::uint16_t>(data, at);
+        case ComponentType::u32:
+            return load<std::uint32_t>(data, at);
+        default:
+            return 0;
     }
 }
 
@@ -264,15 +289,18 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
 
 void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faults) {
     const std::uint64_t offset = tree[pool.chunk].offset;
-    for (const auto& stream : {std::optional(pool.positions), pool.normals, pool.tangents, pool.weights}) check_stream_values(tree, stream, faults);
+    for (const auto& stream : {std::optional(pool.positions), pool.normals, pool.tangents, pool.weights})
+        check_stream_values(tree, stream, faults);
     for (const StreamView& stream : pool.texture_coords) check_stream_values(tree, stream, faults);
     for (const StreamView& stream : pool.colours) check_stream_values(tree, stream, faults);
     for (const AttributeView& attribute : pool.attributes) check_stream_values(tree, attribute.values, faults);
     for (const TargetView& target : pool.targets) {
         check_finite(std::array{target.rest_weight}, offset, faults);
-        for (const auto& stream : {target.positions, target.normals, target.tangents}) check_stream_values(tree, stream, faults);
+        for (const auto& stream : {target.positions, target.normals, target.tangents})
+            check_stream_values(tree, stream, faults);
     }
-    for (const glm::mat4& matrix : pool.palette.inverse_bind) check_finite(std::span(&matrix[0][0], 16), offset, faults);
+    for (const glm::mat4& matrix : pool.palette.inverse_bind)
+        check_finite(std::span(&matrix[0][0], 16), offset, faults);
 
     if (!pool.weights) return;
     const StreamView& weights = *pool.weights;

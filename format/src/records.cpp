@@ -12,10 +12,9 @@ using u32 = std::uint32_t;
 using u64 = std::uint64_t;
 using f32 = float;
 
-
-#define BENDY_RECORD(chunk, Struct, shortest)                                                \
+#define BENDY_RECORD(chunk, Struct, shortest)                                                 \
     static_assert(std::is_trivially_copyable_v<Struct> && std::is_standard_layout_v<Struct>); \
-    static_assert((shortest) <= sizeof(Struct));
+    static_assert(kShortest<Struct> <= sizeof(Struct));
 #define BENDY_FIELD(Struct, field, type, count, offset, what) \
     static_assert(offsetof(Struct, field) == (offset));       \
     static_assert(sizeof(Struct::field) == sizeof(type) * (count));

@@ -7,7 +7,8 @@ bool is_utf8(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const unsigned lead = byte(at++);
         if (lead < 0x80) continue;
-        // Length, and the range of the second byte, which rules out overlong forms, surrogates and what lies past U+10FFFF.
+        // Length, and the range of the second byte, which rules out overlong forms, surrogates and what lies past
+        // U+10FFFF.
         std::size_t more = 0;
         unsigned low = 0x80;
         unsigned high = 0xbf;

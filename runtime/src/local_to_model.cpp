@@ -5,9 +5,10 @@ namespace bendy {
 void local_to_model(Pose& pose) {
     const auto joints = pose.model_->joints();
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-        const glm::mat4 local = to_matrix(pose.local_[joint], joints[joint].shear);
+        const glm::dmat4 local = to_matrix(pose.local_[joint], joints[joint].shear);
         const std::uint32_t parent = joints[joint].parent;
-        pose.model_space_[joint] = parent == kNone ? local : pose.model_space_[parent] * local;
+        pose.exact_model_space_[joint] = parent == kNone ? local : pose.exact_model_space_[parent] * local;
+        pose.model_space_[joint] = glm::mat4(pose.exact_model_space_[joint]);
     }
     pose.is_stale_ = false;
 }

@@ -22,13 +22,14 @@ Joint make_joint(const JointView& view) {
     return joint;
 }
 
-/// The polygon ranges in pool order, neighbours of one material joined: writers order a pool by material first and joint
-/// second, so each material comes out as one draw.
+/// The polygon ranges in pool order, neighbours of one material joined: writers order a pool by material first and
+/// joint second, so each material comes out as one draw.
 std::vector<Draw> make_draws(std::span<const PolygonView> polygons) {
     std::vector<Draw> draws;
     draws.reserve(polygons.size());
     for (const PolygonView& p : polygons) draws.push_back({p.pool, p.material, p.topology, p.first, p.count});
-    std::sort(draws.begin(), draws.end(), [](const Draw& a, const Draw& b) { return std::tie(a.pool, a.first) < std::tie(b.pool, b.first); });
+    std::sort(draws.begin(), draws.end(),
+              [](const Draw& a, const Draw& b) { return std::tie(a.pool, a.first) < std::tie(b.pool, b.first); });
     std::size_t last = 0;
     for (std::size_t i = 1; i < draws.size(); ++i) {
         Draw& before = draws[last];
@@ -55,7 +56,8 @@ std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
         const Pool& pool = object.pools[range.pool];
         if (!pool.is_rigid() || range.joint == mover.joint || range.count == 0) continue;
         if (mover.per_vertex.empty()) mover.per_vertex.assign(pool.vertices, mover.joint);
-        for (std::uint32_t k = 0; k < range.count; ++k) mover.per_vertex[pool.indices->index(range.first + k, 0)] = range.joint;
+        for (std::uint32_t k = 0; k < range.count; ++k)
+            mover.per_vertex[pool.indices->index(range.first + k, 0)] = range.joint;
     }
     return movers;
 }
@@ -98,17 +100,21 @@ Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& 
     return build(std::move(*file), bytes, options);
 }
 
-Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) { return build({}, bytes, options); }
+Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) {
+    return build({}, bytes, options);
+}
 
 const Cycle* Model::cycle(std::string_view name) const {
     const auto& cycles = data_->object.cycles;
-    const auto found = std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
+    const auto found =
+        std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
     return found == cycles.end() ? nullptr : &*found;
 }
 
 std::uint32_t Model::joint(std::string_view name) const {
     const auto& joints = data_->joints;
-    const auto found = std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.name == name; });
+    const auto found =
+        std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.name == name; });
     return found == joints.end() ? kNone : static_cast<std::uint32_t>(found - joints.begin());
 }
 

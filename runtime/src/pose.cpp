@@ -8,6 +8,7 @@ Pose::Pose(const Model& model)
     : model_(&model),
       local_(model.joints().size()),
       model_space_(model.joints().size()),
+      exact_model_space_(model.joints().size()),
       target_weights_(model.target_count()),
       palette_(model.largest_palette()) {
     set_rest();

@@ -12,9 +12,9 @@ namespace {
 /// The keys around a time, and how far between them it lies.
 struct Interval {
     std::size_t left = 0;
-    std::size_t right = 0;   // left itself where nothing is to be interpolated
-    double fraction = 0.0;   // [0, 1)
-    double seconds = 0.0;    // from left to right
+    std::size_t right = 0;  // left itself where nothing is to be interpolated
+    double fraction = 0.0;  // [0, 1)
+    double seconds = 0.0;   // from left to right
 };
 
 Interval timed_interval(std::span<const float> times, float seconds) {
@@ -58,7 +58,8 @@ void hermite(std::span<const float> left, std::span<const float> right, const In
     const double u2 = u * u;
     const double u3 = u2 * u;
     for (std::size_t c = 0; c < n; ++c) {
-        const double value = (2.0 * u3 - 3.0 * u2 + 1.0) * left[n + c] + at.seconds * (u3 - 2.0 * u2 + u) * left[2 * n + c] +
+        const double value = (2.0 * u3 - 3.0 * u2 + 1.0) * left[n + c] +
+                             at.seconds * (u3 - 2.0 * u2 + u) * left[2 * n + c] +
                              (-2.0 * u3 + 3.0 * u2) * right[n + c] + at.seconds * (u3 - u2) * right[c];
         out[c] = static_cast<float>(value);
     }
@@ -74,10 +75,17 @@ void normalise(std::span<float> q) {
 
 void set_joint(const TrackView& track, std::span<const float> value, JointTransform& joint) {
     switch (track.path) {
-        case TrackPath::translation: joint.translation = {value[0], value[1], value[2]}; break;
-        case TrackPath::rotation: joint.rotation = glm::quat(value[3], value[0], value[1], value[2]); break;
-        case TrackPath::scale: joint.scale = {value[0], value[1], value[2]}; break;
-        case TrackPath::weights: break;
+        case TrackPath::translation:
+            joint.translation = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::rotation:
+            joint.rotation = glm::quat(value[3], value[0], value[1], value[2]);
+            break;
+        case TrackPath::scale:
+            joint.scale = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::weights:
+            break;
     }
 }
 
@@ -91,7 +99,8 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
     const auto key = [&](std::size_t k) { return track.values.subspan(k * per_key, per_key); };
     const auto key_value = [&](std::size_t k) { return key(k).subspan(cubic ? n : 0, n); };
 
-    const Interval at = track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
+    const Interval at =
+        track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
     if (at.left == at.right || track.interpolation == Interpolation::step) {
         std::copy_n(key_value(at.left).begin(), n, value.begin());
         return;

@@ -70,7 +70,10 @@ bool skin(const Model& model, std::uint32_t pool_number, Pose& pose, const Verti
     }
     const auto palette = std::span(pose.palette_).first(pool.palette.joints.size());
     for (std::size_t entry = 0; entry < palette.size(); ++entry) {
-        palette[entry] = pose.model_space_[pool.palette.joints[entry]] * pool.palette.inverse_bind[entry];
+        // Large translations cancel here, which a product of floats would not survive.
+        const glm::dmat4 matrix =
+            pose.exact_model_space_[pool.palette.joints[entry]] * glm::dmat4(pool.palette.inverse_bind[entry]);
+        palette[entry] = glm::mat4(matrix);
     }
     for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
         transform_vertex(blend(pool, palette, vertex), vertex, out);
@@ -88,7 +91,8 @@ bool skin(const Model& model, Pose& pose, const Vertices& out) {
         const std::uint64_t first = model.first_vertex(pool);
         const std::uint64_t count = model.pools()[pool].vertices;
         if (count == 0) continue;
-        skin(model, pool, pose, {part(out.positions, first, count), part(out.normals, first, count), part(out.tangents, first, count)});
+        skin(model, pool, pose,
+             {part(out.positions, first, count), part(out.normals, first, count), part(out.tangents, first, count)});
     }
     return true;
 }

@@ -57,13 +57,13 @@ TEST(CheckSums, OfAnEmptyContainerCoversItsHeader) {
 
 TEST(CheckSums, BlamesTheLeafThatIsDamagedAndNoOther) {
     Buffer file = sample_file();
-    patch(file, offset_of(file, "HEAD/OBJE/VECT/NORM") + 40, std::byte{0x55});
+    patch(file, place_of(file, "HEAD/OBJE/VECT/NORM") + 40, std::byte{0x55});
     EXPECT_EQ(sum_faults(file), Lines{"SUM_MISMATCH HEAD/OBJE/VECT/NORM"});
 }
 
 TEST(CheckSums, BlamesALeafWithAWrongSumAndItsContainer) {
     Buffer file = sample_file();
-    patch(file, offset_of(file, "HEAD/OBJE/VECT/NORM") + 4, 0xdeadbeefu);
+    patch(file, place_of(file, "HEAD/OBJE/VECT/NORM") + 4, 0xdeadbeefu);
     EXPECT_EQ(sum_faults(file), (Lines{"SUM_MISMATCH HEAD/OBJE/VECT", "SUM_MISMATCH HEAD/OBJE/VECT/NORM"}));
 }
 
@@ -77,7 +77,7 @@ TEST(CheckSums, NoticesSiblingsThatChangePlaces) {
 
 TEST(CheckSums, StatesTheSumThatShouldStandThere) {
     Buffer file = sample_file();
-    const std::uint64_t offset = offset_of(file, "HEAD/VERS");
+    const std::uint64_t offset = place_of(file, "HEAD/VERS");
     std::uint32_t good = 0;
     copy_at(file, offset + 4, good);
     patch(file, offset + 4, good ^ 1u);

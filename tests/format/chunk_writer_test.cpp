@@ -91,7 +91,7 @@ TEST(ChunkWriter, CopiesAChunkOfAnotherFileByteForByte) {
     writer.text_leaf(FourCC("BBBB"), "after");
     writer.end();
     const Buffer file = std::move(writer).finish();
-    const std::uint64_t copied = offset_of(file, "HEAD/OBJE");
+    const std::uint64_t copied = place_of(file, "HEAD/OBJE");
     const Bytes there = Bytes(file).subspan(copied, whole.size());
     EXPECT_TRUE(std::equal(whole.begin(), whole.end(), there.begin()));
     Faults faults;

@@ -28,7 +28,7 @@ TEST(ChunkPath, NamesEveryChunkSoThatItIsFoundAgain) {
 
 TEST(ChunkPath, CountsAmongSiblingsOfTheSameId) {
     const Loaded sample(sample_file());
-    const auto path = [&](const char* of) { return chunk_path(sample.file, offset_of(sample.file, of)); };
+    const auto path = [&](const char* of) { return chunk_path(sample.file, place_of(sample.file, of)); };
     EXPECT_EQ(path("HEAD"), "HEAD");
     EXPECT_EQ(path("HEAD[0]/OBJE[0]/SKIN[0]/SKIN[1]/PIVO"), "HEAD/OBJE/SKIN/SKIN[1]/PIVO");
     EXPECT_EQ(path("HEAD/TEXT[2]/SAME"), "HEAD/TEXT[2]/SAME");
@@ -66,7 +66,7 @@ TEST(ChunkPath, IsShortenedInTheMiddle) {
 
 TEST(ChunkPath, WorksAsFarAsHeadersCanBeTrusted) {
     Buffer file = sample_file();
-    const std::uint64_t skin = offset_of(file, "HEAD/OBJE/SKIN/SKIN[1]");
+    const std::uint64_t skin = place_of(file, "HEAD/OBJE/SKIN/SKIN[1]");
     patch(file, skin + 8, pack_size_and_flags(kMaxPayload, kContainerFlag));
     EXPECT_EQ(chunk_path(file, skin), "HEAD/OBJE/SKIN/SKIN[1]");
     file.resize(skin + 4);

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <string>
-#include <vector>
+#include <string_view>
 
 namespace bendy {
 namespace {
@@ -19,9 +18,10 @@ TEST(Document, GivesTheWholeFile) {
     const Loaded sample(sample_file());
     EXPECT_EQ(sample.lines(), Lines{});
     const Document& document = sample.document;
-    EXPECT_EQ(document.version.major, kVersionMajor);
-    EXPECT_EQ(document.version.vertices, 10u);
-    EXPECT_STREQ(reinterpret_cast<const char*>(document.version.generator.data()), "sample");
+    ASSERT_TRUE(document.version.has_value());
+    EXPECT_EQ(document.version->major, kVersionMajor);
+    EXPECT_EQ(document.version->vertices, 10u);
+    EXPECT_STREQ(reinterpret_cast<const char*>(document.version->generator.data()), "sample");
     EXPECT_EQ(document.extras, "{\"file\":true}");
     EXPECT_EQ(document.textures.size(), 3u);
     EXPECT_EQ(document.materials.size(), 2u);
@@ -144,14 +144,32 @@ TEST(Document, RefusesAVertexOfARigidPoolThatTwoJointsMove) {
     Node root = sample();
     Node& indices = at(root, "HEAD/OBJE/VECT[1]/INDX");
     set(indices, sizeof(StreamRecord) + 5 * sizeof(std::uint32_t), 2u);  // the spine's point, a corner of the head's triangle
-    EXPECT_EQ(faults_in(root), Lines{"RIGID_SHARED HEAD/OBJE/VECT[1]"});
+    EXPECT_EQ(faults_in(root), Lines{"RIGID_SHARED HEAD/OBJE/SKIN/SKIN/POLY[1]"});
     set(indices, sizeof(StreamRecord) + 5 * sizeof(std::uint32_t), 5u);
     set(indices, sizeof(StreamRecord) + 3 * sizeof(std::uint32_t), 2u);  // the head's line: the same joint
     EXPECT_EQ(faults_in(root), Lines{});
 }
 
 TEST(Document, LetsJointsShareTheVerticesOfASkinnedPool) {
-    EXPECT_EQ(faults_with_polygons("HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.first = 0; }), Lines{});
+    // The two triangles of the sample have an edge in common.
+    const Loaded sample(sample_file());
+    const PoolView& pool = sample.document.objects.at(0).pools.at(0);
+    EXPECT_EQ(pool.indices->index(1, 0), pool.indices->index(4, 0));
+    EXPECT_EQ(sample.lines(), Lines{});
+}
+
+TEST(Document, RefusesPolygonsThatOverlap) {
+    const char* const spine = "HEAD/OBJE/SKIN/SKIN/POLY";
+    const auto faults = [&](std::uint32_t first, std::uint32_t count) {
+        return faults_with_polygons(spine, [=](auto& polygons) { polygons.first = first, polygons.count = count; });
+    };
+    EXPECT_EQ(faults(3, 3), Lines{});
+    EXPECT_EQ(faults(1, 0), Lines{});
+    EXPECT_EQ(faults(2, 3), Lines{"POLYGON_OVERLAP HEAD/OBJE/SKIN/SKIN/POLY"});
+    EXPECT_EQ(faults(0, 3).size(), 1u);
+    EXPECT_EQ(faults(0, 6).size(), 1u);
+    // In another pool the same numbers are other indices.
+    EXPECT_EQ(faults_with_polygons(spine, [](auto& polygons) { polygons.pool = 1, polygons.first = 5, polygons.count = 0; }), Lines{});
 }
 
 TEST(Document, HoldsEveryCountOfTheVersionAgainstTheFile) {
@@ -183,11 +201,33 @@ TEST(Document, RefusesOtherSignaturesAndMajorVersions) {
 TEST(Document, TakesLaterMinorVersionsWithWhatTheyAdd) {
     Node root = sample();
     Node& version = at(root, "HEAD/VERS");
-    edit<VersionRecord>(version, [](auto& record) { record.minor = 65535, record.reserved = 7; });
+    edit<VersionRecord>(version, [](auto& record) { record.minor = 65535; });
     version.payload.resize(version.payload.size() + 100, std::byte{0xee});
     EXPECT_EQ(faults_in(root), Lines{});
-    edit<VersionRecord>(version, [](auto& record) { record.minor = kVersionMinor; });
+}
+
+TEST(Document, RefusesAReservedFieldOfTheVersion) {
+    Node root = sample();
+    edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& record) { record.reserved = 0x100; });
     EXPECT_EQ(faults_in(root), Lines{"RESERVED_FIELD HEAD/VERS"});
+}
+
+TEST(Document, WantsTheGeneratorToBeTextAndThenZeros) {
+    const auto faults = [](std::string_view generator) {
+        Node root = sample();
+        edit<VersionRecord>(at(root, "HEAD/VERS"), [&](auto& record) {
+            record.generator = {};
+            std::memcpy(record.generator.data(), generator.data(), generator.size());
+        });
+        return faults_in(root);
+    };
+    EXPECT_EQ(faults(""), Lines{});
+    EXPECT_EQ(faults("0123456789abcdef0123456789abcdef"), Lines{});  // to the last byte
+    EXPECT_EQ(faults("\xe2\x82\xac"), Lines{});
+    EXPECT_EQ(faults("a\xff"), Lines{"NOT_UTF8 HEAD/VERS"});
+    EXPECT_EQ(faults("0123456789abcdef0123456789abcde\xe2"), Lines{"NOT_UTF8 HEAD/VERS"});
+    EXPECT_EQ(faults(std::string_view("a\0b", 3)), Lines{"RESERVED_FIELD HEAD/VERS"});
+    EXPECT_EQ(faults(std::string_view("\0\0\0b", 4)), Lines{"RESERVED_FIELD HEAD/VERS"});
 }
 
 TEST(Document, ReadsAVersionWithoutAGenerator) {
@@ -196,7 +236,7 @@ TEST(Document, ReadsAVersionWithoutAGenerator) {
     version.payload.resize(offsetof(VersionRecord, generator));
     EXPECT_EQ(faults_in(root), Lines{});
     version.payload.pop_back();
-    EXPECT_EQ(faults_in(root).at(0), "RECORD_TOO_SHORT HEAD/VERS");
+    EXPECT_EQ(faults_in(root), Lines{"RECORD_TOO_SHORT HEAD/VERS"});
 }
 
 TEST(Document, SurvivesKnownChunksOfTheWrongShapeAnywhere) {

@@ -125,7 +125,7 @@ inline bool resum(Buffer& file) {
 }
 
 /// The offset of the header of the chunk at a path.
-inline std::uint64_t offset_of(Bytes file, std::string_view path) {
+inline std::uint64_t place_of(Bytes file, std::string_view path) {
     const auto tree = read_chunk_tree(file);
     if (!tree) throw std::runtime_error(describe(tree.error()));
     const std::uint32_t number = find_path(*tree, path);

@@ -51,39 +51,39 @@ TEST(Material, RefusesTexturesThatAreNotThere) {
     for (const std::size_t use : kTextureUses) {
         EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, 2u), Lines{}) << use;
         EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, kNone), Lines{}) << use;
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/MATE"}) << use;
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, kNone - 1), Lines{"TEXTURE_RANGE HEAD/MATE"}) << use;
-        EXPECT_EQ(faults_with("HEAD/OBJE/SKIN/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/OBJE/SKIN/MATE"}) << use;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/MATE/SURF"}) << use;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, kNone - 1), Lines{"TEXTURE_RANGE HEAD/MATE/SURF"}) << use;
+        EXPECT_EQ(faults_with("HEAD/OBJE/SKIN/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/OBJE/SKIN/MATE/SURF"}) << use;
     }
 }
 
 TEST(Material, RefusesUnknownModesAndSwitches) {
     const auto faults = [](std::size_t offset, std::uint8_t value) { return faults_with("HEAD/MATE/SURF", offset, value); };
     EXPECT_EQ(faults(offsetof(SurfaceRecord, alpha_mode), 1), Lines{});
-    EXPECT_EQ(faults(offsetof(SurfaceRecord, alpha_mode), 3), Lines{"ENUM_RANGE HEAD/MATE"});
+    EXPECT_EQ(faults(offsetof(SurfaceRecord, alpha_mode), 3), Lines{"ENUM_RANGE HEAD/MATE/SURF"});
     EXPECT_EQ(faults(offsetof(SurfaceRecord, double_sided), 1), Lines{});
-    EXPECT_EQ(faults(offsetof(SurfaceRecord, double_sided), 2), Lines{"ENUM_RANGE HEAD/MATE"});
+    EXPECT_EQ(faults(offsetof(SurfaceRecord, double_sided), 2), Lines{"ENUM_RANGE HEAD/MATE/SURF"});
     EXPECT_EQ(faults(offsetof(SurfaceRecord, unlit), 1), Lines{});
-    EXPECT_EQ(faults(offsetof(SurfaceRecord, unlit), 255), Lines{"ENUM_RANGE HEAD/MATE"});
+    EXPECT_EQ(faults(offsetof(SurfaceRecord, unlit), 255), Lines{"ENUM_RANGE HEAD/MATE/SURF"});
 }
 
 TEST(Material, RefusesReservedBytes) {
     for (std::size_t byte = 0; byte < 13; ++byte) {
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", offsetof(SurfaceRecord, reserved) + byte, std::uint8_t{1}), Lines{"RESERVED_FIELD HEAD/MATE"}) << byte;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", offsetof(SurfaceRecord, reserved) + byte, std::uint8_t{1}), Lines{"RESERVED_FIELD HEAD/MATE/SURF"}) << byte;
     }
     for (const std::size_t use : kTextureUses) {
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offsetof(TextureUseRecord, reserved), 1u), Lines{"RESERVED_FIELD HEAD/MATE"}) << use;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offsetof(TextureUseRecord, reserved), 1u), Lines{"RESERVED_FIELD HEAD/MATE/SURF"}) << use;
     }
 }
 
 TEST(Material, RefusesEveryNumberThatIsNotFinite) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         for (std::size_t offset = 0; offset < offsetof(SurfaceRecord, alpha_mode); offset += sizeof(float)) {
-            EXPECT_EQ(faults_with("HEAD/MATE/SURF", offset, bad), Lines{"NOT_FINITE HEAD/MATE"}) << offset;
+            EXPECT_EQ(faults_with("HEAD/MATE/SURF", offset, bad), Lines{"NOT_FINITE HEAD/MATE/SURF"}) << offset;
         }
         for (const std::size_t use : kTextureUses) {
             for (std::size_t offset = offsetof(TextureUseRecord, offset); offset < offsetof(TextureUseRecord, reserved); offset += sizeof(float)) {
-                EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offset, bad), Lines{"NOT_FINITE HEAD/MATE"}) << use + offset;
+                EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offset, bad), Lines{"NOT_FINITE HEAD/MATE/SURF"}) << use + offset;
             }
         }
     }
@@ -137,7 +137,7 @@ TEST(Texture, TakesAnImageWithoutBytes) {
 
 TEST(Texture, RefusesUnknownSamplerSettings) {
     const auto faults = [](std::size_t offset, std::uint8_t value) { return faults_with("HEAD/TEXT/SAMP", offset, value); };
-    const Lines bad{"ENUM_RANGE HEAD/TEXT"};
+    const Lines bad{"ENUM_RANGE HEAD/TEXT/SAMP"};
     EXPECT_EQ(faults(offsetof(SamplerRecord, mag_filter), 2), Lines{});
     EXPECT_EQ(faults(offsetof(SamplerRecord, mag_filter), 3), bad);
     EXPECT_EQ(faults(offsetof(SamplerRecord, min_filter), 6), Lines{});

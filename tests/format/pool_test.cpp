@@ -183,8 +183,8 @@ TEST(Pool, WithVerticesMustHavePositions) {
 TEST(Pool, RefusesACarryingJointThatIsNotThere) {
     EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), 3u), Lines{});
     EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), kNone), Lines{});
-    EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), 4u), Lines{"JOINT_RANGE HEAD/OBJE/VECT[1]"});
-    EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), kNone - 1), Lines{"JOINT_RANGE HEAD/OBJE/VECT[1]"});
+    EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), 4u), Lines{"JOINT_RANGE HEAD/OBJE/VECT[1]/VINF"});
+    EXPECT_EQ(faults_with("HEAD/OBJE/VECT[1]/VINF", offsetof(PoolRecord, joint), kNone - 1), Lines{"JOINT_RANGE HEAD/OBJE/VECT[1]/VINF"});
 }
 
 /// A kind of stream, and what it may be.
@@ -265,6 +265,7 @@ TEST(Pool, TakesExactlyTheStreamTypesOfItsKinds) {
 
 TEST(Pool, TakesAnyTypeForTheAuthorsAttributes) {
     for (const ComponentType type : {u8, i8, u16, i16, u32, f32}) {
+        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, true, 1, 4)).empty(), type != u32 && type != f32);
         for (const std::uint16_t width : {std::uint16_t{1}, std::uint16_t{16}, std::uint16_t{65535}}) {
             EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, false, width, 4)), Lines{});
         }
@@ -308,6 +309,26 @@ TEST(Pool, RefusesUnknownTypesSwitchesAndReservedFields) {
         EXPECT_EQ(faults([](auto& record) { record.component_type = 6; }), Lines{"ENUM_RANGE " + kind.path});
         EXPECT_EQ(faults([](auto& record) { record.normalised = 2; }), Lines{"ENUM_RANGE " + kind.path});
         EXPECT_EQ(faults([](auto& record) { record.reserved = 1; }), Lines{"RESERVED_FIELD " + kind.path});
+    }
+}
+
+TEST(Pool, WantsSetsToDiffer) {
+    Node root = sample();
+    edit<StreamRecord>(at(root, kPool + "/TEXC"), [](auto& record) { record.set = 1; });
+    EXPECT_EQ(faults_in(root), Lines{"STREAM_SET HEAD/OBJE/VECT/TEXC[1]"});
+    root = sample();
+    at(root, kPool).children.push_back(at(root, kPool + "/COLR"));
+    EXPECT_EQ(faults_in(root), Lines{"STREAM_SET HEAD/OBJE/VECT/COLR[1]"});
+    edit<StreamRecord>(at(root, kPool + "/COLR[1]"), [](auto& record) { record.set = kNone; });
+    EXPECT_EQ(faults_in(root), Lines{});
+}
+
+TEST(Pool, RefusesASetWhereThereAreNone) {
+    for (const Kind& kind : kKinds) {
+        if (kind.path.ends_with("TEXC") || kind.path.ends_with("COLR")) continue;
+        Node root = sample();
+        edit<StreamRecord>(at(root, kind.path), [](auto& record) { record.set = 1; });
+        EXPECT_EQ(shape_faults(root), Lines{"STREAM_SET " + kind.path});
     }
 }
 
@@ -358,7 +379,7 @@ TEST(Pool, WantsBonesWeightsAndPaletteTogether) {
         const bool good = present == 0 || present == 7;
         const Lines faults = Loaded(root).lines();
         if (present == 0) {
-            EXPECT_EQ(faults, Lines{"RIGID_SHARED HEAD/OBJE/VECT"});  // the sample's triangles share an edge
+            EXPECT_EQ(faults, Lines{"RIGID_SHARED HEAD/OBJE/SKIN/SKIN/POLY"});  // the sample's triangles share an edge
         } else {
             EXPECT_EQ(faults, good ? Lines{} : Lines{"STREAM_INCOMPLETE HEAD/OBJE/VECT"}) << present;
         }

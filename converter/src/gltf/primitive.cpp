@@ -34,10 +34,12 @@ std::optional<std::uint32_t> set_number(std::string_view name, std::string_view 
     return number;
 }
 
-std::vector<glm::vec3> as_vec3(const std::vector<float>& values) {
-    std::vector<glm::vec3> vectors(values.size() / 3);
+/// The first three of `components` values each.
+std::vector<glm::vec3> as_vec3(const std::vector<float>& values, std::size_t components = 3) {
+    std::vector<glm::vec3> vectors(values.size() / components);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
-        vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+        const float* from = values.data() + i * components;
+        vectors[i] = {from[0], from[1], from[2]};
     }
     return vectors;
 }
@@ -240,21 +242,24 @@ private:
             const std::string target_place = place_ + '.' + at("targets", t);
             for (const auto& [name, accessor] : primitive_.targets[t]) {
                 const std::string place = target_place + '.' + key(name);
-                std::vector<glm::vec3>* stream = name == "POSITION"                                ? &mesh.targets[t].positions
-                                                 : name == "NORMAL" && !mesh.normals.empty()   ? &mesh.targets[t].normals
-                                                 : name == "TANGENT" && !mesh.tangents.empty() ? &mesh.targets[t].tangents
-                                                                                               : nullptr;
+                Target& target = mesh.targets[t];
+                std::vector<glm::vec3>* stream = nullptr;
+                if (name == "POSITION") stream = &target.positions;
+                if (name == "NORMAL" && !mesh.normals.empty()) stream = &target.normals;
+                if (name == "TANGENT" && !mesh.tangents.empty()) stream = &target.tangents;
                 if (stream == nullptr) {
                     document_.report.warn("morph target attribute " + quote(name) + " left out", place);
                     continue;
                 }
                 const auto index = static_cast<std::size_t>(accessor);
                 const auto& source = document_.model.accessors[index];
-                if (component_count(source) != 3) {
-                    fail(place, "elements of " + std::to_string(component_count(source)) + " components, 3 are due");
+                const std::size_t components = component_count(source);
+                // Some exporters give tangents the fourth component of the base stream; it is not displaced.
+                if (components != 3 && !(name == "TANGENT" && components == 4)) {
+                    fail(place, "elements of " + std::to_string(components) + " components, 3 are due");
                 }
                 check_count(source.count, place);
-                *stream = as_vec3(read_floats(document_, index, place));
+                *stream = as_vec3(read_floats(document_, index, place), components);
             }
         }
     }

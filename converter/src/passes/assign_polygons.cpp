@@ -19,7 +19,8 @@ std::uint32_t heaviest_joint(const Mesh& mesh, std::span<const std::uint32_t> co
             const std::size_t at = std::size_t{vertex} * mesh.influences + k;
             if (mesh.weights[at] == 0.0f) continue;
             const std::uint32_t joint = mesh.palette.joints[mesh.bones[at]];
-            const auto known = std::find_if(shares.begin(), shares.end(), [&](const Share& share) { return share.joint == joint; });
+            const auto known =
+                std::find_if(shares.begin(), shares.end(), [&](const Share& share) { return share.joint == joint; });
             if (known == shares.end()) {
                 shares.push_back({joint, mesh.weights[at]});
             } else {
@@ -27,7 +28,9 @@ std::uint32_t heaviest_joint(const Mesh& mesh, std::span<const std::uint32_t> co
             }
         }
     }
-    const auto heavier = [](const Share& a, const Share& b) { return a.weight != b.weight ? a.weight < b.weight : a.joint > b.joint; };
+    const auto heavier = [](const Share& a, const Share& b) {
+        return a.weight != b.weight ? a.weight < b.weight : a.joint > b.joint;
+    };
     const auto heaviest = std::max_element(shares.begin(), shares.end(), heavier);
     return heaviest == shares.end() ? mesh.joint : heaviest->joint;
 }
@@ -55,7 +58,8 @@ AssignedPolygons assign_polygons(const Mesh& mesh) {
             polygons.push_back({part.material, part.topology, joint, number, first});
         }
     }
-    std::stable_sort(polygons.begin(), polygons.end(), [](const Polygon& a, const Polygon& b) { return a.key() < b.key(); });
+    std::stable_sort(polygons.begin(), polygons.end(),
+                     [](const Polygon& a, const Polygon& b) { return a.key() < b.key(); });
 
     AssignedPolygons assigned;
     const Polygon* before = nullptr;

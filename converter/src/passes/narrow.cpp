@@ -31,7 +31,8 @@ bool as_fractions(std::span<const float> values, std::vector<std::byte>& bytes) 
     for (const float value : values) {
         if (!(value >= 0.0f && value <= 1.0f)) return false;
         const auto steps = static_cast<T>(std::lround(value * kLargest));
-        if (std::bit_cast<std::uint32_t>(static_cast<float>(steps) / kLargest) != std::bit_cast<std::uint32_t>(value)) return false;
+        if (std::bit_cast<std::uint32_t>(static_cast<float>(steps) / kLargest) != std::bit_cast<std::uint32_t>(value))
+            return false;
         append(bytes, steps);
     }
     return true;

@@ -9,11 +9,10 @@
 
 namespace bendy::converter {
 
-/// Writes a scene as a file with one object: structure first, bulk after it, embedded images last. Exact: every number of
-/// the scene is kept; streams and indices take the narrowest type that holds them without loss. The same scene gives the
-/// same bytes. What has no place in the file is named in `report`.
-/// \param scene      indices in range, numbers finite, rotations unit: as importers leave it
-/// \param generator  name and version of the program, at most 32 bytes
+/// Writes a scene as a file with one object: structure first, bulk after it, embedded images last. Exact: every number
+/// of the scene is kept; streams and indices take the narrowest type that holds them without loss. The same scene gives
+/// the same bytes. What has no place in the file is named in `report`. \param scene      indices in range, numbers
+/// finite, rotations unit: as importers leave it \param generator  name and version of the program, at most 32 bytes
 std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report);
 
 }  // namespace bendy::converter

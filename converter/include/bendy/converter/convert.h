@@ -14,8 +14,9 @@ struct ConvertOptions {
     GltfOptions gltf;
 };
 
-/// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named in
-/// `report`. Throws nothing.
-Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options, Report& report);
+/// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named
+/// in `report`. Throws nothing.
+Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
+                                                    Report& report);
 
 }  // namespace bendy::converter

@@ -11,16 +11,16 @@
 namespace bendy::converter {
 
 struct GltfOptions {
-    /// Scene to take: its name or its index in decimal digits; empty: the file's default scene, else the first, else all
-    /// root nodes.
+    /// Scene to take: its name or its index in decimal digits; empty: the file's default scene, else the first, else
+    /// all root nodes.
     std::optional<std::string> scene;
     /// false: images that the source keeps in files of their own stay there and are referred to by URI.
     bool embed_images = true;
 };
 
 /// Reads a .gltf or .glb file (told apart by content) with the files that it refers to, checks all of it, and fills a
-/// Scene. What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and every
-/// index in range.
+/// Scene. What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and
+/// every index in range.
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report);
 
 }  // namespace bendy::converter

@@ -6,7 +6,8 @@
 
 namespace bendy::converter {
 
-/// Why an import failed: what is wrong and where in the source, e.g. place `meshes[2].primitives[0].attributes.JOINTS_0`.
+/// Why an import failed: what is wrong and where in the source, e.g. place
+/// `meshes[2].primitives[0].attributes.JOINTS_0`.
 struct ImportError {
     std::string place;    ///< JSON path in the source, or empty where the whole file is meant
     std::string message;  ///< one line, no trailing full stop

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-// The mutable authoring model: what importers fill, passes rework and build_chunks writes. Everything here is decoded to
-// floats; the narrowest exact storage is chosen when chunks are built. glTF's conventions: metres, radians, seconds,
+// The mutable authoring model: what importers fill, passes rework and build_chunks writes. Everything here is decoded
+// to floats; the narrowest exact storage is chosen when chunks are built. glTF's conventions: metres, radians, seconds,
 // right-handed, Y up, column vectors, column-major matrices, quaternions as x y z w.
 namespace bendy::converter {
 
@@ -41,8 +41,8 @@ struct Joint {
 /// A list of vertex indices with one material; strips, fans and loops are resolved into lists by the importer.
 struct Part {
     Topology topology = Topology::triangles;
-    std::uint32_t material = kNone;       ///< index into Scene::materials
-    std::vector<std::uint32_t> indices;   ///< into the mesh's vertices; 3, 2 or 1 per primitive, the source's order
+    std::uint32_t material = kNone;      ///< index into Scene::materials
+    std::vector<std::uint32_t> indices;  ///< into the mesh's vertices; 3, 2 or 1 per primitive, the source's order
 };
 
 /// One vertex stream that is not of the fixed kinds: texture coordinates, colours, the author's own attributes.
@@ -62,7 +62,8 @@ struct Target {
     std::vector<glm::vec3> tangents;  ///< xyz only, the handedness stays
 };
 
-/// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind time).
+/// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind
+/// time).
 struct Palette {
     std::vector<std::uint32_t> joints;    ///< indices into Scene::joints
     std::vector<glm::mat4> inverse_bind;  ///< as many

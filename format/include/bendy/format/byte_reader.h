@@ -13,14 +13,15 @@
 // another kind would swap here and nowhere else.
 namespace bendy {
 
-static_assert(std::endian::native == std::endian::little, "bendy files are used in place, which needs a little-endian machine");
+static_assert(std::endian::native == std::endian::little,
+              "bendy files are used in place, which needs a little-endian machine");
 
 using Bytes = std::span<const std::byte>;
 
-/// A number or a standard-layout record at `offset`, copied out; bytes past the end of `bytes` leave `value` as it is, so
-/// that fields which an older writer did not know keep their defaults.
+/// A number or a standard-layout record at `offset`, copied out; bytes past the end of `bytes` leave `value` as it is,
+/// so that fields which an older writer did not know keep their defaults.
 template <class T>
-    requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 void copy_at(Bytes bytes, std::uint64_t offset, T& value) {
     if (offset >= bytes.size()) return;
     std::memcpy(&value, bytes.data() + offset, std::min<std::uint64_t>(sizeof(T), bytes.size() - offset));
@@ -29,10 +30,11 @@ void copy_at(Bytes bytes, std::uint64_t offset, T& value) {
 /// `count` values of T at `offset` in place, or an empty span if they do not fit. Asserts nothing: what comes back is
 /// always inside `bytes`. The bytes must be aligned for T, which every payload of an aligned file is.
 template <class T>
-    requires std::is_trivially_copyable_v<T>
-std::span<const T> view_at(Bytes bytes, std::uint64_t offset, std::uint64_t count) {
+requires std::is_trivially_copyable_v<T> std::span<const T> view_at(Bytes bytes, std::uint64_t offset,
+                                                                    std::uint64_t count) {
     if (offset > bytes.size() || count > (bytes.size() - offset) / sizeof(T)) return {};
-    return {reinterpret_cast<const T*>(bytes.data() + offset), static_cast<std::size_t>(count)};  // NOLINT(*-reinterpret-cast)
+    return {reinterpret_cast<const T*>(bytes.data() + offset),
+            static_cast<std::size_t>(count)};  // NOLINT(*-reinterpret-cast)
 }
 
 /// The bytes as characters.
@@ -41,6 +43,8 @@ inline std::string_view as_text(Bytes bytes) {
 }
 
 /// The characters as bytes.
-inline Bytes as_byte_span(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+inline Bytes as_byte_span(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 }  // namespace bendy

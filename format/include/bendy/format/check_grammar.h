@@ -5,8 +5,8 @@
 
 namespace bendy {
 
-/// Holds every chunk against the table chunk_ids.def: a known one stands where it may, is leaf or container as it must be,
-/// as often as it may; an unknown one is skipped with all inside it, unless it is marked required.
+/// Holds every chunk against the table chunk_ids.def: a known one stands where it may, is leaf or container as it must
+/// be, as often as it may; an unknown one is skipped with all inside it, unless it is marked required.
 void check_grammar(const ChunkTree& tree, Faults& faults);
 
 }  // namespace bendy

@@ -40,7 +40,9 @@ struct Chunk {
 };
 
 /// `size` rounded up to the next chunk boundary. size <= 2^48, so this cannot overflow.
-constexpr std::uint64_t padded(std::uint64_t size) { return (size + (kChunkAlignment - 1)) & ~(kChunkAlignment - 1); }
+constexpr std::uint64_t padded(std::uint64_t size) {
+    return (size + (kChunkAlignment - 1)) & ~(kChunkAlignment - 1);
+}
 
 /// The header's third field.
 constexpr std::uint64_t pack_size_and_flags(std::uint64_t size, std::uint16_t flags) {

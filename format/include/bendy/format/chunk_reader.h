@@ -13,8 +13,8 @@
 
 namespace bendy {
 
-/// All chunks of a file, in the order in which they stand: a parent before its children, so chunk n's first child, if it
-/// has one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
+/// All chunks of a file, in the order in which they stand: a parent before its children, so chunk n's first child, if
+/// it has one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
 class ChunkTree {
 public:
     /// Walks over the direct children of a chunk; dereferences to their numbers.
@@ -78,9 +78,9 @@ private:
     std::vector<Chunk> chunks_;
 };
 
-/// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting depth.
-/// Does not recurse, and allocates at most 40 bytes for each chunk header that the file really holds. `bytes` must start on
-/// a 16-byte boundary (mapped files do). Malformed input: the first fault, with its offset.
+/// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting
+/// depth. Does not recurse, and allocates at most 40 bytes for each chunk header that the file really holds. `bytes`
+/// must start on a 16-byte boundary (mapped files do). Malformed input: the first fault, with its offset.
 Result<ChunkTree> read_chunk_tree(Bytes bytes);
 
 }  // namespace bendy

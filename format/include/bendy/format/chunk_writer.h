@@ -11,8 +11,8 @@
 
 namespace bendy {
 
-/// Builds a file in memory: begin and end containers, put leaves; sizes, padding and sums happen here. Misuse (an end too
-/// many, a payload of 2^48 bytes) is the caller's bug and is asserted.
+/// Builds a file in memory: begin and end containers, put leaves; sizes, padding and sums happen here. Misuse (an end
+/// too many, a payload of 2^48 bytes) is the caller's bug and is asserted.
 class ChunkWriter {
 public:
     void begin(FourCC id, std::uint16_t flags = 0);

@@ -12,8 +12,9 @@
 // CYCL: an animation cycle, with tracks of timed keys or of fixed frames.
 namespace bendy {
 
-/// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values are
-/// keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each key.
+/// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values
+/// are keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each
+/// key.
 struct TrackView {
     TrackPath path = TrackPath::translation;
     Interpolation interpolation = Interpolation::linear;
@@ -35,13 +36,14 @@ struct CycleView {
     std::string_view extras;
 };
 
-/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints` and
-/// `pools`, components as the target has them. Faults go to `faults`; a track with a fault is left out.
-CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools, Faults& faults);
+/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints`
+/// and `pools`, components as the target has them. Faults go to `faults`; a track with a fault is left out.
+CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
+                     Faults& faults);
 
-/// Faults of meaning that do not endanger memory: key times that do not ascend or lie outside [start, end], numbers that
-/// are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one property or with
-/// values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
+/// Faults of meaning that do not endanger memory: key times that do not ascend or lie outside [start, end], numbers
+/// that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one property or
+/// with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
 void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& faults);
 
 inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1

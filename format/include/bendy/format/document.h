@@ -26,15 +26,15 @@ struct ObjectView {
 struct Document {
     std::optional<VersionRecord> version;  ///< absent only beside a fault
     std::vector<TextureView> textures;
-    std::vector<MaterialView> materials;        ///< HEAD's MATE chunks, then those of the objects' joints
-    std::uint32_t global_materials = 0;         ///< how many of them are HEAD's
+    std::vector<MaterialView> materials;  ///< HEAD's MATE chunks, then those of the objects' joints
+    std::uint32_t global_materials = 0;   ///< how many of them are HEAD's
     std::vector<ObjectView> objects;
     std::string_view extras;
 };
 
-/// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety hangs
-/// on: chunks in the wrong place or number, record sizes, types, counts, every index. When it adds none, every view, index
-/// and range in the result is good.
+/// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety
+/// hangs on: chunks in the wrong place or number, record sizes, types, counts, every index. When it adds none, every
+/// view, index and range in the result is good.
 Document read_document(const ChunkTree& tree, Faults& faults);
 
 /// Adds the faults of meaning that do not endanger memory: see the check_*_values functions.

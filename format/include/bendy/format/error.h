@@ -11,8 +11,8 @@ enum class ErrorCode : std::uint8_t {
 #undef BENDY_ERROR
 };
 
-/// malformed: the grammar is broken. invalid: the grammar holds, the meaning does not. unsupported: a good file that this
-/// version cannot read. io: the system said no.
+/// malformed: the grammar is broken. invalid: the grammar holds, the meaning does not. unsupported: a good file that
+/// this version cannot read. io: the system said no.
 enum class ErrorClass : std::uint8_t { malformed, invalid, unsupported, io };
 
 /// A fault with its place. Small and without text: the words stand in the table, `describe` puts them together and

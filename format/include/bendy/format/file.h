@@ -27,8 +27,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Writes a whole file or nothing: into a new file beside `path`, flushed to the disk, then renamed over it. On failure the
-/// old file, if there was one, is untouched and no new one is left behind.
+/// Writes a whole file or nothing: into a new file beside `path`, flushed to the disk, then renamed over it. On failure
+/// the old file, if there was one, is untouched and no new one is left behind.
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
 
 }  // namespace bendy

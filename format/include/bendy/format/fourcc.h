@@ -5,7 +5,8 @@
 
 namespace bendy {
 
-/// A chunk's id: four capital letters or digits, stored in reading order (the first letter is the first byte in the file).
+/// A chunk's id: four capital letters or digits, stored in reading order (the first letter is the first byte in the
+/// file).
 struct FourCC {
     std::uint32_t value = 0;
 

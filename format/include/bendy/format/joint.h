@@ -33,8 +33,8 @@ struct JointView {
 struct SkeletonView {
     std::vector<JointView> joints;
     std::vector<PolygonView> polygons;
-    std::vector<std::uint32_t> local_materials;        ///< MATE chunks inside SKIN, in file order
-    std::vector<std::uint32_t> first_local_material;   ///< of each joint, into local_materials
+    std::vector<std::uint32_t> local_materials;       ///< MATE chunks inside SKIN, in file order
+    std::vector<std::uint32_t> first_local_material;  ///< of each joint, into local_materials
 };
 
 /// Reads the SKIN tree of an OBJE chunk, without recursion.

@@ -20,8 +20,8 @@ struct StreamView {
     bool normalised = false;
     std::uint32_t components = 0;
     std::uint32_t elements = 0;
-    std::uint32_t set = 0;  ///< texture coordinate or colour set
-    Bytes data;             ///< elements * components * component_size(type) bytes
+    std::uint32_t set = 0;    ///< texture coordinate or colour set
+    Bytes data;               ///< elements * components * component_size(type) bytes
     std::uint32_t chunk = 0;  ///< the leaf that holds it
 
     /// One number as glTF reads it: normalised integers become [0, 1] or, signed, [-1, 1]; others keep their value.
@@ -60,8 +60,8 @@ struct PoolView {
     std::uint32_t chunk = 0;
     std::string_view name;
     std::uint32_t vertices = 0;
-    std::uint32_t joint = kNone;  ///< the joint that carries the pool
-    StreamView positions;         ///< f32 x 3; empty only in a pool without vertices
+    std::uint32_t joint = kNone;         ///< the joint that carries the pool
+    StreamView positions;                ///< f32 x 3; empty only in a pool without vertices
     std::optional<StreamView> normals;   ///< f32 x 3
     std::optional<StreamView> tangents;  ///< f32 x 4
     std::vector<StreamView> texture_coords, colours;
@@ -79,8 +79,8 @@ struct PoolView {
 /// `joints` of the object, the palette and the pool itself. Faults go to `faults`; a part with a fault is left out.
 PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
 
-/// Faults of meaning that do not endanger memory: numbers that are not finite, weights below zero or that do not sum to 1
-/// within kWeightTolerance.
+/// Faults of meaning that do not endanger memory: numbers that are not finite, weights below zero or that do not sum to
+/// 1 within kWeightTolerance.
 void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faults);
 
 inline constexpr float kWeightTolerance = 1e-5f;

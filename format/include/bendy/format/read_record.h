@@ -61,7 +61,8 @@ inline void check_finite(std::span<const float> numbers, std::uint64_t offset, F
 
 /// True when x y z w has length 1 within `tolerance`.
 inline bool is_unit(std::span<const float, 4> q, float tolerance) {
-    const double length = std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3]);
+    const double length =
+        std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3]);
     return std::abs(length - 1.0) <= tolerance;  // false for NaN
 }
 

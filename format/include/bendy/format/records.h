@@ -167,7 +167,9 @@ constexpr std::uint32_t component_size(ComponentType type) {
     return kSizes[static_cast<std::size_t>(type)];
 }
 /// Indices per polygon: 3, 2, 1.
-constexpr std::uint32_t corners(Topology topology) { return 3 - static_cast<std::uint32_t>(topology); }
+constexpr std::uint32_t corners(Topology topology) {
+    return 3 - static_cast<std::uint32_t>(topology);
+}
 
 /// Bytes that a payload must have at least to hold record R.
 template <class R>
@@ -180,9 +182,9 @@ inline constexpr std::uint64_t kShortest = sizeof(R);
 #undef BENDY_RECORD
 #undef BENDY_FIELD
 
-/// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their defaults;
-/// or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than the form that
-/// it must have; UNSUPPORTED_CODEC if it is encoded.
+/// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their
+/// defaults; or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than
+/// the form that it must have; UNSUPPORTED_CODEC if it is encoded.
 template <class R>
 Result<R> read_record(const ChunkTree& tree, std::uint32_t chunk) {
     const Bytes payload = tree.payload(chunk);

@@ -39,7 +39,8 @@ struct Draw {
 
 struct OpenOptions {
     std::uint32_t object = 0;  ///< which of the file's objects
-    bool check_sums = true;    ///< false: skips the integrity sums; accidents on the disk then go unnoticed, safety does not
+    bool check_sums =
+        true;  ///< false: skips the integrity sums; accidents on the disk then go unnoticed, safety does not
 };
 
 /// A character: the mapped file and a linear array of its joints, parents before children.

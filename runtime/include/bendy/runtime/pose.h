@@ -9,8 +9,8 @@
 
 namespace bendy {
 
-/// A model in one position: the joints' local transforms, the inbetweening targets' weights, and what follows from them.
-/// Allocates all that posing and skinning need when it is made. The model must outlive it where it stands.
+/// A model in one position: the joints' local transforms, the inbetweening targets' weights, and what follows from
+/// them. Allocates all that posing and skinning need when it is made. The model must outlive it where it stands.
 class Pose {
 public:
     /// The rest pose.
@@ -40,6 +40,7 @@ private:
     const Model* model_;
     std::vector<JointTransform> local_;
     std::vector<glm::mat4> model_space_;
+    std::vector<glm::dmat4> exact_model_space_;  // so that rounding does not add up along deep chains
     std::vector<float> target_weights_;
     std::vector<glm::mat4> palette_;  // of the pool that is being skinned
     bool is_stale_ = true;

@@ -8,9 +8,9 @@
 namespace bendy {
 
 /// Poses the vertices of one pool: inbetweening with the pose's target weights, then skinning, v' = sum(w_i M_i v) with
-/// M_i = model space of joint i * its inverse bind matrix; a rigid pool's vertices move with their joint. Normals go by the
-/// inverse transpose. Brings a stale pose up to date first. `model` is the pose's own. False, and nothing written, if a
-/// span that is not empty is shorter than the pool.
+/// M_i = model space of joint i * its inverse bind matrix; a rigid pool's vertices move with their joint. Normals go by
+/// the inverse transpose. Brings a stale pose up to date first. `model` is the pose's own. False, and nothing written,
+/// if a span that is not empty is shorter than the pool.
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out);
 
 /// The same for all pools, pool after pool (Model::first_vertex); spans hold Model::vertex_count() or are empty.

@@ -1,0 +1,182 @@
+#include <bendy/converter/convert.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/validate.h>
+#include <bendy/runtime.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+using Buffer = std::vector<std::byte>;
+
+std::filesystem::path example(const std::string& name) { return std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name; }
+
+Buffer convert_good(const std::filesystem::path& file, const ConvertOptions& options = {}) {
+    Report report;
+    Result<Buffer, ImportError> bytes = convert(file, options, report);
+    if (!bytes) {
+        ADD_FAILURE() << file << ": " << bytes.error().place << ": " << bytes.error().message;
+        return {};
+    }
+    return *std::move(bytes);
+}
+
+/// What the glTF files say of themselves.
+struct Example {
+    const char* file;
+    std::size_t joints;  ///< nodes of the scene
+    std::vector<std::string> cycles;
+    std::vector<std::string> targets;  ///< of all pools together
+    std::uint64_t triangles;
+    std::size_t materials;
+};
+
+class ConvertExample : public testing::TestWithParam<Example> {};
+
+TEST_P(ConvertExample, HoldsWhatTheSourceHolds) {
+    const Example& expected = GetParam();
+    const Buffer bytes = convert_good(example(expected.file));
+    for (const Error& fault : validate(bytes).list()) ADD_FAILURE() << describe_with_place(fault, bytes);
+    const Result<Model> model = Model::from_memory(bytes);
+    ASSERT_TRUE(model.has_value());
+    EXPECT_EQ(model->joints().size(), expected.joints);
+    std::vector<std::string> cycles;
+    for (const bendy::Cycle& cycle : model->cycles()) {
+        cycles.emplace_back(cycle.name);
+        EXPECT_GT(cycle.end, cycle.start);
+    }
+    EXPECT_EQ(cycles, expected.cycles);
+    std::vector<std::string> targets;
+    for (const Pool& pool : model->pools()) {
+        for (const TargetView& target : pool.targets) targets.emplace_back(target.name);
+    }
+    EXPECT_EQ(targets, expected.targets);
+    std::uint64_t triangles = 0;
+    for (const Draw& draw : model->draws()) triangles += draw.count / 3;
+    EXPECT_EQ(triangles, expected.triangles);
+    EXPECT_EQ(model->materials().size(), expected.materials);
+    ASSERT_EQ(model->textures().size(), 1u);
+    ASSERT_EQ(model->textures()[0].images.size(), 1u);
+    constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n";
+    EXPECT_TRUE(as_text(model->textures()[0].images[0].bytes).starts_with(kPng));
+}
+
+TEST_P(ConvertExample, TwiceTheSameBytes) {
+    const Buffer once = convert_good(example(GetParam().file));
+    EXPECT_FALSE(once.empty());
+    EXPECT_EQ(once, convert_good(example(GetParam().file)));
+}
+
+TEST_P(ConvertExample, MovesInEveryCycle) {
+    const Buffer bytes = convert_good(example(GetParam().file));
+    const Result<Model> model = Model::from_memory(bytes);
+    ASSERT_TRUE(model.has_value());
+    Pose pose(*model);
+    std::vector<glm::vec3> rest(model->vertex_count());
+    std::vector<glm::vec3> moved(model->vertex_count());
+    ASSERT_TRUE(skin(*model, pose, {rest, {}, {}}));
+    for (const bendy::Cycle& cycle : model->cycles()) {
+        ASSERT_TRUE(sample(&cycle, 0.5f * (cycle.start + cycle.end), pose));
+        ASSERT_TRUE(skin(*model, pose, {moved, {}, {}}));
+        float farthest = 0.0f;
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const glm::vec3 by = moved[v] - rest[v];
+            farthest = std::max({farthest, std::abs(by.x), std::abs(by.y), std::abs(by.z)});
+        }
+        EXPECT_GT(farthest, 0.01f) << cycle.name;
+        EXPECT_LT(farthest, 3.0f) << cycle.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, ConvertExample,
+                         testing::Values(Example{"mannequin.glb", 65, {"Idle", "Walk"}, {"Blink", "Smile"}, (18972 + 2880 + 864 + 1080 + 216 + 144) / 3, 5},
+                                         Example{"tentacle.glb", 15, {"Reach", "Wave"}, {}, (3936 + 4992) / 3, 2}),
+                         [](const auto& info) {
+                             const std::string file = info.param.file;
+                             return file.substr(0, file.find('.'));
+                         });
+
+/// A folder of its own for each test, removed at the end.
+class ConvertFile : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  ("bendy_convert_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path write(const std::string& name, std::string_view content) const {
+        std::ofstream(folder_ / name, std::ios::binary) << content;
+        return folder_ / name;
+    }
+    static ImportError error_of(const std::filesystem::path& file, const ConvertOptions& options = {}) {
+        Report report;
+        const auto bytes = convert(file, options, report);
+        if (!bytes) return bytes.error();
+        ADD_FAILURE() << file << " was converted";
+        return {};
+    }
+
+    std::filesystem::path folder_;
+};
+
+constexpr std::string_view kTwoScenes = R"({"asset":{"version":"2.0"},"scene":1,
+    "scenes":[{"name":"one","nodes":[0]},{"name":"two","nodes":[1,2]}],
+    "nodes":[{"name":"a"},{"name":"b"},{"name":"c"}]})";
+
+TEST_F(ConvertFile, TakesTheSceneThatIsAskedFor) {
+    const auto file = write("scenes.gltf", kTwoScenes);
+    const auto names = [&](const ConvertOptions& options) {
+        const Buffer bytes = convert_good(file, options);
+        std::string list;
+        const auto model = Model::from_memory(bytes);
+        for (const bendy::Joint& joint : model->joints()) list += joint.name;
+        return list;
+    };
+    ConvertOptions options;
+    EXPECT_EQ(names(options), "bc");  // the file's default
+    options.gltf.scene = "one";
+    EXPECT_EQ(names(options), "a");
+    options.gltf.scene = "0";
+    EXPECT_EQ(names(options), "a");
+    options.gltf.scene = "three";
+    EXPECT_NE(error_of(file, options).message.find("three"), std::string::npos);
+}
+
+TEST_F(ConvertFile, LinksOrEmbedsImagesBesideTheSource) {
+    write("skin.png", "\x89PNG\r\n\x1a\n.");
+    const auto file = write("image.gltf", R"({"asset":{"version":"2.0"},"nodes":[{}],"scenes":[{"nodes":[0]}],
+        "images":[{"uri":"skin.png"}],"textures":[{"source":0}]})");
+    ConvertOptions options;
+    const Buffer embedded = convert_good(file, options);
+    const auto with_bytes = Model::from_memory(embedded);
+    ASSERT_TRUE(with_bytes.has_value());
+    EXPECT_EQ(as_text(with_bytes->textures()[0].images[0].bytes), "\x89PNG\r\n\x1a\n.");
+    options.gltf.embed_images = false;
+    const Buffer linked = convert_good(file, options);
+    const auto with_link = Model::from_memory(linked);
+    ASSERT_TRUE(with_link.has_value());
+    EXPECT_EQ(with_link->textures()[0].images[0].uri, "skin.png");
+    EXPECT_TRUE(with_link->textures()[0].images[0].bytes.empty());
+}
+
+TEST_F(ConvertFile, SaysInOneLineWhatIsWrong) {
+    for (const auto& file : {folder_ / "missing.glb", folder_, write("empty.glb", ""), write("text.gltf", "hello"), write("cut.glb", "glTF\x02"),
+                             write("brace.gltf", "{"), write("asset.gltf", R"({"asset":{"version":"3.0"}})")}) {
+        const ImportError error = error_of(file);
+        EXPECT_FALSE(error.message.empty()) << file;
+        EXPECT_EQ(error.message.find('\n'), std::string::npos) << file << ": " << error.message;
+    }
+}
+
+}  // namespace
+}  // namespace bendy::converter

@@ -1,0 +1,222 @@
+#include <bendy/format/validate.h>
+
+#include "edit_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using namespace test;
+
+/// A way to make one thing, and nothing else, wrong with the sample.
+struct Provocation {
+    ErrorCode code;
+    std::string path;  ///< of the chunk that is blamed
+    std::function<Buffer()> make;
+};
+
+/// A change of the sample's chunks; sizes and sums are right afterwards.
+Provocation edited(ErrorCode code, std::string path, std::function<void(Node&)> change) {
+    return {code, std::move(path), [change] {
+                Node root = sample();
+                change(root);
+                return to_file(root);
+            }};
+}
+
+/// A change of one record.
+template <class R, class Change>
+Provocation record(ErrorCode code, const std::string& path, Change change) {
+    return edited(code, path, [=](Node& root) { edit<R>(at(root, path), change); });
+}
+
+/// A change of one number.
+template <class T>
+Provocation number(ErrorCode code, const std::string& path, std::size_t offset, T value) {
+    return edited(code, path, [=](Node& root) { set(at(root, path), offset, value); });
+}
+
+/// A change of bare bytes, sums and sizes left as they are. `offset` counts from the header of the chunk at `chunk`.
+template <class T>
+Provocation patched(ErrorCode code, std::string path, const std::string& chunk, std::uint64_t offset, T value) {
+    return {code, std::move(path), [=] {
+                Buffer file = sample_file();
+                patch(file, place_of(file, chunk) + offset, value);
+                return file;
+            }};
+}
+
+constexpr std::uint64_t kSizeField = 8;
+constexpr std::uint64_t kFlagsField = 14;
+constexpr std::size_t kNumbers = sizeof(StreamRecord);
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+const std::vector<Provocation> kProvocations{
+    patched(ErrorCode::kNotABendyFile, "HEAX", "HEAD", 3, 'X'),
+    {ErrorCode::kTruncated, "HEAD",
+     [] {
+         Buffer file = sample_file();
+         file.resize(file.size() - 1);
+         return file;
+     }},
+    {ErrorCode::kTrailingBytes, "",
+     [] {
+         Buffer file = sample_file();
+         file.resize(file.size() + 1);
+         return file;
+     }},
+    patched(ErrorCode::kChunkTooLong, "HEAD/EXTR", "HEAD/EXTR", kSizeField, std::uint8_t{17}),  // the last one, with 16 left
+    patched(ErrorCode::kChunkIdNotLetters, "HEAD/OBJE/VECT/nORM", "HEAD/OBJE/VECT/NORM", 0, 'n'),
+    patched(ErrorCode::kReservedFlags, "HEAD/VERS", "HEAD/VERS", kFlagsField, std::uint8_t{0x04}),
+    {ErrorCode::kContainerSize, "HEAD/OBJE/VECT[1]",
+     [] {
+         Buffer file = sample_file();
+         const std::uint64_t size = place_of(file, "HEAD/OBJE/VECT[1]") + kSizeField;
+         std::uint8_t low = 0;
+         copy_at(file, size, low);
+         patch(file, size, static_cast<std::uint8_t>(low + 1));
+         return file;
+     }},
+    patched(ErrorCode::kContainerCodec, "HEAD/MATE", "HEAD/MATE", kFlagsField + 1, std::uint8_t{1}),
+    patched(ErrorCode::kPaddingNotZero, "HEAD/OBJE/NAME", "HEAD/OBJE/NAME", kChunkHeaderSize + 3, std::uint8_t{1}),
+    {ErrorCode::kTooDeep, "HEAD/AAAA/AAAA/AAAA/AAAA/AAAA/... 65525 more .../AAAA/AAAA/AAAA/AAAA/AAAA/AAAA",
+     [] {
+         ChunkWriter writer;
+         writer.begin(FourCC("HEAD"));
+         for (std::uint32_t level = 0; level < kMaxDepth; ++level) writer.begin(FourCC("AAAA"));
+         for (std::uint32_t level = 0; level < kMaxDepth; ++level) writer.end();
+         writer.end();
+         return std::move(writer).finish();
+     }},
+    patched(ErrorCode::kSumMismatch, "HEAD/OBJE/VECT/POSI", "HEAD/OBJE/VECT/POSI", kChunkHeaderSize + kNumbers, 0.5f),
+
+    record<VersionRecord>(ErrorCode::kUnsupportedVersion, "HEAD/VERS", [](auto& version) { version.major = kVersionMajor + 1; }),
+    edited(ErrorCode::kRequiredChunkUnknown, "HEAD/OBJE/ZZZZ",
+           [](Node& root) { at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag)); }),
+    edited(ErrorCode::kUnsupportedCodec, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0x0100; }),
+
+    edited(ErrorCode::kChunkMissing, "HEAD/OBJE/SKIN/SKIN[1]", [](Node& root) { remove(at(root, "HEAD/OBJE/SKIN/SKIN[1]"), "PIVO"); }),
+    edited(ErrorCode::kChunkRepeated, "HEAD/OBJE/NAME[1]",
+           [](Node& root) { at(root, "HEAD/OBJE").children.push_back(at(root, "HEAD/OBJE/NAME")); }),
+    edited(ErrorCode::kChunkMisplaced, "HEAD/NAME", [](Node& root) { root.children.push_back(at(root, "HEAD/OBJE/NAME")); }),
+    edited(ErrorCode::kNotAContainer, "HEAD/OBJE/VECT/USER", [](Node& root) { at(root, "HEAD/OBJE/VECT/USER") = make_leaf(FourCC("USER")); }),
+    edited(ErrorCode::kNotALeaf, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM") = make_container(FourCC("NORM")); }),
+    edited(ErrorCode::kRecordTooShort, "HEAD/MATE/SURF", [](Node& root) { at(root, "HEAD/MATE/SURF").payload.pop_back(); }),
+    edited(ErrorCode::kRecordSize, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").payload.push_back({}); }),
+    record<PaletteRecord>(ErrorCode::kReservedField, "HEAD/OBJE/VECT/PALT", [](auto& palette) { palette.reserved[1] = 1; }),
+    record<VersionRecord>(ErrorCode::kSignature, "HEAD/VERS", [](auto& version) { version.signature[5] = '\n'; }),
+    record<VersionRecord>(ErrorCode::kCountMismatch, "HEAD/VERS", [](auto& version) { version.joints = 5; }),
+    edited(ErrorCode::kNotUtf8, "HEAD/OBJE/SKIN/NAME", [](Node& root) { set(at(root, "HEAD/OBJE/SKIN/NAME"), 0, std::uint8_t{0xff}); }),
+    record<SamplerRecord>(ErrorCode::kEnumRange, "HEAD/TEXT/SAMP", [](auto& sampler) { sampler.wrap_s = kWraps; }),
+    number(ErrorCode::kNotFinite, "HEAD/OBJE/VECT/POSI", kNumbers, kNaN),
+    record<PoolRecord>(ErrorCode::kJointRange, "HEAD/OBJE/VECT[1]/VINF", [](auto& pool) { pool.joint = 4; }),
+    record<PolygonRecord>(ErrorCode::kPoolRange, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.pool = 2; }),
+    record<PolygonRecord>(ErrorCode::kMaterialRange, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.material = 1; }),
+    record<SurfaceRecord>(ErrorCode::kTextureRange, "HEAD/MATE/SURF", [](auto& surface) { surface.normal_texture.texture = 3; }),
+    number(ErrorCode::kIndexRange, "HEAD/OBJE/VECT/INDX", kNumbers, std::uint16_t{4}),
+    {ErrorCode::kTooManyJoints, "HEAD/OBJE", [] { return rope_file(kMaxJoints + 1); }},
+    record<StreamRecord>(ErrorCode::kStreamType, "HEAD/OBJE/VECT/NORM", [](auto& stream) { stream.components = 4; }),
+    record<StreamRecord>(ErrorCode::kStreamCount, "HEAD/OBJE/VECT/NORM", [](auto& stream) { stream.elements = 5; }),
+    record<StreamRecord>(ErrorCode::kStreamSet, "HEAD/OBJE/VECT/TEXC[1]", [](auto& stream) { stream.set = 0; }),
+    edited(ErrorCode::kStreamIncomplete, "HEAD/OBJE/VECT", [](Node& root) { remove(at(root, "HEAD/OBJE/VECT"), "WGHT"); }),
+    number(ErrorCode::kBoneRange, "HEAD/OBJE/VECT/BONE", kNumbers, std::uint8_t{2}),
+    edited(ErrorCode::kWeightRange, "HEAD/OBJE/VECT/WGHT",
+           [](Node& root) {
+               Node& weights = at(root, "HEAD/OBJE/VECT/WGHT");
+               set(weights, kNumbers, 1.5f);
+               set(weights, kNumbers + 4, -0.5f);
+           }),
+    number(ErrorCode::kWeightSum, "HEAD/OBJE/VECT/WGHT", kNumbers, 0.5f),
+    number(ErrorCode::kTargetOrder, "HEAD/OBJE/VECT/TARG[1]/INDX", kNumbers, std::uint16_t{3}),
+    record<PolygonRecord>(ErrorCode::kPolygonCut, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.count = 2; }),
+    record<PolygonRecord>(ErrorCode::kPolygonOverlap, "HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.first = 2; }),
+    edited(ErrorCode::kRigidShared, "HEAD/OBJE/SKIN/SKIN/POLY[1]",
+           [](Node& root) { set(at(root, "HEAD/OBJE/VECT[1]/INDX"), kNumbers + 20, 0u); }),
+    record<TrackRecord>(ErrorCode::kKeyRange, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.keys = 0; }),
+    edited(ErrorCode::kKeyOrder, "HEAD/OBJE/CYCL/TRAK",
+           [](Node& root) {
+               set(at(root, "HEAD/OBJE/CYCL/TIME"), 16, 0.5f);
+               // Of the two tracks with these times one is left.
+               edit<TrackRecord>(at(root, "HEAD/OBJE/CYCL/TRAK"), [](auto& track) { track.keys = 1; }, 3 * sizeof(TrackRecord));
+           }),
+    record<TrackRecord>(ErrorCode::kKeyOverlap, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.first_value = 3, track.keys = 2; }),
+    record<TrackRecord>(ErrorCode::kTrackRepeated, "HEAD/OBJE/CYCL/TRAK",
+                        [](auto& track) { track.target = 2, track.path = static_cast<std::uint8_t>(TrackPath::scale); }),
+    record<TrackRecord>(ErrorCode::kTrackComponents, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.components = 4; }),
+    edited(ErrorCode::kRotationNotUnit, "HEAD/OBJE/SKIN/PIVO/REST",
+           [](Node& root) { edit<RestRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/REST"), [](auto& rest) { rest.rotation = {}; }); }),
+    record<CycleRecord>(ErrorCode::kCycleLength, "HEAD/OBJE/CYCL/CINF", [](auto& cycle) { cycle.end = 0.75f; }),
+};
+
+/// Codes that no change of a file's bytes can provoke here, and why.
+struct Exempt {
+    ErrorCode code;
+    const char* reason;
+};
+const std::vector<Exempt> kExempt{
+    {ErrorCode::kCannotOpen, "the system's, in file_test.cpp"},
+    {ErrorCode::kCannotRead, "the system's, in file_test.cpp"},
+    {ErrorCode::kCannotWrite, "the system's, in file_test.cpp"},
+    {ErrorCode::kUnalignedBuffer, "the caller's buffer, in chunk_reader_test.cpp"},
+    {ErrorCode::kOutOfMemory, "memory would have to run out"},
+    {ErrorCode::kTooManyChunks, "the smallest file with so many takes 32 GiB"},
+    {ErrorCode::kChunkHeaderCut, "containers are whole multiples of 16 bytes long, so less than a header is never left"},
+};
+
+class ErrorCodeTest : public testing::TestWithParam<Provocation> {};
+
+TEST_P(ErrorCodeTest, IsTheOnlyFaultFound) {
+    const Buffer file = GetParam().make();
+    EXPECT_EQ(faults_in(file), Lines{std::string(code_name(GetParam().code)) + " " + GetParam().path});
+}
+
+INSTANTIATE_TEST_SUITE_P(Validate, ErrorCodeTest, testing::ValuesIn(kProvocations),
+                         [](const auto& info) { return std::string(code_name(info.param.code)); });
+
+TEST(Validate, HasATestForEveryErrorCode) {
+    std::multiset<ErrorCode> provoked;
+    for (const Provocation& provocation : kProvocations) provoked.insert(provocation.code);
+    for (const Exempt& exempt : kExempt) provoked.insert(exempt.code);
+#define BENDY_ERROR(enumerator, kind, code, text) EXPECT_EQ(provoked.count(ErrorCode::enumerator), 1u) << code;
+#include <bendy/format/error_codes.def>
+#undef BENDY_ERROR
+}
+
+TEST(Validate, FindsNothingInTheSample) { EXPECT_EQ(faults_in(sample_file()), Lines{}); }
+
+TEST(Validate, EndsAtTheFirstFaultOfStructure) {
+    Buffer file = sample_file();
+    patch(file, place_of(file, "HEAD/OBJE/SKIN/NAME") + kFlagsField, std::uint8_t{0x04});
+    patch(file, place_of(sample_file(), "HEAD/VERS") + 4, 0u);
+    EXPECT_EQ(faults_in(file), Lines{"RESERVED_FLAGS HEAD/OBJE/SKIN/NAME"});
+}
+
+TEST(Validate, ReportsEveryFaultOfSumsRecordsAndValues) {
+    Node root = sample();
+    edit<StreamRecord>(at(root, "HEAD/OBJE/VECT/NORM"), [](auto& stream) { stream.elements = 3; });
+    set(at(root, "HEAD/OBJE/VECT/POSI"), kNumbers, kNaN);
+    Buffer file = to_file(root);
+    patch(file, place_of(file, "HEAD/OBJE/NAME") + kChunkHeaderSize, 'F');
+    EXPECT_EQ(faults_in(file), (Lines{"SUM_MISMATCH HEAD/OBJE/NAME", "STREAM_COUNT HEAD/OBJE/VECT/NORM", "NOT_FINITE HEAD/OBJE/VECT/POSI"}));
+}
+
+TEST(Validate, KeepsABoundedListOfFaultsAndCountsTheRest) {
+    Node root = make_container(FourCC("HEAD"), {make_leaf(FourCC("VERS"), bytes_of(VersionRecord{}))});
+    root.children.insert(root.children.end(), Faults::kMost + 5, make_leaf(FourCC("NAME")));
+    const Faults faults = validate(to_file(root));
+    EXPECT_EQ(faults.list().size(), Faults::kMost);
+    EXPECT_GT(faults.left_out(), 0u);
+}
+
+}  // namespace
+}  // namespace bendy

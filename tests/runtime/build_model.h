@@ -1,0 +1,150 @@
+#pragma once
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/validate.h>
+#include <bendy/runtime.h>
+
+#include "format/edit_file.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Small models for tests, built as files and opened as every other.
+namespace bendy::test {
+
+/// A model with the bytes that it lies in.
+class Owned {
+public:
+    explicit Owned(Buffer bytes, const OpenOptions& options = {}) : bytes_(std::move(bytes)), model_(open(bytes_, options)) {}
+    Owned(const Owned&) = delete;
+    Owned& operator=(const Owned&) = delete;
+
+    const Model& operator*() const { return model_; }
+    const Model* operator->() const { return &model_; }
+
+private:
+    static Model open(Bytes bytes, const OpenOptions& options) {
+        Result<Model> model = Model::from_memory(bytes, options);
+        if (!model) throw std::runtime_error(describe_with_place(model.error(), bytes));
+        return *std::move(model);
+    }
+
+    Buffer bytes_;
+    Model model_;
+};
+
+struct JointSpec {
+    std::uint32_t parent = kNone;
+    RestRecord rest;
+    std::vector<PolygonRecord> polygons;
+    std::string name;
+};
+
+struct PoolSpec {
+    std::uint32_t joint = kNone;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::vector<std::uint32_t> indices;
+    std::vector<Node> more;  ///< BONE, WGHT, PALT, TARG
+};
+
+struct ModelSpec {
+    std::vector<JointSpec> joints;  ///< pre-order
+    std::vector<PoolSpec> pools;
+};
+
+template <class Vector>
+Node vector_stream(FourCC id, const std::vector<Vector>& vectors) {
+    std::vector<float> numbers;
+    for (const Vector& vector : vectors) {
+        for (int c = 0; c < Vector::length(); ++c) numbers.push_back(vector[c]);
+    }
+    return make_leaf(id, stream_payload<float>(static_cast<std::uint16_t>(Vector::length()), numbers));
+}
+
+/// A palette with these inverse bind matrices.
+inline Node palette_leaf(const std::vector<std::uint32_t>& joints, const std::vector<glm::mat4>& inverse_bind) {
+    Buffer payload = palette_payload(joints);
+    std::memcpy(payload.data() + payload.size() - inverse_bind.size() * sizeof(glm::mat4), inverse_bind.data(),
+                inverse_bind.size() * sizeof(glm::mat4));
+    return make_leaf(FourCC("PALT"), payload);
+}
+
+inline PolygonRecord polygons(std::uint32_t pool, std::uint32_t first, std::uint32_t count, std::uint32_t material = kNone,
+                              Topology topology = Topology::triangles) {
+    PolygonRecord record;
+    record.pool = pool;
+    record.material = material;
+    record.topology = static_cast<std::uint8_t>(topology);
+    record.first = first;
+    record.count = count;
+    return record;
+}
+
+inline Node pool_node(const PoolSpec& pool) {
+    Node node = make_container(FourCC("VECT"));
+    const PoolRecord info{static_cast<std::uint32_t>(pool.positions.size()), pool.joint};
+    node.children.push_back(make_leaf(FourCC("VINF"), bytes_of(info)));
+    if (!pool.positions.empty()) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
+    if (!pool.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), pool.normals));
+    if (!pool.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), pool.tangents));
+    if (!pool.indices.empty()) node.children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, pool.indices)));
+    node.children.insert(node.children.end(), pool.more.begin(), pool.more.end());
+    return node;
+}
+
+inline Buffer build_file(const ModelSpec& spec) {
+    ChunkWriter writer;
+    writer.begin(FourCC("HEAD"));
+    VersionRecord version;
+    version.objects = 1;
+    version.joints = static_cast<std::uint32_t>(spec.joints.size());
+    version.pools = static_cast<std::uint32_t>(spec.pools.size());
+    for (const PoolSpec& pool : spec.pools) version.vertices += pool.positions.size();
+    writer.leaf(FourCC("VERS"), bytes_of(version));
+    writer.begin(FourCC("OBJE"));
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t number = 0; number < spec.joints.size(); ++number) {
+        const JointSpec& joint = spec.joints[number];
+        for (; !open.empty() && open.back() != joint.parent; open.pop_back()) writer.end();
+        writer.begin(FourCC("SKIN"));
+        open.push_back(number);
+        if (!joint.name.empty()) writer.text_leaf(FourCC("NAME"), joint.name);
+        writer.begin(FourCC("PIVO"));
+        writer.leaf(FourCC("REST"), bytes_of(joint.rest));
+        writer.end();
+        for (const PolygonRecord& range : joint.polygons) writer.leaf(FourCC("POLY"), bytes_of(range));
+    }
+    for (; !open.empty(); open.pop_back()) writer.end();
+    for (const PoolSpec& pool : spec.pools) put(writer, pool_node(pool));
+    writer.end();
+    writer.end();
+    return std::move(writer).finish();
+}
+
+inline RestRecord moved(float x, float y, float z) {
+    RestRecord rest;
+    rest.translation = {x, y, z};
+    return rest;
+}
+inline RestRecord scaled(float x, float y, float z) {
+    RestRecord rest;
+    rest.scale = {x, y, z};
+    return rest;
+}
+/// A turn of `degrees` round a coordinate axis, 0 to 2.
+inline RestRecord turned(double degrees, std::size_t axis) {
+    const double half = degrees * M_PI / 360.0;
+    RestRecord rest;
+    rest.rotation = {0.0f, 0.0f, 0.0f, static_cast<float>(std::cos(half))};
+    rest.rotation.at(axis) = static_cast<float>(std::sin(half));
+    return rest;
+}
+
+}  // namespace bendy::test

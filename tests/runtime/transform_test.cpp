@@ -1,0 +1,3 @@
+#include <bendy/runtime/transform.h>
+
+#include <gtest/gtest.h>
