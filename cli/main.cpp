@@ -6,6 +6,21 @@
 
 #include <exception>
 #include <iostream>
+#include <string>
+
+namespace {
+
+/// What is wrong with the command line.
+std::string explain(const CLI::App* program, const CLI::Error& problem) {
+    std::string what = problem.what();
+    const auto unknown = program->remaining();
+    if (program->get_subcommands().empty() && !unknown.empty()) {
+        what = (unknown.front().starts_with('-') ? "there is no option " : "there is no command ") + unknown.front();
+    }
+    return "bendy: error: " + bendy::cli::printable(what) + "\nTry `bendy --help` or `bendy COMMAND --help`.\n";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     constexpr int kDone = 0;
@@ -15,6 +30,7 @@ int main(int argc, char** argv) {
     CLI::App program("Bendy: animated characters in one file of nested chunks.", "bendy");
     program.set_version_flag("--version", "bendy " BENDY_VERSION);
     program.require_subcommand(1);
+    program.failure_message(explain);
     program.footer("Try `bendy COMMAND --help`, or: bendy convert fox.glb && bendy inspect fox.bendy");
     bendy::cli::add_convert(program);
     bendy::cli::add_inspect(program);

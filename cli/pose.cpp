@@ -36,7 +36,10 @@ const Cycle& find_cycle(const Arguments& arguments, const Model& model) {
     if (const Cycle* cycle = model.cycle(clip)) return *cycle;
 
     std::string known;
-    for (const Cycle& cycle : model.cycles()) known += (known.empty() ? "" : ", ") + printable(cycle.name);
+    for (std::size_t i = 0; i < model.cycles().size(); ++i) {
+        const std::string_view name = model.cycles()[i].name;
+        known += (i == 0 ? "" : ", ") + (name.empty() ? "number " + std::to_string(i) : printable(name));
+    }
     fail(arguments.file,
          "there is no cycle \"" + printable(clip) + "\"; there " +
              (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));

@@ -57,16 +57,18 @@ void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& f
         const float* first;
         const float* last;
         bool is_rotation;
+        bool is_cubic;
         std::size_t track;
     };
     std::vector<Share> shares;
     for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
         const TrackView& track = cycle.tracks[index];
-        shares.push_back(
-            {track.values.data(), track.values.data() + track.values.size(), track.path == TrackPath::rotation, index});
+        shares.push_back({track.values.data(), track.values.data() + track.values.size(),
+                          track.path == TrackPath::rotation, track.interpolation == Interpolation::cubic, index});
     }
     std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
-        return std::tie(a.first, a.last, a.is_rotation, a.track) < std::tie(b.first, b.last, b.is_rotation, b.track);
+        return std::tie(a.first, a.last, a.is_rotation, a.is_cubic, a.track) <
+               std::tie(b.first, b.last, b.is_rotation, b.is_cubic, b.track);
     });
     const Share* before = nullptr;
     for (const Share& share : shares) {
@@ -75,13 +77,13 @@ void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& f
             faults.add({ErrorCode::kKeyOverlap, offset, share.track});
             return;
         }
-        const bool is_checked = is_same && before->is_rotation;
+        const bool is_checked = is_same && before->is_rotation && before->is_cubic == share.is_cubic;
         before = &share;
         if (!share.is_rotation || is_checked) continue;
         const TrackView& track = cycle.tracks[share.track];
-        const bool cubic = track.interpolation == Interpolation::cubic;
         for (std::size_t key = 0; key < track.keys; ++key) {
-            if (is_unit(track.values.subspan(cubic ? key * 12 + 4 : key * 4).first<4>(), kUnitTolerance)) continue;
+            const std::size_t at = share.is_cubic ? key * 12 + 4 : key * 4;
+            if (is_unit(track.values.subspan(at).first<4>(), kUnitTolerance)) continue;
             faults.add({ErrorCode::kRotationNotUnit, offset, key});
             break;
         }

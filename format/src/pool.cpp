@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <initializer_list>
+#include <utility>
 
 namespace bendy {
 namespace {
@@ -91,17 +92,14 @@ public:
         return std::nullopt;
     }
 
-    /// Adds the stream in leaf `number` to those of its kind, whose sets must differ.
-    void add_set(std::vector<StreamView>& streams, std::uint32_t number, const StreamRule& rule,
-                 std::uint32_t elements) {
-        const auto added = stream(number, rule, elements);
-        if (!added) return;
-        const bool taken = std::any_of(streams.begin(), streams.end(),
-                                       [&](const StreamView& other) { return other.set == added->set; });
-        if (taken) {
-            faults_.add({ErrorCode::kStreamSet, tree_[number].offset, added->set});
-        } else {
-            streams.push_back(*added);
+    /// The sets of a kind must differ.
+    void check_sets(std::span<const StreamView> streams) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> sets;  // with their chunks
+        for (const StreamView& stream : streams) sets.emplace_back(stream.set, stream.chunk);
+        std::sort(sets.begin(), sets.end());
+        for (std::size_t k = 1; k < sets.size(); ++k) {
+            if (sets[k].first != sets[k - 1].first) continue;
+            faults_.add({ErrorCode::kStreamSet, tree_[sets[k].second].offset, sets[k].first});
         }
     }
 
@@ -242,9 +240,11 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     for (const std::uint32_t number : tree.children(chunk)) {
         const FourCC id = tree[number].id;
         if (id == FourCC("TEXC")) {
-            reader.add_set(pool.texture_coords, number, kCoords, pool.vertices);
+            const auto coords = reader.stream(number, kCoords, pool.vertices);
+            if (coords) pool.texture_coords.push_back(*coords);
         } else if (id == FourCC("COLR")) {
-            reader.add_set(pool.colours, number, kColour, pool.vertices);
+            const auto colour = reader.stream(number, kColour, pool.vertices);
+            if (colour) pool.colours.push_back(*colour);
         } else if (id == FourCC("USER")) {
             const auto values = reader.find(number, FourCC("VALS"), kAnything, pool.vertices);
             if (values) pool.attributes.push_back({read_text(tree, number, FourCC("NAME"), faults), *values});
@@ -252,6 +252,9 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
             pool.targets.push_back(reader.target(number, pool.vertices));
         }
     }
+
+    reader.check_sets(pool.texture_coords);
+    reader.check_sets(pool.colours);
 
     const auto positions = reader.find(chunk, FourCC("POSI"), kVec3, pool.vertices);
     if (positions) {

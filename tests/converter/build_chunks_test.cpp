@@ -35,7 +35,8 @@ struct Built {
     Built& operator=(const Built&) = delete;
 
     static Model open(Bytes bytes) {
-        for (const Error& fault : validate(bytes).list()) ADD_FAILURE() << describe_with_place(fault, bytes);
+        const Faults faults = validate(bytes);
+        for (const Error& fault : faults.list()) ADD_FAILURE() << describe_with_place(fault, bytes);
         Result<Model> opened = Model::from_memory(bytes);
         if (!opened) throw std::runtime_error(describe_with_place(opened.error(), bytes));
         return *std::move(opened);

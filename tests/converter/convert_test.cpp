@@ -43,7 +43,8 @@ class ConvertExample : public testing::TestWithParam<Example> {};
 TEST_P(ConvertExample, HoldsWhatTheSourceHolds) {
     const Example& expected = GetParam();
     const Buffer bytes = convert_good(example(expected.file));
-    for (const Error& fault : validate(bytes).list()) ADD_FAILURE() << describe_with_place(fault, bytes);
+    const Faults faults = validate(bytes);
+    for (const Error& fault : faults.list()) ADD_FAILURE() << describe_with_place(fault, bytes);
     const Result<Model> model = Model::from_memory(bytes);
     ASSERT_TRUE(model.has_value());
     EXPECT_EQ(model->joints().size(), expected.joints);
@@ -98,8 +99,8 @@ TEST_P(ConvertExample, MovesInEveryCycle) {
 INSTANTIATE_TEST_SUITE_P(Examples, ConvertExample,
                          testing::Values(Example{"mannequin.glb", 65, {"Idle", "Walk"}, {"Blink", "Smile"}, (18972 + 2880 + 864 + 1080 + 216 + 144) / 3, 5},
                                          Example{"tentacle.glb", 15, {"Reach", "Wave"}, {}, (3936 + 4992) / 3, 2}),
-                         [](const auto& info) {
-                             const std::string file = info.param.file;
+                         [](const auto& one) {
+                             const std::string file = one.param.file;
                              return file.substr(0, file.find('.'));
                          });
 

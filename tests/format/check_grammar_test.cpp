@@ -29,7 +29,8 @@ struct Row {
 const std::vector<Row>& rows() {
     static const std::vector<Row> kRows = [] {
         std::vector<Row> list;
-        const auto add = [&](const char* id, const char* shape, const char* parents, const char* times, std::string_view what) {
+        const auto add = [&](const char* id, const char* shape, const char* parents, const char* times,
+                             std::string_view what) {
             if (what.ends_with("(reserved)")) return;  // unknown to this version
             std::istringstream words(parents);
             list.push_back({id, shape, {std::istream_iterator<std::string>(words), {}}, times});
@@ -49,7 +50,9 @@ FourCC id_of(const std::string& letters) {
 }
 
 /// An empty chunk as the row has it.
-Node empty_chunk(const Row& row) { return row.shape == "leaf" ? make_leaf(id_of(row.id)) : make_container(id_of(row.id)); }
+Node empty_chunk(const Row& row) {
+    return row.shape == "leaf" ? make_leaf(id_of(row.id)) : make_container(id_of(row.id));
+}
 
 Lines grammar_faults(const Node& root) {
     const Buffer file = to_file(root);
@@ -60,10 +63,13 @@ Lines grammar_faults(const Node& root) {
     return lines_of(faults, file);
 }
 
-bool contains(const Lines& lines, const std::string& line) { return std::find(lines.begin(), lines.end(), line) != lines.end(); }
+bool contains(const Lines& lines, const std::string& line) {
+    return std::find(lines.begin(), lines.end(), line) != lines.end();
+}
 
 /// Calls `visit` with every container of the file and its path.
-void for_each_container(Node& root, const std::function<void(Node&, const std::string&)>& visit, const std::string& path = "HEAD") {
+void for_each_container(Node& root, const std::function<void(Node&, const std::string&)>& visit,
+                        const std::string& path = "HEAD") {
     if (!root.is_container()) return;
     visit(root, path);
     std::map<std::string, int> places;
@@ -74,7 +80,9 @@ void for_each_container(Node& root, const std::function<void(Node&, const std::s
     }
 }
 
-TEST(CheckGrammar, FindsNothingInTheSample) { EXPECT_EQ(grammar_faults(sample()), Lines{}); }
+TEST(CheckGrammar, FindsNothingInTheSample) {
+    EXPECT_EQ(grammar_faults(sample()), Lines{});
+}
 
 TEST(CheckGrammar, TheSampleHoldsEveryChunkThatIsNotReserved) {
     std::set<std::string> ids;
@@ -94,7 +102,8 @@ TEST(CheckGrammar, TakesAKnownChunkExactlyWhereTheTableHasIt) {
                 path += "/" + container.id;
             }
             at(root, path).children.push_back(empty_chunk(row));
-            EXPECT_EQ(contains(grammar_faults(root), "CHUNK_MISPLACED " + path + "/" + row.id), row.parents.count(container.id) == 0)
+            EXPECT_EQ(contains(grammar_faults(root), "CHUNK_MISPLACED " + path + "/" + row.id),
+                      row.parents.count(container.id) == 0)
                 << row.id << " in " << container.id;
         }
     }
@@ -104,7 +113,8 @@ TEST(CheckGrammar, RefusesAKnownChunkOfTheWrongShape) {
     for (const Row& row : rows()) {
         if (row.id == "HEAD") continue;  // the reader's business
         const bool is_leaf = row.shape == "leaf";
-        Node root = make_container(FourCC("HEAD"), {is_leaf ? make_container(id_of(row.id)) : make_leaf(id_of(row.id))});
+        Node root =
+            make_container(FourCC("HEAD"), {is_leaf ? make_container(id_of(row.id)) : make_leaf(id_of(row.id))});
         EXPECT_TRUE(contains(grammar_faults(root), (is_leaf ? "NOT_A_LEAF HEAD/" : "NOT_A_CONTAINER HEAD/") + row.id));
         root.children[0] = empty_chunk(row);
         EXPECT_FALSE(contains(grammar_faults(root), (is_leaf ? "NOT_A_LEAF HEAD/" : "NOT_A_CONTAINER HEAD/") + row.id));
@@ -151,7 +161,8 @@ TEST(CheckGrammar, NamesTheChunkThatIsMissing) {
 }
 
 /// Puts an unknown chunk into each container of the sample in turn, first and last, and hands on the faults.
-void with_unknown_chunk_everywhere(const Node& unknown, const std::function<void(const Lines&, const std::string&)>& check) {
+void with_unknown_chunk_everywhere(const Node& unknown,
+                                   const std::function<void(const Lines&, const std::string&)>& check) {
     std::set<std::string> tried;
     Lines paths;
     Node root = sample();
@@ -171,19 +182,22 @@ void with_unknown_chunk_everywhere(const Node& unknown, const std::function<void
 }
 
 TEST(CheckGrammar, SkipsAnUnknownLeafInEveryContainer) {
-    with_unknown_chunk_everywhere(make_leaf(FourCC("ZZZZ"), as_byte_span("later"), 0x0700),
-                                  [](const Lines& faults, const std::string& path) { EXPECT_EQ(faults, Lines{}) << path; });
+    with_unknown_chunk_everywhere(
+        make_leaf(FourCC("ZZZZ"), as_byte_span("later"), 0x0700),
+        [](const Lines& faults, const std::string& path) { EXPECT_EQ(faults, Lines{}) << path; });
 }
 
 TEST(CheckGrammar, SkipsAnUnknownContainerWithAllInsideItInEveryContainer) {
     const Node unknown = make_container(
         FourCC("ZZZZ"), {make_leaf(FourCC("YYYY"), {}, kRequiredFlag), make_leaf(FourCC("NAME"), as_byte_span("\xff")),
                          make_container(FourCC("SKIN")), make_container(FourCC("MATE")), make_leaf(FourCC("POLY"))});
-    with_unknown_chunk_everywhere(unknown, [](const Lines& faults, const std::string& path) { EXPECT_EQ(faults, Lines{}) << path; });
+    with_unknown_chunk_everywhere(
+        unknown, [](const Lines& faults, const std::string& path) { EXPECT_EQ(faults, Lines{}) << path; });
 }
 
 TEST(CheckGrammar, RefusesAnUnknownRequiredChunkInEveryContainer) {
-    for (const Node& unknown : {make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag), make_container(FourCC("ZZZZ"), {}, kRequiredFlag)}) {
+    for (const Node& unknown :
+         {make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag), make_container(FourCC("ZZZZ"), {}, kRequiredFlag)}) {
         with_unknown_chunk_everywhere(unknown, [](const Lines& faults, const std::string& path) {
             EXPECT_EQ(faults, Lines{"REQUIRED_CHUNK_UNKNOWN " + path});
         });
@@ -202,11 +216,14 @@ TEST(CheckGrammar, TakesKnownChunksThatAreMarkedRequired) {
 TEST(CheckGrammar, TakesReservedChunksWhateverTheyHold) {
     Node root = sample();
     const Bytes anything = as_byte_span("\xff\xfe anything");
-    at(root, "HEAD/OBJE").children.push_back(make_container(FourCC("IKCH"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
+    at(root, "HEAD/OBJE")
+        .children.push_back(
+            make_container(FourCC("IKCH"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
     at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("LODD"), anything, 0x0100));
     at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything));
     for (const FourCC id : {FourCC("LIMT"), FourCC("PULL")}) {
-        for (int twice = 0; twice < 2; ++twice) at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(make_leaf(id, anything));
+        for (int twice = 0; twice < 2; ++twice)
+            at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(make_leaf(id, anything));
     }
     EXPECT_EQ(faults_in(root), Lines{});
 }

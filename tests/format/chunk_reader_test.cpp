@@ -14,9 +14,10 @@ using namespace test;
 
 /// HEAD with a leaf of 5 bytes, a container with an empty leaf and an empty container, and a leaf of 16 bytes.
 Buffer small_file() {
-    return to_file(make_container(FourCC("HEAD"), {make_leaf(FourCC("AAAA"), as_byte_span("hello")),
-                                                   make_container(FourCC("BBBB"), {make_leaf(FourCC("CCCC")), make_container(FourCC("DDDD"))}),
-                                                   make_leaf(FourCC("AAAA"), as_byte_span("0123456789abcdef"), kRequiredFlag)}));
+    return to_file(make_container(
+        FourCC("HEAD"), {make_leaf(FourCC("AAAA"), as_byte_span("hello")),
+                         make_container(FourCC("BBBB"), {make_leaf(FourCC("CCCC")), make_container(FourCC("DDDD"))}),
+                         make_leaf(FourCC("AAAA"), as_byte_span("0123456789abcdef"), kRequiredFlag)}));
 }
 
 /// The code that reading ends with, and where.
@@ -36,7 +37,7 @@ TEST(ChunkReader, ListsChunksInFileOrderWithTheirPlaces) {
         std::uint64_t offset, size;
         std::uint32_t parent, end;
     };
-    const std::vector<Expected> expected{{"HEAD", 0, 112, 0, 6}, {"AAAA", 16, 5, 0, 2},  {"BBBB", 48, 32, 0, 5},
+    const std::vector<Expected> expected{{"HEAD", 0, 112, 0, 6}, {"AAAA", 16, 5, 0, 2}, {"BBBB", 48, 32, 0, 5},
                                          {"CCCC", 64, 0, 2, 4},  {"DDDD", 80, 0, 2, 5}, {"AAAA", 96, 16, 0, 6}};
     ASSERT_EQ(tree->chunks().size(), expected.size());
     EXPECT_EQ(file.size(), 128u);
@@ -153,7 +154,8 @@ TEST(ChunkReader, RefusesHugeSizes) {
             patch(file, 48 + 8, pack_size_and_flags(size, flags));
             const auto tree = read_chunk_tree(file);
             ASSERT_FALSE(tree.has_value()) << size << ' ' << flags;
-            EXPECT_EQ(tree.error().code, flags != 0 && size % 16 != 0 ? ErrorCode::kContainerSize : ErrorCode::kChunkTooLong);
+            EXPECT_EQ(tree.error().code,
+                      flags != 0 && size % 16 != 0 ? ErrorCode::kContainerSize : ErrorCode::kChunkTooLong);
             file = small_file();
             patch(file, 8, pack_size_and_flags(size, kContainerFlag));
             ASSERT_FALSE(read_chunk_tree(file).has_value()) << size;

@@ -104,7 +104,9 @@ TEST(ChunkWriter, WritesBackEveryChunkOfAFileAsItWas) {
     EXPECT_EQ(to_file(to_node(file)), file);
 }
 
-TEST(ChunkWriter, GivesTheSameBytesEveryTime) { EXPECT_EQ(sample_file(), sample_file()); }
+TEST(ChunkWriter, GivesTheSameBytesEveryTime) {
+    EXPECT_EQ(sample_file(), sample_file());
+}
 
 }  // namespace
 }  // namespace bendy

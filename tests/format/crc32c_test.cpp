@@ -20,7 +20,9 @@ std::uint32_t plain_crc32c(Bytes bytes) {
     return ~sum;
 }
 
-std::uint32_t sum_of(const std::vector<std::uint8_t>& bytes) { return crc32c(std::as_bytes(std::span(bytes))); }
+std::uint32_t sum_of(const std::vector<std::uint8_t>& bytes) {
+    return crc32c(std::as_bytes(std::span(bytes)));
+}
 
 TEST(Crc32c, GivesTheSumsOfRfc3720) {
     std::vector<std::uint8_t> ascending(32);
@@ -33,14 +35,18 @@ TEST(Crc32c, GivesTheSumsOfRfc3720) {
     EXPECT_EQ(sum_of(std::vector<std::uint8_t>(32, 0xff)), 0x62a8ab43u);
     EXPECT_EQ(sum_of(ascending), 0x46dd794eu);
     EXPECT_EQ(sum_of(descending), 0x113fdb5cu);
-    EXPECT_EQ(sum_of({0x01, 0xc0, 0, 0, 0, 0, 0, 0, 0, 0, 0,    0, 0, 0, 0, 0,    0x14, 0, 0, 0, 0, 0, 4, 0,
+    EXPECT_EQ(sum_of({0x01, 0xc0, 0, 0,    0, 0, 0, 0,    0,    0, 0, 0, 0, 0, 0, 0, 0x14, 0, 0, 0, 0, 0, 4, 0,
                       0,    0,    0, 0x14, 0, 0, 0, 0x18, 0x28, 0, 0, 0, 0, 0, 0, 0, 0x02, 0, 0, 0, 0, 0, 0, 0}),
               0xd9963a56u);
 }
 
-TEST(Crc32c, GivesTheUsualCheckValue) { EXPECT_EQ(crc32c(as_byte_span("123456789")), 0xe3069283u); }
+TEST(Crc32c, GivesTheUsualCheckValue) {
+    EXPECT_EQ(crc32c(as_byte_span("123456789")), 0xe3069283u);
+}
 
-TEST(Crc32c, OfNothingIsZero) { EXPECT_EQ(crc32c({}), 0u); }
+TEST(Crc32c, OfNothingIsZero) {
+    EXPECT_EQ(crc32c({}), 0u);
+}
 
 TEST(Crc32c, IsThePlainSumForEveryLengthAndAlignment) {
     std::array<std::byte, 96> bytes{};

@@ -19,7 +19,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const std::string kCycle = "HEAD/OBJE/CYCL";
 enum SampleTrack : std::size_t { kTranslation, kCubicRotation, kScale, kWeights, kFixedFrames };
 
-Node& table(Node& root) { return at(root, kCycle + "/TRAK"); }
+Node& table(Node& root) {
+    return at(root, kCycle + "/TRAK");
+}
 
 /// What is wrong with the sample when one of its tracks is changed.
 template <class Change>
@@ -42,8 +44,12 @@ Lines faults_with_number(const char* leaf, std::size_t index, float value) {
     return faults_in(root);
 }
 
-Lines in_table(const char* code) { return {std::string(code) + " " + kCycle + "/TRAK"}; }
-Lines in_info(const char* code) { return {std::string(code) + " " + kCycle + "/CINF"}; }
+Lines in_table(const char* code) {
+    return {std::string(code) + " " + kCycle + "/TRAK"};
+}
+Lines in_info(const char* code) {
+    return {std::string(code) + " " + kCycle + "/CINF"};
+}
 
 TEST(Cycle, GivesItsParts) {
     const Loaded sample(sample_file());
@@ -67,8 +73,10 @@ TEST(Cycle, GivesEachTrackItsKeysAndValues) {
     EXPECT_EQ(translation.interpolation, Interpolation::linear);
     EXPECT_EQ(translation.target, 0u);
     EXPECT_EQ(translation.keys, 3u);
-    EXPECT_EQ(std::vector<float>(translation.times.begin(), translation.times.end()), (std::vector<float>{0.5f, 0.75f, 1.0f}));
-    EXPECT_EQ(std::vector<float>(translation.values.begin(), translation.values.end()), (std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3}));
+    EXPECT_EQ(std::vector<float>(translation.times.begin(), translation.times.end()),
+              (std::vector<float>{0.5f, 0.75f, 1.0f}));
+    EXPECT_EQ(std::vector<float>(translation.values.begin(), translation.values.end()),
+              (std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3}));
 
     const TrackView& rotation = tracks[kCubicRotation];
     EXPECT_EQ(rotation.path, TrackPath::rotation);
@@ -110,7 +118,8 @@ TEST(Cycle, RefusesTracksWithoutTimesOrValues) {
 
 TEST(Cycle, LeavesOutTheTracksThatAreAtFault) {
     Node root = sample();
-    edit<TrackRecord>(table(root), [](auto& track) { track.keys = 0; }, kScale * sizeof(TrackRecord));
+    edit<TrackRecord>(
+        table(root), [](auto& track) { track.keys = 0; }, kScale * sizeof(TrackRecord));
     const Loaded loaded(root);
     const auto& tracks = loaded.document.objects.at(0).cycles.at(0).tracks;
     ASSERT_EQ(tracks.size(), 4u);
@@ -121,36 +130,44 @@ TEST(Cycle, LeavesOutTheTracksThatAreAtFault) {
 
 TEST(Cycle, RefusesUnknownPathsInterpolationsAndLoops) {
     EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.path = kTrackPaths; }), in_table("ENUM_RANGE"));
-    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.interpolation = kInterpolations; }), in_table("ENUM_RANGE"));
+    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.interpolation = kInterpolations; }),
+              in_table("ENUM_RANGE"));
     EXPECT_EQ(faults_with_cycle([](auto& cycle) { cycle.loop = 2; }), in_info("ENUM_RANGE"));
     EXPECT_EQ(faults_with_cycle([](auto& cycle) { cycle.loop = 0; }), Lines{});
 }
 
 TEST(Cycle, RefusesReservedBytes) {
     for (std::size_t byte = 0; byte < 3; ++byte) {
-        EXPECT_EQ(faults_with_cycle([=](auto& cycle) { cycle.reserved[byte] = 0x80; }), in_info("RESERVED_FIELD")) << byte;
+        EXPECT_EQ(faults_with_cycle([=](auto& cycle) { cycle.reserved[byte] = 0x80; }), in_info("RESERVED_FIELD"))
+            << byte;
     }
 }
 
 TEST(Cycle, RefusesTargetsThatAreNotThere) {
     EXPECT_EQ(faults_with_track(kTranslation, [](auto& track) { track.target = 3; }), Lines{});
     for (const std::uint32_t target : {4u, 0x8000'0000u, kNone}) {
-        EXPECT_EQ(faults_with_track(kTranslation, [=](auto& track) { track.target = target; }), in_table("JOINT_RANGE")) << target;
+        EXPECT_EQ(faults_with_track(kTranslation, [=](auto& track) { track.target = target; }), in_table("JOINT_RANGE"))
+            << target;
     }
     for (const std::uint32_t target : {2u, kNone}) {
-        EXPECT_EQ(faults_with_track(kWeights, [=](auto& track) { track.target = target; }), in_table("POOL_RANGE")) << target;
+        EXPECT_EQ(faults_with_track(kWeights, [=](auto& track) { track.target = target; }), in_table("POOL_RANGE"))
+            << target;
     }
 }
 
 TEST(Cycle, WantsTheComponentsThatItsTargetHas) {
     for (const unsigned components : {0u, 1u, 2u, 4u, 5u, 65535u}) {
-        EXPECT_EQ(faults_with_track(kTranslation, [=](auto& track) { track.components = static_cast<std::uint16_t>(components); }), in_table("TRACK_COMPONENTS"));
+        EXPECT_EQ(faults_with_track(kTranslation,
+                                    [=](auto& track) { track.components = static_cast<std::uint16_t>(components); }),
+                  in_table("TRACK_COMPONENTS"));
     }
-    EXPECT_EQ(faults_with_track(kCubicRotation, [](auto& track) { track.components = 3; }), in_table("TRACK_COMPONENTS"));
+    EXPECT_EQ(faults_with_track(kCubicRotation, [](auto& track) { track.components = 3; }),
+              in_table("TRACK_COMPONENTS"));
     EXPECT_EQ(faults_with_track(kWeights, [](auto& track) { track.components = 1; }), in_table("TRACK_COMPONENTS"));
     // The rigid pool has no targets.
     EXPECT_EQ(faults_with_track(kWeights, [](auto& track) { track.target = 1; }), in_table("TRACK_COMPONENTS"));
-    EXPECT_EQ(faults_with_track(kWeights, [](auto& track) { track.target = 1, track.components = 0; }), in_table("TRACK_COMPONENTS"));
+    EXPECT_EQ(faults_with_track(kWeights, [](auto& track) { track.target = 1, track.components = 0; }),
+              in_table("TRACK_COMPONENTS"));
 }
 
 TEST(Cycle, RefusesKeysPastTheTimes) {
@@ -168,9 +185,11 @@ TEST(Cycle, RefusesKeysPastTheValues) {
     const Lines bad = in_table("KEY_RANGE");
     // 49 numbers in all, four a key.
     EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.first_value = 45, track.keys = 1; }), Lines{});
-    for (const std::uint64_t first : {std::uint64_t{46}, std::uint64_t{49}, std::uint64_t{50}, std::uint64_t{1} << 32, std::uint64_t{1} << 62,
-                                      std::uint64_t{1} << 63, ~std::uint64_t{0}, ~std::uint64_t{0} - 3}) {
-        EXPECT_EQ(faults_with_track(kFixedFrames, [=](auto& track) { track.first_value = first, track.keys = 1; }), bad) << first;
+    for (const std::uint64_t first :
+         {std::uint64_t{46}, std::uint64_t{49}, std::uint64_t{50}, std::uint64_t{1} << 32, std::uint64_t{1} << 62,
+          std::uint64_t{1} << 63, ~std::uint64_t{0}, ~std::uint64_t{0} - 3}) {
+        EXPECT_EQ(faults_with_track(kFixedFrames, [=](auto& track) { track.first_value = first, track.keys = 1; }), bad)
+            << first;
     }
     EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.keys = 4; }), bad);
     EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.keys = 0x4000'0000u; }), bad);
@@ -181,7 +200,8 @@ TEST(Cycle, CountsThreeValuesForEachCubicKey) {
     // 24 numbers from number 25 on: two cubic keys would fit, from 26 on they do not.
     const auto faults = [](std::uint64_t first) {
         Node root = sample();  // the shares overlap then, which read_document does not mind
-        edit<TrackRecord>(table(root), [=](auto& track) { track.first_value = first; }, kCubicRotation * sizeof(TrackRecord));
+        edit<TrackRecord>(
+            table(root), [=](auto& track) { track.first_value = first; }, kCubicRotation * sizeof(TrackRecord));
         return Loaded(root).lines();
     };
     EXPECT_EQ(faults(25), Lines{});
@@ -189,9 +209,7 @@ TEST(Cycle, CountsThreeValuesForEachCubicKey) {
 }
 
 TEST(Cycle, WantsAFrameRateForFixedFrames) {
-    const auto with_rate = [](float rate) {
-        return [rate](auto& cycle) { cycle.frame_rate = rate; };
-    };
+    const auto with_rate = [](float rate) { return [rate](auto& cycle) { cycle.frame_rate = rate; }; };
     EXPECT_EQ(faults_with_cycle(with_rate(0.0f)), in_table("KEY_RANGE"));
     EXPECT_EQ(faults_with_cycle(with_rate(-4.0f)), (Lines{in_table("KEY_RANGE")[0], in_info("CYCLE_LENGTH")[0]}));
     EXPECT_EQ(faults_with_cycle(with_rate(kInfinity)), in_info("NOT_FINITE"));
@@ -218,8 +236,10 @@ TEST(Cycle, RefusesEncodedTables) {
 
 TEST(Cycle, WantsKeyTimesToAscend) {
     EXPECT_EQ(faults_with_number("/TIME", 4, 0.75f), Lines{});
-    EXPECT_EQ(faults_with_number("/TIME", 4, 0.5f), Lines(2, in_table("KEY_ORDER")[0]));  // the rotation's and the weights'
-    EXPECT_EQ(faults_with_number("/TIME", 1, 0.5f), Lines(2, in_table("KEY_ORDER")[0]));  // the translation's and the scale's
+    EXPECT_EQ(faults_with_number("/TIME", 4, 0.5f),
+              Lines(2, in_table("KEY_ORDER")[0]));  // the rotation's and the weights'
+    EXPECT_EQ(faults_with_number("/TIME", 1, 0.5f),
+              Lines(2, in_table("KEY_ORDER")[0]));  // the translation's and the scale's
 }
 
 TEST(Cycle, WantsToHoldItsKeys) {
@@ -266,8 +286,14 @@ TEST(Cycle, LetsTracksShareAllTheirValuesOrNone) {
     EXPECT_EQ(faults(34, 3), in_table("KEY_OVERLAP"));
 }
 
+TEST(Cycle, RefusesEvenOneSharedNumber) {
+    EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.first_value = 36; }), in_table("KEY_OVERLAP"));
+}
+
 TEST(Cycle, LetsTracksShareTimesAsTheyLike) {
-    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.first_time = 1, track.keys = 2, track.first_value = 0; }), in_table("KEY_OVERLAP"));
+    EXPECT_EQ(
+        faults_with_track(kScale, [](auto& track) { track.first_time = 1, track.keys = 2, track.first_value = 0; }),
+        in_table("KEY_OVERLAP"));
     EXPECT_EQ(faults_with_track(kWeights, [](auto& track) { track.first_time = 1; }), Lines{});
 }
 
@@ -281,15 +307,19 @@ TEST(Cycle, HoldsItsFixedFrames) {
 TEST(Cycle, ChecksRotationsOfEveryInterpolationThatSharesThem) {
     // Twelve numbers: one cubic key for one joint, three linear ones for another, of which two are the tangents.
     Node root = sample();
-    edit<TrackRecord>(table(root), [](auto& track) { track.keys = 1; }, kCubicRotation * sizeof(TrackRecord));
-    edit<TrackRecord>(table(root), [](auto& track) { track.first_value = 9; }, kFixedFrames * sizeof(TrackRecord));
+    edit<TrackRecord>(
+        table(root), [](auto& track) { track.keys = 1; }, kCubicRotation * sizeof(TrackRecord));
+    edit<TrackRecord>(
+        table(root), [](auto& track) { track.first_value = 9; }, kFixedFrames * sizeof(TrackRecord));
     EXPECT_EQ(faults_in(root), in_table("ROTATION_NOT_UNIT"));
 }
 
 TEST(Cycle, RefusesTwoTracksForOneProperty) {
     EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.target = 1; }), in_table("TRACK_REPEATED"));
-    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.target = 0; }), Lines{});  // another property of joint 0
-    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.target = 0, track.path = 0; }), in_table("TRACK_REPEATED"));
+    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.target = 0; }),
+              Lines{});  // another property of joint 0
+    EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.target = 0, track.path = 0; }),
+              in_table("TRACK_REPEATED"));
 }
 
 }  // namespace

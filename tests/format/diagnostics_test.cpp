@@ -92,9 +92,30 @@ TEST(ChunkPath, EndsForEveryOffsetOfBytesThatAreNoFile) {
 
 TEST(FindPath, RefusesWhatNamesNoChunk) {
     const Loaded sample(sample_file());
-    for (const char* path : {"", "/", "HEAD/", "/HEAD", "OBJE", "HEAD[1]", "HEAD/OBJE[1]", "HEAD/obje", "HEAD/OBJ", "HEAD/OBJEC", "HEAD/OBJE[",
-                             "HEAD/OBJE[]", "HEAD/OBJE[0", "HEAD/OBJE[x]", "HEAD/OBJE[0]x", "HEAD/OBJE[-1]", "HEAD/OBJE[99999999999]",
-                             "HEAD/VERS/NAME", "HEAD//OBJE", "@", "@x", "@-1", "@1x", "@99999999999999999999"}) {
+    for (const char* path : {"",
+                             "/",
+                             "HEAD/",
+                             "/HEAD",
+                             "OBJE",
+                             "HEAD[1]",
+                             "HEAD/OBJE[1]",
+                             "HEAD/obje",
+                             "HEAD/OBJ",
+                             "HEAD/OBJEC",
+                             "HEAD/OBJE[",
+                             "HEAD/OBJE[]",
+                             "HEAD/OBJE[0",
+                             "HEAD/OBJE[x]",
+                             "HEAD/OBJE[0]x",
+                             "HEAD/OBJE[-1]",
+                             "HEAD/OBJE[99999999999]",
+                             "HEAD/VERS/NAME",
+                             "HEAD//OBJE",
+                             "@",
+                             "@x",
+                             "@-1",
+                             "@1x",
+                             "@99999999999999999999"}) {
         EXPECT_EQ(find_path(sample.tree, path), kNone) << path;
     }
     EXPECT_EQ(find_path(sample.tree, "@" + std::to_string(sample.file.size())), kNone);
@@ -108,22 +129,28 @@ TEST(FindPath, FindsByOffset) {
 }
 
 /// Some bytes to name a place in.
-Error fault(ErrorCode code, std::uint64_t value = 0, std::uint64_t limit = 0) { return {code, 16, value, limit}; }
+Error fault(ErrorCode code, std::uint64_t value = 0, std::uint64_t limit = 0) {
+    return {code, 16, value, limit};
+}
 
 TEST(Describe, FillsInTheNumbers) {
     EXPECT_EQ(describe(fault(ErrorCode::kChunkTooLong, 96, 48)),
               "the chunk's payload of 96 bytes does not fit the 48 bytes left in its container");
-    EXPECT_EQ(describe(fault(ErrorCode::kRecordTooShort, 3, ~std::uint64_t{0})), "the record has 3 bytes, at least 18446744073709551615 are needed");
+    EXPECT_EQ(describe(fault(ErrorCode::kRecordTooShort, 3, ~std::uint64_t{0})),
+              "the record has 3 bytes, at least 18446744073709551615 are needed");
 }
 
 TEST(Describe, ShowsSumsAndFlagsInHexadecimalAndIdsInLetters) {
-    EXPECT_EQ(describe(fault(ErrorCode::kSumMismatch, 0xdeadbeef)), "the integrity sum does not match the content: it should be 0xdeadbeef");
+    EXPECT_EQ(describe(fault(ErrorCode::kSumMismatch, 0xdeadbeef)),
+              "the integrity sum does not match the content: it should be 0xdeadbeef");
     EXPECT_EQ(describe(fault(ErrorCode::kReservedFlags, 0xfc)), "reserved flag bits are set: 0xfc");
-    EXPECT_EQ(describe(fault(ErrorCode::kChunkMissing, FourCC("PIVO").value)), "the container lacks a chunk that it must have: PIVO");
+    EXPECT_EQ(describe(fault(ErrorCode::kChunkMissing, FourCC("PIVO").value)),
+              "the container lacks a chunk that it must have: PIVO");
 }
 
 TEST(Describe, SaysWhatTheSystemSaid) {
-    EXPECT_EQ(describe(fault(ErrorCode::kCannotOpen, ENOENT)), "the file cannot be opened: " + std::string(std::strerror(ENOENT)));
+    EXPECT_EQ(describe(fault(ErrorCode::kCannotOpen, ENOENT)),
+              "the file cannot be opened: " + std::string(std::strerror(ENOENT)));
 }
 
 TEST(Describe, LeavesNoMarkUnfilled) {
@@ -145,13 +172,14 @@ TEST(Describe, AddsPathAndOffset) {
               "the VERS signature is wrong: the file was damaged as text, or is none of ours (HEAD/VERS, offset 16)");
     EXPECT_EQ(describe_with_place(fault(ErrorCode::kNotABendyFile), {}),
               "this is not a bendy file: it does not start with a HEAD chunk (offset 16)");
-    EXPECT_EQ(describe_with_place(fault(ErrorCode::kCannotOpen, ENOENT), file), describe(fault(ErrorCode::kCannotOpen, ENOENT)));
+    EXPECT_EQ(describe_with_place(fault(ErrorCode::kCannotOpen, ENOENT), file),
+              describe(fault(ErrorCode::kCannotOpen, ENOENT)));
 }
 
 TEST(ErrorCodes, AreUniqueAndSpelledAlike) {
     std::set<std::string> names;
-#define BENDY_ERROR(enumerator, kind, code, text)                                                              \
-    EXPECT_TRUE(names.insert(code).second) << code;                                                            \
+#define BENDY_ERROR(enumerator, kind, code, text)   \
+    EXPECT_TRUE(names.insert(code).second) << code; \
     EXPECT_EQ(std::string(code).find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"), std::string::npos) << code;
 #include <bendy/format/error_codes.def>
 #undef BENDY_ERROR

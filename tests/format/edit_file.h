@@ -26,7 +26,9 @@ struct Node {
     [[nodiscard]] bool is_container() const { return (flags & kContainerFlag) != 0; }
 };
 
-inline Node make_leaf(FourCC id, Bytes payload = {}, std::uint16_t flags = 0) { return {id, flags, {payload.begin(), payload.end()}, {}}; }
+inline Node make_leaf(FourCC id, Bytes payload = {}, std::uint16_t flags = 0) {
+    return {id, flags, {payload.begin(), payload.end()}, {}};
+}
 inline Node make_container(FourCC id, std::vector<Node> children = {}, std::uint16_t flags = 0) {
     return {id, static_cast<std::uint16_t>(flags | kContainerFlag), {}, std::move(children)};
 }
@@ -63,7 +65,9 @@ inline Buffer to_file(const Node& root) {
 }
 
 /// The sample file, to be changed.
-inline Node sample() { return to_node(sample_file()); }
+inline Node sample() {
+    return to_node(sample_file());
+}
 
 /// The direct child with this id, the `place`-th of them from 0.
 inline Node& child(Node& parent, std::string_view id, std::size_t place = 0) {
@@ -102,7 +106,8 @@ void edit(Node& leaf, Change change, std::size_t offset = 0) {
 /// Overwrites a number in a stream or another array, `offset` bytes into the payload.
 template <class T>
 void set(Node& leaf, std::size_t offset, T value) {
-    edit<T>(leaf, [value](T& number) { number = value; }, offset);
+    edit<T>(
+        leaf, [value](T& number) { number = value; }, offset);
 }
 
 /// Overwrites raw bytes of a file.
@@ -138,13 +143,18 @@ using Lines = std::vector<std::string>;
 /// Each fault as "CODE PATH".
 inline Lines lines_of(const Faults& faults, Bytes file) {
     Lines lines;
-    for (const Error& fault : faults.list()) lines.push_back(std::string(code_name(fault.code)) + " " + chunk_path(file, fault.offset));
+    for (const Error& fault : faults.list())
+        lines.push_back(std::string(code_name(fault.code)) + " " + chunk_path(file, fault.offset));
     return lines;
 }
 
 /// Everything that validate says of a file.
-inline Lines faults_in(Bytes file) { return lines_of(validate(file), file); }
-inline Lines faults_in(const Node& root) { return faults_in(to_file(root)); }
+inline Lines faults_in(Bytes file) {
+    return lines_of(validate(file), file);
+}
+inline Lines faults_in(const Node& root) {
+    return faults_in(to_file(root));
+}
 
 /// A file with the tree and document read from it. The document's views stay good as long as this lives.
 struct Loaded {

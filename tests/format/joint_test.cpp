@@ -15,7 +15,8 @@ namespace {
 using namespace test;
 
 Node make_joint(std::vector<Node> more = {}) {
-    Node joint = make_container(FourCC("SKIN"), {make_container(FourCC("PIVO"), {make_leaf(FourCC("REST"), bytes_of(RestRecord{}))})});
+    Node joint = make_container(FourCC("SKIN"),
+                                {make_container(FourCC("PIVO"), {make_leaf(FourCC("REST"), bytes_of(RestRecord{}))})});
     for (Node& node : more) joint.children.push_back(std::move(node));
     return joint;
 }
@@ -88,7 +89,8 @@ TEST(Skeleton, KeepsLocalMaterialsByJoint) {
     const Node material = at(root, "HEAD/OBJE/SKIN/MATE");
     spine.children.insert(spine.children.begin(), {material, material});
     edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) { version.materials = 4; });
-    edit<PolygonRecord>(at(root, "HEAD/OBJE/SKIN/SKIN/POLY"), [](auto& polygons) { polygons.material = kLocalMaterial | 1u; });
+    edit<PolygonRecord>(at(root, "HEAD/OBJE/SKIN/SKIN/POLY"),
+                        [](auto& polygons) { polygons.material = kLocalMaterial | 1u; });
     EXPECT_EQ(faults_in(root), Lines{});
     const Loaded loaded(root);
     const SkeletonView& skeleton = loaded.document.objects.at(0).skeleton;
@@ -109,7 +111,8 @@ TEST(Skeleton, IgnoresJointsThatStandElsewhere) {
     at(root, "HEAD/OBJE/VECT").children.push_back(make_joint());
     const Loaded loaded(root);
     EXPECT_EQ(loaded.document.objects.at(0).skeleton.joints.size(), 4u);
-    EXPECT_EQ(loaded.lines(), (Lines{"CHUNK_MISPLACED HEAD/OBJE/SKIN/PIVO/SKIN", "CHUNK_MISPLACED HEAD/OBJE/VECT/SKIN"}));
+    EXPECT_EQ(loaded.lines(),
+              (Lines{"CHUNK_MISPLACED HEAD/OBJE/SKIN/PIVO/SKIN", "CHUNK_MISPLACED HEAD/OBJE/VECT/SKIN"}));
 }
 
 TEST(Skeleton, RefusesATopologyItDoesNotKnow) {
@@ -127,7 +130,8 @@ TEST(Skeleton, WantsWholePolygons) {
     const std::string triangles = "HEAD/OBJE/SKIN/POLY";
     const std::string lines = "HEAD/OBJE/SKIN/SKIN/SKIN/POLY[1]";
     for (const std::uint32_t count : {0u, 3u}) EXPECT_EQ(faults(triangles.c_str(), count), Lines{}) << count;
-    for (const std::uint32_t count : {1u, 2u, 4u, 5u}) EXPECT_EQ(faults(triangles.c_str(), count), Lines{"POLYGON_CUT " + triangles}) << count;
+    for (const std::uint32_t count : {1u, 2u, 4u, 5u})
+        EXPECT_EQ(faults(triangles.c_str(), count), Lines{"POLYGON_CUT " + triangles}) << count;
     EXPECT_EQ(faults(lines.c_str(), 1), Lines{"POLYGON_CUT " + lines});
     EXPECT_EQ(faults(lines.c_str(), 0), Lines{});
 }
@@ -146,9 +150,12 @@ TEST(Skeleton, RefusesARestTransformThatIsNotFinite) {
         set(at(root, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/REST"), number * sizeof(float), value);
         return faults_in(root);
     };
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()}) {
-        for (std::size_t number = 0; number < 4; ++number) EXPECT_EQ(faults(number, bad), Lines{"ROTATION_NOT_UNIT HEAD/OBJE/SKIN/SKIN[1]/PIVO/REST"}) << number;
-        for (std::size_t number = 4; number < 13; ++number) EXPECT_EQ(faults(number, bad), Lines{"NOT_FINITE HEAD/OBJE/SKIN/SKIN[1]/PIVO/REST"}) << number;
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+        for (std::size_t number = 0; number < 4; ++number)
+            EXPECT_EQ(faults(number, bad), Lines{"ROTATION_NOT_UNIT HEAD/OBJE/SKIN/SKIN[1]/PIVO/REST"}) << number;
+        for (std::size_t number = 4; number < 13; ++number)
+            EXPECT_EQ(faults(number, bad), Lines{"NOT_FINITE HEAD/OBJE/SKIN/SKIN[1]/PIVO/REST"}) << number;
     }
 }
 

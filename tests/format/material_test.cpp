@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-constexpr std::array kTextureUses{offsetof(SurfaceRecord, base_colour_texture), offsetof(SurfaceRecord, metallic_roughness_texture),
+constexpr std::array kTextureUses{offsetof(SurfaceRecord, base_colour_texture),
+                                  offsetof(SurfaceRecord, metallic_roughness_texture),
                                   offsetof(SurfaceRecord, normal_texture), offsetof(SurfaceRecord, occlusion_texture),
                                   offsetof(SurfaceRecord, emissive_texture)};
 
@@ -53,12 +54,15 @@ TEST(Material, RefusesTexturesThatAreNotThere) {
         EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, kNone), Lines{}) << use;
         EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/MATE/SURF"}) << use;
         EXPECT_EQ(faults_with("HEAD/MATE/SURF", use, kNone - 1), Lines{"TEXTURE_RANGE HEAD/MATE/SURF"}) << use;
-        EXPECT_EQ(faults_with("HEAD/OBJE/SKIN/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/OBJE/SKIN/MATE/SURF"}) << use;
+        EXPECT_EQ(faults_with("HEAD/OBJE/SKIN/MATE/SURF", use, 3u), Lines{"TEXTURE_RANGE HEAD/OBJE/SKIN/MATE/SURF"})
+            << use;
     }
 }
 
 TEST(Material, RefusesUnknownModesAndSwitches) {
-    const auto faults = [](std::size_t offset, std::uint8_t value) { return faults_with("HEAD/MATE/SURF", offset, value); };
+    const auto faults = [](std::size_t offset, std::uint8_t value) {
+        return faults_with("HEAD/MATE/SURF", offset, value);
+    };
     EXPECT_EQ(faults(offsetof(SurfaceRecord, alpha_mode), 1), Lines{});
     EXPECT_EQ(faults(offsetof(SurfaceRecord, alpha_mode), 3), Lines{"ENUM_RANGE HEAD/MATE/SURF"});
     EXPECT_EQ(faults(offsetof(SurfaceRecord, double_sided), 1), Lines{});
@@ -69,10 +73,14 @@ TEST(Material, RefusesUnknownModesAndSwitches) {
 
 TEST(Material, RefusesReservedBytes) {
     for (std::size_t byte = 0; byte < 13; ++byte) {
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", offsetof(SurfaceRecord, reserved) + byte, std::uint8_t{1}), Lines{"RESERVED_FIELD HEAD/MATE/SURF"}) << byte;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", offsetof(SurfaceRecord, reserved) + byte, std::uint8_t{1}),
+                  Lines{"RESERVED_FIELD HEAD/MATE/SURF"})
+            << byte;
     }
     for (const std::size_t use : kTextureUses) {
-        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offsetof(TextureUseRecord, reserved), 1u), Lines{"RESERVED_FIELD HEAD/MATE/SURF"}) << use;
+        EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offsetof(TextureUseRecord, reserved), 1u),
+                  Lines{"RESERVED_FIELD HEAD/MATE/SURF"})
+            << use;
     }
 }
 
@@ -82,8 +90,10 @@ TEST(Material, RefusesEveryNumberThatIsNotFinite) {
             EXPECT_EQ(faults_with("HEAD/MATE/SURF", offset, bad), Lines{"NOT_FINITE HEAD/MATE/SURF"}) << offset;
         }
         for (const std::size_t use : kTextureUses) {
-            for (std::size_t offset = offsetof(TextureUseRecord, offset); offset < offsetof(TextureUseRecord, reserved); offset += sizeof(float)) {
-                EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offset, bad), Lines{"NOT_FINITE HEAD/MATE/SURF"}) << use + offset;
+            for (std::size_t offset = offsetof(TextureUseRecord, offset); offset < offsetof(TextureUseRecord, reserved);
+                 offset += sizeof(float)) {
+                EXPECT_EQ(faults_with("HEAD/MATE/SURF", use + offset, bad), Lines{"NOT_FINITE HEAD/MATE/SURF"})
+                    << use + offset;
             }
         }
     }
@@ -136,7 +146,9 @@ TEST(Texture, TakesAnImageWithoutBytes) {
 }
 
 TEST(Texture, RefusesUnknownSamplerSettings) {
-    const auto faults = [](std::size_t offset, std::uint8_t value) { return faults_with("HEAD/TEXT/SAMP", offset, value); };
+    const auto faults = [](std::size_t offset, std::uint8_t value) {
+        return faults_with("HEAD/TEXT/SAMP", offset, value);
+    };
     const Lines bad{"ENUM_RANGE HEAD/TEXT/SAMP"};
     EXPECT_EQ(faults(offsetof(SamplerRecord, mag_filter), 2), Lines{});
     EXPECT_EQ(faults(offsetof(SamplerRecord, mag_filter), 3), bad);
@@ -152,7 +164,8 @@ TEST(Texture, RefusesUnknownMediaAndReservedBytes) {
     EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 0, std::uint8_t{5}), Lines{});
     EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 15, std::uint8_t{1}), Lines{"RESERVED_FIELD HEAD/TEXT[1]/IMAG"});
     // What refers to a faulty image has lost it.
-    EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 0, std::uint8_t{6}), (Lines{"ENUM_RANGE HEAD/TEXT[1]/IMAG", "INDEX_RANGE HEAD/TEXT[2]"}));
+    EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 0, std::uint8_t{6}),
+              (Lines{"ENUM_RANGE HEAD/TEXT[1]/IMAG", "INDEX_RANGE HEAD/TEXT[2]"}));
 }
 
 TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
@@ -166,7 +179,9 @@ TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
 
 TEST(Texture, RefusesTheImageOfATextureThatIsNotThere) {
     for (const std::uint32_t texture : {3u, 0x8000'0000u, kNone - 1, kNone}) {
-        EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, texture), texture), Lines{"TEXTURE_RANGE HEAD/TEXT[2]"}) << texture;
+        EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, texture), texture),
+                  Lines{"TEXTURE_RANGE HEAD/TEXT[2]"})
+            << texture;
     }
 }
 

@@ -104,7 +104,9 @@ private:
         for (const Field& field : fields_) {
             const bool is_there = field.offset + field.size <= present;
             const std::byte* expected = is_there ? bytes_.data() : reinterpret_cast<const std::byte*>(&defaults);
-            EXPECT_EQ(std::memcmp(reinterpret_cast<const std::byte*>(&*read) + field.offset, expected + field.offset, field.size), 0)
+            EXPECT_EQ(std::memcmp(reinterpret_cast<const std::byte*>(&*read) + field.offset, expected + field.offset,
+                                  field.size),
+                      0)
                 << field.name << " of a payload of " << present << " bytes";
         }
     }

@@ -53,7 +53,8 @@ constexpr ComponentType component_type_of() {
 
 /// A stream's payload: its record, then its numbers.
 template <class T>
-Buffer stream_payload(std::uint16_t components, const std::vector<T>& numbers, bool normalised = false, std::uint32_t set = 0) {
+Buffer stream_payload(std::uint16_t components, const std::vector<T>& numbers, bool normalised = false,
+                      std::uint32_t set = 0) {
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(component_type_of<T>());
     record.normalised = normalised ? 1 : 0;
@@ -95,7 +96,8 @@ inline void begin_joint(ChunkWriter& writer, std::string_view name, float up) {
     writer.end();
 }
 
-inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t material, Topology topology, std::uint32_t first, std::uint32_t count) {
+inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t material, Topology topology,
+                         std::uint32_t first, std::uint32_t count) {
     PolygonRecord record;
     record.pool = pool;
     record.material = material;
@@ -180,8 +182,8 @@ inline void put_rigid_pool(ChunkWriter& writer) {
 }
 
 /// One line of a TRAK table.
-inline TrackRecord track(std::uint32_t target, TrackPath path, Interpolation interpolation, std::uint16_t components, std::uint32_t keys,
-                         std::uint32_t first_time, std::uint64_t first_value) {
+inline TrackRecord track(std::uint32_t target, TrackPath path, Interpolation interpolation, std::uint16_t components,
+                         std::uint32_t keys, std::uint32_t first_time, std::uint64_t first_value) {
     TrackRecord record;
     record.target = target;
     record.path = static_cast<std::uint8_t>(path);
@@ -213,11 +215,11 @@ inline void put_cycle(ChunkWriter& writer) {
     writer.leaf(FourCC("TRAK"), bytes_of_all(tracks));
     writer.leaf(FourCC("TIME"), bytes_of_all<float>({0.5f, 0.75f, 1.0f, 0.5f, 1.0f}));
     writer.leaf(FourCC("KEYV"), bytes_of_all<float>({
-                                    1, 1, 1, 2, 2, 2, 3, 3, 3,                 // 0: translation of joint 0, scale of joint 2
-                                    0, 0, 0, 5, 0, 0, 0, 1, 0, 0, 0, 6,        // 9: in-tangent, rotation, out-tangent
-                                    0, 0, 0, 7, 0, 0, 1, 0, 0, 0, 0, 8,        //
-                                    0, 0.5f, 1, 0.25f,                         // 33: weights of two targets
-                                    0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 0,        // 37: three rotations
+                                    1, 1,    1, 2,     2, 2, 3, 3, 3,  // 0: translation of joint 0, scale of joint 2
+                                    0, 0,    0, 5,     0, 0, 0, 1, 0, 0, 0, 6,  // 9: in-tangent, rotation, out-tangent
+                                    0, 0,    0, 7,     0, 0, 1, 0, 0, 0, 0, 8,  //
+                                    0, 0.5f, 1, 0.25f,                          // 33: weights of two targets
+                                    0, 0,    0, 1,     0, 1, 0, 0, 1, 0, 0, 0,  // 37: three rotations
                                 }));
     writer.end();
 }

@@ -66,16 +66,17 @@ const std::vector<Provocation> kProvocations{
     {ErrorCode::kTruncated, "HEAD",
      [] {
          Buffer file = sample_file();
-         file.resize(file.size() - 1);
+         file.pop_back();
          return file;
      }},
     {ErrorCode::kTrailingBytes, "",
      [] {
          Buffer file = sample_file();
-         file.resize(file.size() + 1);
+         file.push_back(std::byte{0});
          return file;
      }},
-    patched(ErrorCode::kChunkTooLong, "HEAD/EXTR", "HEAD/EXTR", kSizeField, std::uint8_t{17}),  // the last one, with 16 left
+    patched(ErrorCode::kChunkTooLong, "HEAD/EXTR", "HEAD/EXTR", kSizeField,
+            std::uint8_t{17}),  // the last one, with 16 left
     patched(ErrorCode::kChunkIdNotLetters, "HEAD/OBJE/VECT/nORM", "HEAD/OBJE/VECT/NORM", 0, 'n'),
     patched(ErrorCode::kReservedFlags, "HEAD/VERS", "HEAD/VERS", kFlagsField, std::uint8_t{0x04}),
     {ErrorCode::kContainerSize, "HEAD/OBJE/VECT[1]",
@@ -100,35 +101,48 @@ const std::vector<Provocation> kProvocations{
      }},
     patched(ErrorCode::kSumMismatch, "HEAD/OBJE/VECT/POSI", "HEAD/OBJE/VECT/POSI", kChunkHeaderSize + kNumbers, 0.5f),
 
-    record<VersionRecord>(ErrorCode::kUnsupportedVersion, "HEAD/VERS", [](auto& version) { version.major = kVersionMajor + 1; }),
+    record<VersionRecord>(ErrorCode::kUnsupportedVersion, "HEAD/VERS",
+                          [](auto& version) { version.major = kVersionMajor + 1; }),
     edited(ErrorCode::kRequiredChunkUnknown, "HEAD/OBJE/ZZZZ",
            [](Node& root) { at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag)); }),
-    edited(ErrorCode::kUnsupportedCodec, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0x0100; }),
+    edited(ErrorCode::kUnsupportedCodec, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0x0100; }),
 
-    edited(ErrorCode::kChunkMissing, "HEAD/OBJE/SKIN/SKIN[1]", [](Node& root) { remove(at(root, "HEAD/OBJE/SKIN/SKIN[1]"), "PIVO"); }),
+    edited(ErrorCode::kChunkMissing, "HEAD/OBJE/SKIN/SKIN[1]",
+           [](Node& root) { remove(at(root, "HEAD/OBJE/SKIN/SKIN[1]"), "PIVO"); }),
     edited(ErrorCode::kChunkRepeated, "HEAD/OBJE/NAME[1]",
            [](Node& root) { at(root, "HEAD/OBJE").children.push_back(at(root, "HEAD/OBJE/NAME")); }),
-    edited(ErrorCode::kChunkMisplaced, "HEAD/NAME", [](Node& root) { root.children.push_back(at(root, "HEAD/OBJE/NAME")); }),
-    edited(ErrorCode::kNotAContainer, "HEAD/OBJE/VECT/USER", [](Node& root) { at(root, "HEAD/OBJE/VECT/USER") = make_leaf(FourCC("USER")); }),
-    edited(ErrorCode::kNotALeaf, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM") = make_container(FourCC("NORM")); }),
-    edited(ErrorCode::kRecordTooShort, "HEAD/MATE/SURF", [](Node& root) { at(root, "HEAD/MATE/SURF").payload.pop_back(); }),
-    edited(ErrorCode::kRecordSize, "HEAD/OBJE/VECT/NORM", [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").payload.push_back({}); }),
-    record<PaletteRecord>(ErrorCode::kReservedField, "HEAD/OBJE/VECT/PALT", [](auto& palette) { palette.reserved[1] = 1; }),
+    edited(ErrorCode::kChunkMisplaced, "HEAD/NAME",
+           [](Node& root) { root.children.push_back(at(root, "HEAD/OBJE/NAME")); }),
+    edited(ErrorCode::kNotAContainer, "HEAD/OBJE/VECT/USER",
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/USER") = make_leaf(FourCC("USER")); }),
+    edited(ErrorCode::kNotALeaf, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM") = make_container(FourCC("NORM")); }),
+    edited(ErrorCode::kRecordTooShort, "HEAD/MATE/SURF",
+           [](Node& root) { at(root, "HEAD/MATE/SURF").payload.pop_back(); }),
+    edited(ErrorCode::kRecordSize, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").payload.push_back({}); }),
+    record<PaletteRecord>(ErrorCode::kReservedField, "HEAD/OBJE/VECT/PALT",
+                          [](auto& palette) { palette.reserved[1] = 1; }),
     record<VersionRecord>(ErrorCode::kSignature, "HEAD/VERS", [](auto& version) { version.signature[5] = '\n'; }),
     record<VersionRecord>(ErrorCode::kCountMismatch, "HEAD/VERS", [](auto& version) { version.joints = 5; }),
-    edited(ErrorCode::kNotUtf8, "HEAD/OBJE/SKIN/NAME", [](Node& root) { set(at(root, "HEAD/OBJE/SKIN/NAME"), 0, std::uint8_t{0xff}); }),
+    edited(ErrorCode::kNotUtf8, "HEAD/OBJE/SKIN/NAME",
+           [](Node& root) { set(at(root, "HEAD/OBJE/SKIN/NAME"), 0, std::uint8_t{0xff}); }),
     record<SamplerRecord>(ErrorCode::kEnumRange, "HEAD/TEXT/SAMP", [](auto& sampler) { sampler.wrap_s = kWraps; }),
     number(ErrorCode::kNotFinite, "HEAD/OBJE/VECT/POSI", kNumbers, kNaN),
     record<PoolRecord>(ErrorCode::kJointRange, "HEAD/OBJE/VECT[1]/VINF", [](auto& pool) { pool.joint = 4; }),
     record<PolygonRecord>(ErrorCode::kPoolRange, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.pool = 2; }),
-    record<PolygonRecord>(ErrorCode::kMaterialRange, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.material = 1; }),
-    record<SurfaceRecord>(ErrorCode::kTextureRange, "HEAD/MATE/SURF", [](auto& surface) { surface.normal_texture.texture = 3; }),
+    record<PolygonRecord>(ErrorCode::kMaterialRange, "HEAD/OBJE/SKIN/POLY",
+                          [](auto& polygons) { polygons.material = 1; }),
+    record<SurfaceRecord>(ErrorCode::kTextureRange, "HEAD/MATE/SURF",
+                          [](auto& surface) { surface.normal_texture.texture = 3; }),
     number(ErrorCode::kIndexRange, "HEAD/OBJE/VECT/INDX", kNumbers, std::uint16_t{4}),
     {ErrorCode::kTooManyJoints, "HEAD/OBJE", [] { return rope_file(kMaxJoints + 1); }},
     record<StreamRecord>(ErrorCode::kStreamType, "HEAD/OBJE/VECT/NORM", [](auto& stream) { stream.components = 4; }),
     record<StreamRecord>(ErrorCode::kStreamCount, "HEAD/OBJE/VECT/NORM", [](auto& stream) { stream.elements = 5; }),
     record<StreamRecord>(ErrorCode::kStreamSet, "HEAD/OBJE/VECT/TEXC[1]", [](auto& stream) { stream.set = 0; }),
-    edited(ErrorCode::kStreamIncomplete, "HEAD/OBJE/VECT", [](Node& root) { remove(at(root, "HEAD/OBJE/VECT"), "WGHT"); }),
+    edited(ErrorCode::kStreamIncomplete, "HEAD/OBJE/VECT",
+           [](Node& root) { remove(at(root, "HEAD/OBJE/VECT"), "WGHT"); }),
     number(ErrorCode::kBoneRange, "HEAD/OBJE/VECT/BONE", kNumbers, std::uint8_t{2}),
     edited(ErrorCode::kWeightRange, "HEAD/OBJE/VECT/WGHT",
            [](Node& root) {
@@ -139,7 +153,8 @@ const std::vector<Provocation> kProvocations{
     number(ErrorCode::kWeightSum, "HEAD/OBJE/VECT/WGHT", kNumbers, 0.5f),
     number(ErrorCode::kTargetOrder, "HEAD/OBJE/VECT/TARG[1]/INDX", kNumbers, std::uint16_t{3}),
     record<PolygonRecord>(ErrorCode::kPolygonCut, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.count = 2; }),
-    record<PolygonRecord>(ErrorCode::kPolygonOverlap, "HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.first = 2; }),
+    record<PolygonRecord>(ErrorCode::kPolygonOverlap, "HEAD/OBJE/SKIN/SKIN/POLY",
+                          [](auto& polygons) { polygons.first = 2; }),
     edited(ErrorCode::kRigidShared, "HEAD/OBJE/SKIN/SKIN/POLY[1]",
            [](Node& root) { set(at(root, "HEAD/OBJE/VECT[1]/INDX"), kNumbers + 20, 0u); }),
     record<TrackRecord>(ErrorCode::kKeyRange, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.keys = 0; }),
@@ -147,14 +162,19 @@ const std::vector<Provocation> kProvocations{
            [](Node& root) {
                set(at(root, "HEAD/OBJE/CYCL/TIME"), 16, 0.5f);
                // Of the two tracks with these times one is left.
-               edit<TrackRecord>(at(root, "HEAD/OBJE/CYCL/TRAK"), [](auto& track) { track.keys = 1; }, 3 * sizeof(TrackRecord));
+               edit<TrackRecord>(
+                   at(root, "HEAD/OBJE/CYCL/TRAK"), [](auto& track) { track.keys = 1; }, 3 * sizeof(TrackRecord));
            }),
-    record<TrackRecord>(ErrorCode::kKeyOverlap, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.first_value = 3, track.keys = 2; }),
-    record<TrackRecord>(ErrorCode::kTrackRepeated, "HEAD/OBJE/CYCL/TRAK",
-                        [](auto& track) { track.target = 2, track.path = static_cast<std::uint8_t>(TrackPath::scale); }),
+    record<TrackRecord>(ErrorCode::kKeyOverlap, "HEAD/OBJE/CYCL/TRAK",
+                        [](auto& track) { track.first_value = 3, track.keys = 2; }),
+    record<TrackRecord>(
+        ErrorCode::kTrackRepeated, "HEAD/OBJE/CYCL/TRAK",
+        [](auto& track) { track.target = 2, track.path = static_cast<std::uint8_t>(TrackPath::scale); }),
     record<TrackRecord>(ErrorCode::kTrackComponents, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.components = 4; }),
     edited(ErrorCode::kRotationNotUnit, "HEAD/OBJE/SKIN/PIVO/REST",
-           [](Node& root) { edit<RestRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/REST"), [](auto& rest) { rest.rotation = {}; }); }),
+           [](Node& root) {
+               edit<RestRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/REST"), [](auto& rest) { rest.rotation = {}; });
+           }),
     record<CycleRecord>(ErrorCode::kCycleLength, "HEAD/OBJE/CYCL/CINF", [](auto& cycle) { cycle.end = 0.75f; }),
 };
 
@@ -170,7 +190,8 @@ const std::vector<Exempt> kExempt{
     {ErrorCode::kUnalignedBuffer, "the caller's buffer, in chunk_reader_test.cpp"},
     {ErrorCode::kOutOfMemory, "memory would have to run out"},
     {ErrorCode::kTooManyChunks, "the smallest file with so many takes 32 GiB"},
-    {ErrorCode::kChunkHeaderCut, "containers are whole multiples of 16 bytes long, so less than a header is never left"},
+    {ErrorCode::kChunkHeaderCut,
+     "containers are whole multiples of 16 bytes long, so less than a header is never left"},
 };
 
 class ErrorCodeTest : public testing::TestWithParam<Provocation> {};
@@ -181,7 +202,7 @@ TEST_P(ErrorCodeTest, IsTheOnlyFaultFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Validate, ErrorCodeTest, testing::ValuesIn(kProvocations),
-                         [](const auto& info) { return std::string(code_name(info.param.code)); });
+                         [](const auto& provocation) { return std::string(code_name(provocation.param.code)); });
 
 TEST(Validate, HasATestForEveryErrorCode) {
     std::multiset<ErrorCode> provoked;
@@ -192,7 +213,9 @@ TEST(Validate, HasATestForEveryErrorCode) {
 #undef BENDY_ERROR
 }
 
-TEST(Validate, FindsNothingInTheSample) { EXPECT_EQ(faults_in(sample_file()), Lines{}); }
+TEST(Validate, FindsNothingInTheSample) {
+    EXPECT_EQ(faults_in(sample_file()), Lines{});
+}
 
 TEST(Validate, EndsAtTheFirstFaultOfStructure) {
     Buffer file = sample_file();
@@ -207,7 +230,8 @@ TEST(Validate, ReportsEveryFaultOfSumsRecordsAndValues) {
     set(at(root, "HEAD/OBJE/VECT/POSI"), kNumbers, kNaN);
     Buffer file = to_file(root);
     patch(file, place_of(file, "HEAD/OBJE/NAME") + kChunkHeaderSize, 'F');
-    EXPECT_EQ(faults_in(file), (Lines{"SUM_MISMATCH HEAD/OBJE/NAME", "STREAM_COUNT HEAD/OBJE/VECT/NORM", "NOT_FINITE HEAD/OBJE/VECT/POSI"}));
+    EXPECT_EQ(faults_in(file), (Lines{"SUM_MISMATCH HEAD/OBJE/NAME", "STREAM_COUNT HEAD/OBJE/VECT/NORM",
+                                      "NOT_FINITE HEAD/OBJE/VECT/POSI"}));
 }
 
 TEST(Validate, KeepsABoundedListOfFaultsAndCountsTheRest) {

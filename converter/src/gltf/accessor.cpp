@@ -23,12 +23,18 @@ double load_as(const std::byte* from) {
 /// One component; a double holds each of the component types exactly.
 double load(const std::byte* from, int component_type) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return load_as<std::int8_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return load_as<std::uint8_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return load_as<std::int16_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load_as<std::uint16_t>(from);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return load_as<std::uint32_t>(from);
-        default: return load_as<float>(from);
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return load_as<std::int8_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return load_as<std::uint8_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return load_as<std::int16_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return load_as<std::uint16_t>(from);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return load_as<std::uint32_t>(from);
+        default:
+            return load_as<float>(from);
     }
 }
 
@@ -80,8 +86,7 @@ Elements elements_in(const Document& document, std::size_t view, std::uint64_t o
 
 /// Decodes an accessor: `convert(component, element)` makes each component an Out.
 template <class Out, class Convert>
-std::vector<Out> decode(const Document& document, std::size_t index, const std::string& place,
-                        const Convert& convert) {
+std::vector<Out> decode(const Document& document, std::size_t index, const std::string& place, const Convert& convert) {
     const tinygltf::Accessor& accessor = document.model.accessors[index];
     const std::string what = at("accessors", index);
     const Layout layout = layout_of(accessor);
@@ -95,7 +100,7 @@ std::vector<Out> decode(const Document& document, std::size_t index, const std::
                            document.buffers.stride(view).value_or(layout.size), place, what);
     } else if (count > kMaxImpliedElements) {
         fail(place, what + ": " + std::to_string(count) + " elements without stored data, at most " +
-                       std::to_string(kMaxImpliedElements) + " are accepted");
+                        std::to_string(kMaxImpliedElements) + " are accepted");
     }
     document.budget.take(count, components * sizeof(Out), place);
     std::vector<Out> values(static_cast<std::size_t>(count) * components, Out{});
@@ -118,17 +123,15 @@ std::vector<Out> decode(const Document& document, std::size_t index, const std::
         const auto sparse_count = static_cast<std::size_t>(sparse.count);
         if (sparse_count > count) fail(place, what + ".sparse: more values than the accessor has elements");
         const std::size_t index_size = component_size(sparse.indices.componentType);
-        const auto indices =
-            elements_in(document, static_cast<std::size_t>(sparse.indices.bufferView),
-                        static_cast<std::uint64_t>(sparse.indices.byteOffset), sparse_count, index_size, index_size,
-                        place, what + ".sparse.indices");
-        const auto replacements =
-            elements_in(document, static_cast<std::size_t>(sparse.values.bufferView),
-                        static_cast<std::uint64_t>(sparse.values.byteOffset), sparse_count, layout.size, layout.size,
-                        place, what + ".sparse.values");
+        const auto indices = elements_in(document, static_cast<std::size_t>(sparse.indices.bufferView),
+                                         static_cast<std::uint64_t>(sparse.indices.byteOffset), sparse_count,
+                                         index_size, index_size, place, what + ".sparse.indices");
+        const auto replacements = elements_in(document, static_cast<std::size_t>(sparse.values.bufferView),
+                                              static_cast<std::uint64_t>(sparse.values.byteOffset), sparse_count,
+                                              layout.size, layout.size, place, what + ".sparse.values");
         for (std::size_t i = 0; i < sparse_count; ++i) {
-            const auto to = static_cast<std::size_t>(
-                load(indices.bytes.data() + i * index_size, sparse.indices.componentType));
+            const auto to =
+                static_cast<std::size_t>(load(indices.bytes.data() + i * index_size, sparse.indices.componentType));
             if (to >= count) {
                 fail(place, what + ".sparse.indices: index " + std::to_string(to) + " is out of range (" +
                                 std::to_string(count) + " elements)");
@@ -151,12 +154,18 @@ std::size_t component_size(int component_type) {
 
 double normalised(double value, int component_type) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(value / 127.0, -1.0);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return value / 255.0;
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(value / 32767.0, -1.0);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return value / 65535.0;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return value / 4294967295.0;
-        default: return value;
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return std::max(value / 127.0, -1.0);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return value / 255.0;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return std::max(value / 32767.0, -1.0);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return value / 65535.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return value / 4294967295.0;
+        default:
+            return value;
     }
 }
 

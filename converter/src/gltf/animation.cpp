@@ -64,6 +64,15 @@ std::uint64_t separate_equal_times(Keys& keys) {
     return touched;
 }
 
+/// glTF cannot say that a cycle repeats; authors say it in extras: {"loop": true}, or 1 as Blender writes booleans.
+bool asks_to_loop(const Json& animation) {
+    const auto extras = animation.find("extras");
+    if (extras == animation.end() || !extras->is_object()) return false;
+    const auto loop = extras->find("loop");
+    if (loop == extras->end()) return false;
+    return loop->is_boolean() ? loop->get<bool>() : loop->is_number() && loop->get<double>() != 0.0;
+}
+
 class Importer {
 public:
     Importer(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
@@ -75,6 +84,7 @@ public:
         Cycle cycle;
         cycle.name = animation.name;
         cycle.extras = extras_text(document_.json["animations"][index]);
+        cycle.loop = asks_to_loop(document_.json["animations"][index]);
         std::map<std::pair<TrackPath, std::uint32_t>, std::size_t> track_of;
         for (std::size_t c = 0; c < animation.channels.size(); ++c) {
             for (Track& track : read_channel(animation, c, index)) {
@@ -99,7 +109,8 @@ private:
         const Json& target = document_.json["animations"][index]["channels"][c]["target"];
         const auto path = path_of(channel.target_path);
         if (!path) {
-            document_.report.warn("channel that animates " + quote(channel.target_path) + " left out", place + ".target");
+            document_.report.warn("channel that animates " + quote(channel.target_path) + " left out",
+                                  place + ".target");
             return {};
         }
         if (channel.target_node < 0) {
@@ -203,8 +214,8 @@ private:
         return keys;
     }
 
-    /// Normalises the rotations of linear and step keys. Those of cubic ones stay: the specification normalises what the
-    /// spline gives, and value and tangents belong together.
+    /// Normalises the rotations of linear and step keys. Those of cubic ones stay: the specification normalises what
+    /// the spline gives, and value and tangents belong together.
     void check_rotations(Keys& keys, const std::string& place) const {
         const bool is_cubic = keys.interpolation == Interpolation::cubic;
         const std::size_t stride = is_cubic ? 12 : 4;
@@ -218,9 +229,9 @@ private:
             for (int i = 0; i < 4; ++i) value[i] = unit.value[i];
         }
         if (far_off > 0) {
-            document_.report.warn(is_cubic ? "rotation key is no unit quaternion"
-                                           : "rotation key is no unit quaternion, normalised",
-                                  place, far_off);
+            document_.report.warn(
+                is_cubic ? "rotation key is no unit quaternion" : "rotation key is no unit quaternion, normalised",
+                place, far_off);
         }
     }
 

@@ -64,8 +64,8 @@ Buffers::Buffers(const Json& root, const Container& container, const std::filesy
             continue;
         }
         if (length > buffer.bytes.size()) {
-            fail(place + ".byteLength", std::to_string(length) + " bytes are due, there are only " +
-                                            std::to_string(buffer.bytes.size()));
+            fail(place + ".byteLength",
+                 std::to_string(length) + " bytes are due, there are only " + std::to_string(buffer.bytes.size()));
         }
         buffer.bytes = buffer.bytes.first(static_cast<std::size_t>(length));
         buffer.has_data = true;
@@ -78,7 +78,8 @@ Buffers::Buffers(const Json& root, const Container& container, const std::filesy
         view.buffer = views[i]["buffer"].get<std::size_t>();
         view.offset = unsigned_of(views[i], "byteOffset");
         view.length = unsigned_of(views[i], "byteLength");
-        if (const Json* stride = find(views[i], "byteStride"); stride != nullptr) view.stride = stride->get<std::size_t>();
+        if (const Json* stride = find(views[i], "byteStride"); stride != nullptr)
+            view.stride = stride->get<std::size_t>();
         const auto available = buffers[view.buffer]["byteLength"].get<std::uint64_t>();
         if (view.offset > available || view.length > available - view.offset) {
             fail(at("bufferViews", i), "bytes " + std::to_string(view.offset) + " to " +
@@ -107,8 +108,8 @@ std::span<const std::byte> Buffers::slice(std::size_t buffer, std::uint64_t offs
     const Buffer& source = buffers_[buffer];
     if (!source.has_data) fail(at("buffers", buffer), "it has no data (read by " + place + ")");
     if (offset > source.bytes.size() || length > source.bytes.size() - offset) {
-        fail(place, "it exceeds buffer " + std::to_string(buffer) + " of " + std::to_string(source.bytes.size()) +
-                        " bytes");
+        fail(place,
+             "it exceeds buffer " + std::to_string(buffer) + " of " + std::to_string(source.bytes.size()) + " bytes");
     }
     return source.bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
@@ -121,8 +122,8 @@ std::span<const std::byte> Buffers::view(std::size_t index, Budget& budget) {
         // The extension wants count * byteStride bytes; some writers round the view up to 4.
         const std::uint64_t decoded = std::uint64_t{compressed.count} * compressed.stride;
         if (decoded > view.length || view.length - decoded > 3) {
-            fail(compressed.place, "count * byteStride is " + std::to_string(decoded) + " bytes, the view's byteLength " +
-                                       std::to_string(view.length));
+            fail(compressed.place, "count * byteStride is " + std::to_string(decoded) +
+                                       " bytes, the view's byteLength " + std::to_string(view.length));
         }
         const auto source = slice(compressed.buffer, compressed.offset, compressed.length, compressed.place);
         view.decoded = decode_meshopt(compressed, source, budget);

@@ -26,19 +26,19 @@ struct CompressedView {
     std::string place;  ///< JSON path
 };
 
-/// The bytes behind bufferViews. Buffers are loaded at once (BIN chunk, data URI, file beside the source) and every view
-/// is checked against its buffer; compressed views are decoded when they are first asked for.
+/// The bytes behind bufferViews. Buffers are loaded at once (BIN chunk, data URI, file beside the source) and every
+/// view is checked against its buffer; compressed views are decoded when they are first asked for.
 class Buffers {
 public:
-    /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error only
-    /// when something reads it (fallback buffers of meshopt compression have none).
+    /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error
+    /// only when something reads it (fallback buffers of meshopt compression have none).
     Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget);
 
-    /// The decoded bytes of a view; `view` must be in range.
-    std::span<const std::byte> view(std::size_t view, Budget& budget);
+    /// The decoded bytes of a view; `index` must be in range.
+    std::span<const std::byte> view(std::size_t index, Budget& budget);
 
     /// Bytes from one element to the next, or nothing: tightly packed.
-    [[nodiscard]] std::optional<std::size_t> stride(std::size_t view) const;
+    [[nodiscard]] std::optional<std::size_t> stride(std::size_t index) const;
 
 private:
     struct Buffer {

@@ -74,7 +74,8 @@ std::size_t scan_text(std::string_view text, std::string& repaired) {
                           std::to_string(byte) + "): ";
     // The library's text repeats the place before the reason.
     if (const std::size_t colon = reason.find("column "); colon != std::string_view::npos) {
-        if (const std::size_t end = reason.find(": ", colon); end != std::string_view::npos) reason.remove_prefix(end + 2);
+        if (const std::size_t end = reason.find(": ", colon); end != std::string_view::npos)
+            reason.remove_prefix(end + 2);
     }
     const bool cut = reason.size() > kMaxReason;
     for (const char c : reason.substr(0, kMaxReason)) message += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
@@ -89,8 +90,8 @@ std::size_t scan_text(std::string_view text, std::string& repaired) {
 
 enum class Kind : std::uint8_t { object, array, string, boolean, number, integer, index, numbers, choice };
 
-/// What is demanded of every value that a path leads to. In a path `[]` means each element of an array, `{}` each member
-/// of an object; where the path ends early because something on the way is not there, nothing is demanded.
+/// What is demanded of every value that a path leads to. In a path `[]` means each element of an array, `{}` each
+/// member of an object; where the path ends early because something on the way is not there, nothing is demanded.
 struct Rule {
     std::string_view path;
     Kind kind;
@@ -101,18 +102,26 @@ struct Rule {
 
 constexpr bool kRequired = true;
 constexpr bool kOptional = false;
-constexpr double kMaxInt = 2147483647.0;           // tinygltf keeps these in an int
-constexpr double kMaxSize = 9007199254740991.0;    // 2^53 - 1: the integers that JSON numbers hold exactly
+constexpr double kMaxInt = 2147483647.0;         // tinygltf keeps these in an int
+constexpr double kMaxSize = 9007199254740991.0;  // 2^53 - 1: the integers that JSON numbers hold exactly
 constexpr double kMaxFloat = std::numeric_limits<float>::max();
 constexpr double kMany = kMaxSize;
 
-constexpr Rule object(std::string_view path, bool required = kOptional) { return {path, Kind::object, required}; }
+constexpr Rule object(std::string_view path, bool required = kOptional) {
+    return {path, Kind::object, required};
+}
 constexpr Rule array(std::string_view path, bool required = kOptional, double low = 0) {
     return {path, Kind::array, required, low, kMany};
 }
-constexpr Rule string(std::string_view path, bool required = kOptional) { return {path, Kind::string, required}; }
-constexpr Rule boolean(std::string_view path) { return {path, Kind::boolean}; }
-constexpr Rule number(std::string_view path) { return {path, Kind::number, kOptional, -kMaxFloat, kMaxFloat}; }
+constexpr Rule string(std::string_view path, bool required = kOptional) {
+    return {path, Kind::string, required};
+}
+constexpr Rule boolean(std::string_view path) {
+    return {path, Kind::boolean};
+}
+constexpr Rule number(std::string_view path) {
+    return {path, Kind::number, kOptional, -kMaxFloat, kMaxFloat};
+}
 constexpr Rule integer(std::string_view path, double low, double high, bool required = kOptional) {
     return {path, Kind::integer, required, low, high};
 }
@@ -130,76 +139,127 @@ constexpr std::string_view kComponentTypes = "5120|5121|5122|5123|5125|5126";
 
 constexpr std::array kRules = {
     // Every array of the root first, and that it holds objects: the rules below lean on it.
-    array("accessors"), object("accessors[]"), array("animations"), object("animations[]"),
-    array("buffers"), object("buffers[]"), array("bufferViews"), object("bufferViews[]"),
-    array("cameras"), object("cameras[]"), array("images"), object("images[]"),
-    array("materials"), object("materials[]"), array("meshes"), object("meshes[]"),
-    array("nodes"), object("nodes[]"), array("samplers"), object("samplers[]"),
-    array("scenes"), object("scenes[]"), array("skins"), object("skins[]"),
-    array("textures"), object("textures[]"), array("extensionsUsed"), string("extensionsUsed[]"),
+    array("accessors"),
+    object("accessors[]"),
+    array("animations"),
+    object("animations[]"),
+    array("buffers"),
+    object("buffers[]"),
+    array("bufferViews"),
+    object("bufferViews[]"),
+    array("cameras"),
+    object("cameras[]"),
+    array("images"),
+    object("images[]"),
+    array("materials"),
+    object("materials[]"),
+    array("meshes"),
+    object("meshes[]"),
+    array("nodes"),
+    object("nodes[]"),
+    array("samplers"),
+    object("samplers[]"),
+    array("scenes"),
+    object("scenes[]"),
+    array("skins"),
+    object("skins[]"),
+    array("textures"),
+    object("textures[]"),
+    array("extensionsUsed"),
+    string("extensionsUsed[]"),
 
     index("scene", "scenes"),
     string("scenes[].name"),
-    array("scenes[].nodes"), index("scenes[].nodes[]", "nodes"),
+    array("scenes[].nodes"),
+    index("scenes[].nodes[]", "nodes"),
 
     string("nodes[].name"),
-    array("nodes[].children"), index("nodes[].children[]", "nodes"),
-    index("nodes[].mesh", "meshes"), index("nodes[].skin", "skins"), index("nodes[].camera", "cameras"),
-    numbers("nodes[].matrix", 16, 16), numbers("nodes[].translation", 3, 3), numbers("nodes[].rotation", 4, 4),
-    numbers("nodes[].scale", 3, 3), numbers("nodes[].weights"),
+    array("nodes[].children"),
+    index("nodes[].children[]", "nodes"),
+    index("nodes[].mesh", "meshes"),
+    index("nodes[].skin", "skins"),
+    index("nodes[].camera", "cameras"),
+    numbers("nodes[].matrix", 16, 16),
+    numbers("nodes[].translation", 3, 3),
+    numbers("nodes[].rotation", 4, 4),
+    numbers("nodes[].scale", 3, 3),
+    numbers("nodes[].weights"),
 
     string("skins[].name"),
-    array("skins[].joints", kRequired, 1), index("skins[].joints[]", "nodes"),
-    index("skins[].inverseBindMatrices", "accessors"), index("skins[].skeleton", "nodes"),
+    array("skins[].joints", kRequired, 1),
+    index("skins[].joints[]", "nodes"),
+    index("skins[].inverseBindMatrices", "accessors"),
+    index("skins[].skeleton", "nodes"),
 
-    string("buffers[].name"), string("buffers[].uri"), integer("buffers[].byteLength", 0, kMaxSize, kRequired),
+    string("buffers[].name"),
+    string("buffers[].uri"),
+    integer("buffers[].byteLength", 0, kMaxSize, kRequired),
 
     string("bufferViews[].name"),
-    index("bufferViews[].buffer", "buffers", kRequired), integer("bufferViews[].byteOffset", 0, kMaxSize),
-    integer("bufferViews[].byteLength", 0, kMaxSize, kRequired), integer("bufferViews[].byteStride", 1, 65536),
+    index("bufferViews[].buffer", "buffers", kRequired),
+    integer("bufferViews[].byteOffset", 0, kMaxSize),
+    integer("bufferViews[].byteLength", 0, kMaxSize, kRequired),
+    integer("bufferViews[].byteStride", 1, 65536),
 
     string("accessors[].name"),
-    index("accessors[].bufferView", "bufferViews"), integer("accessors[].byteOffset", 0, kMaxSize),
-    choice("accessors[].componentType", kComponentTypes, kRequired), boolean("accessors[].normalized"),
+    index("accessors[].bufferView", "bufferViews"),
+    integer("accessors[].byteOffset", 0, kMaxSize),
+    choice("accessors[].componentType", kComponentTypes, kRequired),
+    boolean("accessors[].normalized"),
     integer("accessors[].count", 1, kMaxSize, kRequired),
     choice("accessors[].type", "SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4", kRequired),
-    object("accessors[].sparse"), integer("accessors[].sparse.count", 1, kMaxInt, kRequired),
-    object("accessors[].sparse.indices", kRequired), object("accessors[].sparse.values", kRequired),
+    object("accessors[].sparse"),
+    integer("accessors[].sparse.count", 1, kMaxInt, kRequired),
+    object("accessors[].sparse.indices", kRequired),
+    object("accessors[].sparse.values", kRequired),
     index("accessors[].sparse.indices.bufferView", "bufferViews", kRequired),
     integer("accessors[].sparse.indices.byteOffset", 0, kMaxInt),
     choice("accessors[].sparse.indices.componentType", "5121|5123|5125", kRequired),
     index("accessors[].sparse.values.bufferView", "bufferViews", kRequired),
     integer("accessors[].sparse.values.byteOffset", 0, kMaxInt),
 
-    string("meshes[].name"), numbers("meshes[].weights"),
-    array("meshes[].primitives", kRequired), object("meshes[].primitives[]"),
+    string("meshes[].name"),
+    numbers("meshes[].weights"),
+    array("meshes[].primitives", kRequired),
+    object("meshes[].primitives[]"),
     object("meshes[].primitives[].attributes", kRequired),
     index("meshes[].primitives[].attributes{}", "accessors"),
-    index("meshes[].primitives[].indices", "accessors"), index("meshes[].primitives[].material", "materials"),
+    index("meshes[].primitives[].indices", "accessors"),
+    index("meshes[].primitives[].material", "materials"),
     integer("meshes[].primitives[].mode", 0, 6),
-    array("meshes[].primitives[].targets"), object("meshes[].primitives[].targets[]"),
+    array("meshes[].primitives[].targets"),
+    object("meshes[].primitives[].targets[]"),
     index("meshes[].primitives[].targets[]{}", "accessors"),
 
     string("animations[].name"),
-    array("animations[].channels", kRequired), object("animations[].channels[]"),
+    array("animations[].channels", kRequired),
+    object("animations[].channels[]"),
     integer("animations[].channels[].sampler", 0, kMaxInt, kRequired),
     object("animations[].channels[].target", kRequired),
     index("animations[].channels[].target.node", "nodes"),
     string("animations[].channels[].target.path", kRequired),
-    array("animations[].samplers", kRequired), object("animations[].samplers[]"),
+    array("animations[].samplers", kRequired),
+    object("animations[].samplers[]"),
     index("animations[].samplers[].input", "accessors", kRequired),
     index("animations[].samplers[].output", "accessors", kRequired),
     choice("animations[].samplers[].interpolation", "LINEAR|STEP|CUBICSPLINE"),
 
-    string("images[].name"), string("images[].uri"), string("images[].mimeType"),
+    string("images[].name"),
+    string("images[].uri"),
+    string("images[].mimeType"),
     index("images[].bufferView", "bufferViews"),
-    string("textures[].name"), index("textures[].source", "images"), index("textures[].sampler", "samplers"),
+    string("textures[].name"),
+    index("textures[].source", "images"),
+    index("textures[].sampler", "samplers"),
     choice("samplers[].magFilter", "9728|9729"),
     choice("samplers[].minFilter", "9728|9729|9984|9985|9986|9987"),
-    choice("samplers[].wrapS", "10497|33071|33648"), choice("samplers[].wrapT", "10497|33071|33648"),
+    choice("samplers[].wrapS", "10497|33071|33648"),
+    choice("samplers[].wrapT", "10497|33071|33648"),
 
-    string("materials[].name"), choice("materials[].alphaMode", "OPAQUE|MASK|BLEND"),
-    number("materials[].alphaCutoff"), boolean("materials[].doubleSided"),
+    string("materials[].name"),
+    choice("materials[].alphaMode", "OPAQUE|MASK|BLEND"),
+    number("materials[].alphaCutoff"),
+    boolean("materials[].doubleSided"),
     numbers("materials[].emissiveFactor", 3, 3),
     object("materials[].pbrMetallicRoughness"),
     numbers("materials[].pbrMetallicRoughness.baseColorFactor", 4, 4),
@@ -211,11 +271,16 @@ constexpr std::array kRules = {
     object("materials[].pbrMetallicRoughness.metallicRoughnessTexture"),
     index("materials[].pbrMetallicRoughness.metallicRoughnessTexture.index", "textures", kRequired),
     integer("materials[].pbrMetallicRoughness.metallicRoughnessTexture.texCoord", 0, kMaxInt),
-    object("materials[].normalTexture"), index("materials[].normalTexture.index", "textures", kRequired),
-    integer("materials[].normalTexture.texCoord", 0, kMaxInt), number("materials[].normalTexture.scale"),
-    object("materials[].occlusionTexture"), index("materials[].occlusionTexture.index", "textures", kRequired),
-    integer("materials[].occlusionTexture.texCoord", 0, kMaxInt), number("materials[].occlusionTexture.strength"),
-    object("materials[].emissiveTexture"), index("materials[].emissiveTexture.index", "textures", kRequired),
+    object("materials[].normalTexture"),
+    index("materials[].normalTexture.index", "textures", kRequired),
+    integer("materials[].normalTexture.texCoord", 0, kMaxInt),
+    number("materials[].normalTexture.scale"),
+    object("materials[].occlusionTexture"),
+    index("materials[].occlusionTexture.index", "textures", kRequired),
+    integer("materials[].occlusionTexture.texCoord", 0, kMaxInt),
+    number("materials[].occlusionTexture.strength"),
+    object("materials[].emissiveTexture"),
+    index("materials[].emissiveTexture.index", "textures", kRequired),
     integer("materials[].emissiveTexture.texCoord", 0, kMaxInt),
 
     // Extensions that the importer decodes; others may hold what they like.
@@ -241,8 +306,10 @@ constexpr std::array kRules = {
     integer("meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes{}", 0, kMaxInt),
     object("textures[].extensions.KHR_texture_basisu"),
     index("textures[].extensions.KHR_texture_basisu.source", "images"),
-    object("textures[].extensions.EXT_texture_webp"), index("textures[].extensions.EXT_texture_webp.source", "images"),
-    object("textures[].extensions.EXT_texture_avif"), index("textures[].extensions.EXT_texture_avif.source", "images"),
+    object("textures[].extensions.EXT_texture_webp"),
+    index("textures[].extensions.EXT_texture_webp.source", "images"),
+    object("textures[].extensions.EXT_texture_avif"),
+    index("textures[].extensions.EXT_texture_avif.source", "images"),
 };
 
 // ---------------------------------------------------------------------------------------------- checks
@@ -286,6 +353,7 @@ public:
     }
 
 private:
+    // NOLINTNEXTLINE(misc-no-recursion): as deep as the rule is long
     void walk(Json& node, std::string_view path, const Rule& rule) {
         if (path.empty()) return check_value(node, rule);
         const std::size_t length = place_.size();
@@ -414,7 +482,8 @@ void check_required_extensions(const Json& root) {
         const Json& name = (*required)[i];
         if (!name.is_string()) fail(at("extensionsRequired", i), "it must be a string, not " + shown(name));
         if (!is_known_extension(name.get_ref<const std::string&>())) {
-            fail(at("extensionsRequired", i), "the file requires extension " + shown(name) + ", which is not supported");
+            fail(at("extensionsRequired", i),
+                 "the file requires extension " + shown(name) + ", which is not supported");
         }
     }
 }
@@ -427,9 +496,9 @@ void check_channels(const Json& root) {
         const Json& channels = animations[a]["channels"];
         for (std::size_t c = 0; c < channels.size(); ++c) {
             if (const auto sampler = channels[c]["sampler"].get<std::uint64_t>(); sampler >= samplers) {
-                fail(at("animations", a) + '.' + at("channels", c) + ".sampler",
-                     "sampler " + std::to_string(sampler) + " does not exist (there are " + std::to_string(samplers) +
-                         ")");
+                fail(at("animations", a) + '.' + at("channels", c) + ".sampler", "sampler " + std::to_string(sampler) +
+                                                                                     " does not exist (there are " +
+                                                                                     std::to_string(samplers) + ")");
             }
         }
     }
@@ -456,7 +525,8 @@ Json parse_json(std::string_view text, Report& report) {
     } catch (const Json::parse_error& error) {
         fail_at_byte(text, error.byte, error.what());
     } catch (const Json::out_of_range& error) {
-        const std::string_view reason = error.what();  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+        const std::string_view reason =
+            error.what();  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
         fail({}, "invalid JSON: " + std::string(reason.substr(std::min(reason.find(' ') + 1, reason.size()), 160)));
     }
     if (!root.is_object()) fail({}, "the JSON root must be an object, not " + shown(root));
@@ -474,9 +544,9 @@ const Json* find(const Json& object, const char* key) {
 }
 
 const Json& array_of(const Json& root, const char* key) {
-    static const Json kEmpty = Json::array();
+    static const Json empty = Json::array();
     const Json* array = find(root, key);
-    return array == nullptr ? kEmpty : *array;
+    return array == nullptr ? empty : *array;
 }
 
 std::string extras_text(const Json& object) {

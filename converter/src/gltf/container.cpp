@@ -75,7 +75,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& file, const std::s
     const auto status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status)) fail(place, "file not found: " + quote(file.filename().string()));
     // A device or a pipe behind a relative URI would have no end.
-    if (!std::filesystem::is_regular_file(status)) fail(place, "not a regular file: " + quote(file.filename().string()));
+    if (!std::filesystem::is_regular_file(status))
+        fail(place, "not a regular file: " + quote(file.filename().string()));
     const std::uint64_t size = std::filesystem::file_size(file, error);
     std::ifstream stream(file, std::ios::binary);
     if (error || !stream) fail(place, "cannot read file " + quote(file.filename().string()));

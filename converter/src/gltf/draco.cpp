@@ -102,12 +102,24 @@ DracoPrimitive::Attribute read_attribute(const Document& document, const draco::
         convert<decltype(component)>(source, count, component_type, normalise, attribute.values, place);
     };
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: read(std::int8_t{}); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: read(std::uint8_t{}); break;
-        case TINYGLTF_COMPONENT_TYPE_SHORT: read(std::int16_t{}); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: read(std::uint16_t{}); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: read(std::uint32_t{}); break;
-        default: read(float{}); break;
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            read(std::int8_t{});
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            read(std::uint8_t{});
+            break;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            read(std::int16_t{});
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            read(std::uint16_t{});
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            read(std::uint32_t{});
+            break;
+        default:
+            read(float{});
+            break;
     }
     return attribute;
 }
@@ -116,7 +128,8 @@ DracoPrimitive::Attribute read_attribute(const Document& document, const draco::
 
 const Json* find_draco(const Json& primitive) {
     const Json* extensions = find(primitive, "extensions");
-    return extensions == nullptr || !extensions->is_object() ? nullptr : find(*extensions, "KHR_draco_mesh_compression");
+    return extensions == nullptr || !extensions->is_object() ? nullptr
+                                                             : find(*extensions, "KHR_draco_mesh_compression");
 }
 
 DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive& primitive, const Json& extension,
@@ -155,7 +168,8 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
         const auto id = entry.value().get<std::uint32_t>();
         const draco::PointAttribute* source = mesh->GetAttributeByUniqueId(id);
         if (source == nullptr) {
-            fail(here + ".attributes." + key(entry.key()), "Draco: there is no attribute with id " + std::to_string(id));
+            fail(here + ".attributes." + key(entry.key()),
+                 "Draco: there is no attribute with id " + std::to_string(id));
         }
         int component_type = TINYGLTF_COMPONENT_TYPE_FLOAT;
         bool normalise = false;
@@ -168,8 +182,8 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
                                           " elements, the Draco data " + std::to_string(result.count));
             }
         }
-        result.attributes.emplace(entry.key(), read_attribute(document, *source, result.count, component_type,
-                                                              normalise, attribute_place));
+        result.attributes.emplace(
+            entry.key(), read_attribute(document, *source, result.count, component_type, normalise, attribute_place));
     }
     return result;
 }

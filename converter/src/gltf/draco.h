@@ -16,8 +16,8 @@ struct DracoPrimitive {
         std::size_t components = 0;
         std::vector<float> values;  ///< count * components, in the semantics of the accessor (normalised or not)
     };
-    std::size_t count = 0;                  ///< vertices
-    std::vector<std::uint32_t> indices;     ///< 3 per triangle, in range
+    std::size_t count = 0;                        ///< vertices
+    std::vector<std::uint32_t> indices;           ///< 3 per triangle, in range
     std::map<std::string, Attribute> attributes;  ///< those that the extension lists, by glTF's names
 };
 

@@ -63,6 +63,7 @@ struct Occurrence {
 /// stands inside an extension goes with it.
 class Finder {
 public:
+    // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
     void search(const Json& node, const std::string& place) {
         if (node.is_array()) {
             // A place is made only for elements that hold objects: arrays of numbers are long.
@@ -97,9 +98,13 @@ private:
 
 }  // namespace
 
-bool is_known_extension(std::string_view name) { return find_known(name) != nullptr; }
+bool is_known_extension(std::string_view name) {
+    return find_known(name) != nullptr;
+}
 
-bool is_interpreted_material_extension(std::string_view name) { return name == "KHR_materials_unlit"; }
+bool is_interpreted_material_extension(std::string_view name) {
+    return name == "KHR_materials_unlit";
+}
 
 void report_extensions(const Json& root, Report& report) {
     Finder finder;

@@ -82,7 +82,8 @@ private:
 
 void import_images(const Document& document, bool embed, Scene& scene) {
     const Importer importer(document, embed);
-    for (std::size_t i = 0; i < array_of(document.json, "images").size(); ++i) scene.images.push_back(importer.import(i));
+    for (std::size_t i = 0; i < array_of(document.json, "images").size(); ++i)
+        scene.images.push_back(importer.import(i));
 }
 
 }  // namespace bendy::converter::gltf

@@ -32,8 +32,8 @@ LargestBone normalise_influences(Influences& influences, const std::string& plac
         for (std::size_t i = 0; i < n; ++i) {
             if (weights[i] < 0.0f) {
                 if (weights[i] < kNegative) {
-                    fail(place, "vertex " + std::to_string(v) + ": weight " + std::to_string(weights[i]) +
-                                    " is negative");
+                    fail(place,
+                         "vertex " + std::to_string(v) + ": weight " + std::to_string(weights[i]) + " is negative");
                 }
                 weights[i] = 0.0f;
                 ++negative;

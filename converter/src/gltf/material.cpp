@@ -75,8 +75,10 @@ Material read_material(const Document& document, std::size_t index) {
     const auto& pbr = source.pbrMetallicRoughness;
     Material material;
     material.name = source.name;
-    for (int i = 0; i < 4; ++i) material.base_colour[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
-    for (int i = 0; i < 3; ++i) material.emissive[i] = static_cast<float>(source.emissiveFactor[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 4; ++i)
+        material.base_colour[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 3; ++i)
+        material.emissive[i] = static_cast<float>(source.emissiveFactor[static_cast<std::size_t>(i)]);
     material.metallic = static_cast<float>(pbr.metallicFactor);
     material.roughness = static_cast<float>(pbr.roughnessFactor);
     material.normal_scale = static_cast<float>(source.normalTexture.scale);
@@ -106,21 +108,31 @@ Material read_material(const Document& document, std::size_t index) {
 
 Filter filter_of(int code) {
     switch (code) {
-        case TINYGLTF_TEXTURE_FILTER_NEAREST: return Filter::nearest;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR: return Filter::linear;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST: return Filter::nearest_mipmap_nearest;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST: return Filter::linear_mipmap_nearest;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR: return Filter::nearest_mipmap_linear;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR: return Filter::linear_mipmap_linear;
-        default: return Filter::unspecified;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+            return Filter::nearest;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            return Filter::linear;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+            return Filter::nearest_mipmap_nearest;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            return Filter::linear_mipmap_nearest;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            return Filter::nearest_mipmap_linear;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+            return Filter::linear_mipmap_linear;
+        default:
+            return Filter::unspecified;
     }
 }
 
 Wrap wrap_of(int code) {
     switch (code) {
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::clamp_to_edge;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::mirrored_repeat;
-        default: return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp_to_edge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirrored_repeat;
+        default:
+            return Wrap::repeat;
     }
 }
 
@@ -157,7 +169,8 @@ Texture read_texture(const Document& document, std::size_t index) {
 }  // namespace
 
 void import_materials(const Document& document, Scene& scene) {
-    for (std::size_t i = 0; i < document.model.textures.size(); ++i) scene.textures.push_back(read_texture(document, i));
+    for (std::size_t i = 0; i < document.model.textures.size(); ++i)
+        scene.textures.push_back(read_texture(document, i));
     for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
         scene.materials.push_back(read_material(document, i));
     }

@@ -114,8 +114,8 @@ public:
           skinned_(skinned) {}
 
     std::vector<Template> build() {
-        for (std::size_t p = 0; p < source_.primitives.size(); ++p) {
-            target_count_ = std::max(target_count_, source_.primitives[p].targets.size());
+        for (const tinygltf::Primitive& primitive : source_.primitives) {
+            target_count_ = std::max(target_count_, primitive.targets.size());
         }
         for (std::size_t p = 0; p < source_.primitives.size(); ++p) add_primitive(p);
         for (Template& entry : templates_) finish(entry.mesh);
@@ -124,8 +124,8 @@ public:
 
 private:
     using Accessors = std::map<std::string, int>;
-    /// What the vertices of a primitive are made of.
-    using Source = std::tuple<Accessors, std::vector<Accessors>>;
+    /// What the vertices of a primitive are made of: attributes, morph targets, Draco's extension object.
+    using Source = std::tuple<Accessors, std::vector<Accessors>, std::string>;
     struct Placed {
         std::size_t entry = 0;  ///< of templates_
         std::size_t first_vertex = 0;
@@ -142,23 +142,18 @@ private:
             return;
         }
         if (json.contains("extras")) document_.report.warn("extras of a primitive left out", place + ".extras");
-        Placed own;
-        const Placed& placed = place_vertices(primitive, json, place, own);
+        const Placed& placed = place_vertices(primitive, json, place);
         Part part = read_part(document_, primitive, json, placed.count, placed.draco_indices, place);
         for (std::uint32_t& index : part.indices) index += static_cast<std::uint32_t>(placed.first_vertex);
         templates_[placed.entry].mesh.parts.push_back(std::move(part));
     }
 
     /// Where the vertices of a primitive are; decodes them if no earlier primitive named the same accessors.
-    const Placed& place_vertices(const tinygltf::Primitive& primitive, const Json& json, const std::string& place,
-                                 Placed& own) {
-        // Draco's data is a primitive's own.
-        const bool can_share = find_draco(json) == nullptr;
-        Source source;
-        if (can_share) {
-            source = {primitive.attributes, primitive.targets};
-            if (const auto known = placed_.find(source); known != placed_.end()) return known->second;
-        }
+    const Placed& place_vertices(const tinygltf::Primitive& primitive, const Json& json, const std::string& place) {
+        const Json* draco = find_draco(json);
+        Source source{primitive.attributes, primitive.targets, draco == nullptr ? std::string() : draco->dump()};
+        if (const auto known = placed_.find(source); known != placed_.end()) return known->second;
+        Placed own;
         Vertices vertices = read_vertices(document_, primitive, json, skinned_, place);
         report_skinning(primitive, vertices.mesh, place);
         own.count = vertices.mesh.positions.size();
@@ -176,12 +171,13 @@ private:
         } else {
             append_vertices(entry.mesh, std::move(vertices.mesh), document_, place);
         }
-        return can_share ? placed_.emplace(std::move(source), std::move(own)).first->second : own;
+        return placed_.emplace(std::move(source), std::move(own)).first->second;
     }
 
     void report_skinning(const tinygltf::Primitive& primitive, const Mesh& mesh, const std::string& place) const {
         if (skinned_ && mesh.influences == 0) {
-            document_.report.warn("primitive without JOINTS_0 and WEIGHTS_0 in a skinned mesh, moved by its node", place);
+            document_.report.warn("primitive without JOINTS_0 and WEIGHTS_0 in a skinned mesh, moved by its node",
+                                  place);
         }
         if (!skinned_ && primitive.attributes.count("JOINTS_0") > 0) {
             document_.report.warn("joints and weights of a primitive left out: no node with a skin uses it", place);
@@ -241,10 +237,10 @@ public:
         for_each_mesh_node([&](std::uint32_t node, std::uint32_t joint) {
             const Key key = key_of(node);
             const auto found = templates_.find(key);
-            auto& templates = found != templates_.end()
-                                  ? found->second
-                                  : templates_.emplace(key, TemplateBuilder(document_, key.first, key.second).build())
-                                        .first->second;
+            auto& templates =
+                found != templates_.end()
+                    ? found->second
+                    : templates_.emplace(key, TemplateBuilder(document_, key.first, key.second).build()).first->second;
             const bool is_last = --uses[key] == 0;
             for (Template& entry : templates) {
                 meshes_of_node[node].push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
@@ -326,8 +322,8 @@ private:
         const auto& accessor = document_.model.accessors[index];
         if (accessor.type != TINYGLTF_TYPE_MAT4) fail(place, at("accessors", index) + " must hold MAT4");
         if (accessor.count < palette.joints.size()) {
-            fail(place, std::to_string(accessor.count) + " matrices for " + std::to_string(palette.joints.size()) +
-                            " joints");
+            fail(place,
+                 std::to_string(accessor.count) + " matrices for " + std::to_string(palette.joints.size()) + " joints");
         }
         const std::vector<float> values = read_floats(document_, index, place);
         constexpr float kTolerance = 1e-5f;
@@ -342,7 +338,8 @@ private:
             }
         }
         if (projective > 0) {
-            document_.report.warn("last row of an inverse bind matrix is not 0 0 0 1, taken as such", place, projective);
+            document_.report.warn("last row of an inverse bind matrix is not 0 0 0 1, taken as such", place,
+                                  projective);
         }
     }
 

@@ -11,8 +11,8 @@
 namespace bendy::converter::gltf {
 namespace {
 
-// What the codecs can make of one byte at most: the vertex codec spends as little as 2 bits on each run of 256 equal bytes
-// (4 bytes in version 0), the index codecs one byte on a triangle (12) or an index (4).
+// What the codecs can make of one byte at most: the vertex codec spends as little as 2 bits on each run of 256 equal
+// bytes (4 bytes in version 0), the index codecs one byte on a triangle (12) or an index (4).
 constexpr std::uint64_t kMaxRatio = 1024;
 
 void decode_attributes(const CompressedView& view, std::span<const std::byte> source, std::vector<std::byte>& out) {

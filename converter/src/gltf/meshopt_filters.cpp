@@ -54,8 +54,8 @@ void decode_colour_as(std::span<std::byte> bytes) {
         const int top = std::bit_width(element[3]);  // K: the highest bit of alpha marks it
         const int range = (1 << top) - 1;
         const int luma = element[0];
-        const int orange = static_cast<Signed>(element[1]);
-        const int green = static_cast<Signed>(element[2]);
+        const int orange = std::bit_cast<Signed>(element[1]);
+        const int green = std::bit_cast<Signed>(element[2]);
         int alpha = element[3] & (range >> 1);
         alpha = alpha << 1 | (alpha & 1);
         const double scale = std::numeric_limits<T>::max() / static_cast<double>(range);

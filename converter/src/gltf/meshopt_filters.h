@@ -5,12 +5,12 @@
 
 namespace bendy::converter::gltf {
 
-// The filters of KHR_meshopt_compression (appendix B), in place. Computed in double with the specification's formulas, so
-// that every machine decodes to the same bytes; libraries differ in the last place between instruction sets.
-// `bytes` holds whole elements.
+// The filters of KHR_meshopt_compression (appendix B), in place. Computed in double with the specification's formulas,
+// so that every machine decodes to the same bytes; libraries differ in the last place between instruction sets. `bytes`
+// holds whole elements.
 
-/// Elements of four 8-bit (stride 4) or 16-bit (stride 8) components: octahedral x, y, the scale, and one passed through,
-/// to a unit vector.
+/// Elements of four 8-bit (stride 4) or 16-bit (stride 8) components: octahedral x, y, the scale, and one passed
+/// through, to a unit vector.
 void decode_octahedral(std::span<std::byte> bytes, std::size_t stride);
 
 /// Elements of four 16-bit components: the three smaller of a unit quaternion and which one is left out.
@@ -19,7 +19,8 @@ void decode_quaternion(std::span<std::byte> bytes);
 /// 32-bit words of an 8-bit exponent over a 24-bit mantissa, to floats.
 void decode_exponential(std::span<std::byte> bytes);
 
-/// Elements of four 8-bit (stride 4) or 16-bit (stride 8) components: luma, two of chroma, alpha with the scale, to RGBA.
+/// Elements of four 8-bit (stride 4) or 16-bit (stride 8) components: luma, two of chroma, alpha with the scale, to
+/// RGBA.
 void decode_colour(std::span<std::byte> bytes, std::size_t stride);
 
 }  // namespace bendy::converter::gltf

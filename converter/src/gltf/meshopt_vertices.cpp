@@ -77,7 +77,6 @@ bool decode_column(Cursor& cursor, const std::array<unsigned, 4>& bit_lengths, s
     return true;
 }
 
-
 /// What a delta makes of the four bytes before it (little-endian), by the channel's mode.
 std::uint32_t apply_delta(std::uint32_t before, std::uint32_t delta, unsigned mode, int rotation) {
     if (mode == 2) return before ^ std::rotr(delta, rotation);

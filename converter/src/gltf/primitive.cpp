@@ -81,7 +81,9 @@ private:
         return primitive_.attributes.count(name) > 0 || (draco_ && draco_->attributes.count(name) > 0);
     }
 
-    [[nodiscard]] std::string attribute_place(const std::string& name) const { return place_ + ".attributes." + key(name); }
+    [[nodiscard]] std::string attribute_place(const std::string& name) const {
+        return place_ + ".attributes." + key(name);
+    }
 
     /// An attribute with `low` to `high` components and as many elements as POSITION.
     Attribute read_attribute(const std::string& name, std::size_t low, std::size_t high) {
@@ -350,14 +352,16 @@ Part read_part(const Document& document, const tinygltf::Primitive& primitive, c
         case TINYGLTF_MODE_LINE_STRIP:
             part.topology = Topology::lines;
             if (n < 2) unused = n;
-            for (std::size_t i = 0; i + 1 < n; ++i) part.indices.insert(part.indices.end(), {sequence[i], sequence[i + 1]});
+            for (std::size_t i = 0; i + 1 < n; ++i)
+                part.indices.insert(part.indices.end(), {sequence[i], sequence[i + 1]});
             if (mode == TINYGLTF_MODE_LINE_LOOP && n >= 2) {
                 part.indices.insert(part.indices.end(), {sequence[n - 1], sequence[0]});
             }
             break;
         case TINYGLTF_MODE_TRIANGLE_STRIP:
             if (n < 3) unused = n;
-            for (std::size_t i = 0; i + 2 < n; ++i) {  // every other triangle the other way round: all face the same side
+            for (std::size_t i = 0; i + 2 < n;
+                 ++i) {  // every other triangle the other way round: all face the same side
                 part.indices.insert(part.indices.end(),
                                     {sequence[i], sequence[i + 1 + i % 2], sequence[i + 2 - i % 2]});
             }

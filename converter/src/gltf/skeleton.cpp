@@ -138,8 +138,9 @@ private:
             skeleton.is_drawn.push_back(drawn_[node]);
             scene_.joints.push_back(make_joint(node, skeleton));
             const auto& children = nodes_[node].children;
-            for (auto child = children.rbegin(); child != children.rend(); ++child) {
-                if (included_[static_cast<std::size_t>(*child)]) pending.push_back(static_cast<std::uint32_t>(*child));
+            for (std::size_t c = children.size(); c-- > 0;) {  // the first child ends up on top
+                const auto child = static_cast<std::uint32_t>(children[c]);
+                if (included_[child]) pending.push_back(child);
             }
         }
     }
@@ -162,13 +163,14 @@ private:
             if (!node.scale.empty()) rest.scale[i] = static_cast<float>(node.scale[component]);
         }
         if (node.rotation.empty()) return rest;
-        const UnitQuaternion unit =
-            make_unit({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
+        const UnitQuaternion unit = make_unit({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
         rest.rotation = unit.value;
         if (unit.length == 0.0) {
-            document_.report.warn("rotation of a node is (0, 0, 0, 0), taken as none", at("nodes", index) + ".rotation");
+            document_.report.warn("rotation of a node is (0, 0, 0, 0), taken as none",
+                                  at("nodes", index) + ".rotation");
         } else if (std::abs(unit.length - 1.0) > kUnitTolerance) {
-            document_.report.warn("rotation of a node is no unit quaternion, normalised", at("nodes", index) + ".rotation");
+            document_.report.warn("rotation of a node is no unit quaternion, normalised",
+                                  at("nodes", index) + ".rotation");
         }
         return rest;
     }
@@ -188,9 +190,9 @@ private:
     const Nodes& nodes_;
     std::vector<std::uint32_t> parents_;
     Scene& scene_;
-    std::vector<bool> included_;        ///< by node: becomes a joint
-    std::vector<bool> drawn_;           ///< by node: in the scene
-    std::vector<std::uint32_t> tops_;   ///< roots of the trees with included nodes
+    std::vector<bool> included_;       ///< by node: becomes a joint
+    std::vector<bool> drawn_;          ///< by node: in the scene
+    std::vector<std::uint32_t> tops_;  ///< roots of the trees with included nodes
     std::uint64_t roots_outside_ = 0;  ///< nodes that the scene lists although they have a parent
 };
 

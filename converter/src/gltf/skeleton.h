@@ -15,7 +15,7 @@ namespace bendy::converter::gltf {
 struct Skeleton {
     std::vector<std::uint32_t> joint_of_node;  ///< by node; kNone: left out
     std::vector<std::uint32_t> node_of_joint;  ///< by joint
-    std::vector<bool> is_drawn;                ///< by joint: in the scene, not only there to carry or to be a skin's joint
+    std::vector<bool> is_drawn;  ///< by joint: in the scene, not only there to carry or to be a skin's joint
 };
 
 /// Makes a joint of every node of the chosen scene (see GltfOptions::scene), of the ancestors of its roots, and of the

@@ -1,6 +1,9 @@
 // The one place that compiles tinygltf's implementation.
+
+// Its writer needs this and does not include it.
+#include <fstream>
+
 #define TINYGLTF_IMPLEMENTATION
-#include <fstream>  // its writer needs it and does not include it
 #include "tinygltf.h"
 
 #include "failure.h"
@@ -12,6 +15,7 @@
 namespace bendy::converter::gltf {
 namespace {
 
+// NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
 Json without_extensions(const Json& source) {
     if (source.is_array()) {
         Json copy = Json::array();

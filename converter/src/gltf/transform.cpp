@@ -8,15 +8,21 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+double length(const Vector& a) {
+    return std::hypot(a[0], a[1], a[2]);
+}
 
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Vector scaled(const Vector& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
+Vector scaled(const Vector& a, double factor) {
+    return {a[0] * factor, a[1] * factor, a[2] * factor};
+}
 
 /// What of `a` is at right angles to the unit vector `axis`; twice, so that rounding cannot leave a trace of it.
 Vector without(Vector a, const Vector& axis) {

@@ -122,10 +122,10 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
     };
     // Names with a bare '%' exist; and so do files whose real name looks percent-encoded.
     const auto decoded = percent_decode(uri);
-    const auto path = path_of(decoded.value_or(uri));
+    auto path = path_of(decoded.value_or(uri));
     std::error_code ignored;
     if (decoded && *decoded != uri && !std::filesystem::exists(path, ignored)) {
-        const auto literal = path_of(uri);
+        auto literal = path_of(uri);
         if (std::filesystem::exists(literal, ignored)) return literal;
     }
     return path;

@@ -18,8 +18,8 @@ struct DataUri {
 /// RFC 2397, base64 or percent-encoded. Fails at `place`.
 DataUri decode_data_uri(std::string_view uri, const std::string& place);
 
-/// The file that a relative URI means, beside `source`. `..` is allowed (exporters write it); absolute paths and schemes
-/// are not: fails at `place`.
+/// The file that a relative URI means, beside `source`. `..` is allowed (exporters write it); absolute paths and
+/// schemes are not: fails at `place`.
 std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
                                   const std::string& place);
 

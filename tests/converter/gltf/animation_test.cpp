@@ -1,0 +1,167 @@
+#include "build_gltf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace bendy::converter {
+namespace {
+
+using namespace test;
+
+/// One animated node; `values` as `type`.
+Import import_keys(const std::vector<float>& times, const std::vector<float>& values, const char* type,
+                   const char* path, const char* interpolation = "LINEAR") {
+    Gltf gltf = make_triangle();
+    const std::size_t input = gltf.add_accessor(times, "SCALAR");
+    const std::size_t output = gltf.add_accessor(values, type);
+    gltf.add_animation(0, path, input, output, interpolation);
+    return gltf.import();
+}
+
+TEST(GltfAnimation, EveryPathAndInterpolation) {
+    const Import step = import_keys({0, 1}, {1, 2, 3, 4, 5, 6}, "VEC3", "translation", "STEP");
+    const Track& track = step->cycles.at(0).tracks.at(0);
+    EXPECT_EQ(track.path, TrackPath::translation);
+    EXPECT_EQ(track.interpolation, Interpolation::step);
+    EXPECT_EQ(track.components, 3u);
+    EXPECT_EQ(track.target, 0u);
+    EXPECT_EQ(track.times, (std::vector<float>{0, 1}));
+    EXPECT_EQ(track.values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+
+    const Import linear = import_keys({0.5f}, {1, 2, 3}, "VEC3", "scale");
+    EXPECT_EQ(linear->cycles.at(0).tracks.at(0).path, TrackPath::scale);
+    EXPECT_EQ(linear->cycles.at(0).tracks.at(0).interpolation, Interpolation::linear);
+
+    const Import cubic = import_keys({0}, {9, 9, 9, 9, 0, 0, 0, 1, 8, 8, 8, 8}, "VEC4", "rotation", "CUBICSPLINE");
+    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).components, 4u);
+    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).interpolation, Interpolation::cubic);
+    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).values.size(), 12u);
+}
+
+TEST(GltfAnimation, OrderAndNumberStayEvenIfNothingMoves) {
+    Gltf gltf = make_triangle();
+    const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
+    const std::size_t output = gltf.add_accessor<float>({0, 0, 0}, "VEC3");
+    gltf.add_animation(0, "pointer", input, output);
+    gltf.json["animations"].push_back({{"name", "empty"}, {"samplers", Json::array()}, {"channels", Json::array()}});
+    gltf.add_animation(0, "translation", input, output);
+    gltf.json["animations"][2]["extras"] = {{"loop", true}};
+    const Import import = gltf.import();
+    ASSERT_EQ(import->cycles.size(), 3u);
+    EXPECT_TRUE(import->cycles[0].tracks.empty());
+    EXPECT_EQ(import->cycles[1].name, "empty");
+    EXPECT_EQ(import->cycles[2].tracks.size(), 1u);
+    EXPECT_EQ(import->cycles[2].extras, R"({"loop":true})");
+    EXPECT_EQ(import.warned("animates 'pointer' left out"), 1u);
+}
+
+TEST(GltfAnimation, ChannelsWithoutANodeOfTheSceneAreCounted) {
+    Gltf gltf = make_triangle();
+    gltf.add_node(Json::object());
+    gltf.json["scenes"] = {{{"nodes", {0}}}};
+    const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
+    const std::size_t output = gltf.add_accessor<float>({0, 0, 0}, "VEC3");
+    gltf.add_animation(1, "translation", input, output);
+    gltf.add_animation(0, "translation", input, output);
+    gltf.json["animations"][1]["channels"][0]["target"].erase("node");
+    const Import import = gltf.import();
+    EXPECT_EQ(import.warned("outside the chosen scene left out"), 1u + 1u);  // the node, and its channel
+    EXPECT_EQ(import.warned("without a target node"), 1u);
+    ASSERT_EQ(import->cycles.size(), 2u);
+    EXPECT_TRUE(import->cycles[0].tracks.empty());
+    EXPECT_TRUE(import->cycles[1].tracks.empty());
+}
+
+TEST(GltfAnimation, OfTwoChannelsForOneTargetTheLastIsTaken) {
+    Gltf gltf = make_triangle();
+    const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
+    gltf.add_animation(0, "translation", input, gltf.add_accessor<float>({1, 1, 1}, "VEC3"));
+    Json& animation = gltf.json["animations"][0];
+    animation["samplers"].push_back({{"input", input}, {"output", gltf.add_accessor<float>({2, 2, 2}, "VEC3")}});
+    animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "translation"}}}});
+    const Import import = gltf.import();
+    ASSERT_EQ(import->cycles.at(0).tracks.size(), 1u);
+    EXPECT_EQ(import->cycles[0].tracks[0].values, (std::vector<float>{2, 2, 2}));
+    EXPECT_EQ(import.warned("second channel"), 1u);
+}
+
+TEST(GltfAnimation, CountsMustAgree) {
+    const Import import = import_keys({0, 1}, {0, 0, 0}, "VEC3", "translation");
+    EXPECT_EQ(import.place(), "animations[0].samplers[0].output");
+    EXPECT_EQ(import.message(), "accessors[2] holds 3 numbers, but 2 keys of 3 are due");
+    EXPECT_FALSE(import_keys({0}, {0, 0, 0, 1}, "VEC4", "rotation", "CUBICSPLINE").result);
+}
+
+TEST(GltfAnimation, TimesMustIncrease) {
+    const Import import = import_keys({0, 1, 0.5f}, std::vector<float>(9), "VEC3", "translation");
+    EXPECT_EQ(import.place(), "animations[0].samplers[0].input");
+    EXPECT_EQ(import.message(), "accessors[1], element 2: key times must increase, but 0.500000 follows 1.000000");
+    EXPECT_NE(import_keys({0, std::nanf("")}, std::vector<float>(6), "VEC3", "translation").message().find("NaN"),
+              std::string::npos);
+}
+
+TEST(GltfAnimation, KeysAtOneTimeAreAJump) {
+    const Import import = import_keys({0, 1, 1, 1, 2}, {0, 0, 0, 1, 1, 1, 7, 7, 7, 5, 5, 5, 6, 6, 6}, "VEC3", "scale");
+    const Track& track = import->cycles.at(0).tracks.at(0);
+    EXPECT_EQ(track.times, (std::vector<float>{0, std::nextafter(1.0f, 0.0f), 1, 2}));
+    EXPECT_EQ(track.values, (std::vector<float>{0, 0, 0, 1, 1, 1, 5, 5, 5, 6, 6, 6}));
+    EXPECT_EQ(import.warned("keys at the same time"), 2u);
+}
+
+TEST(GltfAnimation, RotationKeysAreNormalised) {
+    const Import import = import_keys({0, 1}, {0, 0, 0, 2, 0.6f, 0, 0, 0.8f}, "VEC4", "rotation");
+    EXPECT_EQ(import->cycles.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
+    EXPECT_EQ(import.warned("no unit quaternion"), 1u);
+    const Import zero = import_keys({0, 1}, {0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", "rotation");
+    EXPECT_EQ(zero.message(), "rotation key 1 is (0, 0, 0, 0)");
+}
+
+TEST(GltfAnimation, NormalisedIntegersAreRotationsToo) {
+    Gltf gltf = make_triangle();
+    const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
+    gltf.add_animation(0, "rotation", input, gltf.add_accessor<std::int16_t>({0, 0, 0, -32768}, "VEC4", true));
+    EXPECT_EQ(gltf.import()->cycles.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, -1}));
+}
+
+TEST(GltfAnimation, WeightsMoveEveryMeshOfTheNode) {
+    Gltf gltf = make_triangle();
+    gltf.primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
+    gltf.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", gltf.add_positions(3)}}}});
+    const std::size_t input = gltf.add_accessor<float>({0, 1}, "SCALAR");
+    gltf.add_animation(0, "weights", input, gltf.add_accessor<float>({0, 1, 2, 3}, "SCALAR"));
+    const Import import = gltf.import();
+    ASSERT_EQ(import->meshes.size(), 2u);
+    const auto& tracks = import->cycles.at(0).tracks;
+    ASSERT_EQ(tracks.size(), 2u);
+    EXPECT_EQ(tracks[0].target, 0u);
+    EXPECT_EQ(tracks[1].target, 1u);
+    EXPECT_EQ(tracks[1].components, 2u);
+    EXPECT_EQ(tracks[1].values, (std::vector<float>{0, 1, 2, 3}));
+}
+
+TEST(GltfAnimation, WeightsWithoutMorphTargetsAreLeftOut) {
+    const Import import = import_keys({0}, {1}, "SCALAR", "weights");
+    EXPECT_TRUE(import->cycles.at(0).tracks.empty());
+    EXPECT_EQ(import.warned("without morph targets"), 1u);
+}
+
+TEST(GltfAnimation, SharedSamplersCannotGrowWithoutBound) {
+    Gltf gltf;
+    const std::size_t input = gltf.add_accessor(
+        [] {
+            std::vector<float> times(50'000);
+            for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<float>(i);
+            return times;
+        }(),
+        "SCALAR");
+    const std::size_t output = gltf.add_accessor(std::vector<float>(150'000), "VEC3");
+    gltf.add_node(Json::object());
+    gltf.add_animation(0, "translation", input, output);
+    Json& channels = gltf.json["animations"][0]["channels"];
+    for (int i = 1; i < 20'000; ++i) channels.push_back(channels[0]);
+    EXPECT_EQ(gltf.import().message(), "the decoded data would be implausibly large");
+}
+
+}  // namespace
+}  // namespace bendy::converter

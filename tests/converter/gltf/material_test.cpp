@@ -1,0 +1,149 @@
+#include "build_gltf.h"
+
+#include <gtest/gtest.h>
+
+namespace bendy::converter {
+namespace {
+
+using namespace test;
+
+const Bytes kPng = bytes_of(std::string_view("\x89PNG\r\n\x1a\n....", 12));
+const Bytes kKtx2 = bytes_of(std::string_view("\xabKTX 20\xbb\r\n\x1a\n", 12));
+
+TEST(GltfMaterial, CoreFieldsAndTheirDefaults) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"bufferView", gltf.add_view(kPng)}, {"mimeType", "image/jpeg"}, {"name", "skin"}}};
+    gltf.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9985}, {"wrapS", 33071}, {"wrapT", 33648}}};
+    gltf.json["textures"] = {{{"source", 0}, {"sampler", 0}, {"name", "t"}}, {{"source", 0}}};
+    gltf.json["materials"] = {Json::object(),
+                              {{"name", "m"},
+                               {"alphaMode", "MASK"},
+                               {"alphaCutoff", 0.25},
+                               {"doubleSided", true},
+                               {"emissiveFactor", {1, 0.5, 0}},
+                               {"pbrMetallicRoughness",
+                                {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                                 {"metallicFactor", 0.5},
+                                 {"roughnessFactor", 0},
+                                 {"baseColorTexture", {{"index", 1}, {"texCoord", 2}}}}},
+                               {"normalTexture", {{"index", 0}, {"scale", 2}}},
+                               {"occlusionTexture", {{"index", 0}, {"strength", 0.5}}}}};
+    const Import import = gltf.import();
+    ASSERT_EQ(import->materials.size(), 2u);
+    const Material& plain = import->materials[0];
+    EXPECT_EQ(plain.base_colour, glm::vec4(1));
+    EXPECT_EQ(plain.metallic, 1.0f);
+    EXPECT_EQ(plain.roughness, 1.0f);
+    EXPECT_EQ(plain.alpha_cutoff, 0.5f);
+    EXPECT_EQ(plain.alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(plain.base_colour_texture.texture, kNone);
+    EXPECT_EQ(plain.normal_scale, 1.0f);
+    const Material& full = import->materials[1];
+    EXPECT_EQ(full.name, "m");
+    EXPECT_EQ(full.alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(full.alpha_cutoff, 0.25f);
+    EXPECT_TRUE(full.double_sided);
+    EXPECT_EQ(full.base_colour, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(full.emissive, glm::vec3(1, 0.5f, 0));
+    EXPECT_EQ(full.metallic, 0.5f);
+    EXPECT_EQ(full.roughness, 0.0f);
+    EXPECT_EQ(full.base_colour_texture.texture, 1u);
+    EXPECT_EQ(full.base_colour_texture.coords, 2u);
+    EXPECT_EQ(full.normal_texture.texture, 0u);
+    EXPECT_EQ(full.normal_scale, 2.0f);
+    EXPECT_EQ(full.occlusion_strength, 0.5f);
+    EXPECT_EQ(full.emissive_texture.texture, kNone);
+
+    ASSERT_EQ(import->textures.size(), 2u);
+    EXPECT_EQ(import->textures[0].mag_filter, Filter::nearest);
+    EXPECT_EQ(import->textures[0].min_filter, Filter::linear_mipmap_nearest);
+    EXPECT_EQ(import->textures[0].wrap_s, Wrap::clamp_to_edge);
+    EXPECT_EQ(import->textures[0].wrap_t, Wrap::mirrored_repeat);
+    EXPECT_EQ(import->textures[1].mag_filter, Filter::unspecified);
+    EXPECT_EQ(import->textures[1].wrap_s, Wrap::repeat);
+
+    ASSERT_EQ(import->images.size(), 1u);
+    EXPECT_EQ(import->images[0].name, "skin");
+    EXPECT_EQ(import->images[0].media_type, "image/png");  // the bytes know better
+    EXPECT_EQ(import->images[0].bytes, kPng);
+}
+
+TEST(GltfMaterial, TextureTransform) {
+    Gltf gltf = make_triangle();
+    gltf.json["textures"] = {Json::object()};
+    Json texture = {{"index", 0}, {"texCoord", 1}};
+    texture["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.5, 0.25}}, {"rotation", 1.5}, {"scale", {2, -1}}, {"texCoord", 3}};
+    gltf.json["materials"] = {{{"emissiveTexture", texture}}};
+    const Import import = gltf.import();
+    const TextureUse& use = import->materials.at(0).emissive_texture;
+    EXPECT_EQ(use.offset, glm::vec2(0.5f, 0.25f));
+    EXPECT_EQ(use.rotation, 1.5f);
+    EXPECT_EQ(use.scale, glm::vec2(2, -1));
+    EXPECT_EQ(use.coords, 3u);
+
+    gltf.json["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {1};
+    EXPECT_EQ(gltf.import().place(), "materials[0].emissiveTexture.extensions.KHR_texture_transform.scale");
+}
+
+TEST(GltfMaterial, UnlitIsAFieldOtherExtensionsStayAsJson) {
+    Gltf gltf = make_triangle();
+    gltf.json["materials"] = {Json::object()};
+    gltf.json["materials"][0]["extensions"] = {{"KHR_materials_unlit", Json::object()},
+                                               {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}};
+    const Import import = gltf.import();
+    EXPECT_TRUE(import->materials.at(0).unlit);
+    EXPECT_EQ(import->materials[0].extensions, R"({"KHR_materials_clearcoat":{"clearcoatFactor":1}})");
+    EXPECT_EQ(import.warned("kept as JSON, not interpreted: KHR_materials_clearcoat"), 1u);
+    EXPECT_EQ(import.report.warnings().size(), 1u);
+}
+
+TEST(GltfMaterial, ExtensionsOfferThePreferredImageFirst) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"bufferView", gltf.add_view(kPng)}}, {{"bufferView", gltf.add_view(kKtx2)}}};
+    gltf.json["textures"] = {{{"source", 0}}};
+    gltf.json["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 1;
+    const Import import = gltf.import();
+    EXPECT_EQ(import->textures.at(0).images, (std::vector<std::uint32_t>{1, 0}));
+    EXPECT_EQ(import->images.at(1).media_type, "image/ktx2");
+}
+
+TEST(GltfMaterial, ImagesFromFilesAndDataUris) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {
+        {{"uri", "skin image.png"}}, {{"uri", "data:image/x-own;base64,AAEC"}}, {{"uri", "none.png"}}};
+    write_file("skin image.png", kPng);
+    const Import embedded = gltf.import();
+    ASSERT_EQ(embedded->images.size(), 3u);
+    EXPECT_EQ(embedded->images[0].bytes, kPng);
+    EXPECT_TRUE(embedded->images[0].uri.empty());
+    EXPECT_EQ(embedded->images[1].media_type, "image/x-own");
+    EXPECT_EQ(embedded->images[1].bytes.size(), 3u);
+    EXPECT_EQ(embedded->images[2].uri, "none.png");
+    EXPECT_EQ(embedded.warned("image could not be read (file not found: 'none.png')"), 1u);
+
+    GltfOptions options;
+    options.embed_images = false;
+    const Import referred = gltf.import(options);
+    EXPECT_EQ(referred->images.at(0).uri, "skin image.png");
+    EXPECT_TRUE(referred->images[0].bytes.empty());
+    EXPECT_EQ(referred->images[1].bytes.size(), 3u);
+    EXPECT_TRUE(referred.report.warnings().empty());
+}
+
+TEST(GltfMaterial, WrongReferencesNameTheirPlace) {
+    Gltf gltf = make_triangle();
+    gltf.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    EXPECT_EQ(gltf.import().place(), "materials[0].normalTexture.index");
+    gltf.json["textures"] = {{{"source", 5}}};
+    EXPECT_EQ(gltf.import().place(), "textures[0].source");
+    gltf.json["textures"] = {{{"sampler", 0}}};
+    EXPECT_EQ(gltf.import().place(), "textures[0].sampler");
+    gltf.json["textures"] = {Json::object()};
+    EXPECT_TRUE(gltf.import().result);
+    gltf.primitive()["material"] = 1;
+    EXPECT_EQ(gltf.import().place(), "meshes[0].primitives[0].material");
+}
+
+}  // namespace
+}  // namespace bendy::converter

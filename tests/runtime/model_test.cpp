@@ -1,0 +1,309 @@
+#include <bendy/runtime/model.h>
+
+#include <bendy/runtime/pose.h>
+#include <bendy/runtime/skin.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using test::Buffer;
+using test::Owned;
+
+ErrorCode refusal(Bytes bytes, const OpenOptions& options = {}) {
+    const Result<Model> model = Model::from_memory(bytes, options);
+    EXPECT_FALSE(model.has_value());
+    return model ? ErrorCode::kOutOfMemory : model.error().code;
+}
+
+TEST(Model, HoldsTheSample) {
+    const Owned model(test::sample_file());
+    EXPECT_EQ(model->name(), "fox");
+    ASSERT_EQ(model->joints().size(), 4u);
+    const std::vector<std::uint32_t> parents{kNone, 0, 1, 0};
+    const std::vector<std::string_view> names{"hip", "spine", "head", "tail \xc3\xa9"};
+    const std::vector<float> up{1.0f, 0.5f, 0.25f, -0.25f};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(model->joints()[i].parent, parents[i]);
+        EXPECT_EQ(model->joints()[i].name, names[i]);
+        EXPECT_EQ(model->joints()[i].rest.translation, glm::vec3(0, up[i], 0));
+        EXPECT_EQ(model->joints()[i].rest.scale, glm::vec3(1.0f));
+        EXPECT_EQ(model->joints()[i].rest.rotation.w, 1.0f);
+    }
+    EXPECT_EQ(model->joints()[0].extras, R"({"mass":3})");
+    EXPECT_EQ(model->pools().size(), 2u);
+    EXPECT_EQ(model->cycles().size(), 1u);
+    EXPECT_EQ(model->textures().size(), 3u);
+    EXPECT_EQ(model->polygons().size(), 5u);
+    EXPECT_EQ(model->largest_palette(), 2u);
+}
+
+TEST(Model, RestTransformsComeWithRotationAndShear) {
+    test::ModelSpec spec;
+    spec.joints.resize(1);
+    spec.joints[0].rest.rotation = {0.5f, -0.5f, 0.5f, -0.5f};
+    spec.joints[0].rest.shear = {1, 2, 3};
+    const Owned model(test::build_file(spec));
+    const glm::quat rotation = model->joints()[0].rest.rotation;
+    EXPECT_EQ(rotation.x, 0.5f);
+    EXPECT_EQ(rotation.y, -0.5f);
+    EXPECT_EQ(rotation.z, 0.5f);
+    EXPECT_EQ(rotation.w, -0.5f);
+    EXPECT_EQ(model->joints()[0].shear, glm::vec3(1, 2, 3));
+}
+
+TEST(Model, VerticesAndTargetsAreNumberedPoolAfterPool) {
+    const Owned model(test::sample_file());
+    EXPECT_EQ(model->vertex_count(), 10u);
+    EXPECT_EQ(model->first_vertex(0), 0u);
+    EXPECT_EQ(model->first_vertex(1), 4u);
+    EXPECT_EQ(model->target_count(), 2u);
+    EXPECT_EQ(model->first_target(0), 0u);
+    EXPECT_EQ(model->first_target(1), 2u);
+}
+
+TEST(Model, FindsByNameTheFirstOfEqualNames) {
+    test::Node file = test::sample();
+    test::Node& object = test::at(file, "HEAD/OBJE");
+    object.children.push_back(test::child(object, "CYCL"));                       // "run" again
+    test::at(file, "HEAD/OBJE/SKIN/SKIN[1]/NAME") = test::at(file, "HEAD/OBJE/SKIN/SKIN/NAME");  // the tail is "spine", too
+    const Owned model(test::to_file(file));
+    ASSERT_EQ(model->cycles().size(), 2u);
+    EXPECT_EQ(model->cycle("run"), model->cycles().data());
+    EXPECT_EQ(model->cycle("Run"), nullptr);
+    EXPECT_EQ(model->cycle(""), nullptr);
+    EXPECT_EQ(model->joint("spine"), 1u);
+    EXPECT_EQ(model->joint("head"), 2u);
+    EXPECT_EQ(model->joint("nobody"), kNone);
+}
+
+// --- draws
+
+TEST(Model, DrawsMeanTheMaterialsOfTheWholeFile) {
+    const Owned model(test::sample_file());
+    ASSERT_EQ(model->materials().size(), 2u);  // HEAD's "red", then the one inside joint 0
+    EXPECT_EQ(model->materials()[0].name, "red");
+    EXPECT_EQ(model->materials()[1].surface.metallic, 0.25f);
+    struct Expected {
+        std::uint32_t pool, material;
+        Topology topology;
+        std::uint32_t first, count;
+    };
+    const std::vector<Expected> expected{{0, 1, Topology::triangles, 0, 3},
+                                         {0, kNone, Topology::triangles, 3, 3},
+                                         {1, 0, Topology::triangles, 0, 3},
+                                         {1, 0, Topology::lines, 3, 2},
+                                         {1, kNone, Topology::points, 5, 1}};
+    ASSERT_EQ(model->draws().size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const Draw& draw = model->draws()[i];
+        EXPECT_EQ(draw.pool, expected[i].pool) << i;
+        EXPECT_EQ(draw.material, expected[i].material) << i;
+        EXPECT_EQ(draw.topology, expected[i].topology) << i;
+        EXPECT_EQ(draw.first, expected[i].first) << i;
+        EXPECT_EQ(draw.count, expected[i].count) << i;
+    }
+}
+
+TEST(Model, OneDrawAMaterialWhateverJointsThePolygonsBelongTo) {
+    test::Node file = test::sample();
+    test::Node& hip = test::at(file, "HEAD/OBJE/SKIN");
+    test::Node& spine = test::at(file, "HEAD/OBJE/SKIN/SKIN");
+    test::edit<PolygonRecord>(test::child(hip, "POLY"), [](PolygonRecord& record) { record.material = 0; });
+    test::edit<PolygonRecord>(test::child(spine, "POLY"), [](PolygonRecord& record) { record.material = 0; });
+    const Owned model(test::to_file(file));
+    ASSERT_EQ(model->draws().size(), 4u);
+    EXPECT_EQ(model->draws()[0].first, 0u);
+    EXPECT_EQ(model->draws()[0].count, 6u);
+    EXPECT_EQ(model->draws()[0].material, 0u);
+    ASSERT_EQ(model->polygons().size(), 5u);  // the joints keep their own
+    EXPECT_EQ(model->polygons()[0].count, 3u);
+}
+
+TEST(Model, DrawsJoinAcrossJointsInAnyOrderButNotAcrossGaps) {
+    test::ModelSpec spec;
+    // Joint 0 has the last range, joint 2 the first; entries 9 to 11 belong to nobody.
+    spec.joints = {{kNone, {}, {test::polygons(0, 6, 3), test::polygons(0, 12, 3)}, ""},
+                   {0, {}, {test::polygons(0, 3, 3)}, ""},
+                   {0, {}, {test::polygons(0, 0, 3), test::polygons(1, 0, 3)}, ""}};
+    spec.pools.resize(2);
+    for (test::PoolSpec& pool : spec.pools) {
+        pool.joint = 0;
+        pool.positions.resize(15);
+    }
+    for (std::uint32_t i = 0; i < 15; ++i) spec.pools[0].indices.push_back(i);
+    spec.pools[1].indices = {0, 1, 2};
+    const Owned model(test::build_file(spec));
+    ASSERT_EQ(model->draws().size(), 3u);
+    EXPECT_EQ(model->draws()[0].count, 9u);
+    EXPECT_EQ(model->draws()[1].first, 12u);
+    EXPECT_EQ(model->draws()[1].count, 3u);
+    EXPECT_EQ(model->draws()[2].pool, 1u);
+    EXPECT_EQ(model->draws()[2].count, 3u);
+}
+
+// --- moves
+
+TEST(Model, MovesKeepEveryViewValid) {
+    const Buffer bytes = test::sample_file();
+    Result<Model> opened = Model::from_memory(bytes);
+    ASSERT_TRUE(opened.has_value());
+    const Joint* joints = opened->joints().data();
+    const Cycle* run = opened->cycle("run");
+    const Pool* pools = opened->pools().data();
+    const Draw* draws = opened->draws().data();
+    Model model = *std::move(opened);
+    Model other = std::move(model);
+    EXPECT_EQ(other.joints().data(), joints);
+    EXPECT_EQ(other.cycle("run"), run);
+    EXPECT_EQ(other.pools().data(), pools);
+    EXPECT_EQ(other.draws().data(), draws);
+    EXPECT_EQ(joints[1].name, "spine");
+    EXPECT_EQ(run->tracks.size(), 5u);
+
+    const Buffer rope = test::rope_file(3);
+    Result<Model> second = Model::from_memory(rope);
+    ASSERT_TRUE(second.has_value());
+    other = *std::move(second);
+    EXPECT_EQ(other.joints().size(), 3u);
+}
+
+TEST(Model, AFileStaysMappedThroughMoves) {
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "bendy_model_test.bendy";
+    const Buffer bytes = test::sample_file();
+    std::ofstream(path, std::ios::binary).write(as_text(bytes).data(), static_cast<std::streamsize>(bytes.size()));
+    Result<Model> opened = Model::open(path);
+    ASSERT_TRUE(opened.has_value());
+    std::filesystem::remove(path);
+    const Model model = *std::move(opened);
+    EXPECT_EQ(model.joints()[2].name, "head");
+    Pose pose(model);
+    std::vector<glm::vec3> positions(model.vertex_count());
+    ASSERT_TRUE(skin(model, pose, {positions, {}, {}}));
+    EXPECT_EQ(positions[4], glm::vec3(0, 1.75f, 0));
+}
+
+// --- what is refused
+
+TEST(Model, OpensNoMissingFileAndNoFolder) {
+    const auto missing = Model::open(std::filesystem::path(testing::TempDir()) / "no such file.bendy");
+    ASSERT_FALSE(missing.has_value());
+    EXPECT_EQ(missing.error().code, ErrorCode::kCannotOpen);
+    const auto folder = Model::open(testing::TempDir());
+    ASSERT_FALSE(folder.has_value());
+    EXPECT_EQ(error_class(folder.error().code), ErrorClass::io);
+}
+
+TEST(Model, RefusesNothingAndAnythingElse) {
+    EXPECT_EQ(error_class(refusal({})), ErrorClass::malformed);
+    const Buffer zeros(4096);
+    EXPECT_EQ(refusal(zeros), ErrorCode::kNotABendyFile);
+}
+
+TEST(Model, RefusesEveryPrefixOfAFile) {
+    const Buffer file = test::sample_file();
+    for (std::size_t size = 0; size < file.size(); ++size) {
+        const Buffer prefix(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));  // its own memory: reads past it show
+        ASSERT_EQ(error_class(refusal(prefix)), ErrorClass::malformed) << size;
+    }
+}
+
+TEST(Model, RefusesBytesThatAreNotAligned) {
+    const Buffer file = test::sample_file();
+    Buffer shifted(file.size() + kChunkAlignment);
+    for (std::size_t shift = 0; shift < kChunkAlignment; ++shift) {
+        std::memcpy(shifted.data() + shift, file.data(), file.size());
+        const Bytes bytes = Bytes(shifted).subspan(shift, file.size());
+        if (shift == 0) {
+            EXPECT_TRUE(Model::from_memory(bytes).has_value());
+        } else {
+            EXPECT_EQ(refusal(bytes), ErrorCode::kUnalignedBuffer) << shift;
+        }
+    }
+}
+
+TEST(Model, AWrongSumIsRefusedUnlessSumsAreNotAskedFor) {
+    Buffer file = test::sample_file();
+    const std::uint64_t name = test::place_of(file, "HEAD/OBJE/NAME");
+    test::patch(file, name + kChunkHeaderSize, 'F');
+    const auto refused = Model::from_memory(file);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::kSumMismatch);
+    EXPECT_EQ(refused.error().offset, name);
+    OpenOptions options;
+    options.check_sums = false;
+    const Owned model(file, options);
+    EXPECT_EQ(model->name(), "Fox");
+}
+
+TEST(Model, WithoutSumsWhatIsWrongIsStillRefused) {
+    Buffer file = test::sample_file();
+    test::patch(file, test::place_of(file, "HEAD/OBJE/VECT/INDX") + kChunkHeaderSize + sizeof(StreamRecord), std::uint16_t{4});
+    OpenOptions options;
+    options.check_sums = false;
+    EXPECT_EQ(refusal(file, options), ErrorCode::kIndexRange);
+}
+
+TEST(Model, OneOfSeveralObjects) {
+    test::Node file = test::sample();
+    test::Node second = test::at(file, "HEAD/OBJE");
+    test::remove(second, "VECT");  // pool 0 with all that means it
+    test::remove(second, "CYCL");
+    test::child(second, "NAME") = test::make_leaf(FourCC("NAME"), as_byte_span("wolf"));
+    test::remove(test::child(second, "SKIN"), "POLY");
+    test::remove(test::child(test::child(second, "SKIN"), "SKIN"), "POLY");
+    for (test::Node* joint : {&test::child(test::child(second, "SKIN"), "SKIN"), &test::child(test::child(test::child(second, "SKIN"), "SKIN"), "SKIN")}) {
+        for (test::Node& node : joint->children) {
+            if (node.id == FourCC("POLY")) test::edit<PolygonRecord>(node, [](PolygonRecord& record) { record.pool = 0; });
+        }
+    }
+    file.children.push_back(second);
+    const Buffer bytes = test::to_file(file);
+    EXPECT_EQ(Owned(bytes)->name(), "fox");
+    OpenOptions options;
+    options.object = 1;
+    const Owned wolf(bytes, options);
+    EXPECT_EQ(wolf->name(), "wolf");
+    EXPECT_EQ(wolf->pools().size(), 1u);
+    EXPECT_EQ(wolf->vertex_count(), 6u);
+    EXPECT_TRUE(wolf->cycles().empty());
+    EXPECT_EQ(wolf->materials().size(), 3u);  // HEAD's, and a local one of either object
+    for (const std::uint32_t object : {2u, 3u, kNone}) {
+        options.object = object;
+        const auto refused = Model::from_memory(bytes, options);
+        ASSERT_FALSE(refused.has_value()) << object;
+        EXPECT_EQ(error_class(refused.error().code), ErrorClass::invalid);
+    }
+}
+
+TEST(Model, AFileWithoutObjectsIsNoModel) {
+    test::Node file = test::sample();
+    test::remove(file, "OBJE");
+    EXPECT_EQ(refusal(test::to_file(file)), ErrorCode::kChunkMissing);
+}
+
+// --- what moves rigid vertices
+
+TEST(Model, RigidMoversAreThePoolsJointOrThatOfThePolygons) {
+    const Owned model(test::sample_file());
+    for (std::uint32_t vertex = 0; vertex < 5; ++vertex) EXPECT_EQ(model->rigid_mover(1, vertex), 2u) << vertex;
+    EXPECT_EQ(model->rigid_mover(1, 5), 1u);
+}
+
+TEST(Model, TenThousandNestedJointsLoad) {
+    const Owned model(test::rope_file(10'000));
+    ASSERT_EQ(model->joints().size(), 10'000u);
+    EXPECT_EQ(model->joints()[9'999].parent, 9'998u);
+}
+
+}  // namespace
+}  // namespace bendy

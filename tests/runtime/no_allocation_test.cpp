@@ -1,0 +1,83 @@
+#include <bendy/runtime.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <vector>
+
+// Counts every allocation of this program, to show that posing makes none.
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+    void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+/// Not inlined: the compiler would see free() take what operator new gave, and warn.
+[[gnu::noinline]] void release(void* memory) noexcept { std::free(memory); }
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new[](std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+
+namespace bendy {
+namespace {
+
+TEST(NoAllocation, TheCountCounts) {
+    const std::uint64_t before = allocations;
+    const std::vector<int> three(3);
+    EXPECT_EQ(allocations - before, 1u);
+    EXPECT_EQ(three.size(), 3u);
+}
+
+TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
+    const test::Owned model(test::sample_file());
+    Pose pose(*model);
+    std::vector<glm::vec3> positions(model->vertex_count());
+    std::vector<glm::vec3> normals(model->vertex_count());
+    std::vector<glm::vec4> tangents(model->vertex_count());
+    const Vertices vertices{positions, normals, tangents};
+    const Cycle* run = model->cycle("run");
+
+    const std::uint64_t before = allocations;
+    bool is_good = true;
+    for (int frame = -2; frame < 20; ++frame) {
+        is_good = sample(run, 0.5f + 0.03f * static_cast<float>(frame), pose) && is_good;
+        local_to_model(pose);
+        is_good = skin(*model, pose, vertices) && is_good;
+        is_good = skin(*model, 0, pose, vertices) && is_good;
+        is_good = inbetween(model->pools()[0], pose.target_weights(), vertices) && is_good;
+        pose.change_local()[0].translation.x += 1.0f;
+        pose.change_target_weights()[0] = 0.5f;
+        is_good = skin(*model, pose, vertices) && is_good;
+        pose.set_rest();
+        is_good = !sample(nullptr, 0.0f, pose) && is_good;
+        is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
+    }
+    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_TRUE(is_good);
+}
+
+}  // namespace
+}  // namespace bendy

@@ -1,0 +1,82 @@
+#include <bendy/runtime/pose.h>
+
+#include <bendy/runtime/local_to_model.h>
+#include <bendy/runtime/sample.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using test::Owned;
+
+void expect_rest(const Pose& pose) {
+    const auto joints = pose.model().joints();
+    ASSERT_EQ(pose.local().size(), joints.size());
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        EXPECT_EQ(pose.local()[joint].translation, joints[joint].rest.translation);
+        EXPECT_EQ(pose.local()[joint].scale, joints[joint].rest.scale);
+        EXPECT_TRUE(pose.local()[joint].rotation == joints[joint].rest.rotation);
+    }
+}
+
+TEST(Pose, StartsAtRestWithItsMatrices) {
+    const Owned model(test::sample_file());
+    const Pose pose(*model);
+    EXPECT_EQ(&pose.model(), &*model);
+    expect_rest(pose);
+    EXPECT_FALSE(pose.is_stale());
+    ASSERT_EQ(pose.model_space().size(), 4u);
+    EXPECT_EQ(glm::vec3(pose.model_space()[2][3]), glm::vec3(0, 1.75f, 0));
+    EXPECT_EQ(std::vector<float>(pose.target_weights().begin(), pose.target_weights().end()), (std::vector{0.125f, 0.0f}));
+}
+
+TEST(Pose, GoesBackToRest) {
+    const Owned model(test::sample_file());
+    Pose pose(*model);
+    for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {2, 2, 2}};
+    std::ranges::fill(pose.change_target_weights(), 3.0f);
+    local_to_model(pose);
+    pose.set_rest();
+    expect_rest(pose);
+    EXPECT_TRUE(pose.is_stale());
+    EXPECT_EQ(pose.target_weights()[0], 0.125f);
+    EXPECT_EQ(pose.target_weights()[1], 0.0f);
+}
+
+TEST(Pose, IsStaleWhenAskedForItsJointsToWrite) {
+    const Owned model(test::sample_file());
+    Pose pose(*model);
+    static_cast<void>(pose.local());
+    static_cast<void>(pose.change_target_weights());  // no matrix follows from these
+    EXPECT_FALSE(pose.is_stale());
+    static_cast<void>(pose.change_local());
+    EXPECT_TRUE(pose.is_stale());
+}
+
+TEST(Pose, HasRoomForNothing) {
+    const Owned model(test::build_file({}));
+    Pose pose(*model);
+    EXPECT_TRUE(pose.local().empty());
+    EXPECT_TRUE(pose.target_weights().empty());
+    local_to_model(pose);
+    EXPECT_TRUE(pose.model_space().empty());
+}
+
+TEST(Pose, CopiesAreTheirOwn) {
+    const Owned model(test::sample_file());
+    Pose pose(*model);
+    Pose copy = pose;
+    copy.change_local()[0].translation = {9, 9, 9};
+    local_to_model(copy);
+    EXPECT_EQ(glm::vec3(pose.model_space()[0][3]), glm::vec3(0, 1, 0));
+    EXPECT_EQ(glm::vec3(copy.model_space()[0][3]), glm::vec3(9, 9, 9));
+}
+
+}  // namespace
+}  // namespace bendy
