@@ -127,7 +127,7 @@ def read_stream_rules(check):
     for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), (k\w+)', code):
         parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
         uses[parent, chunk] = rules[rule]
-    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ if \(const auto stream = reader\.stream\(number, (k\w+)', code):
+    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, (k\w+)', code):
         uses['VECT', chunk] = rules[rule]
     for rule in re.findall(r'stream\(index_chunk, (k\w+)', code):
         uses['TARG', 'INDX'] = rules[rule]
