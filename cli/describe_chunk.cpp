@@ -106,16 +106,21 @@ std::string brief(float number) {
 template <std::size_t N>
 std::string brief(const std::array<float, N>& numbers) {
     std::string text;
-    for (const float number : numbers) text += (text.empty() ? "" : " ") + brief(number);
+    for (const float number : numbers) {
+        if (!text.empty()) text += ' ';
+        text += brief(number);
+    }
     return text;
 }
 
 std::string quoted(std::string_view text) {
     constexpr std::size_t kMost = 72;
-    if (text.size() <= kMost) return '"' + printable(text) + '"';
-    std::size_t cut = kMost;
-    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u) --cut;  // not inside a character
-    return '"' + printable(text.substr(0, cut)) + "...\"";
+    std::size_t cut = std::min(kMost, text.size());
+    while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
+        --cut;  // not inside a character
+    std::string quoted = "\"";
+    quoted.append(printable(text.substr(0, cut))).append(cut < text.size() ? "...\"" : "\"");
+    return quoted;
 }
 
 std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
@@ -148,7 +153,8 @@ std::string polygons_text(const PolygonRecord& record) {
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (pivot != kNone) text = "at " + brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation);
+    if (pivot != kNone)
+        text.append("at ").append(brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     std::uint64_t extras = 0;
     for (const std::uint32_t child : tree.children(number)) {

@@ -125,6 +125,7 @@ void add_pose(CLI::App& program) {
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
     command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")
+        ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
         ->needs(clip);
     command->add_option("-o,--output", arguments->output,

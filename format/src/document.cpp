@@ -112,6 +112,7 @@ void check_count(std::uint64_t stated, std::uint64_t found, std::uint64_t offset
 
 Document read_document(const ChunkTree& tree, Faults& faults) {
     Document document;
+    const std::size_t faults_before = faults.count();
     check_grammar(tree, faults);
     document.version = read_version(tree, faults);
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
@@ -151,7 +152,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
             document.materials.push_back(read_material(tree, local, textures, faults));
         }
         resolve_polygons(tree, object, document.global_materials, first_local, faults);
-        if (faults.empty()) check_ranges(tree, object, faults);
+        if (faults.count() == faults_before) check_ranges(tree, object, faults);
         document.objects.push_back(std::move(object));
     }
     return document;

@@ -6,9 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
-#include <cstdlib>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace bendy {
@@ -84,14 +85,24 @@ MappedFile::~MappedFile() {
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
-    std::string beside = path.string() + ".XXXXXX";
-    Descriptor file(::mkstemp(beside.data()));
+    std::error_code not_there;
+    std::filesystem::path target = std::filesystem::canonical(path, not_there);  // what a link names, not the link
+    if (not_there) target = path;
+
+    // The name is short, so that a target with the longest possible name can be written, and new, so that nobody's is
+    // lost.
+    static std::atomic<unsigned> counter{0};
+    constexpr mode_t kAsTheUserHasIt = 0666;
+    std::filesystem::path beside;
+    int number = -1;
+    do {
+        beside = target.parent_path() / (".bendy-" + std::to_string(::getpid()) + '-' + std::to_string(counter++));
+        number = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAsTheUserHasIt);
+    } while (number < 0 && errno == EEXIST);
+    Descriptor file(number);
     if (file.number() < 0) return system_error(ErrorCode::kCannotWrite);
-    // mkstemp makes the file private; give it what a plain creation would have.
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    const bool written = ::fchmod(file.number(), 0666 & ~mask) == 0 && write_all(file.number(), bytes) &&
-                         ::fsync(file.number()) == 0 && file.close() && ::rename(beside.c_str(), path.c_str()) == 0;
+    const bool written = write_all(file.number(), bytes) && ::fsync(file.number()) == 0 && file.close() &&
+                         ::rename(beside.c_str(), target.c_str()) == 0;
     if (written) return {};
     const Error error = system_error(ErrorCode::kCannotWrite);
     ::unlink(beside.c_str());

@@ -188,10 +188,7 @@ const std::vector<Exempt> kExempt{
     {ErrorCode::kCannotRead, "the system's, in file_test.cpp"},
     {ErrorCode::kCannotWrite, "the system's, in file_test.cpp"},
     {ErrorCode::kUnalignedBuffer, "the caller's buffer, in chunk_reader_test.cpp"},
-    {ErrorCode::kOutOfMemory, "memory would have to run out"},
     {ErrorCode::kTooManyChunks, "the smallest file with so many takes 32 GiB"},
-    {ErrorCode::kChunkHeaderCut,
-     "containers are whole multiples of 16 bytes long, so less than a header is never left"},
 };
 
 class ErrorCodeTest : public testing::TestWithParam<Provocation> {};

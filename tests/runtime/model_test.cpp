@@ -22,7 +22,7 @@ using test::Owned;
 ErrorCode refusal(Bytes bytes, const OpenOptions& options = {}) {
     const Result<Model> model = Model::from_memory(bytes, options);
     EXPECT_FALSE(model.has_value());
-    return model ? ErrorCode::kOutOfMemory : model.error().code;
+    return model ? ErrorCode::kCannotWrite : model.error().code;
 }
 
 TEST(Model, HoldsTheSample) {

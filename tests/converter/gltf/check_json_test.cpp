@@ -15,7 +15,7 @@ std::string error_of(const std::string& members) {
 
 TEST(GltfJson, SyntaxErrorsNameLineAndColumn) {
     const Import import = import_text("{\n  \"asset\": {\"version\" \"2.0\"}\n}");
-    EXPECT_EQ(import.message().substr(0, 47), "invalid JSON at line 2, column 27 (byte 28): sy");
+    EXPECT_EQ(import.message().substr(0, 47), "invalid JSON at line 2, column 27 (byte 29): sy");
     EXPECT_EQ(import_text("{} x").message().substr(0, 23), "invalid JSON at line 1,");
 }
 

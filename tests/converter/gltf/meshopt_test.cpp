@@ -100,7 +100,9 @@ TEST(GltfMeshopt, FlippedBitsAreHandledAsTheLibraryDoes) {
             meshopt_decodeVertexBuffer(theirs.data(), 20, 12, reinterpret_cast<const unsigned char*>(damaged.data()),
                                        damaged.size()) == 0;
         ASSERT_EQ(accepted, expected) << bit;
-        if (accepted) EXPECT_EQ(ours, theirs) << bit;
+        if (accepted) {
+            EXPECT_EQ(ours, theirs) << bit;
+        }
     }
 }
 

@@ -79,8 +79,9 @@ private:
 };
 
 /// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting
-/// depth. Does not recurse, and allocates at most 40 bytes for each chunk header that the file really holds. `bytes`
-/// must start on a 16-byte boundary (mapped files do). Malformed input: the first fault, with its offset.
+/// depth. Does not recurse, and allocates some 40 bytes (while growing, up to 120) for each chunk header that the file
+/// really holds. `bytes` must start on a 16-byte boundary (mapped files do). Malformed input: the first fault, with its
+/// offset.
 Result<ChunkTree> read_chunk_tree(Bytes bytes);
 
 }  // namespace bendy

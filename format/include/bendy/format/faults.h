@@ -11,7 +11,7 @@ namespace bendy {
 /// larger than itself, and counts the rest.
 class Faults {
 public:
-    static constexpr std::size_t kMost = 10'000;
+    static constexpr std::size_t kMost = 1'000;
 
     void add(const Error& fault) {
         if (list_.size() < kMost) {
@@ -22,6 +22,8 @@ public:
     }
     [[nodiscard]] const std::vector<Error>& list() const { return list_; }
     [[nodiscard]] std::size_t left_out() const { return left_out_; }
+    /// All faults so far, kept or not.
+    [[nodiscard]] std::size_t count() const { return list_.size() + left_out_; }
     [[nodiscard]] bool empty() const { return list_.empty(); }
 
 private:

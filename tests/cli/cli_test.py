@@ -1,0 +1,711 @@
+#!/usr/bin/env python3
+"""Runs the program as a user does and looks at its exit status, its streams and its files.
+
+    cli_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
+"""
+
+import argparse
+import json
+import os
+import re
+import resource
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+from chunk_file import Chunk  # noqa: E402
+from gltf_file import strange_file  # noqa: E402
+
+BENDY = ""
+SOURCE = Path()
+COMMANDS = ("convert", "inspect", "validate", "pose")
+
+
+def floats(data):
+    return list(struct.unpack(f"<{len(data) // 4}f", data))
+
+
+def as_float(text):
+    """A decimal number as the float that it means."""
+    return struct.unpack("<f", struct.pack("<f", float(text)))[0]
+
+
+def read_obj(text):
+    """Positions, normals, faces, lines and points, each a list of tuples; indices count from 0."""
+    found = {"o": [], "v": [], "vn": [], "f": [], "l": [], "p": []}
+    for line in text.splitlines():
+        keyword, _, rest = line.partition(" ")
+        if keyword in ("v", "vn"):
+            found[keyword].append(tuple(as_float(number) for number in rest.split()))
+        elif keyword in ("f", "l", "p"):
+            corners = [corner.split("//") for corner in rest.split()]
+            assert all(corner[0] == corner[-1] for corner in corners), line
+            found[keyword].append(tuple(int(corner[0]) - 1 for corner in corners))
+        elif keyword == "o":
+            found["o"].append(rest)
+        else:
+            assert keyword == "#", line
+    return found
+
+
+def read_ply(data):
+    """Positions, normals and faces of a binary PLY."""
+    head, _, body = data.partition(b"end_header\n")
+    lines = head.decode("ascii").splitlines()
+    assert lines[0] == "ply" and lines[1] == "format binary_little_endian 1.0", lines[:2]
+    elements = {}
+    for line in lines[2:]:
+        words = line.split()
+        if words[0] == "element":
+            elements[words[1]] = (int(words[2]), [])
+            last = words[1]
+        elif words[0] == "property":
+            elements[last][1].append(tuple(words[1:]))
+    at = 0
+    result = {}
+    for name, (count, properties) in elements.items():
+        rows = []
+        for _ in range(count):
+            row = []
+            for kind, *rest in properties:
+                if kind == "list":
+                    length = body[at]
+                    row += struct.unpack_from(f"<{length}I", body, at + 1)
+                    at += 1 + 4 * length
+                else:
+                    row += struct.unpack_from("<f" if kind == "float" else "<I", body, at)
+                    at += 4
+            rows.append(tuple(row))
+        result[name] = rows
+    assert at == len(body), "bytes are left over"
+    return result
+
+
+def in_full(shown, path):
+    """A path as it is shown, with the steps that "... N more ..." stands for filled in from the real one."""
+    match = re.search(r"\.\.\. (\d+) more \.\.\.", shown)
+    if not match:
+        return shown
+    before = shown[: match.start()].count("/")
+    return shown.replace(match.group(), "/".join(path.split("/")[before : before + int(match.group(1))]))
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = Path(tempfile.mkdtemp(prefix="bendy_cli_"))
+        cls.addClassCleanup(shutil.rmtree, cls.shared)
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(dir=self.shared))
+
+    def bendy(self, *arguments, **options):
+        return subprocess.run([BENDY, *arguments],
+                              capture_output=True, timeout=120, check=False, cwd=options.pop("cwd", self.folder), **options)
+
+    def done(self, *arguments, **options):
+        """Runs what must work: its standard output; nothing but warnings may stand on standard error."""
+        result = self.bendy(*arguments, **options)
+        self.assertEqual(result.returncode, 0, (arguments, result.stderr))
+        for line in result.stderr.decode().splitlines():
+            self.assertTrue(line.startswith("bendy: warning: "), line)
+        return result.stdout
+
+    def failed(self, *arguments, file=None, **options):
+        """Runs what must fail for its input: the one line of error; standard output stays empty."""
+        result = self.bendy(*arguments, **options)
+        self.assertEqual(result.returncode, 1, (arguments, result.stderr))
+        self.assertEqual(result.stdout, b"")
+        lines = result.stderr.decode().splitlines()
+        self.assertEqual(len(lines), 1, lines)
+        self.assertTrue(lines[0].startswith(f"bendy: error: {file}: " if file is not None else "bendy: error: "), lines[0])
+        return lines[0]
+
+    def misused(self, *arguments):
+        """Runs a wrong command line: what is said of it."""
+        result = self.bendy(*arguments)
+        self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+        self.assertEqual(result.stdout, b"")
+        text = result.stderr.decode()
+        self.assertTrue(text.startswith("bendy: error: "), text)
+        return text
+
+    def files(self):
+        return sorted(entry.name for entry in self.folder.iterdir())
+
+    def convert(self, name="mannequin"):
+        """A converted example; made once for each class."""
+        path = self.shared / f"{name}.bendy"
+        if not path.exists():
+            self.done("convert", SOURCE / "examples" / f"{name}.glb", "-o", path)
+        return path
+
+    def strange(self):
+        path = self.shared / "strange.bendy"
+        if not path.exists():
+            self.done("convert", strange_file(self.shared / "strange.gltf"), "-o", path)
+        return path
+
+
+class CommandLine(Case):
+    def test_help_of_each_command_has_an_example(self):
+        for command in COMMANDS:
+            text = self.done(command, "--help").decode()
+            self.assertIn(f"Example: bendy {command} ", text)
+            self.assertEqual(text, self.done(command, "-h").decode())
+
+    def test_help_lists_the_commands(self):
+        text = self.done("--help").decode()
+        for command in COMMANDS:
+            self.assertIn(f"  {command} ", text)
+
+    def test_version(self):
+        self.assertRegex(self.done("--version").decode(), r"^bendy \d+\.\d+\.\d+\n$")
+
+    def test_no_command_is_wrong(self):
+        self.assertIn("--help", self.misused())
+
+    def test_an_unknown_command_is_named(self):
+        self.assertIn("dance", self.misused("dance"))
+        self.assertIn("dance", self.misused("dance", "a.bendy"))
+
+    def test_an_unknown_option_is_named(self):
+        self.assertIn("--bogus", self.misused("--bogus"))
+        for command in COMMANDS:
+            self.assertIn("--bogus", self.misused(command, "--bogus", self.convert()))
+
+    def test_a_file_is_needed(self):
+        for command in COMMANDS:
+            self.misused(command)
+
+    def test_one_file_too_many_is_named(self):
+        for command in ("convert", "inspect", "pose"):
+            self.assertIn("second.bendy", self.misused(command, self.convert(), "second.bendy"))
+
+    def test_what_a_user_typed_cannot_forge_lines(self):
+        self.assertNotIn("\nbendy: error: forged", self.misused("x\nbendy: error: forged"))
+
+    def test_missing_and_empty_files_and_folders_fail_in_one_line(self):
+        (self.folder / "empty").write_bytes(b"")
+        (self.folder / "folder").mkdir()
+        for command in ("convert", "inspect", "pose"):
+            for name in ("missing", "empty", "folder", "empty/below", "missing/below"):
+                line = self.failed(command, name, file=name)
+                self.assertGreater(len(line), len(f"bendy: error: {name}: "))
+        self.assertEqual(self.files(), ["empty", "folder"])
+
+    def test_a_text_file_is_no_bendy_file(self):
+        (self.folder / "text").write_text("hello, world, this is no bendy file at all\n")
+        for command in ("inspect", "pose"):
+            self.assertIn("not a bendy file", self.failed(command, "text", file="text"))
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
+    def test_a_full_standard_output_fails(self):
+        for arguments in (("inspect", self.convert()), ("inspect", self.convert(), "--json"), ("pose", self.convert()),
+                          ("inspect", self.convert(), "--hex")):
+            with open("/dev/full", "wb") as full:
+                result = subprocess.run([BENDY, *arguments], stdout=full, stderr=subprocess.PIPE, timeout=120, check=False)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(b"bendy: error: ", result.stderr)
+
+    def test_names_that_are_not_utf8_do_not_break_json(self):
+        path = os.fsencode(self.folder) + b"/\xff\xfe.bendy"
+        shutil.copy(self.convert("tentacle"), path)
+        self.assertIn("\ufffd", json.loads(self.done("inspect", path, "--json"))["file"])
+        self.assertIn("\ufffd", json.loads(self.done("validate", path, "--json"))[0]["file"])
+        self.done("pose", path, "-o", "out.json")
+        self.assertIn("\ufffd", json.loads((self.folder / "out.json").read_bytes())["file"])
+
+
+class Convert(Case):
+    def test_the_output_stands_beside_the_input_by_default(self):
+        (self.folder / "in").mkdir()
+        for name in ("one.glb", "two.v2.glb", "three"):
+            shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / name)
+            self.done("convert", self.folder / "in" / name)
+        self.assertEqual(sorted(entry.name for entry in (self.folder / "in").iterdir()),
+                         ["one.bendy", "one.glb", "three", "three.bendy", "two.v2.bendy", "two.v2.glb"])
+        self.assertEqual(self.files(), ["in"])
+        self.assertEqual(self.done("validate", "in/one.bendy", "in/two.v2.bendy", "in/three.bendy"), b"")
+
+    def test_writes_where_it_is_told_and_nothing_else(self):
+        (self.folder / "deeper").mkdir()
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "deeper/any.name")
+        self.assertEqual([path.name for path in self.folder.rglob("*")], ["deeper", "any.name"])
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--output", "long.bendy")
+        self.assertEqual((self.folder / "long.bendy").read_bytes(), (self.folder / "deeper" / "any.name").read_bytes())
+
+    def test_the_summary_says_what_is_in_the_file(self):
+        text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
+        for words in ("m.bendy", "65 joints", "4,504 vertices", "Idle", "Walk", "Blink", "Smile", "5 materials", "1 texture",
+                      f"{(self.folder / 'm.bendy').stat().st_size:,} bytes"):
+            self.assertIn(words, text)
+        self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "--quiet"), b"")
+        self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "-q"), b"")
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        for name in ("mannequin", "tentacle"):
+            for output in ("one", "two"):
+                self.done("convert", SOURCE / "examples" / f"{name}.glb", "-o", output)
+            self.assertEqual((self.folder / "one").read_bytes(), (self.folder / "two").read_bytes())
+
+    def test_replaces_an_older_file(self):
+        (self.folder / "out.bendy").write_bytes(b"old")
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "out.bendy")
+        self.assertEqual(self.done("validate", "out.bendy"), b"")
+
+    def test_a_bad_input_leaves_no_output_and_an_old_one_untouched(self):
+        good = (SOURCE / "examples" / "tentacle.glb").read_bytes()
+        (self.folder / "bad.glb").write_bytes(good[: len(good) // 2])
+        self.failed("convert", "bad.glb", file="bad.glb")
+        self.assertEqual(self.files(), ["bad.glb"])
+        (self.folder / "bad.bendy").write_bytes(b"old")
+        self.failed("convert", "bad.glb", file="bad.glb")
+        self.assertEqual(self.files(), ["bad.bendy", "bad.glb"])
+        self.assertEqual((self.folder / "bad.bendy").read_bytes(), b"old")
+
+    def test_the_input_is_never_overwritten(self):
+        source = self.folder / "a.glb"
+        shutil.copy(SOURCE / "examples" / "tentacle.glb", source)
+        before = source.read_bytes()
+        (self.folder / "link.bendy").symlink_to(source)
+        os.link(source, self.folder / "hard.bendy")
+        for output in ("a.glb", "./a.glb", source, "link.bendy", "hard.bendy"):
+            self.failed("convert", "a.glb", "-o", output, file=output)
+        self.assertEqual(self.files(), ["a.glb", "hard.bendy", "link.bendy"])
+        self.assertEqual(source.read_bytes(), before)
+        shutil.move(source, self.folder / "same.bendy")  # here the default output is the input
+        self.failed("convert", "same.bendy", file="same.bendy")
+        self.assertEqual((self.folder / "same.bendy").read_bytes(), before)
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        (self.folder / "folder").mkdir()
+        (self.folder / "file").write_bytes(b"")
+        for output in ("missing/out.bendy", "folder", "file/out.bendy"):
+            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output)
+        self.assertEqual(sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*")), ["file", "folder"])
+
+    def test_a_full_disk_leaves_nothing_behind(self):
+        # A limit on the size of files stands for the full disk; the signal that comes with it is ignored, as it is here.
+        (self.folder / "old.bendy").write_bytes(b"old")
+        for output in ("old.bendy", "new.bendy"):
+            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output, restore_signals=False,
+                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000)))
+        self.assertEqual(self.files(), ["old.bendy"])
+        self.assertEqual((self.folder / "old.bendy").read_bytes(), b"old")
+
+    def test_options_are_checked(self):
+        self.assertIn("glue", self.misused("convert", "a.glb", "--images", "glue"))
+        line = self.failed("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "no such scene", "-o", "x")
+        self.assertIn("no such scene", line)
+        self.assertEqual(self.files(), [])
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "0", "-o", "x")
+
+    def test_what_is_left_out_is_named_on_standard_error(self):
+        (self.folder / "camera.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]}))
+        result = self.bendy("convert", "camera.gltf")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr.decode(), r"(?i)^bendy: warning: camera\.gltf: .*camera")
+        self.assertNotIn(b"warning", result.stdout)
+
+    def test_names_are_escaped_in_the_summary(self):
+        text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
+        self.assertIn("slide\\x09now", text)
+        self.assertFalse(any(ord(c) < 0x20 and c != "\n" for c in text))
+
+
+class Inspect(Case):
+    def good_files(self):
+        return [self.convert(), self.convert("tentacle"), self.strange(), *sorted((SOURCE / "spec" / "examples").glob("*.bendy"))]
+
+    def test_the_text_shows_every_chunk_with_its_place(self):
+        for path in self.good_files():
+            lines = self.done("inspect", path, "--all").decode().splitlines()
+            chunks = list(Chunk.read(path.read_bytes()).walk())
+            self.assertIn(f"{path.stat().st_size:,} bytes", lines[0])
+            self.assertEqual(len(lines), len(chunks) + 2)
+            for line, (_, chunk) in zip(lines[2:], chunks):
+                offset, size, letters = line.split()[:3]
+                self.assertEqual((int(offset), int(size), letters), (chunk.offset, chunk.size(), chunk.letters))
+
+    def test_the_short_text_folds_details_away(self):
+        folded = self.done("inspect", self.convert()).decode().splitlines()
+        everything = self.done("inspect", self.convert(), "--all").decode().splitlines()
+        self.assertLess(len(folded), len(everything) / 2)
+        places = [line.split()[0] for line in everything]
+        self.assertTrue(all(line.split()[0] in places for line in folded[2:]))
+        self.assertIn("mixamorig:LeftHand", "\n".join(folded))
+        self.assertIn("Walk", "\n".join(folded))
+
+    def test_json_has_every_chunk_with_its_place(self):
+        for path in self.good_files():
+            data = path.read_bytes()
+            document = json.loads(self.done("inspect", path, "--json"))
+            self.assertEqual(document["bytes"], len(data))
+            self.assertTrue(document["file"].endswith(path.name))
+            chunks = list(Chunk.read(data).walk())
+            self.assertEqual(len(document["chunks"]), len(chunks))
+            paths = []
+            for number, (entry, (chunk_path, chunk)) in enumerate(zip(document["chunks"], chunks)):
+                self.assertEqual(entry["number"], number)
+                self.assertEqual((entry["id"], entry["offset"], entry["size"]), (chunk.letters, chunk.offset, chunk.size()))
+                self.assertEqual(entry["container"], chunk.children is not None)
+                self.assertEqual(int(entry["sum"], 16), struct.unpack_from("<I", data, chunk.offset + 4)[0])
+                self.assertIsInstance(entry["meaning"], str)
+                paths.append(chunk_path)
+                if number == 0:
+                    self.assertIsNone(entry["parent"])
+                else:
+                    self.assertEqual(paths[entry["parent"]], chunk_path.rpartition("/")[0])
+
+    def test_json_has_the_fields_of_records(self):
+        data = self.convert().read_bytes()
+        root = Chunk.read(data)
+        entries = {entry["offset"]: entry for entry in json.loads(self.done("inspect", self.convert(), "--json"))["chunks"]}
+        fields = lambda path: entries[root.find(path).offset]["fields"]  # noqa: E731
+        version = fields("HEAD/VERS")
+        self.assertEqual((version["objects"], version["joints"], version["cycles"]), (1, 65, 2))
+        self.assertTrue(version["generator"].startswith("bendy "))
+        self.assertEqual(fields("HEAD/OBJE/SKIN/NAME"), {"text": root.find("HEAD/OBJE/SKIN/NAME").payload.decode()})
+        for path, chunk in root.walk():
+            if chunk.letters == "REST":
+                self.assertEqual([as_float(c) for c in fields(path)["translation"]], floats(chunk.payload[16:28]))
+            if chunk.letters == "TRAK":
+                tracks = fields(path)["tracks"]
+                self.assertEqual([(t["target"], t["keys"], t["first_value"]) for t in tracks],
+                                 [(t[0], t[4], t[6]) for t in struct.iter_unpack("<IBBHIIQ", chunk.payload)])
+
+    def test_hex_is_the_chunks_bytes(self):
+        path = self.convert("tentacle")
+        data = path.read_bytes()
+        root = Chunk.read(data)
+        for where in ("HEAD", "HEAD/VERS", "HEAD/OBJE/SKIN/NAME", "HEAD/OBJE/SKIN/SKIN/PIVO/REST", "HEAD/MATE[1]"):
+            chunk = root.find(where)
+            shown = b""
+            for line in self.done("inspect", path, "--chunk", where, "--hex").decode().splitlines():
+                offset, _, rest = line.strip().partition("  ")
+                self.assertEqual(int(offset, 16), chunk.offset + len(shown))
+                shown += bytes.fromhex(rest[:35])
+            self.assertEqual(shown, data[chunk.offset : chunk.offset + 16 + chunk.size()])
+
+    def test_one_chunk_by_path_and_by_offset(self):
+        path = self.convert()
+        root = Chunk.read(path.read_bytes())
+        for where in ("HEAD/OBJE/CYCL[1]", "HEAD/OBJE/SKIN", "HEAD/OBJE/VECT[1]/TARG[1]/NAME", "HEAD"):
+            chunk = root.find(where)
+            for name in (where, f"@{chunk.offset}", f"@{chunk.offset + 15}"):
+                entries = json.loads(self.done("inspect", path, "--chunk", name, "--json"))["chunks"]
+                self.assertEqual([entry["offset"] for entry in entries], [inner.offset for _, inner in chunk.walk()])
+                self.assertIsNone(entries[0]["parent"])
+        lines = self.done("inspect", path, "--chunk", "HEAD/OBJE/CYCL[1]").decode()
+        self.assertIn("Walk", lines)
+        self.assertNotIn("Idle", lines)
+
+    def test_a_path_to_nothing_fails(self):
+        for where in ("HEAD/NONE", "HEAD/OBJE[1]", "OBJE", "HEAD/", "/HEAD", "HEAD/VERS/NAME", "HEAD/OBJE/SKIN[x]", "HEAD/OBJE/SKIN[-1]",
+                      "HEAD/OBJE/SKIN[4294967296]", "@99999999", "@", "@-1", "@1x", "\x1b[31m"):
+            for more in ([], ["--json"], ["--hex"], ["--all"]):
+                line = self.failed("inspect", self.convert(), "--chunk", where, *more, file=self.convert())
+                self.assertNotIn("\x1b", line)
+
+    def test_json_and_hex_exclude_each_other(self):
+        self.misused("inspect", self.convert(), "--json", "--hex")
+
+    def test_names_are_escaped(self):
+        for more in ([], ["--all"], ["--chunk", "HEAD/OBJE/SKIN"], ["--hex"]):
+            text = self.done("inspect", self.strange(), *more).decode()
+            self.assertFalse(any((ord(c) < 0x20 and c != "\n") or ord(c) == 0x7F for c in text))
+            self.assertNotIn("\nbendy: error: forged", text)
+        text = self.done("inspect", self.strange()).decode()
+        self.assertIn("\\x1b[31m", text)
+        self.assertIn("\u624b \u00e9", text)
+        names = [entry["fields"]["text"] for entry in json.loads(self.done("inspect", self.strange(), "--json"))["chunks"] if entry["id"] == "NAME"]
+        self.assertIn("root\x1b[31m\nbendy: error: forged", names)
+
+    def test_a_damaged_file_is_shown_with_a_warning(self):
+        data = bytearray(self.convert("tentacle").read_bytes())
+        data[Chunk.read(bytes(data)).find("HEAD/OBJE/SKIN/NAME").offset + 16] ^= 1
+        (self.folder / "bad.bendy").write_bytes(data)
+        result = self.bendy("inspect", "bad.bendy")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"SKIN", result.stdout)
+        self.assertRegex(result.stderr.decode(), r"^bendy: warning: bad\.bendy: .*HEAD/OBJE/SKIN/NAME")
+
+    def test_a_file_without_structure_fails_with_its_place(self):
+        data = self.convert("tentacle").read_bytes()
+        (self.folder / "cut.bendy").write_bytes(data[:1000])
+        for more in ([], ["--json"], ["--hex"], ["--chunk", "HEAD/VERS"]):
+            self.assertRegex(self.failed("inspect", "cut.bendy", *more, file="cut.bendy"), r"\(HEAD, offset 0\)$")
+
+
+class Validate(Case):
+    def test_good_files_are_silent(self):
+        files = [self.convert(), self.convert("tentacle"), self.strange(), *sorted((SOURCE / "spec" / "examples").glob("*.bendy"))]
+        self.assertGreater(len(files), 5)
+        self.assertEqual(self.done("validate", *files), b"")
+        report = json.loads(self.done("validate", "--json", *files))
+        self.assertEqual([entry["file"] for entry in report], [str(file) for file in files])
+        for entry in report:
+            self.assertIs(entry["valid"], True)
+            self.assertEqual(entry["faults"], [])
+
+    def faults(self, data, name="bad.bendy"):
+        """What is said of a broken file, from JSON; the text must say the same."""
+        (self.folder / name).write_bytes(data)
+        text = self.bendy("validate", name)
+        self.assertEqual(text.returncode, 1)
+        self.assertEqual(text.stderr, b"")
+        result = self.bendy("validate", name, "--json")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr, b"")
+        (entry,) = json.loads(result.stdout)
+        self.assertEqual(entry["file"], name)
+        self.assertIs(entry["valid"], False)
+        lines = text.stdout.decode().splitlines()
+        self.assertEqual(len(lines), len(entry["faults"]))
+        for line, fault in zip(lines, entry["faults"]):
+            self.assertTrue(line.startswith(f"{name}: {fault['code']}: {fault['message']} ("), line)
+            self.assertTrue(line.endswith(f"offset {fault['offset']})"), line)
+            self.assertIn(fault["path"], line)
+            self.assertIn(fault["class"], ("malformed", "invalid", "unsupported", "io"))
+        return entry["faults"]
+
+    def test_every_cut_is_found(self):
+        data = self.convert("tentacle").read_bytes()
+        for size in (1, 15, 16, 17, 79, 1000, len(data) // 2, len(data) - 16, len(data) - 1):
+            (fault,) = self.faults(data[:size])
+            self.assertEqual(fault["class"], "malformed")
+            self.assertEqual(fault["offset"], 0)
+            if size >= 16:
+                self.assertEqual((fault["code"], fault["path"]), ("TRUNCATED", "HEAD"))
+        (fault,) = self.faults(data + bytes(16))
+        self.assertEqual(fault["code"], "TRAILING_BYTES")
+
+    def test_a_flipped_bit_is_found_where_it_is(self):
+        data = self.convert("tentacle").read_bytes()
+        leaves = [(path, chunk) for path, chunk in Chunk.read(data).walk() if chunk.children is None and chunk.payload]
+        for path, chunk in leaves[:: max(1, len(leaves) // 25)]:
+            broken = bytearray(data)
+            broken[chunk.offset + 16 + len(chunk.payload) // 2] ^= 0x10
+            faults = self.faults(bytes(broken))
+            sums = [fault for fault in faults if fault["code"] == "SUM_MISMATCH"]
+            self.assertEqual([(in_full(fault["path"], path), fault["offset"]) for fault in sums], [(path, chunk.offset)])
+
+    def test_a_wrong_value_with_right_sums_is_found_where_it_is(self):
+        root = Chunk.read(self.convert("tentacle").read_bytes())
+        self.assertEqual(root.write(), self.convert("tentacle").read_bytes())
+        where = "HEAD/OBJE/SKIN/SKIN/PIVO/REST"
+        rest = root.find(where)
+        rest.payload = struct.pack("<4f", 0, 0, 0, 2) + rest.payload[16:]
+        (fault,) = self.faults(root.write())
+        self.assertEqual((fault["code"], fault["class"], fault["path"], fault["offset"]), ("ROTATION_NOT_UNIT", "invalid", where, rest.offset))
+
+    def test_all_faults_are_listed(self):
+        root = Chunk.read(self.convert("tentacle").read_bytes())
+        rests = [(path, chunk) for path, chunk in root.walk() if chunk.letters == "REST"]
+        for _, chunk in rests:
+            chunk.payload = chunk.payload[:16] + struct.pack("<f", float("nan")) + chunk.payload[20:]
+        faults = self.faults(root.write())
+        self.assertEqual([fault["code"] for fault in faults], ["NOT_FINITE"] * len(rests))
+        self.assertEqual([in_full(fault["path"], path) for fault, (path, _) in zip(faults, rests)], [path for path, _ in rests])
+        self.assertEqual([fault["offset"] for fault in faults], [chunk.offset for _, chunk in rests])
+
+    def test_several_files_are_told_apart(self):
+        (self.folder / "bad.bendy").write_bytes(b"nonsense")
+        shutil.copy(self.convert("tentacle"), self.folder / "good.bendy")
+        result = self.bendy("validate", "good.bendy", "bad.bendy", "good.bendy")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b"bad.bendy: NOT_A_BENDY_FILE: ", result.stdout)
+        self.assertNotIn(b"good.bendy", result.stdout)
+        report = json.loads(self.bendy("validate", "good.bendy", "bad.bendy", "--json").stdout)
+        self.assertEqual([(entry["file"], entry["valid"]) for entry in report], [("good.bendy", True), ("bad.bendy", False)])
+
+    def test_files_that_cannot_be_read_are_errors(self):
+        (self.folder / "folder").mkdir()
+        (self.folder / "bad.bendy").write_bytes(b"")
+        shutil.copy(self.convert("tentacle"), self.folder / "good.bendy")
+        for name in ("missing.bendy", "folder"):
+            self.failed("validate", name, file=name)
+            result = self.bendy("validate", "good.bendy", name, "bad.bendy")  # goes on with the rest
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(name.encode(), result.stderr)
+            self.assertIn(b"bad.bendy", result.stdout)
+            (entry,) = json.loads(self.bendy("validate", name, "--json").stdout)
+            self.assertIs(entry["valid"], False)
+            self.assertEqual(entry["faults"][0]["class"], "io")
+
+    def test_names_are_escaped(self):
+        root = Chunk.read(self.convert("tentacle").read_bytes())
+        name = "a\x1b[2Jb\n.bendy"
+        (self.folder / name).write_bytes(root.write()[:-16])
+        text = self.bendy("validate", name).stdout.decode()
+        self.assertNotIn("\x1b", text)
+        self.assertEqual(text.count("\n"), 1)
+
+
+class PoseCommand(Case):
+    def pose(self, path, *arguments):
+        """The same pose in all three formats; JSON comes back, the others must agree with it."""
+        for name in ("out.obj", "out.ply", "out.json"):
+            self.assertEqual(self.done("pose", path, *arguments, "-o", name), b"")
+        document = json.loads((self.folder / "out.json").read_text(encoding="utf-8"))
+        obj = read_obj((self.folder / "out.obj").read_text(encoding="utf-8"))
+        ply = read_ply((self.folder / "out.ply").read_bytes())
+        positions, faces, normals = [], [], []
+        for mesh in document["meshes"]:
+            base = len(positions)
+            numbers = [as_float(number) for number in mesh["positions"]]
+            positions += list(zip(*[iter(numbers)] * 3))
+            faces += [tuple(base + index for index in face) for face in zip(*[iter(mesh["indices"])] * 3)]
+            here = [as_float(number) for number in mesh["normals"]]
+            normals += list(zip(*[iter(here)] * 3)) if here else [(0.0, 0.0, 0.0)] * (len(positions) - base)
+        has_normals = any(mesh["normals"] for mesh in document["meshes"])
+        self.assertEqual(obj["v"], positions)
+        self.assertEqual(obj["f"], faces)
+        self.assertEqual(obj["vn"], normals if has_normals else [])
+        self.assertEqual([vertex[:3] for vertex in ply["vertex"]], positions)
+        self.assertEqual([vertex[3:] for vertex in ply["vertex"]], normals if has_normals else [()] * len(positions))
+        self.assertEqual(ply["face"], faces)
+        self.assertEqual(ply.get("edge", []), obj["l"])
+        self.assertEqual(len(obj["o"]), len(document["meshes"]))
+        self.assertEqual(self.done("pose", path, *arguments), (self.folder / "out.obj").read_bytes())
+        return document
+
+    def test_json_has_the_layout_that_is_promised(self):
+        for arguments, clip, time in (([], None, 0), (["--clip", "Walk", "--time", "0.25"], "Walk", 0.25), (["--clip", "1"], "Walk", 0)):
+            document = self.pose(self.convert(), *arguments)
+            self.assertEqual(list(document), ["file", "clip", "time", "joints", "meshes"])
+            self.assertEqual((document["file"], document["clip"], document["time"]), ("mannequin.bendy", clip, time))
+            self.assertEqual(len(document["joints"]), 65)
+            for joint in document["joints"]:
+                self.assertEqual(list(joint), ["name", "world"])
+                self.assertEqual(len(joint["world"]), 16)
+                self.assertEqual(joint["world"][3::4], [0, 0, 0, 1])  # column-major
+            self.assertEqual([mesh["name"] for mesh in document["meshes"]], ["Body", "Head"])
+            for mesh in document["meshes"]:
+                self.assertEqual(list(mesh), ["name", "positions", "normals", "indices"])
+                self.assertEqual(len(mesh["positions"]) % 3, 0)
+                self.assertEqual(len(mesh["normals"]), len(mesh["positions"]))
+                self.assertEqual(len(mesh["indices"]) % 3, 0)
+                self.assertLess(max(mesh["indices"]), len(mesh["positions"]) // 3)
+            self.assertEqual(sum(len(mesh["positions"]) // 3 for mesh in document["meshes"]), 4504)
+            self.assertEqual(sum(len(mesh["indices"]) // 3 for mesh in document["meshes"]), 8052)
+
+    def test_the_formats_agree_on_every_example(self):
+        for path in [self.convert("tentacle"), self.strange(), SOURCE / "spec" / "examples" / "every_chunk.bendy",
+                     SOURCE / "spec" / "examples" / "one_joint.bendy"]:
+            self.pose(path)
+        self.pose(self.convert("tentacle"), "--clip", "Reach", "--time", "0.5")
+        self.pose(SOURCE / "spec" / "examples" / "every_chunk.bendy", "--clip", "wave", "--time", "0.5")
+
+    def test_the_rest_pose_by_hand(self):
+        document = self.pose(self.strange())
+        self.assertEqual([joint["name"] for joint in document["joints"]], ["root\x1b[31m\nbendy: error: forged", "\u624b \u00e9", ""])
+        self.assertEqual(document["joints"][1]["world"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1])
+        first, second = document["meshes"]
+        self.assertEqual(first["positions"][:9], [0, 1, 0, 1, 1, 0, 0, 2, 0])
+        self.assertEqual(first["normals"], [])
+        self.assertEqual(second["positions"][3:6], [-1, 0, 0])
+        self.assertEqual(second["normals"][:3], [0, 0, 1])
+        # A mirrored triangle still shows the side that its normal points to.
+        a, b, c = (second["positions"][3 * index : 3 * index + 2] for index in second["indices"])
+        self.assertGreater((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0)
+        obj = read_obj((self.folder / "out.obj").read_text(encoding="utf-8"))
+        self.assertEqual((len(obj["l"]), len(obj["p"])), (1, 1))
+        self.assertEqual(obj["v"][obj["l"][0][1]], (as_float(0.1), as_float(1.2), as_float(0.3)))
+
+    def test_clips_by_number_and_by_name(self):
+        at = lambda *arguments: self.done("pose", self.convert(), *arguments)  # noqa: E731
+        self.assertEqual(at("--clip", "Walk", "--time", "0.3"), at("--clip", "1", "--time", "0.3"))
+        self.assertNotEqual(at("--clip", "Walk", "--time", "0.3"), at("--clip", "Idle", "--time", "0.3"))
+        self.assertNotEqual(at("--clip", "Walk", "--time", "0.3"), at())
+        slid = lambda clip: self.pose(self.strange(), "--clip", clip, "--time", "1")["joints"][0]["world"][12]  # noqa: E731
+        for clip in ("slide\tnow", "0", "1", "2"):
+            self.assertEqual(slid(clip), 2)
+
+    def test_times_outside_the_clip_are_held(self):
+        for time, expected in (("-5", 0), ("0", 0), ("0.5", 0), ("0.75", 1), ("1.5", 4), ("1e30", 4)):
+            document = self.pose(self.strange(), "--clip", "0", "--time", time)
+            self.assertEqual(document["joints"][0]["world"][12], expected, time)
+
+    def test_an_unknown_clip_lists_those_that_are_there(self):
+        for clip in ("Run", "walk", "2", "-1", "", "0x1", "1.0", "99999999999999999999999"):
+            line = self.failed("pose", self.convert(), "--clip", clip, "-o", "out.obj", file=self.convert())
+            self.assertIn("Idle", line)
+            self.assertIn("Walk", line)
+        line = self.failed("pose", SOURCE / "spec" / "examples" / "one_joint.bendy", "--clip", "0")
+        self.assertIn("none", line)
+        line = self.failed("pose", self.strange(), "--clip", "x\x1b")
+        self.assertNotIn("\x1b", line)
+        self.assertIn("slide\\x09now", line)
+        self.assertEqual(self.files(), [])
+
+    def test_times_must_be_finite_numbers_and_need_a_clip(self):
+        self.assertIn("--clip", self.misused("pose", self.convert(), "--time", "1"))
+        for time in ("nan", "inf", "-inf", "soon", "", "1e99", "0.5s"):
+            self.assertIn("--time", self.misused("pose", self.convert(), "--clip", "Walk", "--time", time))
+
+    def test_outputs_end_in_a_known_format(self):
+        for output in ("out", "out.fbx", "out.obj.txt", ".obj", "json"):
+            self.assertIn(".ply", self.misused("pose", self.convert(), "-o", output))
+        self.assertEqual(self.files(), [])
+
+    def test_no_output_is_left_by_a_failure(self):
+        (self.folder / "old.obj").write_bytes(b"old")
+        self.failed("pose", self.convert(), "-o", "missing/out.obj", file="missing/out.obj")
+        for output in ("old.obj", "new.json"):
+            self.failed("pose", self.convert(), "-o", output, file=output, restore_signals=False,
+                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000)))
+        (self.folder / "cut.bendy").write_bytes(self.convert().read_bytes()[:5000])
+        self.failed("pose", "cut.bendy", "-o", "cut.obj", file="cut.bendy")
+        self.assertEqual(self.files(), ["cut.bendy", "old.obj"])
+        self.assertEqual((self.folder / "old.obj").read_bytes(), b"old")
+
+    def test_a_file_without_an_object_fails(self):
+        self.assertIn("OBJE", self.failed("pose", SOURCE / "spec" / "examples" / "smallest.bendy"))
+
+    def test_names_are_escaped_in_obj(self):
+        text = self.done("pose", self.strange()).decode()
+        self.assertFalse(any((ord(c) < 0x20 and c != "\n") or ord(c) == 0x7F for c in text))
+        self.assertIn("o bell\\x07\\x7f", text)
+        names = [mesh["name"] for mesh in self.pose(self.strange())["meshes"]]
+        self.assertEqual(names, ["bell\x07\x7f", 'quote " and \\ and \u00fc'])
+
+    def test_a_damaged_file_is_refused_with_its_place(self):
+        data = bytearray(self.convert("tentacle").read_bytes())
+        chunk = Chunk.read(bytes(data)).find("HEAD/OBJE/VECT/POSI")
+        data[chunk.offset + 100] ^= 1
+        (self.folder / "bad.bendy").write_bytes(data)
+        self.assertRegex(self.failed("pose", "bad.bendy", file="bad.bendy"), rf"\(HEAD/OBJE/VECT/POSI, offset {chunk.offset}\)$")
+
+    def test_a_pose_out_of_range_is_refused(self):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
+        rest = root.find("HEAD/OBJE/SKIN/PIVO/REST")
+        rest.payload = rest.payload[:16] + struct.pack("<3f", 3e38, 0, 0) + struct.pack("<3f", 3e38, 1, 1) + rest.payload[40:]
+        points = root.find("HEAD/OBJE/VECT/POSI")
+        points.payload = points.payload[:16] + struct.pack("<f", 3e38) + points.payload[20:]
+        (self.folder / "far.bendy").write_bytes(root.write())
+        self.failed("pose", "far.bendy", "-o", "far.obj", file="far.bendy")
+        self.assertEqual(self.files(), ["far.bendy"])
+
+
+def main():
+    global BENDY, SOURCE  # the test cases find them here
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--bendy", required=True)
+    parser.add_argument("--source", required=True, type=Path)
+    options, rest = parser.parse_known_args()
+    BENDY = os.path.abspath(options.bendy)
+    SOURCE = options.source.resolve()
+    unittest.main(argv=[sys.argv[0], *rest])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,55 @@
+"""Makes small glTF files for tests."""
+
+import base64
+import json
+import struct
+
+
+class GltfFile:
+    """A glTF document with one buffer, embedded as a data URI."""
+
+    def __init__(self, **top):
+        self.data = b""
+        self.document = {"asset": {"version": "2.0"}, "scene": 0, "bufferViews": [], "accessors": [], **top}
+
+    def add(self, numbers, kind, component_type=5126):
+        """A new accessor's number. numbers: a list of tuples."""
+        letter = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}[component_type]
+        flat = [number for element in numbers for number in element]
+        piece = struct.pack(f"<{len(flat)}{letter}", *flat)
+        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(piece)})
+        self.data += piece + bytes(-len(piece) % 4)
+        self.document["accessors"].append({
+            "bufferView": len(self.document["bufferViews"]) - 1, "componentType": component_type, "count": len(numbers), "type": kind,
+            "min": [min(column) for column in zip(*numbers)], "max": [max(column) for column in zip(*numbers)]})
+        return len(self.document["accessors"]) - 1
+
+    def write(self, path):
+        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode("ascii")
+        self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
+        path.write_text(json.dumps(self.document), encoding="utf-8")
+        return path
+
+
+def strange_file(path):
+    """A character with names that a terminal must not see as they are, unnamed things, lines, points and a mirror."""
+    file = GltfFile(
+        scenes=[{"nodes": [0]}],
+        nodes=[{"name": "root\x1b[31m\nbendy: error: forged", "children": [1, 2]},
+               {"name": "\u624b \u00e9", "mesh": 0, "translation": [0, 1, 0]},
+               {"mesh": 1, "scale": [-1, 1, 1]}])
+    corners = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.2, 0.3)], "VEC3")
+    normals = file.add([(0, 0, 1)] * 4, "VEC3")
+    triangle = file.add([(0,), (1,), (2,)], "SCALAR", 5123)
+    lines = file.add([(0,), (3,)], "SCALAR", 5123)
+    points = file.add([(3,)], "SCALAR", 5123)
+    file.document["meshes"] = [
+        {"name": "bell\x07\x7f", "primitives": [{"attributes": {"POSITION": corners}, "indices": triangle},
+                                               {"attributes": {"POSITION": corners}, "indices": lines, "mode": 1},
+                                               {"attributes": {"POSITION": corners}, "indices": points, "mode": 0}]},
+        {"name": 'quote " and \\ and \u00fc', "primitives": [{"attributes": {"POSITION": corners, "NORMAL": normals}, "indices": triangle}]}]
+    times = file.add([(0.5,), (1.5,)], "SCALAR")
+    values = file.add([(0, 0, 0), (4, 0, 0)], "VEC3")
+    animation = {"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": times, "output": values}]}
+    file.document["animations"] = [{"name": "slide\tnow", **animation}, animation, {"name": "0", **animation}]
+    return file.write(path)
