@@ -15,7 +15,8 @@ namespace {
 using Indices = std::vector<std::uint32_t>;
 
 /// A mesh of `vertices` vertices with `influences` bones each; entry i of the palette is joint `joints[i]`.
-Mesh skinned_mesh(std::uint32_t vertices, std::uint32_t influences, Indices joints, Indices bones, std::vector<float> weights) {
+Mesh skinned_mesh(std::uint32_t vertices, std::uint32_t influences, Indices joints, Indices bones,
+                  std::vector<float> weights) {
     Mesh mesh;
     mesh.positions.resize(vertices);
     mesh.influences = influences;
@@ -26,7 +27,9 @@ Mesh skinned_mesh(std::uint32_t vertices, std::uint32_t influences, Indices join
     return mesh;
 }
 
-Part triangles(Indices indices, std::uint32_t material = kNone) { return {Topology::triangles, material, std::move(indices)}; }
+Part triangles(Indices indices, std::uint32_t material = kNone) {
+    return {Topology::triangles, material, std::move(indices)};
+}
 
 std::vector<std::uint32_t> joints_of(const AssignedPolygons& assigned) {
     std::vector<std::uint32_t> joints;
@@ -67,7 +70,8 @@ TEST(AssignPolygons, ATieGoesToTheSmallerJoint) {
 
 TEST(AssignPolygons, PaletteEntriesOfOneJointCountTogether) {
     // Entries 0 and 1 are both joint 5: 0.3 + 0.3 against 0.4 of joint 1.
-    Mesh mesh = skinned_mesh(3, 3, {5, 5, 1}, {0, 1, 2, 0, 1, 2, 0, 1, 2}, {0.3f, 0.3f, 0.4f, 0.3f, 0.3f, 0.4f, 0.3f, 0.3f, 0.4f});
+    Mesh mesh = skinned_mesh(3, 3, {5, 5, 1}, {0, 1, 2, 0, 1, 2, 0, 1, 2},
+                             {0.3f, 0.3f, 0.4f, 0.3f, 0.3f, 0.4f, 0.3f, 0.3f, 0.4f});
     mesh.parts = {triangles({0, 1, 2})};
     EXPECT_EQ(joints_of(assign_polygons(mesh)), (Indices{5}));
 }
@@ -101,18 +105,15 @@ TEST(AssignPolygons, MaterialThenTopologyThenJoint) {
     // Vertex v has all its weight on joint v.
     Mesh mesh = skinned_mesh(4, 1, {0, 1, 2, 3}, {0, 1, 2, 3}, {1, 1, 1, 1});
     mesh.parts = {
-        triangles({3, 3, 3}, kNone),
-        {Topology::points, 1, {2, 0}},
-        triangles({2, 2, 2, 0, 0, 0}, 1),
-        triangles({1, 1, 1}, 0),
-        {Topology::lines, 0, {3, 3, 1, 1}},
-        triangles({0, 0, 0, 1, 1, 1}, 0),
+        triangles({3, 3, 3}, kNone), {Topology::points, 1, {2, 0}},      triangles({2, 2, 2, 0, 0, 0}, 1),
+        triangles({1, 1, 1}, 0),     {Topology::lines, 0, {3, 3, 1, 1}}, triangles({0, 0, 0, 1, 1, 1}, 0),
     };
     const AssignedPolygons assigned = assign_polygons(mesh);
     expect_cover(assigned);
     using Line = std::tuple<std::uint32_t, Topology, std::uint32_t, std::uint32_t>;  // material, topology, joint, count
     std::vector<Line> lines;
-    for (const PolygonRange& range : assigned.ranges) lines.emplace_back(range.material, range.topology, range.joint, range.count);
+    for (const PolygonRange& range : assigned.ranges)
+        lines.emplace_back(range.material, range.topology, range.joint, range.count);
     const std::vector<Line> expected{
         {0, Topology::triangles, 0, 3}, {0, Topology::triangles, 1, 6}, {0, Topology::lines, 1, 2},
         {0, Topology::lines, 3, 2},     {1, Topology::triangles, 0, 3}, {1, Topology::triangles, 2, 3},
@@ -129,6 +130,21 @@ TEST(AssignPolygons, TheSourcesOrderAndWindingStay) {
     EXPECT_EQ(assigned.ranges.size(), 1u);
 }
 
+TEST(AssignPolygons, ManyPolygonsOfAJointKeepTheirOrder) {
+    constexpr std::uint32_t kVertices = 300;
+    Indices bones;
+    for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) bones.push_back(vertex * 7 % 3);
+    Mesh mesh = skinned_mesh(kVertices, 1, {0, 1, 2}, bones, std::vector<float>(kVertices, 1.0f));
+    mesh.parts = {{Topology::points, 0, {}}};
+    for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) mesh.parts[0].indices.push_back(vertex);
+    const AssignedPolygons assigned = assign_polygons(mesh);
+    ASSERT_EQ(joints_of(assigned), (Indices{0, 1, 2}));
+    for (const PolygonRange& range : assigned.ranges) {
+        const auto begin = assigned.indices.begin() + range.first;
+        EXPECT_TRUE(std::is_sorted(begin, begin + range.count)) << range.joint;
+    }
+}
+
 TEST(AssignPolygons, NoPolygonsNoRanges) {
     Mesh mesh;
     EXPECT_TRUE(assign_polygons(mesh).ranges.empty());
@@ -143,7 +159,8 @@ TEST(AssignPolygons, EveryPolygonComesOutOnce) {
     Mesh mesh = skinned_mesh(kVertices, 2, {3, 0, 8}, {}, {});
     for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) {
         const auto share = static_cast<float>(random() % 5) / 4.0f;
-        mesh.bones.insert(mesh.bones.end(), {static_cast<std::uint32_t>(random() % 3), static_cast<std::uint32_t>(random() % 3)});
+        mesh.bones.insert(mesh.bones.end(),
+                          {static_cast<std::uint32_t>(random() % 3), static_cast<std::uint32_t>(random() % 3)});
         mesh.weights.insert(mesh.weights.end(), {share, 1.0f - share});
     }
     using Polygon = std::tuple<std::uint32_t, Topology, Indices>;
@@ -154,7 +171,8 @@ TEST(AssignPolygons, EveryPolygonComesOutOnce) {
         part.material = number % 2 == 0 ? number : kNone;
         for (int polygon = 0; polygon < 40; ++polygon) {
             Indices polygon_corners;
-            for (std::uint32_t c = 0; c < corners(part.topology); ++c) polygon_corners.push_back(static_cast<std::uint32_t>(random() % kVertices));
+            for (std::uint32_t c = 0; c < corners(part.topology); ++c)
+                polygon_corners.push_back(static_cast<std::uint32_t>(random() % kVertices));
             part.indices.insert(part.indices.end(), polygon_corners.begin(), polygon_corners.end());
             given.emplace_back(part.material, part.topology, polygon_corners);
         }
@@ -170,10 +188,13 @@ TEST(AssignPolygons, EveryPolygonComesOutOnce) {
 
             std::map<std::uint32_t, double> shares;
             for (const std::uint32_t vertex : std::get<2>(taken.back())) {
-                for (std::uint32_t k = 0; k < 2; ++k) shares[mesh.palette.joints[mesh.bones[2 * vertex + k]]] += mesh.weights[2 * vertex + k];
+                for (std::uint32_t k = 0; k < 2; ++k)
+                    shares[mesh.palette.joints[mesh.bones[2 * vertex + k]]] += mesh.weights[2 * vertex + k];
             }
-            const auto heaviest = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-            EXPECT_EQ(range.joint, heaviest->first);  // the quarters add up exactly; the first of equals has the smallest joint
+            const auto heaviest = std::max_element(shares.begin(), shares.end(),
+                                                   [](const auto& a, const auto& b) { return a.second < b.second; });
+            EXPECT_EQ(range.joint,
+                      heaviest->first);  // the quarters add up exactly; the first of equals has the smallest joint
         }
     }
     std::sort(given.begin(), given.end());

@@ -58,8 +58,8 @@ struct Built {
     Document document;
 };
 
-Track make_track(TrackPath path, Interpolation interpolation, std::uint32_t target, std::uint32_t components, std::vector<float> times,
-                 std::vector<float> values) {
+Track make_track(TrackPath path, Interpolation interpolation, std::uint32_t target, std::uint32_t components,
+                 std::vector<float> times, std::vector<float> values) {
     return {path, interpolation, target, components, std::move(times), std::move(values)};
 }
 
@@ -115,7 +115,8 @@ Mesh make_hat() {
     mesh.name = "hat";
     mesh.joint = 4;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    mesh.parts = {{Topology::points, kNone, {2, 0}}, {Topology::lines, kNone, {0, 1}}, {Topology::triangles, kNone, {0, 1, 2}}};
+    mesh.parts = {
+        {Topology::points, kNone, {2, 0}}, {Topology::lines, kNone, {0, 1}}, {Topology::triangles, kNone, {0, 1, 2}}};
     return mesh;
 }
 
@@ -174,7 +175,9 @@ Scene make_scene() {
     scene.images[2].media_type = "image/tiff";
     scene.images[2].bytes = bytes_from("II*");
     scene.textures.resize(3);
-    scene.textures[0] = {"skin", {0, 1}, Filter::linear, Filter::nearest_mipmap_linear, Wrap::clamp_to_edge, Wrap::mirrored_repeat, "{}"};
+    scene.textures[0] = {
+        "skin", {0, 1}, Filter::linear, Filter::nearest_mipmap_linear, Wrap::clamp_to_edge, Wrap::mirrored_repeat,
+        "{}"};
     scene.textures[1].images = {2};
     scene.textures[2].images = {1, 2};
     scene.extras = R"({"object":1})";
@@ -183,11 +186,13 @@ Scene make_scene() {
     return scene;
 }
 
-void expect_numbers(const StreamView& stream, std::uint32_t components, const std::vector<float>& values, const std::string& what) {
+void expect_numbers(const StreamView& stream, std::uint32_t components, const std::vector<float>& values,
+                    const std::string& what) {
     ASSERT_EQ(stream.components, components) << what;
     ASSERT_EQ(std::size_t{stream.elements} * components, values.size()) << what;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const float number = stream.number(static_cast<std::uint32_t>(i / components), static_cast<std::uint32_t>(i % components));
+        const float number =
+            stream.number(static_cast<std::uint32_t>(i / components), static_cast<std::uint32_t>(i % components));
         EXPECT_EQ(std::bit_cast<std::uint32_t>(number), std::bit_cast<std::uint32_t>(values[i])) << what << ' ' << i;
     }
 }
@@ -214,7 +219,8 @@ TEST(BuildChunks, JointsSurvive) {
         EXPECT_EQ(joint.rest.translation, given.rest.translation);
         EXPECT_EQ(joint.rest.scale, given.rest.scale);
         EXPECT_EQ(joint.shear, given.rest.shear);
-        EXPECT_EQ(glm::vec4(joint.rest.rotation.x, joint.rest.rotation.y, joint.rest.rotation.z, joint.rest.rotation.w), given.rest.rotation);
+        EXPECT_EQ(glm::vec4(joint.rest.rotation.x, joint.rest.rotation.y, joint.rest.rotation.z, joint.rest.rotation.w),
+                  given.rest.rotation);
     }
 }
 
@@ -241,12 +247,14 @@ TEST(BuildChunks, VerticesSurvive) {
         EXPECT_EQ(pool.colours[i].set, mesh.colours[i].set);
         expect_numbers(pool.colours[i], mesh.colours[i].components, mesh.colours[i].values, "colours");
         EXPECT_EQ(pool.attributes[i].name, mesh.attributes[i].name);
-        expect_numbers(pool.attributes[i].values, mesh.attributes[i].components, mesh.attributes[i].values, "attributes");
+        expect_numbers(pool.attributes[i].values, mesh.attributes[i].components, mesh.attributes[i].values,
+                       "attributes");
     }
     expect_numbers(*pool.weights, 2, mesh.weights, "weights");
     ASSERT_EQ(pool.bones->components, 2u);
     for (std::uint32_t i = 0; i < mesh.bones.size(); ++i) EXPECT_EQ(pool.bones->index(i / 2, i % 2), mesh.bones[i]);
-    EXPECT_TRUE(std::equal(pool.palette.joints.begin(), pool.palette.joints.end(), mesh.palette.joints.begin(), mesh.palette.joints.end()));
+    EXPECT_TRUE(std::equal(pool.palette.joints.begin(), pool.palette.joints.end(), mesh.palette.joints.begin(),
+                           mesh.palette.joints.end()));
     ASSERT_EQ(pool.palette.inverse_bind.size(), 2u);
     EXPECT_EQ(pool.palette.inverse_bind[0], mesh.palette.inverse_bind[0]);
     EXPECT_EQ(pool.palette.inverse_bind[1], mesh.palette.inverse_bind[1]);
@@ -278,7 +286,9 @@ TEST(BuildChunks, TargetsSurvive) {
         ASSERT_TRUE(inbetween(pool, weights, {positions, normals, tangents}));
         for (std::size_t v = 0; v < 4; ++v) {
             const Target& target = mesh.targets[k];
-            const auto displaced = [v](glm::vec3 source, const std::vector<glm::vec3>& by) { return by.empty() ? source : source + by[v]; };
+            const auto displaced = [v](glm::vec3 source, const std::vector<glm::vec3>& by) {
+                return by.empty() ? source : source + by[v];
+            };
             EXPECT_EQ(positions[v], displaced(mesh.positions[v], target.positions)) << k << ' ' << v;
             EXPECT_EQ(normals[v], displaced(mesh.normals[v], target.normals)) << k << ' ' << v;
             EXPECT_EQ(glm::vec3(tangents[v]), displaced(glm::vec3(mesh.tangents[v]), target.tangents)) << k << ' ' << v;
@@ -309,7 +319,8 @@ TEST(BuildChunks, PolygonsSurviveWithTheirMaterialsAndJoints) {
         EXPECT_EQ(polygons[i].topology, expected[i].topology) << i;
         std::vector<std::uint32_t> vertices;
         const Pool& pool = built.model.pools()[polygons[i].pool];
-        for (std::uint32_t k = 0; k < polygons[i].count; ++k) vertices.push_back(pool.indices->index(polygons[i].first + k, 0));
+        for (std::uint32_t k = 0; k < polygons[i].count; ++k)
+            vertices.push_back(pool.indices->index(polygons[i].first + k, 0));
         EXPECT_EQ(vertices, expected[i].vertices) << i;
     }
 }
@@ -429,9 +440,9 @@ TEST(BuildChunks, TexturesSurviveAndSharedImagesAreStoredOnce) {
 }
 
 TEST(BuildChunks, EachMediaTypeHasItsNumber) {
-    const std::vector<std::pair<std::string, MediaType>> known{{"image/png", MediaType::png},   {"image/jpeg", MediaType::jpeg},
-                                                               {"image/ktx2", MediaType::ktx2}, {"image/webp", MediaType::webp},
-                                                               {"image/avif", MediaType::avif}, {"image/bmp", MediaType::other}};
+    const std::vector<std::pair<std::string, MediaType>> known{
+        {"image/png", MediaType::png},   {"image/jpeg", MediaType::jpeg}, {"image/ktx2", MediaType::ktx2},
+        {"image/webp", MediaType::webp}, {"image/avif", MediaType::avif}, {"image/bmp", MediaType::other}};
     Scene scene;
     for (std::uint32_t i = 0; i < known.size(); ++i) {
         scene.images.emplace_back();
@@ -441,7 +452,8 @@ TEST(BuildChunks, EachMediaTypeHasItsNumber) {
         scene.textures.back().images = {i};
     }
     const Built built(scene);
-    for (std::size_t i = 0; i < known.size(); ++i) EXPECT_EQ(built.model.textures()[i].images[0].media, known[i].second) << known[i].first;
+    for (std::size_t i = 0; i < known.size(); ++i)
+        EXPECT_EQ(built.model.textures()[i].images[0].media, known[i].second) << known[i].first;
 }
 
 TEST(BuildChunks, StructureFirstAndBulkAfterIt) {
@@ -526,7 +538,8 @@ TEST(BuildChunks, ATargetTakesTheSmallerOfTwoForms) {
         mesh.targets[0].normals.resize(kVertices);
         for (std::uint32_t v = 0; v < touched; ++v) {  // scattered, and in one of the streams only
             const std::uint32_t vertex = v * 7 % kVertices;
-            (v % 2 == 0 ? mesh.targets[0].positions : mesh.targets[0].normals)[vertex] = {static_cast<float>(v) + 1.0f, 0, 0};
+            (v % 2 == 0 ? mesh.targets[0].positions : mesh.targets[0].normals)[vertex] = {static_cast<float>(v) + 1.0f,
+                                                                                          0, 0};
         }
         scene.meshes = {mesh};
         return scene;

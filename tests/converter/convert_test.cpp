@@ -16,7 +16,9 @@ namespace {
 
 using Buffer = std::vector<std::byte>;
 
-std::filesystem::path example(const std::string& name) { return std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name; }
+std::filesystem::path example(const std::string& name) {
+    return std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name;
+}
 
 Buffer convert_good(const std::filesystem::path& file, const ConvertOptions& options = {}) {
     Report report;
@@ -97,7 +99,12 @@ TEST_P(ConvertExample, MovesInEveryCycle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, ConvertExample,
-                         testing::Values(Example{"mannequin.glb", 65, {"Idle", "Walk"}, {"Blink", "Smile"}, (18972 + 2880 + 864 + 1080 + 216 + 144) / 3, 5},
+                         testing::Values(Example{"mannequin.glb",
+                                                 65,
+                                                 {"Idle", "Walk"},
+                                                 {"Blink", "Smile"},
+                                                 (18972 + 2880 + 864 + 1080 + 216 + 144) / 3,
+                                                 5},
                                          Example{"tentacle.glb", 15, {"Reach", "Wave"}, {}, (3936 + 4992) / 3, 2}),
                          [](const auto& one) {
                              const std::string file = one.param.file;
@@ -171,8 +178,9 @@ TEST_F(ConvertFile, LinksOrEmbedsImagesBesideTheSource) {
 }
 
 TEST_F(ConvertFile, SaysInOneLineWhatIsWrong) {
-    for (const auto& file : {folder_ / "missing.glb", folder_, write("empty.glb", ""), write("text.gltf", "hello"), write("cut.glb", "glTF\x02"),
-                             write("brace.gltf", "{"), write("asset.gltf", R"({"asset":{"version":"3.0"}})")}) {
+    for (const auto& file : {folder_ / "missing.glb", folder_, write("empty.glb", ""), write("text.gltf", "hello"),
+                             write("cut.glb", "glTF\x02"), write("brace.gltf", "{"),
+                             write("asset.gltf", R"({"asset":{"version":"3.0"}})")}) {
         const ImportError error = error_of(file);
         EXPECT_FALSE(error.message.empty()) << file;
         EXPECT_EQ(error.message.find('\n'), std::string::npos) << file << ": " << error.message;

@@ -24,9 +24,12 @@ float number_at(const StoredNumbers& stored, std::size_t place) {
 
 float number_at(const StoredNumbers& stored, std::size_t place) {
     switch (stored.type) {
-        case ComponentType::u8: return number_at<std::uint8_t>(stored, place);
-        case ComponentType::u16: return number_at<std::uint16_t>(stored, place);
-        default: return number_at<float>(stored, place);
+        case ComponentType::u8:
+            return number_at<std::uint8_t>(stored, place);
+        case ComponentType::u16:
+            return number_at<std::uint16_t>(stored, place);
+        default:
+            return number_at<float>(stored, place);
     }
 }
 
@@ -76,8 +79,8 @@ TEST(NarrowFractions, ANeighbourOfAFractionIsNone) {
 }
 
 TEST(NarrowFractions, NumbersOutsideZeroToOneStayFloats) {
-    for (const float value : {-0.0f, -1.0f / 255.0f, 1.5f, 2.0f, 256.0f / 255.0f, 1e30f, -1e30f, 1e-30f, std::numeric_limits<float>::denorm_min(),
-                              std::numeric_limits<float>::max()}) {
+    for (const float value : {-0.0f, -1.0f / 255.0f, 1.5f, 2.0f, 256.0f / 255.0f, 1e30f, -1e30f, 1e-30f,
+                              std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max()}) {
         const std::vector<float> values{0.0f, value};
         const StoredNumbers stored = narrow_fractions(values);
         EXPECT_EQ(stored.type, ComponentType::f32) << value;
@@ -100,13 +103,16 @@ TEST(NarrowFractions, AnythingComesBackToTheBit) {
     for (int round = 0; round < 200; ++round) {
         const auto largest = static_cast<float>(round % 2 == 0 ? 255 : 65535);
         std::vector<float> values;
-        for (int i = 0; i < 20; ++i) values.push_back(static_cast<float>(random() % (static_cast<unsigned>(largest) + 1)) / largest);
+        for (int i = 0; i < 20; ++i)
+            values.push_back(static_cast<float>(random() % (static_cast<unsigned>(largest) + 1)) / largest);
         if (round % 3 == 0) values.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
         expect_same_bits(narrow_fractions(values), values);
     }
 }
 
-TEST(NarrowFractions, NothingIsNothing) { EXPECT_TRUE(narrow_fractions({}).bytes.empty()); }
+TEST(NarrowFractions, NothingIsNothing) {
+    EXPECT_TRUE(narrow_fractions({}).bytes.empty());
+}
 
 TEST(NarrowIndices, TheTypeFollowsFromTheCount) {
     const std::vector<std::uint32_t> values{0, 1};
@@ -115,10 +121,11 @@ TEST(NarrowIndices, TheTypeFollowsFromTheCount) {
         bool allow_bytes;
         ComponentType type;
     };
-    for (const Case& c : {Case{2, true, ComponentType::u8}, Case{256, true, ComponentType::u8}, Case{257, true, ComponentType::u16},
-                          Case{2, false, ComponentType::u16}, Case{65536, true, ComponentType::u16}, Case{65536, false, ComponentType::u16},
-                          Case{65537, true, ComponentType::u32}, Case{65537, false, ComponentType::u32},
-                          Case{0xffff'ffff, false, ComponentType::u32}}) {
+    for (const Case& c :
+         {Case{2, true, ComponentType::u8}, Case{256, true, ComponentType::u8}, Case{257, true, ComponentType::u16},
+          Case{2, false, ComponentType::u16}, Case{65536, true, ComponentType::u16},
+          Case{65536, false, ComponentType::u16}, Case{65537, true, ComponentType::u32},
+          Case{65537, false, ComponentType::u32}, Case{0xffff'ffff, false, ComponentType::u32}}) {
         const StoredNumbers stored = narrow_indices(values, c.count, c.allow_bytes);
         EXPECT_EQ(stored.type, c.type) << c.count << ' ' << c.allow_bytes;
         EXPECT_FALSE(stored.normalised);

@@ -20,7 +20,9 @@ TEST(Report, EqualMessagesAreCountedTogetherInTheOrderInWhichTheyFirstCame) {
     EXPECT_EQ(report.warnings()[1].count, 5u);
 }
 
-TEST(Report, StartsEmpty) { EXPECT_TRUE(Report().warnings().empty()); }
+TEST(Report, StartsEmpty) {
+    EXPECT_TRUE(Report().warnings().empty());
+}
 
 }  // namespace
 }  // namespace bendy::converter

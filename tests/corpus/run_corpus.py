@@ -66,7 +66,7 @@ def check_refusal(outcome, result, output):
     outcome.message = errors[0] if errors else ""
     if len(errors) != 1:
         outcome.faults.append(f"{len(errors)} error lines, 1 is right")
-    if output.exists() or list(output.parent.glob(output.name + "*")):
+    if any(output.parent.iterdir()):
         outcome.faults.append("a refused file left an output behind")
     if outcome.must_convert:
         outcome.faults.append("must convert: " + outcome.message)

@@ -20,7 +20,8 @@ namespace bendy::test {
 /// A model with the bytes that it lies in.
 class Owned {
 public:
-    explicit Owned(Buffer bytes, const OpenOptions& options = {}) : bytes_(std::move(bytes)), model_(open(bytes_, options)) {}
+    explicit Owned(Buffer bytes, const OpenOptions& options = {})
+        : bytes_(std::move(bytes)), model_(open(bytes_, options)) {}
     Owned(const Owned&) = delete;
     Owned& operator=(const Owned&) = delete;
 
@@ -76,8 +77,8 @@ inline Node palette_leaf(const std::vector<std::uint32_t>& joints, const std::ve
     return make_leaf(FourCC("PALT"), payload);
 }
 
-inline PolygonRecord polygons(std::uint32_t pool, std::uint32_t first, std::uint32_t count, std::uint32_t material = kNone,
-                              Topology topology = Topology::triangles) {
+inline PolygonRecord polygons(std::uint32_t pool, std::uint32_t first, std::uint32_t count,
+                              std::uint32_t material = kNone, Topology topology = Topology::triangles) {
     PolygonRecord record;
     record.pool = pool;
     record.material = material;
@@ -94,7 +95,8 @@ inline Node pool_node(const PoolSpec& pool) {
     if (!pool.positions.empty()) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
     if (!pool.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), pool.normals));
     if (!pool.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), pool.tangents));
-    if (!pool.indices.empty()) node.children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, pool.indices)));
+    if (!pool.indices.empty())
+        node.children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, pool.indices)));
     node.children.insert(node.children.end(), pool.more.begin(), pool.more.end());
     return node;
 }

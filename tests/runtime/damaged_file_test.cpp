@@ -10,7 +10,8 @@
 #include <random>
 #include <vector>
 
-// What is not refused must be harmless: this is most worth running under AddressSanitizer and UndefinedBehaviorSanitizer.
+// What is not refused must be harmless: this is most worth running under AddressSanitizer and
+// UndefinedBehaviorSanitizer.
 namespace bendy {
 namespace {
 
@@ -45,7 +46,8 @@ std::uint64_t read_all(const Model& model) {
         sum += touch(pool.name) + touch(pool.extras);
         for (const auto& streams : {pool.texture_coords, pool.colours}) {
             for (const StreamView& stream : streams) {
-                for (std::uint32_t e = 0; e < pool.vertices; ++e) sum += stream.number(e, stream.components - 1) > 0.5f ? 1 : 0;
+                for (std::uint32_t e = 0; e < pool.vertices; ++e)
+                    sum += stream.number(e, stream.components - 1) > 0.5f ? 1 : 0;
             }
         }
         for (const AttributeView& attribute : pool.attributes) {
@@ -80,7 +82,8 @@ void pose_all(const Model& model) {
     EXPECT_TRUE(skin(model, pose, vertices));
     for (const Cycle& cycle : model.cycles()) {
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
-        for (const float seconds : {cycle.start, middle, cycle.end, -1.0f, 1e30f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
+        for (const float seconds : {cycle.start, middle, cycle.end, -1.0f, 1e30f, kInfinity, -kInfinity,
+                                    std::numeric_limits<float>::quiet_NaN()}) {
             sample(&cycle, seconds, pose);
             EXPECT_TRUE(skin(model, pose, vertices));
         }
@@ -126,8 +129,17 @@ TEST(DamagedFile, AnyBitIsRefusedByTheSums) {
 
 TEST(DamagedFile, AnyFieldWithAnExtremeNumberIsRefusedOrHarmless) {
     const Buffer good = test::sample_file();
-    constexpr std::array<std::uint32_t, 11> kNumbers{0,          1,          2,           0x7fff'ffff, 0x8000'0000, 0xffff'ffff, 0xffff'fffe,
-                                                     0x7f80'0000 /* inf */,  0x7fc0'0000 /* nan */,    0x7f7f'ffff /* max */, 0x0001'0000};
+    constexpr std::array<std::uint32_t, 11> kNumbers{0,
+                                                     1,
+                                                     2,
+                                                     0x7fff'ffff,
+                                                     0x8000'0000,
+                                                     0xffff'ffff,
+                                                     0xffff'fffe,
+                                                     0x7f80'0000 /* inf */,
+                                                     0x7fc0'0000 /* nan */,
+                                                     0x7f7f'ffff /* max */,
+                                                     0x0001'0000};
     OpenOptions options;
     options.check_sums = false;
     for (std::size_t at = 0; at + 4 <= good.size(); at += 4) {
@@ -149,7 +161,8 @@ TEST(DamagedFile, ManyChangesAtOnceAreRefusedOrHarmless) {
     for (int round = 0; round < 3000; ++round) {
         Buffer file = good;
         const auto changes = 1 + random() % 6;
-        for (unsigned long change = 0; change < changes; ++change) file[random() % file.size()] = static_cast<std::byte>(random() % 4 == 0 ? random() % 256 : random() % 8);
+        for (unsigned long change = 0; change < changes; ++change)
+            file[random() % file.size()] = static_cast<std::byte>(random() % 4 == 0 ? random() % 256 : random() % 8);
         accepted += try_out(file, options);
         if (testing::Test::HasFailure()) FAIL() << "round " << round;
     }

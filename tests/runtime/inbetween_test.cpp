@@ -39,8 +39,8 @@ struct Memory {
 
 using Weights = std::vector<float>;
 
-// The sample file's pool 0 has a dense target, up by 1 to 4 along z with normals up along y, and a sparse one that moves
-// vertex 1 by 9 along x and vertex 3 by 9 along y, with tangents along z.
+// The sample file's pool 0 has a dense target, up by 1 to 4 along z with normals up along y, and a sparse one that
+// moves vertex 1 by 9 along x and vertex 3 by 9 along y, with tangents along z.
 
 TEST(Inbetween, WithoutWeightTheVerticesAreThePools) {
     const Owned model(test::sample_file());
@@ -105,9 +105,10 @@ TEST(Inbetween, ATargetsNormalsCannotMoveThoseThatThePoolLacks) {
     test::ModelSpec spec;
     spec.pools.resize(1);
     spec.pools[0].positions.resize(2);
-    spec.pools[0].more = {test::make_container(FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{})),
-                                                                test::vector_stream(FourCC("NORM"), std::vector<glm::vec3>(2, {1, 0, 0})),
-                                                                test::vector_stream(FourCC("TANG"), std::vector<glm::vec3>(2, {1, 0, 0}))})};
+    spec.pools[0].more = {test::make_container(
+        FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{})),
+                         test::vector_stream(FourCC("NORM"), std::vector<glm::vec3>(2, {1, 0, 0})),
+                         test::vector_stream(FourCC("TANG"), std::vector<glm::vec3>(2, {1, 0, 0}))})};
     const Owned model(test::build_file(spec));
     Memory memory(2);
     ASSERT_TRUE(inbetween(model->pools()[0], Weights{1}, memory.all()));
@@ -123,8 +124,10 @@ TEST(Inbetween, TargetsMayLackAnyStream) {
     const test::Node info = test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{}));
     spec.pools[0].more = {
         test::make_container(FourCC("TARG"), {info}),
-        test::make_container(FourCC("TARG"), {info, test::vector_stream(FourCC("NORM"), std::vector<glm::vec3>(2, {1, 0, 0}))}),
-        test::make_container(FourCC("TARG"), {info, test::make_leaf(FourCC("INDX"), test::stream_payload<std::uint32_t>(1, {}))}),
+        test::make_container(FourCC("TARG"),
+                             {info, test::vector_stream(FourCC("NORM"), std::vector<glm::vec3>(2, {1, 0, 0}))}),
+        test::make_container(FourCC("TARG"),
+                             {info, test::make_leaf(FourCC("INDX"), test::stream_payload<std::uint32_t>(1, {}))}),
     };
     const Owned model(test::build_file(spec));
     Memory memory(2);

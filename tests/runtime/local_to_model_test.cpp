@@ -9,16 +9,15 @@ namespace {
 
 using test::Owned;
 
-glm::vec3 place(const Pose& pose, std::size_t joint) { return {pose.model_space()[joint][3]}; }
+glm::vec3 place(const Pose& pose, std::size_t joint) {
+    return {pose.model_space()[joint][3]};
+}
 
 TEST(LocalToModel, AJointStandsInItsParentsSpace) {
     test::ModelSpec spec;
-    spec.joints = {{kNone, test::moved(1, 0, 0), {}, "root"},
-                   {0, test::turned(90, 2), {}, "turned"},        // x becomes y
-                   {1, test::scaled(2, 3, 4), {}, "scaled"},
-                   {2, test::moved(1, 1, 1), {}, "tip"},
-                   {0, test::moved(0, 5, 0), {}, "sibling"},
-                   {kNone, test::moved(0, 0, 7), {}, "other root"}};
+    spec.joints = {{kNone, test::moved(1, 0, 0), {}, "root"}, {0, test::turned(90, 2), {}, "turned"},  // x becomes y
+                   {1, test::scaled(2, 3, 4), {}, "scaled"},  {2, test::moved(1, 1, 1), {}, "tip"},
+                   {0, test::moved(0, 5, 0), {}, "sibling"},  {kNone, test::moved(0, 0, 7), {}, "other root"}};
     const Owned model(test::build_file(spec));
     const Pose pose(*model);
     EXPECT_EQ(place(pose, 0), glm::vec3(1, 0, 0));
@@ -62,7 +61,8 @@ TEST(LocalToModel, TenThousandLevelsOfTurnsAreExact) {
     const Owned model(test::rope_file(kDeep));
     Pose pose(*model);
     for (JointTransform& local : pose.change_local()) {
-        local.rotation = glm::quat(0.5f, 0.5f, 0.5f, 0.5f);  // a third of a turn: x to y, y to z, z to x; exact in binary
+        local.rotation =
+            glm::quat(0.5f, 0.5f, 0.5f, 0.5f);  // a third of a turn: x to y, y to z, z to x; exact in binary
         local.translation = {1, 2, 4};
     }
     local_to_model(pose);

@@ -74,8 +74,9 @@ TEST(Model, VerticesAndTargetsAreNumberedPoolAfterPool) {
 TEST(Model, FindsByNameTheFirstOfEqualNames) {
     test::Node file = test::sample();
     test::Node& object = test::at(file, "HEAD/OBJE");
-    object.children.push_back(test::child(object, "CYCL"));                       // "run" again
-    test::at(file, "HEAD/OBJE/SKIN/SKIN[1]/NAME") = test::at(file, "HEAD/OBJE/SKIN/SKIN/NAME");  // the tail is "spine", too
+    object.children.push_back(test::child(object, "CYCL"));  // "run" again
+    test::at(file, "HEAD/OBJE/SKIN/SKIN[1]/NAME") =
+        test::at(file, "HEAD/OBJE/SKIN/SKIN/NAME");  // the tail is "spine", too
     const Owned model(test::to_file(file));
     ASSERT_EQ(model->cycles().size(), 2u);
     EXPECT_EQ(model->cycle("run"), model->cycles().data());
@@ -212,7 +213,8 @@ TEST(Model, RefusesNothingAndAnythingElse) {
 TEST(Model, RefusesEveryPrefixOfAFile) {
     const Buffer file = test::sample_file();
     for (std::size_t size = 0; size < file.size(); ++size) {
-        const Buffer prefix(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));  // its own memory: reads past it show
+        const Buffer prefix(file.begin(),
+                            file.begin() + static_cast<std::ptrdiff_t>(size));  // its own memory: reads past it show
         ASSERT_EQ(error_class(refusal(prefix)), ErrorClass::malformed) << size;
     }
 }
@@ -247,7 +249,8 @@ TEST(Model, AWrongSumIsRefusedUnlessSumsAreNotAskedFor) {
 
 TEST(Model, WithoutSumsWhatIsWrongIsStillRefused) {
     Buffer file = test::sample_file();
-    test::patch(file, test::place_of(file, "HEAD/OBJE/VECT/INDX") + kChunkHeaderSize + sizeof(StreamRecord), std::uint16_t{4});
+    test::patch(file, test::place_of(file, "HEAD/OBJE/VECT/INDX") + kChunkHeaderSize + sizeof(StreamRecord),
+                std::uint16_t{4});
     OpenOptions options;
     options.check_sums = false;
     EXPECT_EQ(refusal(file, options), ErrorCode::kIndexRange);
@@ -261,9 +264,11 @@ TEST(Model, OneOfSeveralObjects) {
     test::child(second, "NAME") = test::make_leaf(FourCC("NAME"), as_byte_span("wolf"));
     test::remove(test::child(second, "SKIN"), "POLY");
     test::remove(test::child(test::child(second, "SKIN"), "SKIN"), "POLY");
-    for (test::Node* joint : {&test::child(test::child(second, "SKIN"), "SKIN"), &test::child(test::child(test::child(second, "SKIN"), "SKIN"), "SKIN")}) {
+    for (test::Node* joint : {&test::child(test::child(second, "SKIN"), "SKIN"),
+                              &test::child(test::child(test::child(second, "SKIN"), "SKIN"), "SKIN")}) {
         for (test::Node& node : joint->children) {
-            if (node.id == FourCC("POLY")) test::edit<PolygonRecord>(node, [](PolygonRecord& record) { record.pool = 0; });
+            if (node.id == FourCC("POLY"))
+                test::edit<PolygonRecord>(node, [](PolygonRecord& record) { record.pool = 0; });
         }
     }
     file.children.push_back(second);

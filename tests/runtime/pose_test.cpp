@@ -33,7 +33,8 @@ TEST(Pose, StartsAtRestWithItsMatrices) {
     EXPECT_FALSE(pose.is_stale());
     ASSERT_EQ(pose.model_space().size(), 4u);
     EXPECT_EQ(glm::vec3(pose.model_space()[2][3]), glm::vec3(0, 1.75f, 0));
-    EXPECT_EQ(std::vector<float>(pose.target_weights().begin(), pose.target_weights().end()), (std::vector{0.125f, 0.0f}));
+    EXPECT_EQ(std::vector<float>(pose.target_weights().begin(), pose.target_weights().end()),
+              (std::vector{0.125f, 0.0f}));
 }
 
 TEST(Pose, GoesBackToRest) {

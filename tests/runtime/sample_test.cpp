@@ -29,7 +29,8 @@ struct Keys {
 
     [[nodiscard]] TrackView track() const {
         const std::size_t per_key = components * (interpolation == Interpolation::cubic ? std::size_t{3} : 1);
-        return {path, interpolation, target, components, static_cast<std::uint32_t>(values.size() / per_key), times, values};
+        return {path,  interpolation, target, components, static_cast<std::uint32_t>(values.size() / per_key),
+                times, values};
     }
     [[nodiscard]] std::vector<float> at(float seconds, const Cycle& cycle = {}) const {
         std::vector<float> value(components, -77.0f);
@@ -43,8 +44,8 @@ void expect_near(const std::vector<float>& value, const std::vector<double>& exp
     for (std::size_t c = 0; c < value.size(); ++c) EXPECT_NEAR(value[c], expected[c], tolerance) << "component " << c;
 }
 
-constexpr std::array kPaths{std::pair{TrackPath::translation, 3u}, std::pair{TrackPath::rotation, 4u}, std::pair{TrackPath::scale, 3u},
-                            std::pair{TrackPath::weights, 5u}};
+constexpr std::array kPaths{std::pair{TrackPath::translation, 3u}, std::pair{TrackPath::rotation, 4u},
+                            std::pair{TrackPath::scale, 3u}, std::pair{TrackPath::weights, 5u}};
 
 /// Unit vectors along x, y and z, w 0: as rotations, half turns round these axes.
 std::vector<float> three_keys(std::uint32_t components) {
@@ -87,8 +88,12 @@ TEST(SampleTrack, LinearGoesStraightExceptForRotations) {
 }
 
 /// A cubic with leading coefficient a and its slope: Hermite interpolation gives it back whatever the keys' distance.
-double curve(double a, double t) { return a * t * t * t - 2.0 * t * t + 3.0 * t - a; }
-double slope(double a, double t) { return 3.0 * a * t * t - 4.0 * t + 3.0; }
+double curve(double a, double t) {
+    return a * t * t * t - 2.0 * t * t + 3.0 * t - a;
+}
+double slope(double a, double t) {
+    return 3.0 * a * t * t - 4.0 * t + 3.0;
+}
 
 TEST(SampleTrack, CubicFollowsTheCurveThatTheTangentsDescribe) {
     // Component c goes from 1 s to 3 s along the curve with a = c + 1 and on to 3.5 s along the one with a = -c - 2,
@@ -102,9 +107,13 @@ TEST(SampleTrack, CubicFollowsTheCurveThatTheTangentsDescribe) {
         };
         Keys keys{path, Interpolation::cubic, components, times, {}};
         for (const double t : {1.0, 3.0, 3.5}) {
-            for (std::size_t c = 0; c < components; ++c) keys.values.push_back(t == 1.0 ? 123.0f : static_cast<float>(slope(t == 3.5 ? second(c) : first(c), t)));
+            for (std::size_t c = 0; c < components; ++c)
+                keys.values.push_back(t == 1.0 ? 123.0f
+                                               : static_cast<float>(slope(t == 3.5 ? second(c) : first(c), t)));
             for (std::size_t c = 0; c < components; ++c) keys.values.push_back(static_cast<float>(value_at(c, t)));
-            for (std::size_t c = 0; c < components; ++c) keys.values.push_back(t == 3.5 ? 321.0f : static_cast<float>(slope(t == 1.0 ? first(c) : second(c), t)));
+            for (std::size_t c = 0; c < components; ++c)
+                keys.values.push_back(t == 3.5 ? 321.0f
+                                               : static_cast<float>(slope(t == 1.0 ? first(c) : second(c), t)));
         }
         for (const float seconds : {1.1f, 1.7f, 2.5f, 2.999f, 3.001f, 3.25f, 3.49f}) {
             std::vector<double> expected(components);
@@ -132,7 +141,8 @@ TEST(SampleTrack, CubicTangentsCountPerSecond) {
 }
 
 TEST(SampleTrack, CubicRotationsAreUnit) {
-    const Keys keys{TrackPath::rotation, Interpolation::cubic, 4, {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1, 3, 0, 0, 0, 0, 3, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}};
+    const Keys keys{TrackPath::rotation, Interpolation::cubic, 4, {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1, 3, 0, 0, 0,
+                                                                           0, 3, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}};
     for (const float seconds : {0.1f, 0.3f, 0.5f, 0.9f}) {
         double square = 0.0;
         for (const float c : keys.at(seconds)) square += double{c} * c;
@@ -142,7 +152,8 @@ TEST(SampleTrack, CubicRotationsAreUnit) {
 
 TEST(SampleTrack, ACubicRotationThroughZeroIsNoNan) {
     // From q to -q with flat tangents: nothing is left half-way.
-    const Keys keys{TrackPath::rotation, Interpolation::cubic, 4, {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0}};
+    const Keys keys{TrackPath::rotation, Interpolation::cubic, 4, {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1,  0, 0, 0, 0,
+                                                                           0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0}};
     for (const float c : keys.at(0.5f)) EXPECT_TRUE(std::isfinite(c));
 }
 
@@ -159,11 +170,14 @@ Keys two_turns(const std::vector<float>& from, const std::vector<float>& to) {
 }
 
 /// The angle in degrees round z, from -180 to 180, that a rotation turns by, whichever sign it has.
-double angle_of(const std::vector<float>& q) { return std::remainder(2.0 * std::atan2(q[2], q[3]) * 180.0 / M_PI, 360.0); }
+double angle_of(const std::vector<float>& q) {
+    return std::remainder(2.0 * std::atan2(q[2], q[3]) * 180.0 / M_PI, 360.0);
+}
 
 TEST(SampleTrack, RotationsTurnEvenly) {
     const Keys keys = two_turns(turn(10), turn(130));
-    for (const float u : {0.0f, 0.125f, 0.25f, 0.5f, 0.75f, 1.0f}) EXPECT_NEAR(angle_of(keys.at(u)), 10.0 + 120.0 * u, 1e-4) << u;
+    for (const float u : {0.0f, 0.125f, 0.25f, 0.5f, 0.75f, 1.0f})
+        EXPECT_NEAR(angle_of(keys.at(u)), 10.0 + 120.0 * u, 1e-4) << u;
 }
 
 TEST(SampleTrack, RotationsGoTheShortWay) {
@@ -220,9 +234,11 @@ Keys keys_of(TrackPath path, std::uint32_t components, Interpolation interpolati
     const std::vector<float> tangent(components, 5.0f);
     for (std::size_t key = 0; key < 3; ++key) {
         const auto first = values.begin() + static_cast<std::ptrdiff_t>(key * components);
-        if (interpolation == Interpolation::cubic) keys.values.insert(keys.values.end(), tangent.begin(), tangent.end());
+        if (interpolation == Interpolation::cubic)
+            keys.values.insert(keys.values.end(), tangent.begin(), tangent.end());
         keys.values.insert(keys.values.end(), first, first + components);
-        if (interpolation == Interpolation::cubic) keys.values.insert(keys.values.end(), tangent.begin(), tangent.end());
+        if (interpolation == Interpolation::cubic)
+            keys.values.insert(keys.values.end(), tangent.begin(), tangent.end());
     }
     return keys;
 }
@@ -234,10 +250,17 @@ TEST(SampleTrack, AtAKeyItsValueExactlyAndHeldOutsideTheKeys) {
             EXPECT_EQ(keys.at(-0.1f), unit(components, 0));
             EXPECT_EQ(keys.at(0.3f), unit(components, 1));
             EXPECT_EQ(keys.at(0.7f), unit(components, 2));
-            for (const float before : {std::nextafter(-0.1f, -1.0f), -5.0f, -3e38f, -kInfinity}) EXPECT_EQ(keys.at(before), unit(components, 0));
-            for (const float after : {std::nextafter(0.7f, 1.0f), 5.0f, 3e38f, kInfinity}) EXPECT_EQ(keys.at(after), unit(components, 2));
+            for (const float before : {std::nextafter(-0.1f, -1.0f), -5.0f, -3e38f, -kInfinity})
+                EXPECT_EQ(keys.at(before), unit(components, 0));
+            for (const float after : {std::nextafter(0.7f, 1.0f), 5.0f, 3e38f, kInfinity})
+                EXPECT_EQ(keys.at(after), unit(components, 2));
         }
     }
+}
+
+TEST(SampleTrack, AtAKeyNotEvenTheSignOfZeroIsLost) {
+    const Keys keys{TrackPath::weights, Interpolation::linear, 1, {0, 1, 2}, {5, -0.0f, 7}};
+    EXPECT_TRUE(std::signbit(keys.at(1)[0]));
 }
 
 TEST(SampleTrack, ASingleKeyIsAlwaysMeant) {
@@ -268,7 +291,8 @@ TEST(SampleTrack, FixedFramesStartAtTheCycle) {
             EXPECT_EQ(keys.at(0.5f, cycle), unit(components, 0));
             EXPECT_EQ(keys.at(0.75f, cycle), unit(components, 1));
             EXPECT_EQ(keys.at(1.0f, cycle), unit(components, 2));
-            for (const float before : {0.49f, -3e38f, -kInfinity}) EXPECT_EQ(keys.at(before, cycle), unit(components, 0));
+            for (const float before : {0.49f, -3e38f, -kInfinity})
+                EXPECT_EQ(keys.at(before, cycle), unit(components, 0));
             for (const float after : {1.01f, 3e38f, kInfinity}) EXPECT_EQ(keys.at(after, cycle), unit(components, 2));
         }
         std::vector<float> between(components, 0.0f);
@@ -305,7 +329,8 @@ TEST(SampleTrack, NanSecondsGiveOneOfTheKeys) {
     for (const auto& [path, components] : kPaths) {
         for (const Interpolation interpolation : kKinds) {
             for (const bool fixed : {false, true}) {
-                const Keys keys = keys_of(path, components, interpolation, fixed ? std::vector<float>() : std::vector<float>{0, 1, 2});
+                const Keys keys = keys_of(path, components, interpolation,
+                                          fixed ? std::vector<float>() : std::vector<float>{0, 1, 2});
                 Cycle cycle;
                 cycle.frame_rate = 10.0f;
                 const auto value = keys.at(kNan, cycle);
@@ -335,13 +360,14 @@ TEST(Sample, SetsWhatItsTracksAnimate) {
     const Cycle* run = model->cycle("run");
     ASSERT_NE(run, nullptr);
 
-    ASSERT_TRUE(sample(run, 0.625f, pose));  // half-way between the first two of three keys, a quarter of the way of two
+    ASSERT_TRUE(
+        sample(run, 0.625f, pose));  // half-way between the first two of three keys, a quarter of the way of two
     EXPECT_TRUE(pose.is_stale());
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.5f));
-    EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));  // step
-    EXPECT_FLOAT_EQ(pose.target_weights()[0], 0.25f);   // 0 to 1
+    EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));   // step
+    EXPECT_FLOAT_EQ(pose.target_weights()[0], 0.25f);    // 0 to 1
     EXPECT_FLOAT_EQ(pose.target_weights()[1], 0.4375f);  // 0.5 to 0.25
-    const glm::quat frame = pose.local()[2].rotation;  // from the identity to a half turn round y
+    const glm::quat frame = pose.local()[2].rotation;    // from the identity to a half turn round y
     EXPECT_NEAR(frame.y, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(frame.w, std::sqrt(0.5), 1e-6);
     // Joint 1, cubic over 0.5 s: z rises as 3u^2 - 2u^3, w falls and has the tangents 6 and 7.
@@ -391,7 +417,8 @@ TEST(Sample, OneCycleAfterAnotherKeepsNothingOfTheFirst) {
 TEST(Sample, NoCycleOrNoTimeIsTheRestPose) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    for (const auto& [cycle, seconds] : {std::pair{static_cast<const Cycle*>(nullptr), 0.5f}, std::pair{model->cycle("run"), kNan}}) {
+    for (const auto& [cycle, seconds] :
+         {std::pair{static_cast<const Cycle*>(nullptr), 0.5f}, std::pair{model->cycle("run"), kNan}}) {
         move_everything(pose);
         EXPECT_FALSE(sample(cycle, seconds, pose));
         for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
@@ -419,13 +446,16 @@ test::ModelSpec two_pools() {
         spec.pools[pool].positions.resize(1);
         for (std::size_t target = 0; target <= pool; ++target) {
             const TargetRecord record{0.25f + static_cast<float>(target)};
-            spec.pools[pool].more.push_back(test::make_container(FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(record))}));
+            spec.pools[pool].more.push_back(
+                test::make_container(FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(record))}));
         }
     }
     return spec;
 }
 
-std::vector<float> weights_of(const Pose& pose) { return {pose.target_weights().begin(), pose.target_weights().end()}; }
+std::vector<float> weights_of(const Pose& pose) {
+    return {pose.target_weights().begin(), pose.target_weights().end()};
+}
 
 TEST(Sample, WeightsGoToThePoolsOwnTargets) {
     const Owned model(test::build_file(two_pools()));

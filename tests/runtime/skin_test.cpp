@@ -44,12 +44,14 @@ void expect_near(const glm::vec3& vector, const glm::dvec3& expected, double tol
 
 /// A skinned pool: each vertex has `influences` bones out of `palette`.
 template <class Bone, class Weight>
-test::PoolSpec skinned(const std::vector<glm::vec3>& positions, std::uint16_t influences, const std::vector<Bone>& bones,
-                       const std::vector<Weight>& weights, const test::Node& palette) {
+test::PoolSpec skinned(const std::vector<glm::vec3>& positions, std::uint16_t influences,
+                       const std::vector<Bone>& bones, const std::vector<Weight>& weights, const test::Node& palette) {
     test::PoolSpec pool;
     pool.positions = positions;
     pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(influences, bones)),
-                 test::make_leaf(FourCC("WGHT"), test::stream_payload<Weight>(influences, weights, !std::is_same_v<Weight, float>)), palette};
+                 test::make_leaf(FourCC("WGHT"),
+                                 test::stream_payload<Weight>(influences, weights, !std::is_same_v<Weight, float>)),
+                 palette};
     return pool;
 }
 
@@ -60,7 +62,8 @@ TEST(Skin, AVertexFollowsItsBonesByTheirWeights) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].parent = 0;
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.25f, 0.75f}, test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
+    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.25f, 0.75f},
+                                               test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     EXPECT_EQ(Posed(*model, 0, pose).positions[0], glm::vec3(1, 2, 3));
@@ -77,7 +80,8 @@ TEST(Skin, PaletteEntriesNameJointsAndBringTheirInverseBind) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1] = {0, test::moved(0, 5, 0), {}, ""};
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}, {1, 2, 3}}, 1, {0, 1}, {1, 1}, test::palette_leaf({1, 0}, {down, twice}))};
+    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}, {1, 2, 3}}, 1, {0, 1}, {1, 1},
+                                               test::palette_leaf({1, 0}, {down, twice}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const Posed posed(*model, 0, pose);
@@ -86,7 +90,8 @@ TEST(Skin, PaletteEntriesNameJointsAndBringTheirInverseBind) {
 }
 
 TEST(Skin, TheSamplesVerticesByHand) {
-    // Joints 0 and 1 stand at y = 1 and 1.5; their inverse bind matrices go down by 0 and 1. The first target weighs 1/8.
+    // Joints 0 and 1 stand at y = 1 and 1.5; their inverse bind matrices go down by 0 and 1. The first target weighs
+    // 1/8.
     const Owned model(test::sample_file());
     Pose pose(*model);
     const Posed posed(*model, 0, pose);
@@ -97,7 +102,8 @@ TEST(Skin, TheSamplesVerticesByHand) {
     expect_near(posed.normals[0], glm::dvec3(0, 0.125, 1) / std::sqrt(1.0 + 1.0 / 64.0));
     EXPECT_EQ(posed.tangents[2], glm::vec4(1, 0, 0, -1));
 
-    ASSERT_TRUE(sample(model->cycle("run"), 1.0f, pose));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
+    ASSERT_TRUE(
+        sample(model->cycle("run"), 1.0f, pose));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
     const Posed ran(*model, 0, pose);
     expect_near(ran.positions[0], {3, 3, 4});
     // Vertex 1 at (1 + 9/4, 0, 2): joint 0 takes it to (6.25, 3, 5), joint 1 to (3 - 3.25, 3.5 + 1, 5).
@@ -113,7 +119,8 @@ TEST(Skin, TakesAStalePoseUpToDate) {
 }
 
 TEST(Skin, LargeTranslationsCancel) {
-    // A character far from the origin, bound where it stands: in floats, its vertices would lose all below a centimetre.
+    // A character far from the origin, bound where it stands: in floats, its vertices would lose all below a
+    // centimetre.
     constexpr float kFar = 123'456.7f;
     glm::mat4 back(1.0f);
     back[3] = {-kFar, -kFar, -kFar, 1};
@@ -121,12 +128,14 @@ TEST(Skin, LargeTranslationsCancel) {
     spec.joints.resize(2);
     spec.joints[0].rest = test::turned(40, 1);
     spec.joints[1] = {0, test::moved(kFar, kFar, kFar), {}, ""};
-    spec.pools = {skinned<std::uint8_t, float>({{0.125f, 0.001f, -0.3f}}, 1, {0}, {1}, test::palette_leaf({1}, {back}))};
+    spec.pools = {
+        skinned<std::uint8_t, float>({{0.125f, 0.001f, -0.3f}}, 1, {0}, {1}, test::palette_leaf({1}, {back}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const double angle = 40.0 * M_PI / 180.0;
     const glm::dvec3 p(0.125, 0.001, -0.3);
-    expect_near(Posed(*model, 0, pose).positions[0], {std::cos(angle) * p.x + std::sin(angle) * p.z, p.y, -std::sin(angle) * p.x + std::cos(angle) * p.z},
+    expect_near(Posed(*model, 0, pose).positions[0],
+                {std::cos(angle) * p.x + std::sin(angle) * p.z, p.y, -std::sin(angle) * p.x + std::cos(angle) * p.z},
                 1e-6);
 }
 
@@ -162,7 +171,8 @@ public:
         for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) {
             positions.emplace_back(number(), number(), number());
             normals.push_back(glm::normalize(glm::vec3(number(), number(), number())));
-            tangents.emplace_back(glm::normalize(glm::cross(normals.back(), glm::vec3(number(), number(), number()))), vertex % 2 == 0 ? 1.0f : -1.0f);
+            tangents.emplace_back(glm::normalize(glm::cross(normals.back(), glm::vec3(number(), number(), number()))),
+                                  vertex % 2 == 0 ? 1.0f : -1.0f);
             for (std::uint32_t k = 0; k < kInfluences; ++k) bones.push_back(below(kPalette));
         }
     }
@@ -200,18 +210,20 @@ public:
                 linear += weights[at] * glm::dmat3(joint) * glm::dmat3(bind);
             }
             expect_near(posed.positions[vertex], position, 2e-5);
-            const glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(linear)) * glm::dvec3(normals[vertex]));
+            const glm::dvec3 normal =
+                glm::normalize(glm::transpose(glm::inverse(linear)) * glm::dvec3(normals[vertex]));
             if (std::abs(glm::determinant(linear)) > 0.05) expect_near(posed.normals[vertex], normal, 1e-4);
             const glm::dvec3 tangent = glm::normalize(linear * glm::dvec3(glm::vec3(tangents[vertex])));
             expect_near(glm::vec3(posed.tangents[vertex]), tangent, 1e-4);
-            EXPECT_EQ(posed.tangents[vertex].w, glm::determinant(linear) < 0.0 ? -tangents[vertex].w : tangents[vertex].w);
+            EXPECT_EQ(posed.tangents[vertex].w,
+                      glm::determinant(linear) < 0.0 ? -tangents[vertex].w : tangents[vertex].w);
         }
     }
 
     template <class Bone, class Weight>
     void add_pool(const std::vector<Weight>& weights) {
-        spec.pools = {skinned<Bone, Weight>(positions, kInfluences, std::vector<Bone>(bones.begin(), bones.end()), weights,
-                                            test::palette_leaf(joints, inverse_bind))};
+        spec.pools = {skinned<Bone, Weight>(positions, kInfluences, std::vector<Bone>(bones.begin(), bones.end()),
+                                            weights, test::palette_leaf(joints, inverse_bind))};
         spec.pools[0].normals = normals;
         spec.pools[0].tangents = tangents;
     }
@@ -237,17 +249,26 @@ void check_types(std::uint32_t steps) {
         std::vector<Weight> stored;
         for (const std::uint16_t weight : weights) {
             exact.push_back(static_cast<double>(weight) / steps);
-            stored.push_back(std::is_same_v<Weight, float> ? static_cast<Weight>(exact.back()) : static_cast<Weight>(weight));
+            stored.push_back(std::is_same_v<Weight, float> ? static_cast<Weight>(exact.back())
+                                                           : static_cast<Weight>(weight));
         }
         pool.add_pool<Bone, Weight>(stored);
         pool.check(exact);
     }
 }
 
-TEST(Skin, EightInfluencesWithByteBonesAndByteWeights) { check_types<std::uint8_t, std::uint8_t>(255); }
-TEST(Skin, EightInfluencesWithByteBonesAndShortWeights) { check_types<std::uint8_t, std::uint16_t>(65535); }
-TEST(Skin, EightInfluencesWithShortBonesAndByteWeights) { check_types<std::uint16_t, std::uint8_t>(255); }
-TEST(Skin, EightInfluencesWithShortBonesAndFloatWeights) { check_types<std::uint16_t, float>(1024); }
+TEST(Skin, EightInfluencesWithByteBonesAndByteWeights) {
+    check_types<std::uint8_t, std::uint8_t>(255);
+}
+TEST(Skin, EightInfluencesWithByteBonesAndShortWeights) {
+    check_types<std::uint8_t, std::uint16_t>(65535);
+}
+TEST(Skin, EightInfluencesWithShortBonesAndByteWeights) {
+    check_types<std::uint16_t, std::uint8_t>(255);
+}
+TEST(Skin, EightInfluencesWithShortBonesAndFloatWeights) {
+    check_types<std::uint16_t, float>(1024);
+}
 
 TEST(Skin, MoreInfluencesThanAnyoneNeeds) {
     // 300 bones, each moves the vertex by its own number along x: the mean of 0 .. 299.
@@ -259,8 +280,9 @@ TEST(Skin, MoreInfluencesThanAnyoneNeeds) {
         spec.joints.push_back({kNone, test::moved(joint, 0, 0), {}, ""});
         joints[joint] = bones[joint] = joint;
     }
-    spec.pools = {skinned<std::uint16_t, float>({{0, 1, 0}}, kBones, bones, std::vector<float>(kBones, 1.0f / kBones),
-                                                test::palette_leaf(joints, std::vector<glm::mat4>(kBones, glm::mat4(1.0f))))};
+    spec.pools = {
+        skinned<std::uint16_t, float>({{0, 1, 0}}, kBones, bones, std::vector<float>(kBones, 1.0f / kBones),
+                                      test::palette_leaf(joints, std::vector<glm::mat4>(kBones, glm::mat4(1.0f))))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     expect_near(Posed(*model, 0, pose).positions[0], {149.5, 1, 0}, 1e-3);
@@ -303,7 +325,8 @@ TEST(Skin, AMirrorTurnsTheHandednessAndKeepsNormalsOutside) {
     const Posed flat = pose_of(one_vertex(test::scaled(-1, 1, 1), {0, 0, 1}, {1, 0, 0, -1}));
     EXPECT_EQ(flat.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(flat.tangents[0], glm::vec4(-1, 0, 0, 1));
-    const Posed twice = pose_of(one_vertex(test::scaled(-1, -1, 1), {1, 0, 0}, {0, 1, 0, 1}));  // a half turn, no mirror
+    const Posed twice =
+        pose_of(one_vertex(test::scaled(-1, -1, 1), {1, 0, 0}, {0, 1, 0, 1}));  // a half turn, no mirror
     EXPECT_EQ(twice.normals[0], glm::vec3(-1, 0, 0));
     EXPECT_EQ(twice.tangents[0], glm::vec4(0, -1, 0, 1));
     const Posed all = pose_of(one_vertex(test::scaled(-1, -1, -1), {1, 0, 0}, {0, 1, 0, -1}));
@@ -319,10 +342,12 @@ TEST(Skin, TheBitangentMovesWithTheSurface) {
         rest.scale = {number(random), number(random), number(random)};
         const double volume = double{rest.scale[0]} * rest.scale[1] * rest.scale[2];
         if (std::abs(volume) < 0.1) continue;
-        const glm::quat turn = glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
+        const glm::quat turn =
+            glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
         rest.rotation = {turn.x, turn.y, turn.z, turn.w};
         const glm::vec3 normal = glm::normalize(glm::vec3(number(random), number(random), number(random)));
-        const glm::vec3 tangent = glm::normalize(glm::cross(normal, glm::vec3(number(random), number(random), number(random))));
+        const glm::vec3 tangent =
+            glm::normalize(glm::cross(normal, glm::vec3(number(random), number(random), number(random))));
         const float handedness = round % 2 == 0 ? 1.0f : -1.0f;
         const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
 
@@ -346,8 +371,9 @@ TEST(Skin, WithoutVolumeThereIsNoNan) {
         }
         return true;
     };
-    for (const RestRecord& rest : {test::scaled(0, 0, 0), test::scaled(0, 1, 1), test::scaled(1, 0, 1), test::scaled(1, 1, 0), test::scaled(0, 0, 1),
-                                   test::scaled(-1, 0, 1), test::scaled(1e-30f, 1e-30f, 1e-30f)}) {
+    for (const RestRecord& rest :
+         {test::scaled(0, 0, 0), test::scaled(0, 1, 1), test::scaled(1, 0, 1), test::scaled(1, 1, 0),
+          test::scaled(0, 0, 1), test::scaled(-1, 0, 1), test::scaled(1e-30f, 1e-30f, 1e-30f)}) {
         for (const glm::vec3 normal : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(0.0f)}) {
             const Posed posed = pose_of(one_vertex(rest, normal, glm::vec4(normal, 1.0f)));
             EXPECT_TRUE(is_number(posed.positions[0]) && is_number(posed.normals[0]) && is_number(posed.tangents[0]));
@@ -371,7 +397,8 @@ TEST(Skin, WeightsThatCancelGiveNoNan) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].rest = test::scaled(-1, -1, -1);
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.5f, 0.5f}, test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
+    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.5f, 0.5f},
+                                               test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
     spec.pools[0].normals = {{0, 0, 1}};
     spec.pools[0].tangents = {{1, 0, 0, 1}};
     const Posed posed = pose_of(spec);
@@ -409,9 +436,10 @@ TEST(Skin, ARigidPoolMovesWithItsJoint) {
 /// Three joints at x = 1, 2 and 3; a rigid pool of joint 0 with vertices of all, and one that no polygon uses.
 test::ModelSpec parts() {
     test::ModelSpec spec;
-    spec.joints = {{kNone, test::moved(1, 0, 0), {test::polygons(0, 0, 1, kNone, Topology::points)}, ""},
-                   {kNone, test::moved(2, 0, 0), {test::polygons(0, 1, 2, kNone, Topology::points)}, ""},
-                   {kNone, test::moved(3, 0, 0), {test::polygons(0, 3, 0), test::polygons(0, 3, 2, kNone, Topology::lines)}, ""}};
+    spec.joints = {
+        {kNone, test::moved(1, 0, 0), {test::polygons(0, 0, 1, kNone, Topology::points)}, ""},
+        {kNone, test::moved(2, 0, 0), {test::polygons(0, 1, 2, kNone, Topology::points)}, ""},
+        {kNone, test::moved(3, 0, 0), {test::polygons(0, 3, 0), test::polygons(0, 3, 2, kNone, Topology::lines)}, ""}};
     spec.pools.resize(1);
     spec.pools[0].joint = 0;
     spec.pools[0].positions.resize(6);
@@ -519,7 +547,8 @@ TEST(Skin, ADeepChainSkins) {
     const Owned model([] {
         test::ModelSpec spec;
         constexpr std::uint32_t kDeep = 10'000;
-        for (std::uint32_t joint = 0; joint < kDeep; ++joint) spec.joints.push_back({joint == 0 ? kNone : joint - 1, test::moved(0, 0.5f, 0), {}, ""});
+        for (std::uint32_t joint = 0; joint < kDeep; ++joint)
+            spec.joints.push_back({joint == 0 ? kNone : joint - 1, test::moved(0, 0.5f, 0), {}, ""});
         spec.pools.resize(1);
         spec.pools[0].joint = kDeep - 1;
         spec.pools[0].positions = {{1, 0, 0}};

@@ -26,7 +26,8 @@ Numbers pose_all(const Model& model) {
         for (std::size_t v = 0; v < positions.size(); ++v) {
             for (int c = 0; c < 3; ++c) numbers.insert(numbers.end(), {positions[v][c], normals[v][c], tangents[v][c]});
         }
-        for (const glm::mat4& matrix : pose.model_space()) numbers.insert(numbers.end(), &matrix[0][0], &matrix[0][0] + 16);
+        for (const glm::mat4& matrix : pose.model_space())
+            numbers.insert(numbers.end(), &matrix[0][0], &matrix[0][0] + 16);
         numbers.insert(numbers.end(), pose.target_weights().begin(), pose.target_weights().end());
     }
     return numbers;

@@ -27,12 +27,14 @@ Matrix reference(const JointTransform& t, const glm::vec3& shear) {
     const double y = t.rotation.y;
     const double z = t.rotation.z;
     const double w = t.rotation.w;
-    const Matrix translation{{{1, 0, 0, t.translation.x}, {0, 1, 0, t.translation.y}, {0, 0, 1, t.translation.z}, {0, 0, 0, 1}}};
+    const Matrix translation{
+        {{1, 0, 0, t.translation.x}, {0, 1, 0, t.translation.y}, {0, 0, 1, t.translation.z}, {0, 0, 0, 1}}};
     const Matrix rotation{{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 0},
                            {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 0},
                            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), 0},
                            {0, 0, 0, 1}}};
-    const Matrix upper{{{t.scale.x, shear.x, shear.y, 0}, {0, t.scale.y, shear.z, 0}, {0, 0, t.scale.z, 0}, {0, 0, 0, 1}}};
+    const Matrix upper{
+        {{t.scale.x, shear.x, shear.y, 0}, {0, t.scale.y, shear.z, 0}, {0, 0, t.scale.z, 0}, {0, 0, 0, 1}}};
     return product(product(translation, rotation), upper);
 }
 
@@ -41,7 +43,8 @@ void expect_matrix(const JointTransform& transform, const glm::vec3& shear) {
     const Matrix expected = reference(transform, shear);
     for (std::size_t row = 0; row < 4; ++row) {
         for (std::size_t column = 0; column < 4; ++column) {
-            EXPECT_NEAR(matrix[static_cast<int>(column)][static_cast<int>(row)], expected[row][column], 2e-6) << row << ' ' << column;
+            EXPECT_NEAR(matrix[static_cast<int>(column)][static_cast<int>(row)], expected[row][column], 2e-6)
+                << row << ' ' << column;
         }
     }
 }
@@ -85,14 +88,16 @@ TEST(ToMatrix, ShearStandsAboveTheDiagonal) {
 TEST(ToMatrix, NegativeAndZeroScaleStay) {
     JointTransform transform;
     transform.rotation = glm::quat(0.8f, 0.0f, 0.6f, 0.0f);
-    for (const glm::vec3 scale : {glm::vec3(-1, 1, 1), glm::vec3(-2, -3, -4), glm::vec3(0, 1, 1), glm::vec3(0, 0, 0), glm::vec3(1e-20f, 1, 1e20f)}) {
+    for (const glm::vec3 scale : {glm::vec3(-1, 1, 1), glm::vec3(-2, -3, -4), glm::vec3(0, 1, 1), glm::vec3(0, 0, 0),
+                                  glm::vec3(1e-20f, 1, 1e20f)}) {
         transform.scale = scale;
         const Matrix expected = reference(transform, glm::vec3(0.0f));
         const auto matrix = to_matrix(transform, glm::vec3(0.0f));
         for (std::size_t row = 0; row < 4; ++row) {
             for (std::size_t column = 0; column < 4; ++column) {
                 const double value = matrix[static_cast<int>(column)][static_cast<int>(row)];
-                EXPECT_NEAR(value, expected[row][column], 1e-6 * std::abs(expected[row][column])) << row << ' ' << column;
+                EXPECT_NEAR(value, expected[row][column], 1e-6 * std::abs(expected[row][column]))
+                    << row << ' ' << column;
             }
         }
     }
