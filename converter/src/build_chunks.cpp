@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <map>
 #include <span>
@@ -275,6 +276,16 @@ void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t>
 
 // --- cycles
 
+/// Orders float arrays by their bits: 0 and -0 differ.
+struct ByBits {
+    bool operator()(const std::vector<float>& a, const std::vector<float>& b) const {
+        const auto less = [](float x, float y) {
+            return std::bit_cast<std::uint32_t>(x) < std::bit_cast<std::uint32_t>(y);
+        };
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), less);
+    }
+};
+
 /// Float arrays one after another, each different one once.
 class FloatPool {
 public:
@@ -286,7 +297,7 @@ public:
     [[nodiscard]] Bytes bytes() const { return std::as_bytes(std::span(floats_)); }
 
 private:
-    std::map<std::vector<float>, std::uint64_t> places_;
+    std::map<std::vector<float>, std::uint64_t, ByBits> places_;
     std::vector<float> floats_;
 };
 

@@ -1,15 +1,13 @@
 #include <bendy/converter/report.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace bendy::converter {
 
 void Report::warn(std::string message, std::string place, std::uint64_t count) {
-    const auto same = std::find_if(warnings_.begin(), warnings_.end(),
-                                   [&](const Warning& warning) { return warning.message == message; });
-    if (same != warnings_.end()) {
-        same->count += count;
+    const auto [known, is_new] = place_of_.try_emplace(message, warnings_.size());
+    if (!is_new) {
+        warnings_[known->second].count += count;
         return;
     }
     warnings_.push_back({std::move(message), std::move(place), count});

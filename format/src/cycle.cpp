@@ -50,26 +50,24 @@ void check_key_order(const CycleView& cycle, std::span<const float> times, std::
     }
 }
 
-/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's
-/// values are unit quaternions.
+/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's values
+/// are unit quaternions, but for cubic ones: those are normalised after interpolation.
 void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
     struct Share {
         const float* first;
         const float* last;
-        bool is_rotation;
-        bool is_cubic;
+        bool must_be_unit;
         std::size_t track;
+
+        [[nodiscard]] auto key() const { return std::tie(first, last, must_be_unit, track); }
     };
     std::vector<Share> shares;
     for (std::size_t index = 0; index < cycle.tracks.size(); ++index) {
         const TrackView& track = cycle.tracks[index];
-        shares.push_back({track.values.data(), track.values.data() + track.values.size(),
-                          track.path == TrackPath::rotation, track.interpolation == Interpolation::cubic, index});
+        const bool must_be_unit = track.path == TrackPath::rotation && track.interpolation != Interpolation::cubic;
+        shares.push_back({track.values.data(), track.values.data() + track.values.size(), must_be_unit, index});
     }
-    std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
-        return std::tie(a.first, a.last, a.is_rotation, a.is_cubic, a.track) <
-               std::tie(b.first, b.last, b.is_rotation, b.is_cubic, b.track);
-    });
+    std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.key() < b.key(); });
     const Share* before = nullptr;
     for (const Share& share : shares) {
         const bool is_same = before != nullptr && before->first == share.first && before->last == share.last;
@@ -77,13 +75,12 @@ void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& f
             faults.add({ErrorCode::kKeyOverlap, offset, share.track});
             return;
         }
-        const bool is_checked = is_same && before->is_rotation && before->is_cubic == share.is_cubic;
+        const bool is_checked = is_same && before->must_be_unit;
         before = &share;
-        if (!share.is_rotation || is_checked) continue;
+        if (!share.must_be_unit || is_checked) continue;
         const TrackView& track = cycle.tracks[share.track];
         for (std::size_t key = 0; key < track.keys; ++key) {
-            const std::size_t at = share.is_cubic ? key * 12 + 4 : key * 4;
-            if (is_unit(track.values.subspan(at).first<4>(), kUnitTolerance)) continue;
+            if (is_unit(track.values.subspan(key * 4).first<4>(), kUnitTolerance)) continue;
             faults.add({ErrorCode::kRotationNotUnit, offset, key});
             break;
         }

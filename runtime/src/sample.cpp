@@ -103,6 +103,7 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
         track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
     if (at.left == at.right || track.interpolation == Interpolation::step) {
         std::copy_n(key_value(at.left).begin(), n, value.begin());
+        if (cubic && track.path == TrackPath::rotation) normalise(value);
         return;
     }
     if (cubic) {
@@ -130,8 +131,8 @@ bool sample(const Cycle* cycle, float seconds, Pose& pose) {
     for (const TrackView& track : cycle->tracks) {
         if (track.path == TrackPath::weights) {
             if (track.target >= model.pools().size()) continue;  // a cycle of another model
+            if (track.components != model.pools()[track.target].targets.size()) continue;
             const std::size_t first = model.first_target(track.target);
-            if (first + track.components > weights.size()) continue;
             sample_track(track, *cycle, seconds, weights.subspan(first, track.components));
             continue;
         }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -39,6 +41,8 @@ struct Example {
     std::uint64_t triangles;
     std::size_t materials;
 };
+
+void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
 
 class ConvertExample : public testing::TestWithParam<Example> {};
 
@@ -115,8 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, ConvertExample,
 class ConvertFile : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("bendy_convert_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        folder_ = std::filesystem::path(testing::TempDir()) / ("bendy_convert_" + std::to_string(::getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

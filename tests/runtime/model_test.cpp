@@ -7,9 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -179,7 +182,8 @@ TEST(Model, MovesKeepEveryViewValid) {
 }
 
 TEST(Model, AFileStaysMappedThroughMoves) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "bendy_model_test.bendy";
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / ("bendy_model_" + std::to_string(::getpid()));
     const Buffer bytes = test::sample_file();
     std::ofstream(path, std::ios::binary).write(as_text(bytes).data(), static_cast<std::streamsize>(bytes.size()));
     Result<Model> opened = Model::open(path);

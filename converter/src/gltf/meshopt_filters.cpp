@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 namespace bendy::converter::gltf {
 namespace {
@@ -49,13 +48,16 @@ void decode_octahedral_as(std::span<std::byte> bytes) {
 
 template <class T>
 void decode_colour_as(std::span<std::byte> bytes) {
-    using Signed = std::make_signed_t<T>;
-    for_each_element<T>(bytes, [](std::array<T, 4>& element) {
+    const auto as_signed = [](T value) {
+        constexpr int kHalf = 1 << (8 * sizeof(T) - 1);
+        return (int{value} ^ kHalf) - kHalf;
+    };
+    for_each_element<T>(bytes, [&](std::array<T, 4>& element) {
         const int top = std::bit_width(element[3]);  // K: the highest bit of alpha marks it
         const int range = (1 << top) - 1;
         const int luma = element[0];
-        const int orange = std::bit_cast<Signed>(element[1]);
-        const int green = std::bit_cast<Signed>(element[2]);
+        const int orange = as_signed(element[1]);
+        const int green = as_signed(element[2]);
         int alpha = element[3] & (range >> 1);
         alpha = alpha << 1 | (alpha & 1);
         const double scale = std::numeric_limits<T>::max() / static_cast<double>(range);

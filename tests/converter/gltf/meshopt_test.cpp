@@ -72,8 +72,8 @@ Bytes encode_vertices(const Bytes& elements, std::size_t stride) {
 
 TEST(GltfMeshopt, VerticesOfVersionZeroAgreeWithTheLibrary) {
     std::uint32_t state = 1;
-    for (const std::size_t stride : {4, 12, 20, 64, 256}) {
-        for (const std::size_t count : {1, 15, 16, 17, 255, 256, 300}) {
+    for (const std::size_t stride : {4u, 12u, 20u, 64u, 256u}) {
+        for (const std::size_t count : {1u, 15u, 16u, 17u, 255u, 256u, 300u}) {
             Bytes elements(count * stride);
             for (auto& byte : elements) {
                 state = state * 1664525 + 1013904223;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace bendy::converter {
@@ -28,6 +30,7 @@ public:
 
 private:
     std::vector<Warning> warnings_;
+    std::unordered_map<std::string, std::size_t> place_of_;  // message: index into warnings_
 };
 
 }  // namespace bendy::converter
