@@ -266,13 +266,15 @@ TEST(Cycle, RefusesNumbersThatAreNotFinite) {
     }
 }
 
-TEST(Cycle, WantsRotationsOfUnitLengthAndLetsTangentsBe) {
-    EXPECT_EQ(faults_with_number("/KEYV", 16, -1.0f), Lines{});
-    EXPECT_EQ(faults_with_number("/KEYV", 16, 0.9f), in_table("ROTATION_NOT_UNIT"));
-    EXPECT_EQ(faults_with_number("/KEYV", 27, 0.9f), in_table("ROTATION_NOT_UNIT"));  // the second key's
-    EXPECT_EQ(faults_with_number("/KEYV", 12, 0.9f), Lines{});
-    EXPECT_EQ(faults_with_number("/KEYV", 20, 0.9f), Lines{});
+TEST(Cycle, WantsRotationsOfUnitLength) {
+    EXPECT_EQ(faults_with_number("/KEYV", 45, -0.0f), Lines{});
     EXPECT_EQ(faults_with_number("/KEYV", 45, 0.9f), in_table("ROTATION_NOT_UNIT"));  // in fixed frames
+}
+
+TEST(Cycle, LetsCubicRotationsBeOfAnyLength) {
+    EXPECT_EQ(faults_with_number("/KEYV", 16, 0.9f), Lines{});  // a value: it is normalised when it is sampled
+    EXPECT_EQ(faults_with_number("/KEYV", 12, 0.9f), Lines{});  // an in-tangent
+    EXPECT_EQ(faults_with_number("/KEYV", 20, 0.9f), Lines{});  // an out-tangent
 }
 
 TEST(Cycle, LetsTracksShareAllTheirValuesOrNone) {
@@ -304,7 +306,7 @@ TEST(Cycle, HoldsItsFixedFrames) {
     EXPECT_EQ(faults_with_cycle([](auto& cycle) { cycle.frame_rate = 1e-40f; }), in_info("CYCLE_LENGTH"));
 }
 
-TEST(Cycle, ChecksRotationsOfEveryInterpolationThatSharesThem) {
+TEST(Cycle, WantsUnitLengthOfLinearRotationsThatACubicTrackShares) {
     // Twelve numbers: one cubic key for one joint, three linear ones for another, of which two are the tangents.
     Node root = sample();
     edit<TrackRecord>(
