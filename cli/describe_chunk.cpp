@@ -59,30 +59,47 @@ nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint
     return count == 1 ? list.front() : list;
 }
 
-nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::uint64_t base) {
-    nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+/// A field of plain numbers; null for one that is a record itself.
+nlohmann::ordered_json numbers_of(const Field& field, Bytes payload, std::uint64_t offset) {
+    if (field.type == "u8") return numbers_at<std::uint8_t>(payload, offset, field.count);
+    if (field.type == "u16") return numbers_at<std::uint16_t>(payload, offset, field.count);
+    if (field.type == "u32") return numbers_at<std::uint32_t>(payload, offset, field.count);
+    if (field.type == "u64") return numbers_at<std::uint64_t>(payload, offset, field.count);
+    if (field.type == "f32") return numbers_at<float>(payload, offset, field.count);
+    return nullptr;
+}
+
+/// Text with zeros to the end of its field.
+std::string_view padded_text(const Field& field, Bytes payload, std::uint64_t offset) {
+    const std::uint64_t size = std::min<std::uint64_t>(field.count, payload.size() - offset);
+    const std::string_view text = as_text(payload.subspan(offset, size));
+    return text.substr(0, text.find('\0'));
+}
+
+/// Calls visit(field, its offset) for each field of a record that the payload holds.
+template <class Visit>
+void for_each_field(std::string_view record, Bytes payload, std::uint64_t base, const Visit& visit) {
     for (const Field& field : kFields) {
         const std::uint64_t offset = base + field.offset;
-        if (field.record != record || field.name.starts_with("reserved") || offset >= payload.size()) continue;
-        const std::string name(field.name);
-        if (field.name == "generator") {
-            const std::string_view text =
-                as_text(payload.subspan(offset, std::min<std::uint64_t>(field.count, payload.size() - offset)));
-            fields[name] = text.substr(0, text.find('\0'));
-        } else if (field.type == "u8") {
-            fields[name] = numbers_at<std::uint8_t>(payload, offset, field.count);
-        } else if (field.type == "u16") {
-            fields[name] = numbers_at<std::uint16_t>(payload, offset, field.count);
-        } else if (field.type == "u32") {
-            fields[name] = numbers_at<std::uint32_t>(payload, offset, field.count);
-        } else if (field.type == "u64") {
-            fields[name] = numbers_at<std::uint64_t>(payload, offset, field.count);
-        } else if (field.type == "f32") {
-            fields[name] = numbers_at<float>(payload, offset, field.count);
-        } else {
-            fields[name] = fields_at(payload, field.type, offset);
-        }
+        if (field.record == record && !field.name.starts_with("reserved") && offset < payload.size())
+            visit(field, offset);
     }
+}
+
+nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::uint64_t base) {
+    nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+    for_each_field(record, payload, base, [&](const Field& field, std::uint64_t offset) {
+        nlohmann::ordered_json& value = fields[std::string(field.name)];
+        if (field.name == "generator") {
+            value = padded_text(field, payload, offset);
+            return;
+        }
+        value = numbers_of(field, payload, offset);
+        if (!value.is_null()) return;
+        for_each_field(field.type, payload, offset, [&](const Field& inner, std::uint64_t inner_offset) {
+            value[std::string(inner.name)] = numbers_of(inner, payload, inner_offset);
+        });
+    });
     return fields;
 }
 

@@ -42,8 +42,9 @@ bool is_numbered(FourCC id) {
 
 std::string indentation(std::size_t depth) {
     constexpr std::size_t kMostLevels = 40;
-    if (depth <= kMostLevels) return std::string(2 * depth, ' ');
-    return std::string(2 * kMostLevels, ' ') + '[' + std::to_string(depth) + "] ";
+    std::string spaces(2 * std::min(depth, kMostLevels), ' ');
+    if (depth > kMostLevels) spaces += '[' + std::to_string(depth) + "] ";
+    return spaces;
 }
 
 void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
@@ -86,8 +87,9 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
     constexpr std::size_t kPerLine = 16;
     for (std::size_t at = 0; at < bytes.size(); at += kPerLine) {
         const Bytes line = bytes.subspan(at, std::min(kPerLine, bytes.size() - at));
+        const unsigned long long address = offset + at;
         std::array<char, 24> start{};
-        std::snprintf(start.data(), start.size(), "%12llx ", static_cast<unsigned long long>(offset + at));
+        std::snprintf(start.data(), start.size(), "%12llx ", address);
         std::cout << start.data();
         std::string text;
         for (std::size_t i = 0; i < kPerLine; ++i) {
@@ -112,9 +114,10 @@ void run(const Arguments& arguments) {
     const Result<ChunkTree> tree = read_chunk_tree(file->bytes());
     if (!tree) fail(arguments.file, tree.error(), file->bytes());
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
-    if (root == kNone)
+    if (root == kNone) {
         fail(arguments.file,
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
+    }
 
     if (arguments.json) {
         std::cout << chunks_as_json(arguments.file.string(), *tree, root);

@@ -4,11 +4,16 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <string>
 
 namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongCommandLine = 2;
 
 /// What is wrong with the command line.
 std::string explain(const CLI::App* program, const CLI::Error& problem) {
@@ -20,13 +25,7 @@ std::string explain(const CLI::App* program, const CLI::Error& problem) {
     return "bendy: error: " + bendy::cli::printable(what) + "\nTry `bendy --help` or `bendy COMMAND --help`.\n";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    constexpr int kDone = 0;
-    constexpr int kFailed = 1;
-    constexpr int kWrongCommandLine = 2;
-
+int run(int argc, char** argv) {
     CLI::App program("Bendy: animated characters in one file of nested chunks.", "bendy");
     program.set_version_flag("--version", "bendy " BENDY_VERSION);
     program.require_subcommand(1);
@@ -38,19 +37,27 @@ int main(int argc, char** argv) {
     bendy::cli::add_pose(program);
     try {
         program.parse(argc, argv);
-        std::cout.flush();
-        if (!std::cout) {
-            std::cerr << "bendy: error: standard output cannot be written\n";
-            return kFailed;
-        }
-        return kDone;
     } catch (const CLI::ParseError& problem) {
         return program.exit(problem) == 0 ? kDone : kWrongCommandLine;
     } catch (const bendy::cli::Failed&) {
         std::cout.flush();
         return kFailed;
-    } catch (const std::exception& problem) {
-        std::cerr << "bendy: error: " << problem.what() << '\n';
-        return kFailed;
     }
+    std::cout.flush();
+    if (std::cout) return kDone;
+    std::cerr << "bendy: error: standard output cannot be written\n";
+    return kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "bendy: error: %s\n", problem.what());
+    } catch (...) {
+        std::fputs("bendy: error: something that has no name went wrong\n", stderr);
+    }
+    return kFailed;
 }

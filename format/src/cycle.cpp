@@ -50,8 +50,8 @@ void check_key_order(const CycleView& cycle, std::span<const float> times, std::
     }
 }
 
-/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's values
-/// are unit quaternions, but for cubic ones: those are normalised after interpolation.
+/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's
+/// values are unit quaternions, but for cubic ones: those are normalised after interpolation.
 void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
     struct Share {
         const float* first;

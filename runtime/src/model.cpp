@@ -84,11 +84,10 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
     data->movers = find_movers(object);
     data->first_vertex.push_back(0);
     data->first_target.push_back(0);
-    for (std::uint32_t pool = 0; pool < object.pools.size(); ++pool) {
-        const Pool& view = object.pools[pool];
-        data->first_vertex.push_back(data->first_vertex.back() + view.vertices);
-        data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(view.targets.size()));
-        data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(view.palette.joints.size()));
+    for (const Pool& pool : object.pools) {
+        data->first_vertex.push_back(data->first_vertex.back() + pool.vertices);
+        data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(pool.targets.size()));
+        data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(pool.palette.joints.size()));
     }
     return Model(std::move(data));
 }

@@ -1,5 +1,5 @@
-"""Reads and writes bendy files as the specification has them, without the project's own code: for tests that need a file
-with something wrong in it."""
+"""Reads and writes bendy files as the specification has them, without the project's own code: for tests that need a
+file with something wrong in it."""
 
 import struct
 

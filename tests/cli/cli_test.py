@@ -24,8 +24,8 @@ from gltf_file import strange_file  # noqa: E402
 BENDY = ""
 SOURCE = Path()
 COMMANDS = ("convert", "inspect", "validate", "pose")
-# How to run a program that can write no more than 5000 bytes: a limit stands for the full disk, and the signal that comes
-# with it stays ignored.
+# How to run a program that can write no more than 5000 bytes: a limit stands for the full disk, and the signal that
+# comes with it stays ignored.
 FULL_DISK = {"restore_signals": False,
              "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))}
 
@@ -109,7 +109,8 @@ class Case(unittest.TestCase):
         self.folder = Path(tempfile.mkdtemp(dir=self.shared))
 
     def bendy(self, *arguments, **options):
-        return subprocess.run([BENDY, *arguments], capture_output=True, timeout=120, check=False, cwd=self.folder, **options)
+        return subprocess.run([BENDY, *arguments], cwd=self.folder, capture_output=True, timeout=120, check=False,
+                              **options)
 
     def done(self, *arguments, **options):
         """Runs what must work: its standard output; nothing but warnings may stand on standard error."""

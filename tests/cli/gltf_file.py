@@ -20,7 +20,8 @@ class GltfFile:
         self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(piece)})
         self.data += piece + bytes(-len(piece) % 4)
         self.document["accessors"].append({
-            "bufferView": len(self.document["bufferViews"]) - 1, "componentType": component_type, "count": len(numbers), "type": kind,
+            "bufferView": len(self.document["bufferViews"]) - 1, "componentType": component_type,
+            "count": len(numbers), "type": kind,
             "min": [min(column) for column in zip(*numbers)], "max": [max(column) for column in zip(*numbers)]})
         return len(self.document["accessors"]) - 1
 
@@ -47,9 +48,11 @@ def strange_file(path):
         {"name": "bell\x07\x7f", "primitives": [{"attributes": {"POSITION": corners}, "indices": triangle},
                                                {"attributes": {"POSITION": corners}, "indices": lines, "mode": 1},
                                                {"attributes": {"POSITION": corners}, "indices": points, "mode": 0}]},
-        {"name": 'quote " and \\ and \u00fc', "primitives": [{"attributes": {"POSITION": corners, "NORMAL": normals}, "indices": triangle}]}]
+        {"name": 'quote " and \\ and \u00fc',
+         "primitives": [{"attributes": {"POSITION": corners, "NORMAL": normals}, "indices": triangle}]}]
     times = file.add([(0.5,), (1.5,)], "SCALAR")
     values = file.add([(0, 0, 0), (4, 0, 0)], "VEC3")
-    animation = {"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": times, "output": values}]}
+    animation = {"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                 "samplers": [{"input": times, "output": values}]}
     file.document["animations"] = [{"name": "slide\tnow", **animation}, animation, {"name": "0", **animation}]
     return file.write(path)

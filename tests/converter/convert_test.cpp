@@ -42,7 +42,9 @@ struct Example {
     std::size_t materials;
 };
 
-void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
+void PrintTo(const Example& example, std::ostream* out) {
+    *out << example.file;
+}
 
 class ConvertExample : public testing::TestWithParam<Example> {};
 

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     std::vector<glm::vec3> positions(model->vertex_count());
     if (!model->cycles().empty()) bendy::sample(&model->cycles()[0], 0.0f, pose);
     if (!bendy::skin(*model, pose, {positions, {}, {}}) || positions.empty()) return 1;
-    std::printf("%zu joints, first vertex at %g %g %g\n", model->joints().size(), double{positions[0].x}, double{positions[0].y}, double{positions[0].z});
+    std::printf("%zu joints, first vertex at %g %g %g\n", model->joints().size(), double{positions[0].x},
+                double{positions[0].y}, double{positions[0].z});
     return 0;
 }
