@@ -3,7 +3,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/bendy)
 install(TARGETS bendy_format bendy_runtime EXPORT bendy_targets
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILE_SET tables DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT bendy_targets NAMESPACE bendy:: FILE bendy-targets.cmake DESTINATION ${package_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bendy-config.cmake.in ${PROJECT_BINARY_DIR}/bendy-config.cmake
   INSTALL_DESTINATION ${package_dir})

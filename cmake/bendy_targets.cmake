@@ -1,19 +1,22 @@
 # What every target of this project shares.
 
-# bendy_library(NAME SOURCES ... [HEADERS ...]): a library bendy_NAME with the alias bendy::NAME, its public headers under
-# include/ as a file set.
+# bendy_library(NAME SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME; its public
+# headers, which must compile by themselves, and the .def tables, which need not, lie under include/.
 function(bendy_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;TABLES")
   add_library(bendy_${name} ${arg_SOURCES})
   add_library(bendy::${name} ALIAS bendy_${name})
   set_target_properties(bendy_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_sources(bendy_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  target_sources(bendy_${name}
+    PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS}
+    PUBLIC FILE_SET tables TYPE HEADERS BASE_DIRS include FILES ${arg_TABLES})
   bendy_options(bendy_${name})
 endfunction()
 
 function(bendy_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF VERIFY_INTERFACE_HEADER_SETS ON
+    INTERFACE_HEADER_SETS_TO_VERIFY HEADERS)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string's own operator+: GCC bug 105651, mended in 13.
