@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,17 @@ TEST_P(ConvertExample, TwiceTheSameBytes) {
     const Buffer once = convert_good(example(GetParam().file));
     EXPECT_FALSE(once.empty());
     EXPECT_EQ(once, convert_good(example(GetParam().file)));
+}
+
+TEST_P(ConvertExample, EveryPrefixIsRefused) {
+    const Buffer whole = convert_good(example(GetParam().file));
+    ASSERT_FALSE(whole.empty());
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        const Result<Model> model = Model::from_memory(std::span(whole).first(size));
+        ASSERT_FALSE(model.has_value()) << size << " of " << whole.size() << " bytes";
+        const ErrorCode expected = size < kChunkHeaderSize ? ErrorCode::kNotABendyFile : ErrorCode::kTruncated;
+        ASSERT_EQ(model.error().code, expected) << size << " of " << whole.size() << " bytes";
+    }
 }
 
 TEST_P(ConvertExample, MovesInEveryCycle) {
