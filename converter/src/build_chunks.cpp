@@ -137,8 +137,25 @@ void put_rest(ChunkWriter& out, const Transform& rest) {
     record.scale = to_array<3>(rest.scale);
     record.shear = to_array<3>(rest.shear);
     const bool has_shear = rest.shear != glm::vec3(0.0f);
-    out.begin(FourCC("PIVO"));
     out.leaf(FourCC("REST"), bytes_of(record).first(has_shear ? sizeof record : kShortest<RestRecord>));
+}
+
+using PullsByJoint = std::vector<std::vector<PullRecord>>;
+
+PullsByJoint sort_pulls(const Scene& scene) {
+    PullsByJoint by_joint(scene.joints.size());
+    for (std::uint32_t chain = 0; chain < scene.chains.size(); ++chain) {
+        for (const Chain::Weight& weight : scene.chains[chain].weights)
+            by_joint[weight.joint].push_back({chain, weight.weight});
+    }
+    return by_joint;
+}
+
+void put_pivot(ChunkWriter& out, const Joint& joint, std::span<const PullRecord> pulls) {
+    out.begin(FourCC("PIVO"));
+    put_rest(out, joint.rest);
+    for (const LimitRecord& limit : joint.limits) out.leaf(FourCC("LIMT"), bytes_of(limit));
+    for (const PullRecord& pull : pulls) out.leaf(FourCC("PULL"), bytes_of(pull));
     out.end();
 }
 
@@ -161,6 +178,7 @@ PolygonsByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygo
 }
 
 void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+    const PullsByJoint pulls = sort_pulls(scene);
     std::vector<std::uint32_t> open;
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
         const Joint& joint = scene.joints[number];
@@ -172,11 +190,20 @@ void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& pol
         out.begin(FourCC("SKIN"));
         open.push_back(number);
         put_text(out, FourCC("NAME"), joint.name);
-        put_rest(out, joint.rest);
+        put_pivot(out, joint, pulls[number]);
         for (const PolygonRecord& record : polygons[number]) out.leaf(FourCC("POLY"), bytes_of(record));
         put_text(out, FourCC("EXTR"), joint.extras);
+        put_text(out, FourCC("EXTN"), joint.extensions);
     }
     for (; !open.empty(); open.pop_back()) out.end();
+}
+
+void put_chain(ChunkWriter& out, const Chain& chain) {
+    out.begin(FourCC("IKCH"));
+    put_text(out, FourCC("NAME"), chain.name);
+    out.leaf(FourCC("KINF"), bytes_of(chain.record));
+    put_text(out, FourCC("EXTR"), chain.extras);
+    out.end();
 }
 
 // --- pools
@@ -382,12 +409,14 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     out.begin(FourCC("HEAD"));
     out.leaf(FourCC("VERS"), bytes_of(make_version(scene, generator)));
     put_text(out, FourCC("EXTR"), source_facts(scene));
+    put_text(out, FourCC("EXTN"), scene.extensions);
     if (!embeds) put_textures(out, scene);
     for (const Material& material : scene.materials) put_material(out, material);
     out.begin(FourCC("OBJE"));
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
     put_joints(out, scene, sort_by_joint(scene, polygons));
+    for (const Chain& chain : scene.chains) put_chain(out, chain);
     for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool)
         put_pool(out, scene.meshes[pool], polygons[pool].indices);
     for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);

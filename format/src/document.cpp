@@ -116,6 +116,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     check_grammar(tree, faults);
     document.version = read_version(tree, faults);
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
+    document.extensions = read_text(tree, 0, FourCC("EXTN"), faults);
 
     for (const std::uint32_t number : tree.children(0)) {
         if (tree[number].id == FourCC("TEXT") && tree[number].is_container())
@@ -138,6 +139,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.extras = read_text(tree, number, FourCC("EXTR"), faults);
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
+        object.chains = read_chains(tree, number, object.skeleton, faults);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("VECT") && tree[child].is_container())
                 object.pools.push_back(read_pool(tree, child, joints, faults));
@@ -166,6 +168,7 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
     for (const ObjectView& object : document.objects) {
         check_skeleton_values(tree, object.skeleton, faults);
+        for (const ChainView& chain : object.chains) check_chain_values(tree, chain, faults);
         for (const PoolView& pool : object.pools) {
             check_pool_values(tree, pool, faults);
             vertices += pool.vertices;

@@ -7,10 +7,41 @@
 namespace bendy {
 namespace {
 
-RestRecord read_rest(const ChunkTree& tree, std::uint32_t skin, Faults& faults) {
+void read_limits(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint, std::vector<LimitView>& limits,
+                 Faults& faults) {
+    std::array<bool, kLimitScopes> seen{};
+    for (const std::uint32_t child : tree.children(pivot)) {
+        LimitView limit;
+        if (!(tree[child].id == FourCC("LIMT")) || tree[child].is_container()) continue;
+        if (!read_limit(tree, child, joint, limit, faults)) continue;
+        if (seen[limit.record.scope]) faults.add({ErrorCode::kLimitRepeated, tree[child].offset, joint});
+        seen[limit.record.scope] = true;
+        limits.push_back(limit);
+    }
+}
+
+void read_pulls(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint, std::vector<PullView>& pulls,
+                Faults& faults) {
+    for (const std::uint32_t child : tree.children(pivot)) {
+        if (!(tree[child].id == FourCC("PULL")) || tree[child].is_container()) continue;
+        const Result<PullRecord> record = read_record<PullRecord>(tree, child);
+        if (record) {
+            pulls.push_back({child, joint, record->chain, record->weight});
+        } else {
+            faults.add(record.error());
+        }
+    }
+}
+
+/// PIVO: the rest transform goes to the joint's view, the rest to the skeleton's lists.
+void read_pivot(const ChunkTree& tree, std::uint32_t skin, SkeletonView& skeleton, Faults& faults) {
     const std::uint32_t pivot = tree.find(skin, FourCC("PIVO"));
-    if (pivot == kNone) return {};
-    return read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults).value_or(RestRecord{});
+    if (pivot == kNone || !tree[pivot].is_container()) return;
+    const auto joint = static_cast<std::uint32_t>(skeleton.joints.size() - 1);
+    skeleton.joints.back().rest =
+        read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults).value_or(RestRecord{});
+    read_limits(tree, pivot, joint, skeleton.limits, faults);
+    read_pulls(tree, pivot, joint, skeleton.pulls, faults);
 }
 
 void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, std::vector<PolygonView>& polygons,
@@ -46,8 +77,10 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
         if (chunk.id == FourCC("SKIN") && chunk.is_container()) {
             const auto joint = static_cast<std::uint32_t>(skeleton.joints.size());
             skeleton.joints.push_back({number, in_joint ? open.back().joint : kNone,
-                                       read_text(tree, number, FourCC("NAME"), faults), read_rest(tree, number, faults),
-                                       read_text(tree, number, FourCC("EXTR"), faults)});
+                                       read_text(tree, number, FourCC("NAME"), faults), RestRecord{},
+                                       read_text(tree, number, FourCC("EXTR"), faults),
+                                       read_text(tree, number, FourCC("EXTN"), faults)});
+            read_pivot(tree, number, skeleton, faults);
             skeleton.first_local_material.push_back(static_cast<std::uint32_t>(skeleton.local_materials.size()));
             open.push_back({chunk.end, joint});
             ++number;  // into it
@@ -83,6 +116,12 @@ void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, 
         check_finite(rest.scale, offset, faults);
         check_finite(rest.shear, offset, faults);
         if (!is_unit(rest.rotation, kUnitTolerance)) faults.add({ErrorCode::kRotationNotUnit, offset, joint});
+    }
+    for (const LimitView& limit : skeleton.limits)
+        check_limit(limit.record, limit.joint, tree[limit.chunk].offset, faults);
+    for (const PullView& pull : skeleton.pulls) {
+        if (!(pull.weight >= 0.0f && pull.weight <= 1.0f))
+            faults.add({ErrorCode::kFractionRange, tree[pull.chunk].offset, 0});
     }
 }
 

@@ -35,7 +35,21 @@ struct Joint {
     std::string name;              ///< UTF-8, may be empty or doubled
     std::uint32_t parent = kNone;  ///< always smaller than the joint's own index; kNone: a root
     Transform rest;
-    std::string extras;  ///< JSON text or empty
+    std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
+    std::string extras;               ///< JSON text or empty
+    std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
+};
+
+/// An IK chain. A joint on the path from record.effector up to record.start may have a weight of its own in it.
+struct Chain {
+    struct Weight {
+        std::uint32_t joint = 0;
+        float weight = 1.0f;  ///< 0 to 1
+    };
+    std::string name;
+    ChainRecord record;           ///< joints are indices into Scene::joints
+    std::vector<Weight> weights;  ///< at most one per joint; a joint without one has weight 1
+    std::string extras;           ///< JSON text or empty
 };
 
 /// A list of vertex indices with one material; strips, fans and loops are resolved into lists by the importer.
@@ -152,6 +166,7 @@ struct Material {
 struct Scene {
     std::string name;
     std::vector<Joint> joints;  ///< pre-order: parents first, siblings in the source's order
+    std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<Cycle> cycles;  ///< the source's order and number
     std::vector<Material> materials;
@@ -159,6 +174,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::string extras;         ///< of the source's scene
     std::string source_extras;  ///< of the source's root
+    std::string extensions;     ///< JSON object: the source's root extensions that are kept as they came; or empty
     std::string asset;          ///< JSON object: who made the source, copyright, generator, with its extras
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/cycle.h>
+#include <bendy/format/ik_chain.h>
 #include <bendy/format/joint.h>
 #include <bendy/format/material.h>
 #include <bendy/format/pool.h>
@@ -17,6 +18,7 @@ struct ObjectView {
     std::uint32_t chunk = 0;
     std::string_view name;
     SkeletonView skeleton;
+    std::vector<ChainView> chains;
     std::vector<PoolView> pools;
     std::vector<CycleView> cycles;
     std::string_view extras;
@@ -30,6 +32,7 @@ struct Document {
     std::uint32_t global_materials = 0;   ///< how many of them are HEAD's
     std::vector<ObjectView> objects;
     std::string_view extras;
+    std::string_view extensions;  ///< JSON
 };
 
 /// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety

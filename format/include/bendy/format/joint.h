@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/constraint.h>
 #include <bendy/format/faults.h>
 #include <bendy/format/records.h>
 
@@ -21,18 +22,30 @@ struct PolygonView {
     std::uint32_t count = 0;
 };
 
+/// The weight of a joint in an IK chain (not yet held against the chains).
+struct PullView {
+    std::uint32_t chunk = 0;
+    std::uint32_t joint = 0;
+    std::uint32_t chain = 0;
+    float weight = 1.0f;
+};
+
 struct JointView {
     std::uint32_t chunk = 0;
     std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
     std::string_view name;
     RestRecord rest;
     std::string_view extras;
+    std::string_view extensions;  ///< JSON
 };
 
-/// The joints of an OBJE in pre-order, which is joint order, and their polygon ranges (not yet held against the pools).
+/// The joints of an OBJE in pre-order, which is joint order, with what belongs to them, ordered by joint; the polygon
+/// ranges are not yet held against the pools.
 struct SkeletonView {
     std::vector<JointView> joints;
     std::vector<PolygonView> polygons;
+    std::vector<LimitView> limits;
+    std::vector<PullView> pulls;
     std::vector<std::uint32_t> local_materials;       ///< MATE chunks inside SKIN, in file order
     std::vector<std::uint32_t> first_local_material;  ///< of each joint, into local_materials
 };
@@ -40,7 +53,8 @@ struct SkeletonView {
 /// Reads the SKIN tree of an OBJE chunk, without recursion.
 SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& faults);
 
-/// Faults of meaning: rest transforms that are not finite, rotations that are not unit quaternions.
+/// Faults of meaning: rest transforms that are not finite, rotations that are not unit quaternions, constraints
+/// (check_limit) and weights in IK chains that cannot be.
 void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults);
 
 }  // namespace bendy

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 // The fixed records as they lie in the file: what each field means, its unit and range, stands in records.def.
@@ -76,6 +77,50 @@ struct RestRecord {
     std::array<float, 3> translation{};
     std::array<float, 3> scale{1.0f, 1.0f, 1.0f};
     std::array<float, 3> shear{};
+};
+
+struct LimitRecord {
+    static constexpr float kFree = std::numeric_limits<float>::infinity();
+
+    std::uint8_t model = 0;
+    std::uint8_t euler_order = 0;
+    std::uint8_t scope = 0;
+    std::uint8_t flags = 0;
+    float soft_zone = 0.0f;
+    std::array<float, 4> frame{0.0f, 0.0f, 0.0f, 1.0f};
+    std::array<float, 3> rotation_min{-kFree, -kFree, -kFree};
+    std::array<float, 3> rotation_max{kFree, kFree, kFree};
+    std::array<float, 3> translation_min{-kFree, -kFree, -kFree};
+    std::array<float, 3> translation_max{kFree, kFree, kFree};
+    std::array<float, 3> stiffness{};
+    std::array<float, 3> preferred{};
+};
+
+struct PullRecord {
+    std::uint32_t chain = 0;
+    float weight = 1.0f;
+};
+
+struct ChainRecord {
+    std::uint32_t start = 0;
+    std::uint32_t effector = 0;
+    std::uint32_t target = kNone;
+    std::uint32_t pole = kNone;
+    std::uint8_t solver = 0;
+    std::uint8_t flags = 0;
+    std::uint16_t iterations = 0;
+    std::uint8_t priority = 0;
+    std::array<std::uint8_t, 3> reserved{};
+    float tolerance = 0.0f;
+    std::array<float, 3> pole_vector{};
+    float pole_angle = 0.0f;
+    std::array<float, 3> tip_offset{};
+    std::array<float, 4> tip_rotation{0.0f, 0.0f, 0.0f, 1.0f};
+    float position_weight = 1.0f;
+    float rotation_weight = 0.0f;
+    float influence = 1.0f;
+    float stretch = 0.0f;
+    float compress = 0.0f;
 };
 
 struct PolygonRecord {
@@ -160,6 +205,29 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 inline constexpr unsigned kAlphaModes = 3;
 enum class MediaType : std::uint8_t { other, png, jpeg, ktx2, webp, avif };
 inline constexpr unsigned kMediaTypes = 6;
+enum class LimitModel : std::uint8_t {
+    free,
+    locked,
+    hinge,
+    swing_twist_ellipse,
+    swing_twist_pyramid,
+    euler_box,
+    largest_angle
+};
+inline constexpr unsigned kLimitModels = 7;
+enum class EulerOrder : std::uint8_t { xyz, xzy, yxz, yzx, zxy, zyx };
+inline constexpr unsigned kEulerOrders = 6;
+enum class LimitScope : std::uint8_t { every_pose, ik_only, all_but_ik };
+inline constexpr unsigned kLimitScopes = 3;
+enum class Solver : std::uint8_t { any, pull, two_bone, ccd, fabrik, aim, least_squares };
+inline constexpr unsigned kSolvers = 7;
+
+/// Bits of LimitRecord::flags and ChainRecord::flags.
+inline constexpr std::uint8_t kApproximated = 1;  ///< the source says more, or otherwise, than the record can
+inline constexpr std::uint8_t kProposed = 2;      ///< guessed from the joints' names: nobody has authored it
+inline constexpr std::uint8_t kRestOutside = 4;   ///< of a limit: its author knows that the rest pose is not legal
+inline constexpr unsigned kLimitFlags = 8;
+inline constexpr unsigned kChainFlags = 4;
 
 /// Bytes of one number of the type.
 constexpr std::uint32_t component_size(ComponentType type) {

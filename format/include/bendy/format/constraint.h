@@ -1,0 +1,32 @@
+#pragma once
+
+#include <bendy/format/faults.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+
+// LIMT: what a joint may do. Both readers and writers hold constraints against the same rules.
+namespace bendy {
+
+/// A constraint of a joint.
+struct LimitView {
+    std::uint32_t chunk = 0;
+    std::uint32_t joint = 0;
+    LimitRecord record;
+};
+
+/// Reads a LIMT chunk. A fault of shape (size, model, order, scope, flags) is added and gives false.
+bool read_limit(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, LimitView& limit, Faults& faults);
+
+/// Adds what is wrong with a constraint's numbers: NaN, a frame that is no unit quaternion, a minimum above its maximum,
+/// ranges that the model cannot have, stiffness outside 0 to 1, a rest pose outside the limits that the flags do not
+/// admit. \param offset where it stands, \param joint whose it is, for the faults
+void check_limit(const LimitRecord& limit, std::uint32_t joint, std::uint64_t offset, Faults& faults);
+
+/// True when the rest pose, R = identity and no translation, is inside the limits.
+bool holds_rest(const LimitRecord& limit);
+
+/// How many of rotation_min and rotation_max count for the model: 3 (X, Y, Z), 1 (X: hinge, largest angle) or 0.
+unsigned limited_axes(LimitModel model);
+
+}  // namespace bendy

@@ -1,0 +1,113 @@
+#include <bendy/format/ik_chain.h>
+
+#include <bendy/format/cycle.h>
+#include <bendy/format/read_record.h>
+#include <bendy/format/text.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+
+namespace bendy {
+namespace {
+
+/// For each joint the first one that is not below it: in pre-order a joint's descendants are [joint, end).
+std::vector<std::uint32_t> find_ends(const SkeletonView& skeleton) {
+    const auto joints = static_cast<std::uint32_t>(skeleton.joints.size());
+    std::vector<std::uint32_t> ends(joints);
+    for (std::uint32_t joint = joints; joint-- > 0;) {
+        ends[joint] = std::max(ends[joint], joint + 1);
+        const std::uint32_t parent = skeleton.joints[joint].parent;
+        if (parent != kNone) ends[parent] = std::max(ends[parent], ends[joint]);
+    }
+    return ends;
+}
+
+/// `ends`: see find_ends.
+ChainView read_chain(const ChunkTree& tree, std::uint32_t chunk, std::span<const std::uint32_t> ends, Faults& faults) {
+    ChainView chain;
+    chain.chunk = chunk;
+    chain.name = read_text(tree, chunk, FourCC("NAME"), faults);
+    chain.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    const auto record = read_child_record<ChainRecord>(tree, chunk, FourCC("KINF"), faults);
+    if (!record) return chain;
+    chain.record = *record;
+    const std::uint64_t offset = offset_of(tree, chunk, FourCC("KINF"));
+    check_reserved(record->reserved, offset, faults);
+    check_enum(record->solver, kSolvers, offset, faults);
+    check_enum(record->flags, kChainFlags, offset, faults);
+    bool in_range = true;
+    const auto check_joint = [&](std::uint32_t joint) {
+        if (joint < ends.size()) return;
+        in_range = false;
+        faults.add({ErrorCode::kJointRange, offset, joint, ends.size()});
+    };
+    check_joint(record->start);
+    check_joint(record->effector);
+    if (record->target != kNone) check_joint(record->target);
+    if (record->pole != kNone) check_joint(record->pole);
+    if (!in_range) return chain;
+    const bool is_above = record->start <= record->effector && record->effector < ends[record->start];
+    if (!is_above) faults.add({ErrorCode::kChainPath, offset, record->start, record->effector});
+    return chain;
+}
+
+/// Holds the joints' weights against the chains.
+void check_pulls(const ChunkTree& tree, const SkeletonView& skeleton, std::span<const ChainView> chains,
+                 std::span<const std::uint32_t> ends, Faults& faults) {
+    std::vector<const PullView*> good;
+    for (const PullView& pull : skeleton.pulls) {
+        const std::uint64_t offset = tree[pull.chunk].offset;
+        if (pull.chain >= chains.size()) {
+            faults.add({ErrorCode::kChainRange, offset, pull.chain, chains.size()});
+            continue;
+        }
+        const ChainRecord& chain = chains[pull.chain].record;
+        const bool is_link = chain.start <= pull.joint && pull.joint <= chain.effector &&
+                             chain.effector < ends[pull.joint];  // at or above the effector, not above the start
+        if (!is_link) faults.add({ErrorCode::kPullPath, offset, pull.joint, pull.chain});
+        good.push_back(&pull);
+    }
+    const auto key = [](const PullView* pull) { return std::tie(pull->joint, pull->chain); };
+    std::stable_sort(good.begin(), good.end(),
+                     [&](const PullView* a, const PullView* b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < good.size(); ++i) {
+        if (key(good[i - 1]) == key(good[i]))
+            faults.add({ErrorCode::kPullRepeated, tree[good[i]->chunk].offset, good[i]->joint, good[i]->chain});
+    }
+}
+
+}  // namespace
+
+std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, const SkeletonView& skeleton,
+                                   Faults& faults) {
+    const std::vector<std::uint32_t> ends = find_ends(skeleton);
+    std::vector<ChainView> chains;
+    const std::size_t before = faults.count();
+    for (const std::uint32_t child : tree.children(object)) {
+        if (tree[child].id == FourCC("IKCH") && tree[child].is_container())
+            chains.push_back(read_chain(tree, child, ends, faults));
+    }
+    if (faults.count() == before) check_pulls(tree, skeleton, chains, ends, faults);
+    return chains;
+}
+
+void check_chain_values(const ChunkTree& tree, const ChainView& chain, Faults& faults) {
+    const std::uint64_t offset = offset_of(tree, chain.chunk, FourCC("KINF"));
+    const ChainRecord& record = chain.record;
+    check_finite(std::array{record.tolerance}, offset, faults);
+    check_finite(record.pole_vector, offset, faults);
+    check_finite(std::array{record.pole_angle}, offset, faults);
+    check_finite(record.tip_offset, offset, faults);
+    check_finite(std::array{record.stretch}, offset, faults);
+    if (!is_unit(record.tip_rotation, kUnitTolerance))
+        faults.add({ErrorCode::kRotationNotUnit, offset, record.effector});
+    const std::array fractions{record.position_weight, record.rotation_weight, record.influence, record.compress};
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+        if (!(fractions[i] >= 0.0f && fractions[i] <= 1.0f)) faults.add({ErrorCode::kFractionRange, offset, i});
+    }
+    if (record.stretch < 0.0f || record.tolerance < 0.0f) faults.add({ErrorCode::kFractionRange, offset, 4});
+}
+
+}  // namespace bendy
