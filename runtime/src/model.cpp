@@ -46,7 +46,56 @@ std::vector<Draw> make_draws(std::span<const PolygonView> polygons) {
     return draws;
 }
 
+Chain make_chain(const ChainView& view, std::uint32_t number, std::span<const std::uint32_t> depths) {
+    Chain chain;
+    chain.name = view.name;
+    chain.number = number;
+    chain.record = view.record;
+    chain.start = view.record.start;
+    chain.effector = view.record.effector;
+    chain.links = depths[chain.effector] - depths[chain.start] + 1;
+    chain.target = view.record.target;
+    chain.pole = view.record.pole;
+    chain.solver = static_cast<Solver>(view.record.solver);
+    chain.extras = view.extras;
+    return chain;
+}
+
 }  // namespace
+
+void Model::build_rig(Data& data) {
+    const SkeletonView& skeleton = data.object.skeleton;
+    if (!skeleton.limits.empty()) data.obeyed.resize(data.joints.size());
+    data.constraints.reserve(skeleton.limits.size());
+    for (const LimitView& limit : skeleton.limits) {
+        const auto number = static_cast<std::uint32_t>(data.constraints.size());
+        data.constraints.push_back(make_constraint(limit));
+        Obeyed& obeyed = data.obeyed[limit.joint];
+        // What is meant for one purpose goes before what is meant for every one.
+        switch (data.constraints.back().scope) {
+            case LimitScope::every_pose:
+                if (obeyed.in_poses == kNone) obeyed.in_poses = number;
+                if (obeyed.in_ik == kNone) obeyed.in_ik = number;
+                break;
+            case LimitScope::ik_only: obeyed.in_ik = number; break;
+            case LimitScope::all_but_ik: obeyed.in_poses = number; break;
+        }
+    }
+    if (data.object.chains.empty()) return;
+    std::vector<std::uint32_t> depths(data.joints.size());
+    for (std::size_t joint = 0; joint < depths.size(); ++joint) {
+        const std::uint32_t parent = data.joints[joint].parent;
+        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
+    }
+    for (const ChainView& view : data.object.chains) {
+        data.chains.push_back(make_chain(view, static_cast<std::uint32_t>(data.chains.size()), depths));
+        data.longest_chain = std::max(data.longest_chain, data.chains.back().links);
+    }
+    data.weights = skeleton.pulls;
+    std::sort(data.weights.begin(), data.weights.end(), [](const PullView& a, const PullView& b) {
+        return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
+    });
+}
 
 std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
     std::vector<RigidMovers> movers(object.pools.size());
@@ -80,6 +129,7 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
     const ObjectView& object = data->object;
     data->joints.reserve(object.skeleton.joints.size());
     for (const JointView& joint : object.skeleton.joints) data->joints.push_back(make_joint(joint));
+    build_rig(*data);
     data->draws = make_draws(object.skeleton.polygons);
     data->movers = find_movers(object);
     data->first_vertex.push_back(0);
@@ -108,6 +158,31 @@ const Cycle* Model::cycle(std::string_view name) const {
     const auto found =
         std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
     return found == cycles.end() ? nullptr : &*found;
+}
+
+const Chain* Model::chain(std::string_view name) const {
+    const auto& chains = data_->chains;
+    const auto found =
+        std::find_if(chains.begin(), chains.end(), [&](const Chain& chain) { return chain.name == name; });
+    return found == chains.end() ? nullptr : &*found;
+}
+
+std::span<const PullView> Model::chain_weights(const Chain& chain) const {
+    const auto less = [](const PullView& pull, std::uint32_t number) { return pull.chain < number; };
+    const auto& weights = data_->weights;
+    const auto first = std::lower_bound(weights.begin(), weights.end(), chain.number, less);
+    const auto last = std::lower_bound(first, weights.end(), chain.number + 1, less);
+    return {first, last};
+}
+
+const Constraint* Model::constraint(std::uint32_t joint) const {
+    if (data_->obeyed.empty() || data_->obeyed[joint].in_poses == kNone) return nullptr;
+    return &data_->constraints[data_->obeyed[joint].in_poses];
+}
+
+const Constraint* Model::ik_constraint(std::uint32_t joint) const {
+    if (data_->obeyed.empty() || data_->obeyed[joint].in_ik == kNone) return nullptr;
+    return &data_->constraints[data_->obeyed[joint].in_ik];
 }
 
 std::uint32_t Model::joint(std::string_view name) const {

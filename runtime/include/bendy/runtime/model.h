@@ -3,6 +3,7 @@
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
 #include <bendy/format/result.h>
+#include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
 
 #include <cstdint>
@@ -37,6 +38,20 @@ struct Draw {
     std::uint32_t count = 0;
 };
 
+/// An IK chain: the joints on the path from the effector up to the start.
+struct Chain {
+    std::string_view name;  ///< UTF-8; may be empty, may be doubled
+    std::uint32_t number = 0;
+    std::uint32_t start = 0;
+    std::uint32_t effector = 0;
+    std::uint32_t links = 0;  ///< joints from start to effector, both counted
+    std::uint32_t target = kNone;  ///< joint to be reached, or kNone
+    std::uint32_t pole = kNone;    ///< joint to bend towards, or kNone
+    Solver solver = Solver::any;
+    ChainRecord record;       ///< the rest, as in the file
+    std::string_view extras;  ///< JSON of the author's, or empty
+};
+
 struct OpenOptions {
     std::uint32_t object = 0;  ///< which of the file's objects
     bool check_sums =
@@ -61,9 +76,21 @@ public:
     /// Each joint's own polygons: for hits, severed limbs, culling.
     [[nodiscard]] std::span<const PolygonView> polygons() const { return data_->object.skeleton.polygons; }
 
-    /// The first cycle or joint of that name; null or kNone if there is none.
+    /// The joints' constraints, ordered by joint.
+    [[nodiscard]] std::span<const Constraint> constraints() const { return data_->constraints; }
+    [[nodiscard]] std::span<const Chain> chains() const { return data_->chains; }
+    /// Weights of joints in chains, ordered by chain, then joint; a joint without one has weight 1.
+    [[nodiscard]] std::span<const PullView> chain_weights(const Chain& chain) const;
+
+    /// The first cycle, chain or joint of that name; null or kNone if there is none.
     [[nodiscard]] const Cycle* cycle(std::string_view name) const;
+    [[nodiscard]] const Chain* chain(std::string_view name) const;
     [[nodiscard]] std::uint32_t joint(std::string_view name) const;
+    /// What a joint must obey in a pose, and what in an IK solver; null if nothing.
+    [[nodiscard]] const Constraint* constraint(std::uint32_t joint) const;
+    [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const;
+    /// Links of the longest chain.
+    [[nodiscard]] std::uint32_t longest_chain() const { return data_->longest_chain; }
 
     /// Vertices of all pools together, pool after pool; and where a pool's begin.
     [[nodiscard]] std::uint64_t vertex_count() const { return data_->first_vertex.back(); }
@@ -81,6 +108,10 @@ private:
         std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
         std::vector<std::uint32_t> per_vertex;  // only for a pool with polygons of other joints
     };
+    struct Obeyed {
+        std::uint32_t in_poses = kNone;  // into constraints
+        std::uint32_t in_ik = kNone;
+    };
     struct Data {
         MappedFile file;
         Document document;
@@ -91,11 +122,17 @@ private:
         std::vector<std::uint32_t> first_target;  // one more than pools
         std::vector<RigidMovers> movers;          // one per pool
         std::uint32_t largest_palette = 0;
+        std::vector<Constraint> constraints;
+        std::vector<Obeyed> obeyed;  // one per joint, if there are constraints
+        std::vector<Chain> chains;
+        std::vector<PullView> weights;  // by chain, then joint
+        std::uint32_t longest_chain = 0;
     };
 
     explicit Model(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
+    static void build_rig(Data& data);
 
     std::unique_ptr<const Data> data_;  // behind a pointer, so that views into it survive a move of the Model
 };

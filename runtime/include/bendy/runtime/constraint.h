@@ -1,0 +1,46 @@
+#pragma once
+
+#include <bendy/format/constraint.h>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace bendy {
+
+/// An interval of angles on the circle.
+struct AngleRange {
+    double middle = 0.0;  ///< radians
+    double half = 0.0;    ///< radians, 0 or more; pi or more: every angle
+};
+
+/// What a constraint allows, made ready for use.
+struct LimitShape {
+    std::array<AngleRange, 3> angles;          ///< hinge and twist: [0]; Euler box: X, Y, Z
+    std::array<double, 2> swing_low{1, 1};     ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1
+    std::array<double, 2> swing_high{1, 1};    ///< and towards plus
+    double largest = 0.0;                      ///< radians: largest angle
+};
+
+/// A joint's constraint. R below is the joint's rotation away from rest in the constraint's frame C:
+/// q = q_rest * C * R * conj(C).
+struct Constraint {
+    std::uint32_t joint = 0;
+    LimitModel model = LimitModel::free;
+    EulerOrder euler_order = EulerOrder::xyz;
+    LimitScope scope = LimitScope::every_pose;
+    std::uint8_t flags = 0;        ///< kApproximated, kProposed, kRestOutside
+    bool limits_translation = false;
+    glm::dquat frame{1, 0, 0, 0};  ///< C
+    LimitShape shape;
+    bool has_soft_zone = false;
+    LimitShape inner;         ///< the shape without its soft zone
+    glm::dvec3 stiffness{0};  ///< 0 to 1 about the frame's axes
+    LimitRecord record;       ///< as in the file
+};
+
+/// Makes a constraint ready. Numbers that are not possible (the file may hold any) are taken as the nearest that are.
+Constraint make_constraint(const LimitView& view);
+
+}  // namespace bendy

@@ -1,0 +1,78 @@
+#include <bendy/runtime/constraint.h>
+
+#include "trig.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+constexpr double kTurn = 2.0 * trig::kPi;
+
+/// The number held to [low, high]; `otherwise` if it is NaN.
+double held(double value, double low, double high, double otherwise) {
+    return std::isnan(value) ? otherwise : std::clamp(value, low, high);
+}
+
+AngleRange make_range(double low, double high, double soft_zone) {
+    low = held(low, -1e3, 1e3, 0.0);
+    high = held(high, -1e3, 1e3, 0.0);
+    if (high < low) high = low;
+    const double half = 0.5 * (high - low);
+    if (half >= trig::kPi) return {0.0, trig::kPi};
+    return {std::remainder(0.5 * (low + high), kTurn), std::max(0.0, half - soft_zone)};
+}
+
+/// sin(limit / 2) for a swing limit on one side. A little less than 1 at most: after half a turn of swing the twist
+/// could not be told.
+double half_axis(double limit, double soft_zone) {
+    constexpr double kLargest = 1.0 - 1e-12;
+    if (limit >= trig::kPi) return kLargest;
+    return kLargest * trig::sin_cos(0.5 * std::max(0.0, held(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
+}
+
+LimitShape make_shape(const LimitRecord& record, double soft_zone) {
+    LimitShape shape;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        shape.angles[axis] = make_range(record.rotation_min[axis], record.rotation_max[axis], soft_zone);
+    for (std::size_t side = 0; side < 2; ++side) {
+        shape.swing_low[side] = half_axis(-record.rotation_min[side + 1], soft_zone);
+        shape.swing_high[side] = half_axis(record.rotation_max[side + 1], soft_zone);
+    }
+    shape.largest = std::max(0.0, held(record.rotation_max[0], 0.0, trig::kPi, 0.0) - soft_zone);
+    return shape;
+}
+
+glm::dquat unit_frame(const std::array<float, 4>& frame) {
+    const glm::dquat q(frame[3], frame[0], frame[1], frame[2]);
+    const double length = glm::length(q);
+    return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+Constraint make_constraint(const LimitView& view) {
+    const LimitRecord& record = view.record;
+    Constraint constraint;
+    constraint.joint = view.joint;
+    constraint.model = static_cast<LimitModel>(record.model);
+    constraint.euler_order = static_cast<EulerOrder>(record.euler_order);
+    constraint.scope = static_cast<LimitScope>(record.scope);
+    constraint.flags = record.flags;
+    constraint.frame = unit_frame(record.frame);
+    constraint.shape = make_shape(record, 0.0);
+    constraint.has_soft_zone = record.soft_zone > 0.0f && record.soft_zone < LimitRecord::kFree;
+    if (constraint.has_soft_zone) constraint.inner = make_shape(record, record.soft_zone);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        constraint.stiffness[axis] = held(record.stiffness[i], 0.0, 1.0, 0.0);
+        constraint.limits_translation = constraint.limits_translation ||
+                                        record.translation_min[i] > -LimitRecord::kFree ||
+                                        record.translation_max[i] < LimitRecord::kFree;
+    }
+    constraint.record = record;
+    return constraint;
+}
+
+}  // namespace bendy

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "trig.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+
+// Rotations as the constraints and the IK solvers need them, in double precision.
+namespace bendy {
+
+/// The same rotation, w >= 0.
+inline glm::dquat upper_half(const glm::dquat& q) {
+    return q.w < 0.0 ? -q : q;
+}
+
+/// Rotation by `angle` radians about a coordinate axis, 0 to 2.
+inline glm::dquat about(int axis, double angle) {
+    const trig::SinCos half = trig::sin_cos(0.5 * angle);
+    glm::dquat q(half.cos, 0.0, 0.0, 0.0);
+    q[axis] = half.sin;  // glm: x y z w
+    return q;
+}
+
+/// Rotation by the vector's length, radians, about its direction.
+inline glm::dquat from_vector(const glm::dvec3& v) {
+    const double angle = std::sqrt(glm::dot(v, v));
+    if (angle < 1e-12) return glm::normalize(glm::dquat(1.0, 0.5 * v));
+    const trig::SinCos half = trig::sin_cos(0.5 * angle);
+    return {half.cos, v * (half.sin / angle)};
+}
+
+/// The rotation vector of q, its length 0 to pi.
+inline glm::dvec3 to_vector(const glm::dquat& q) {
+    const glm::dquat u = upper_half(q);
+    const glm::dvec3 v(u.x, u.y, u.z);
+    const double sine = std::sqrt(glm::dot(v, v));
+    if (sine < 1e-12) return 2.0 * v;
+    return v * (2.0 * trig::atan2(sine, u.w) / sine);
+}
+
+/// The angle between two rotations, 0 to pi. Good for small angles too.
+inline double angle_between(const glm::dquat& a, const glm::dquat& b) {
+    const glm::dquat d = glm::conjugate(a) * b;
+    return 2.0 * trig::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
+}
+
+/// The smallest rotation that takes the direction of `from` to that of `to`; none if one of them has no length.
+inline glm::dquat between(const glm::dvec3& from, const glm::dvec3& to) {
+    const double lengths = std::sqrt(glm::dot(from, from) * glm::dot(to, to));
+    if (!(lengths > 1e-200)) return {1.0, 0.0, 0.0, 0.0};
+    const double w = lengths + glm::dot(from, to);
+    if (w > 1e-9 * lengths) return glm::normalize(glm::dquat(w, glm::cross(from, to)));
+    // Opposite: half a turn about any axis across.
+    const glm::dvec3 other = std::abs(from.x) < std::abs(from.z) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    return {0.0, glm::normalize(glm::cross(from, other))};
+}
+
+}  // namespace bendy
