@@ -3,6 +3,7 @@
 #include <bendy/format/check_sums.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -91,6 +92,11 @@ void Model::build_rig(Data& data) {
         data.chains.push_back(make_chain(view, static_cast<std::uint32_t>(data.chains.size()), depths));
         data.longest_chain = std::max(data.longest_chain, data.chains.back().links);
     }
+    data.chain_order.resize(data.chains.size());
+    std::iota(data.chain_order.begin(), data.chain_order.end(), 0u);
+    std::stable_sort(data.chain_order.begin(), data.chain_order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return data.chains[a].record.priority < data.chains[b].record.priority;
+    });
     data.weights = skeleton.pulls;
     std::sort(data.weights.begin(), data.weights.end(), [](const PullView& a, const PullView& b) {
         return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);

@@ -10,6 +10,7 @@ Pose::Pose(const Model& model)
       model_space_(model.joints().size()),
       exact_model_space_(model.joints().size()),
       target_weights_(model.target_count()),
+      ik_links_(model.longest_chain()),
       palette_(model.largest_palette()) {
     set_rest();
     local_to_model(*this);

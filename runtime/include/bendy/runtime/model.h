@@ -89,6 +89,8 @@ public:
     /// What a joint must obey in a pose, and what in an IK solver; null if nothing.
     [[nodiscard]] const Constraint* constraint(std::uint32_t joint) const;
     [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const;
+    /// The chains' numbers in the order in which several are solved: by ascending priority, then as in the file.
+    [[nodiscard]] std::span<const std::uint32_t> chain_order() const { return data_->chain_order; }
     /// Links of the longest chain.
     [[nodiscard]] std::uint32_t longest_chain() const { return data_->longest_chain; }
 
@@ -125,6 +127,7 @@ private:
         std::vector<Constraint> constraints;
         std::vector<Obeyed> obeyed;  // one per joint, if there are constraints
         std::vector<Chain> chains;
+        std::vector<std::uint32_t> chain_order;
         std::vector<PullView> weights;  // by chain, then joint
         std::uint32_t longest_chain = 0;
     };

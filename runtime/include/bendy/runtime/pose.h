@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/runtime/ik_link.h>
 #include <bendy/runtime/model.h>
 
 #include <glm/mat4x4.hpp>
@@ -35,6 +36,7 @@ public:
 
 private:
     friend void local_to_model(Pose& pose);
+    friend class Reach;
     friend bool skin(const Model& model, std::uint32_t pool, Pose& pose, const struct Vertices& out);
 
     const Model* model_;
@@ -42,6 +44,7 @@ private:
     std::vector<glm::mat4> model_space_;
     std::vector<glm::dmat4> exact_model_space_;  // so that rounding does not add up along deep chains
     std::vector<float> target_weights_;
+    std::vector<IkLink> ik_links_;    // of the chain that reaches
     std::vector<glm::mat4> palette_;  // of the pool that is being skinned
     bool is_stale_ = true;
 };

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <bendy/runtime/constraint.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace bendy {
+
+/// A joint of a chain while an IK solver works on it; a Pose keeps as many as its model's longest chain has, so that
+/// reaching allocates nothing. Rotations and bones in the space of the start's parent, lengths in chain lengths.
+struct IkLink {
+    glm::dquat local;       ///< relative to the link before
+    glm::dvec3 bone;        ///< to the next link or the tip, in this link's axes
+    glm::dquat rest_frame;  ///< q_rest * C
+    glm::dquat frame;       ///< C
+    const Constraint* constraint = nullptr;  ///< null: free
+    glm::dvec3 freedom{1};                   ///< 0 to 1 about the frame's axes: weight * (1 - stiffness)
+    double bone_length = 0.0;
+    std::uint32_t joint = 0;
+    bool is_fixed = false;  ///< no freedom about any axis
+
+    // Where the link is, by the problem.
+    glm::dquat global;
+    glm::dvec3 position;
+
+    // The solvers' own.
+    glm::dquat saved;  ///< a rotation to come back to
+    glm::dquat trial;
+    glm::dmat3 mobility;
+    glm::dvec3 goal;
+};
+
+}  // namespace bendy

@@ -1,0 +1,358 @@
+#include <bendy/runtime/ik.h>
+
+#include <bendy/runtime/constrain.h>
+#include <bendy/runtime/local_to_model.h>
+
+#include "ik_problem.h"
+#include "rotation.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+/// The rotation of a matrix that may also scale, shear and mirror: its axes made square, one after another.
+glm::dquat rotation_of(const glm::dmat4& matrix) {
+    const double sign = glm::determinant(glm::dmat3(matrix)) < 0.0 ? -1.0 : 1.0;
+    const glm::dvec3 x = glm::normalize(sign * glm::dvec3(matrix[0]));
+    const glm::dvec3 across = sign * glm::dvec3(matrix[1]);
+    const glm::dvec3 y = glm::normalize(across - x * glm::dot(x, across));
+    return glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
+}
+
+}  // namespace
+
+/// What belongs to a reach beside the problem: how to come from the model to the problem and back.
+class Reach {
+public:
+    Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options)
+        : chain_(chain),
+          target_(target),
+          pose_(pose),
+          model_(pose.model()),
+          options_(options),
+          links_(std::span(pose.ik_links_).first(chain.links)) {}
+
+    ReachResult run() {
+        if (!gather()) return {};
+        const bool is_aim = solver() == Solver::aim;
+        ReachResult result;
+        result.iterations = solve();
+        constexpr int kCorrections = 8;
+        for (int i = 0; i < kCorrections && !is_aim && correct_target(); ++i) result.iterations += solve();
+        if (!is_aim && !is_uneven_ && chain_can_change_length() && !problem_.is_reached()) {
+            fit_length();
+            result.iterations += solve();
+        }
+        scatter();
+        measure(result);
+        return result;
+    }
+
+private:
+    [[nodiscard]] Solver solver() const {
+        if (options_.solver != Solver::any) return options_.solver;
+        if (chain_.solver != Solver::any) return chain_.solver;
+        std::size_t bones = 0;
+        bool is_free = true;
+        for (const IkLink& link : links_) {
+            bones += link.bone_length > 0.0 ? 1 : 0;
+            is_free = is_free && link.constraint == nullptr;
+        }
+        return bones == 2 && is_free ? Solver::two_bone : Solver::least_squares;
+    }
+
+    [[nodiscard]] bool chain_can_change_length() const {
+        return chain_.record.stretch > 0.0f || chain_.record.compress > 0.0f;
+    }
+
+    /// The matrix of the start's parent, from the local transforms alone if the pose has changed.
+    [[nodiscard]] glm::dmat4 base_matrix() const {
+        glm::dmat4 base(1.0);
+        for (std::uint32_t joint = model_.joints()[chain_.start].parent; joint != kNone;
+             joint = model_.joints()[joint].parent) {
+            if (!pose_.is_stale()) return pose_.exact_model_space_[joint] * base;
+            base = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * base;
+        }
+        return base;
+    }
+
+    [[nodiscard]] glm::dvec3 to_base(const glm::dvec3& point) const {
+        return glm::dvec3(inverse_base_ * glm::dvec4(point, 1.0)) / problem_.scale;
+    }
+
+    /// Fills links and problem from the pose. False if there is something that is not a number.
+    bool gather() {
+        std::uint32_t joint = chain_.effector;
+        for (std::size_t i = links_.size(); i-- > 0; joint = model_.joints()[joint].parent) links_[i].joint = joint;
+        base_ = base_matrix();
+        inverse_base_ = glm::affineInverse(base_);
+        gather_links();
+        gather_weights();
+        return gather_problem();
+    }
+
+    void gather_links() {
+        const auto local = std::as_const(pose_).local();
+        double scale = 1.0;   // of the links so far
+        double length = 0.0;  // metres
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            IkLink& link = links_[i];
+            const JointTransform& transform = local[link.joint];
+            const Joint& joint = model_.joints()[link.joint];
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
+            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            length += link.bone_length;
+            is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
+            scale *= std::cbrt(std::abs(double{transform.scale.x} * transform.scale.y * transform.scale.z));
+            link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
+            link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
+            link.rest_frame = glm::normalize(glm::dquat(joint.rest.rotation)) * link.frame;
+            link.freedom =
+                link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
+            link.local = nearest_legal_local(link, glm::normalize(glm::dquat(transform.rotation)));
+        }
+        problem_.scale = length > 0.0 ? length : 1.0;
+        problem_.reach = length > 0.0 ? 1.0 : 0.0;
+        for (IkLink& link : links_) {
+            link.bone /= problem_.scale;
+            link.bone_length /= problem_.scale;
+        }
+    }
+
+    void gather_weights() {
+        for (const PullView& pull : model_.chain_weights(chain_)) {
+            // Joint numbers ascend along the chain.
+            const auto link = std::lower_bound(links_.begin(), links_.end(), pull.joint,
+                                               [](const IkLink& l, std::uint32_t joint) { return l.joint < joint; });
+            if (link != links_.end() && link->joint == pull.joint)
+                link->freedom *= std::isnan(pull.weight) ? 1.0 : std::clamp(double{pull.weight}, 0.0, 1.0);
+        }
+        for (IkLink& link : links_) {
+            const bool is_locked = link.constraint != nullptr && link.constraint->model == LimitModel::locked;
+            link.is_fixed = is_locked || link.freedom == glm::dvec3(0.0);
+        }
+    }
+
+    bool gather_problem() {
+        const ChainRecord& record = chain_.record;
+        problem_.links = links_;
+        problem_.options = &options_;
+        problem_.origin = glm::dvec3(pose_.local()[chain_.start].translation) / problem_.scale;
+        problem_.target = to_base(target_.position);
+        problem_.tip_rotation = unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1],
+                                      record.tip_rotation[2]});
+        problem_.position_weight = fraction(record.position_weight, 1.0);
+        problem_.has_rotation = target_.rotation.has_value();
+        problem_.rotation_weight = fraction(record.rotation_weight, 0.0);
+        if (problem_.rotation_weight == 0.0) problem_.rotation_weight = 1.0;
+        if (problem_.has_rotation) {
+            const glm::dquat wanted(*target_.rotation);
+            if (!(std::abs(glm::length(wanted) - 1.0) < 1e-2)) return false;
+            problem_.target_rotation = glm::conjugate(rotation_of(base_)) * glm::normalize(wanted);
+        } else if (problem_.position_weight == 0.0) {
+            problem_.position_weight = 1.0;
+        }
+        const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
+        problem_.tolerance = tolerance > 0.0f ? std::max(double{tolerance} / problem_.scale, 1e-9) : 1e-4;
+        problem_.iterations = options_.iterations != 0 ? options_.iterations : record.iterations;
+        gather_pole();
+        wanted_ = problem_.target;
+        const glm::dvec3 way = wanted_ - problem_.origin;
+        is_out_of_reach_ = glm::dot(way, way) > problem_.reach * problem_.reach;
+        problem_.place();
+        const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
+                           glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
+                           glm::dot(problem_.pole, problem_.pole) + problem_.pole_angle;
+        return std::isfinite(sum);
+    }
+
+    void gather_pole() {
+        const ChainRecord& record = chain_.record;
+        problem_.pole_angle = record.pole_angle;
+        const glm::dvec3 direction(record.pole_vector[0], record.pole_vector[1], record.pole_vector[2]);
+        problem_.has_pole = true;
+        if (options_.pole) {
+            problem_.pole = to_base(*options_.pole);
+        } else if (chain_.pole != kNone) {
+            problem_.pole = to_base(model_position(chain_.pole));
+        } else if (direction != glm::dvec3(0.0)) {
+            problem_.pole = problem_.origin + direction;
+        } else {
+            problem_.has_pole = false;
+        }
+    }
+
+    [[nodiscard]] glm::dvec3 model_position(std::uint32_t joint) const {
+        glm::dvec4 position(glm::dvec3(pose_.local()[joint].translation), 1.0);
+        for (joint = model_.joints()[joint].parent; joint != kNone; joint = model_.joints()[joint].parent)
+            position = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * position;
+        return glm::dvec3(position);
+    }
+
+    [[nodiscard]] glm::dvec3 tip_offset() const {
+        const auto& offset = chain_.record.tip_offset;
+        return {offset[0], offset[1], offset[2]};
+    }
+
+    static glm::dmat3 scale_and_shear(const JointTransform& transform, const glm::vec3& shear) {
+        return {glm::dvec3(transform.scale.x, 0.0, 0.0), glm::dvec3(shear.x, transform.scale.y, 0.0),
+                glm::dvec3(shear.y, shear.z, transform.scale.z)};
+    }
+
+    static bool is_uneven(const JointTransform& transform, const glm::vec3& shear) {
+        constexpr float kSame = 1e-6f;
+        const glm::vec3& s = transform.scale;
+        return shear != glm::vec3(0.0f) || std::abs(s.x - s.y) > kSame * std::abs(s.x) ||
+               std::abs(s.x - s.z) > kSame * std::abs(s.x) || s.x < 0.0f;
+    }
+
+    static glm::dquat unit(const glm::dquat& q) {
+        const double length = glm::length(q);
+        return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    }
+
+    static double fraction(float value, double otherwise) {
+        return std::isnan(value) ? otherwise : std::clamp(double{value}, 0.0, 1.0);
+    }
+
+    std::uint32_t solve() {
+        const Solver chosen = solver();
+        if (chosen == Solver::aim) return solve_aim(problem_);
+        if (is_out_of_reach_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
+        switch (chosen) {
+            case Solver::pull: return solve_pull(problem_);
+            case Solver::ccd: return solve_ccd(problem_);
+            case Solver::fabrik: return solve_fabrik(problem_);
+            case Solver::two_bone: return two_bone();
+            default: return solve_least_squares(problem_);
+        }
+    }
+
+    /// Where limits keep the closed form from the target, least squares goes on from there.
+    std::uint32_t two_bone() {
+        const std::uint32_t iterations = solve_two_bone(problem_);
+        const bool is_free =
+            std::all_of(links_.begin(), links_.end(), [](const IkLink& link) { return link.constraint == nullptr; });
+        if (is_free || is_out_of_reach_ || problem_.is_reached()) return iterations;
+        return iterations + solve_least_squares(problem_);
+    }
+
+    /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds only
+    /// about where they are. Moves the problem's target by what the true tip is off; false if that is within tolerance.
+    bool correct_target() {
+        if (!is_uneven_ || is_out_of_reach_) return false;
+        const glm::dvec3 left = wanted_ - true_tip();
+        if (glm::dot(left, left) <= problem_.tolerance * problem_.tolerance) return false;
+        problem_.target += left;
+        return true;
+    }
+
+    [[nodiscard]] glm::dvec3 true_tip() const {
+        if (!is_uneven_) return problem_.tip;
+        glm::dmat4 matrix(1.0);
+        for (const IkLink& link : links_) {
+            JointTransform transform = pose_.local()[link.joint];
+            transform.rotation = glm::quat(link.local);
+            matrix = matrix * to_matrix(transform, model_.joints()[link.joint].shear);
+        }
+        return glm::dvec3(matrix * glm::dvec4(tip_offset(), 1.0)) / problem_.scale;
+    }
+
+    /// Makes the bones longer or shorter, all alike, as far as the chain may.
+    void fit_length() {
+        const glm::dvec3 way = problem_.target - problem_.origin;
+        const glm::dvec3 reached = problem_.tip - problem_.origin;
+        const double is = std::sqrt(glm::dot(reached, reached));
+        if (is < 1e-9) return;
+        const double wanted = std::sqrt(glm::dot(way, way)) / is;
+        stretch_ = std::clamp(wanted, 1.0 - fraction(chain_.record.compress, 0.0),
+                              1.0 + std::max(0.0, double{chain_.record.stretch}));
+        // The tip's offset is inside the effector and stays as it is.
+        for (std::size_t i = 0; i + 1 < links_.size(); ++i) {
+            links_[i].bone *= stretch_;
+            links_[i].bone_length *= stretch_;
+        }
+        problem_.reach *= stretch_;
+        is_out_of_reach_ = is_out_of_reach_ && wanted > stretch_;
+        problem_.place();
+    }
+
+    /// Writes the links' rotations into the pose.
+    void scatter() {
+        const double influence = std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
+        const std::span<JointTransform> local = pose_.change_local();
+        for (const IkLink& link : links_) {
+            JointTransform& joint = local[link.joint];
+            const glm::dquat mixed =
+                influence == 1.0 ? link.local : glm::slerp(glm::dquat(joint.rotation), link.local, influence);
+            joint.rotation = glm::quat(glm::normalize(mixed));
+            if (stretch_ != 1.0 && link.joint != chain_.start)
+                joint.translation *= static_cast<float>(1.0 + influence * (stretch_ - 1.0));
+        }
+    }
+
+    void measure(ReachResult& result) const {
+        const double distance = glm::length(wanted_ - true_tip());
+        result.distance = static_cast<float>(distance * problem_.scale);
+        if (solver() == Solver::aim) {
+            const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
+            const glm::dvec3 left = to_vector(between(forward, problem_.target - problem_.tip));
+            result.angle = static_cast<float>(std::sqrt(glm::dot(left, left)));
+            result.status = result.angle <= problem_.tolerance ? ReachStatus::reached : ReachStatus::not_reached;
+            return;
+        }
+        result.angle = static_cast<float>(problem_.rotation_error());
+        const bool is_there = problem_.position_weight == 0.0 || distance <= problem_.tolerance;
+        const bool is_turned = problem_.rotation_error() <= problem_.tolerance;
+        if (is_there && is_turned) {
+            result.status = ReachStatus::reached;
+        } else {
+            result.status = is_out_of_reach_ ? ReachStatus::out_of_reach : ReachStatus::not_reached;
+        }
+    }
+
+    const Chain& chain_;
+    const ReachTarget& target_;
+    Pose& pose_;
+    const Model& model_;
+    const ReachOptions& options_;
+    std::span<IkLink> links_;
+    IkProblem problem_;
+    glm::dmat4 base_{1.0};
+    glm::dmat4 inverse_base_{1.0};
+    glm::dvec3 wanted_{0};  ///< the problem's target before corrections
+    double stretch_ = 1.0;
+    bool is_uneven_ = false;  ///< a link before the last scales its axes differently
+    bool is_out_of_reach_ = false;
+};
+
+ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
+    const bool is_number = std::isfinite(target.position.x + target.position.y + target.position.z);
+    if (chain == nullptr || !is_number) return {};
+    return Reach(*chain, target, pose, options).run();
+}
+
+void reach_all(Pose& pose) {
+    const Model& model = pose.model();
+    for (const std::uint32_t number : model.chain_order()) {
+        const Chain& chain = model.chains()[number];
+        if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
+        if (pose.is_stale()) local_to_model(pose);
+        const glm::mat4& followed = pose.model_space()[chain.target];
+        ReachTarget target{glm::vec3(followed[3])};
+        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(glm::dmat4(followed)));
+        ReachOptions options;
+        options.influence = chain.record.influence;
+        reach(&chain, target, pose, options);
+    }
+}
+
+}  // namespace bendy

@@ -1,0 +1,236 @@
+#include "ik_problem.h"
+#include "nearest_rotation.h"
+#include "rotation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+// Damped least squares: Levenberg and Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
+// Jacobian transpose, pseudoinverse and damped least squares methods", 2004). A direction in which a joint's constraint
+// stops it is taken from that joint and the step is solved anew, so that the other joints do its part. When it is
+// stuck short of the target it begins again elsewhere, and the best end counts.
+namespace bendy {
+namespace {
+
+constexpr std::size_t kMost = 6;
+using Vector = std::array<double, kMost>;
+using Matrix = std::array<Vector, kMost>;
+
+/// y of (A + damping) y = e, A symmetric with no negative eigenvalue, its first `size` rows; by Cholesky's decomposition.
+Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
+    for (std::size_t j = 0; j < size; ++j) {
+        double diagonal = A[j][j] + damping;
+        for (std::size_t k = 0; k < j; ++k) diagonal -= A[j][k] * A[j][k];
+        A[j][j] = std::sqrt(std::max(diagonal, 1e-30));
+        for (std::size_t i = j + 1; i < size; ++i) {
+            double sum = A[i][j];
+            for (std::size_t k = 0; k < j; ++k) sum -= A[i][k] * A[j][k];
+            A[i][j] = sum / A[j][j];
+        }
+    }
+    Vector y = e;
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t k = 0; k < i; ++k) y[i] -= A[i][k] * y[k];
+        y[i] /= A[i][i];
+    }
+    for (std::size_t i = size; i-- > 0;) {
+        for (std::size_t k = i + 1; k < size; ++k) y[i] -= A[k][i] * y[k];
+        y[i] /= A[i][i];
+    }
+    return y;
+}
+
+class LeastSquares {
+public:
+    explicit LeastSquares(IkProblem& problem)
+        : problem_(problem),
+          size_(problem.has_rotation ? 6 : 3),
+          position_(std::sqrt(problem.position_weight)),
+          rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {}
+
+    /// From where the links are, until it is reached or stuck. Returns the iterations.
+    std::uint32_t descend(std::uint32_t most) {
+        double damping = 1e-2;
+        double cost = problem_.cost();
+        for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
+            if (problem_.is_reached()) return iteration;
+            try_step(damping);
+            for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+            problem_.place();
+            const double now = problem_.cost();
+            constexpr double kStuck = 1e-3;  // of the cost
+            const bool is_better = now < cost;
+            const bool is_stuck = cost - now < kStuck * cost;
+            if (is_better) {
+                cost = now;
+                damping = std::max(damping * 0.2, 1e-9);
+            } else {
+                for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+                problem_.place();
+                damping *= 8.0;
+            }
+            if (is_stuck && (is_better || damping > 10.0)) return iteration + 1;
+        }
+        return most;
+    }
+
+private:
+    /// Fills the links' trial with a step.
+    void try_step(double damping) {
+        for (IkLink& link : problem_.links) {
+            const glm::dmat3 axes = glm::mat3_cast(link.global * link.frame);
+            const glm::dvec3 squares = link.freedom * link.freedom;
+            link.mobility =
+                glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
+        }
+        constexpr int kRounds = 3;
+        for (int round = 0; round < kRounds; ++round) {
+            const Vector y = solve(gather(), errors(), size_, damping);
+            if (!apply(y)) return;
+        }
+    }
+
+    [[nodiscard]] Vector errors() const {
+        const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
+        Vector e{p.x, p.y, p.z};
+        if (size_ == 6) {
+            const glm::dvec3 r =
+                rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
+            e[3] = r.x;
+            e[4] = r.y;
+            e[5] = r.z;
+        }
+        return e;
+    }
+
+    /// J mobility J^T, J of each link: a turn w moves the tip by cross(w, arm), and turns it by w.
+    [[nodiscard]] Matrix gather() const {
+        glm::dmat3 pp(0.0);
+        glm::dmat3 pr(0.0);
+        glm::dmat3 rr(0.0);
+        for (const IkLink& link : problem_.links) {
+            if (link.is_fixed) continue;
+            const glm::dvec3 arm = problem_.tip - link.position;
+            // [arm]x, columns: cross(arm, axis); J = -[arm]x.
+            const glm::dmat3 cross_arm(glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x),
+                                       glm::dvec3(arm.y, -arm.x, 0.0));
+            const glm::dmat3 left = cross_arm * link.mobility;
+            pp -= left * cross_arm;  // [arm]x is its own transpose, negated
+            if (size_ == 6) {
+                pr -= left;
+                rr += link.mobility;
+            }
+        }
+        Matrix A{};
+        for (int column = 0; column < 3; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                const auto i = static_cast<std::size_t>(row);
+                const auto j = static_cast<std::size_t>(column);
+                A[i][j] = position_ * position_ * pp[column][row];
+                A[i][j + 3] = position_ * rotation_ * pr[column][row];
+                A[j + 3][i] = A[i][j + 3];
+                A[i + 3][j + 3] = rotation_ * rotation_ * rr[column][row];
+            }
+        }
+        return A;
+    }
+
+    /// Turns every link by mobility J^T y into its trial. True if a constraint stopped a link in a direction in which it
+    /// was free so far: that direction is then taken from its mobility.
+    bool apply(const Vector& y) {
+        const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
+        const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);
+        bool is_stopped = false;
+        glm::dquat parent(1.0, 0.0, 0.0, 0.0);
+        for (IkLink& link : problem_.links) {
+            link.trial = link.local;
+            if (!link.is_fixed) {
+                const glm::dvec3 arm = problem_.tip - link.position;
+                glm::dvec3 turn = link.mobility * (glm::cross(arm, p) + r);
+                const double size = std::sqrt(glm::dot(turn, turn));
+                constexpr double kLongest = 1.0;  // radians: beyond it the derivative says nothing
+                if (size > kLongest) turn *= kLongest / size;
+                link.trial = softly_legal_local(
+                    link, glm::normalize(glm::conjugate(parent) * (from_vector(turn) * link.global)));
+                if (link.constraint != nullptr && size > 0.0)
+                    is_stopped = take_stopped_direction(link, parent, turn) || is_stopped;
+            }
+            parent = link.global;
+        }
+        return is_stopped;
+    }
+
+    static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dvec3& turn) {
+        const glm::dvec3 done = to_vector(parent * link.trial * glm::conjugate(link.global));
+        const glm::dvec3 stopped = turn - done;
+        const double size = glm::dot(stopped, stopped);
+        constexpr double kPart = 0.05;  // of the turn
+        if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
+        const glm::dvec3 moved = link.mobility * stopped;
+        const double weight = glm::dot(stopped, moved);
+        if (weight <= 1e-12 * size) return false;
+        link.mobility -= glm::outerProduct(moved, moved) / weight;
+        return true;
+    }
+
+    IkProblem& problem_;
+    std::size_t size_;
+    double position_, rotation_;  ///< roots of the weights
+};
+
+/// Numbers in [-1, 1] from a counter: the same on every machine.
+class Dice {
+public:
+    double next() {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
+        return static_cast<double>(static_cast<std::int64_t>(state_) >> 11) * 0x1p-52;
+    }
+
+private:
+    std::uint64_t state_ = 1;
+};
+
+/// Another beginning: first the preferred pose, then any legal one.
+void begin_anew(IkProblem& problem, std::uint32_t attempt, Dice& dice) {
+    for (IkLink& link : problem.links) {
+        if (link.is_fixed) continue;
+        glm::dvec3 turn(0.0);
+        if (attempt == 0) {
+            if (link.constraint == nullptr) continue;
+            const auto& preferred = link.constraint->record.preferred;
+            turn = {preferred[0], preferred[1], preferred[2]};
+        } else {
+            turn = glm::dvec3(dice.next(), dice.next(), dice.next()) * 2.0;
+        }
+        link.local = legal_local(
+            link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));
+    }
+    problem.place();
+}
+
+}  // namespace
+
+std::uint32_t solve_least_squares(IkProblem& problem) {
+    const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
+    LeastSquares method(problem);
+    std::uint32_t iterations = method.descend(most);
+    if (problem.is_reached()) return iterations;
+    double best = problem.cost();
+    problem.save();
+    Dice dice;
+    for (std::uint32_t attempt = 0; attempt < problem.options->restarts; ++attempt) {
+        begin_anew(problem, attempt, dice);
+        iterations += method.descend(most);
+        if (problem.cost() < best) {
+            best = problem.cost();
+            problem.save();
+        }
+        if (problem.is_reached()) break;
+    }
+    problem.restore();
+    return iterations;
+}
+
+}  // namespace bendy

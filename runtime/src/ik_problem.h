@@ -1,0 +1,71 @@
+#pragma once
+
+#include <bendy/runtime/ik.h>
+#include <bendy/runtime/ik_link.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <span>
+
+// A chain as the solvers see it: in the space of the start's parent, lengths in chain lengths.
+namespace bendy {
+
+struct IkProblem {
+    std::span<IkLink> links;
+    glm::dvec3 origin{0};       ///< of the first link
+    double scale = 1.0;         ///< metres per chain length
+    glm::dvec3 target{0};       ///< where the tip should be
+    bool has_rotation = false;  ///< whether target_rotation counts
+    double position_weight = 1.0;
+    double rotation_weight = 0.0;
+    glm::dquat target_rotation{1, 0, 0, 0};
+    glm::dquat tip_rotation{1, 0, 0, 0};  ///< in the last link's axes
+    bool has_pole = false;
+    glm::dvec3 pole{0};       ///< point to bend towards
+    double pole_angle = 0.0;  ///< radians from there to the bend
+    double reach = 1.0;       ///< the bones' lengths together: 1, or 0 for a chain without length
+    double tolerance = 1e-4;  ///< chain lengths; radians
+    std::uint32_t iterations = 0;  ///< at most; 0: the solver's own
+    const ReachOptions* options = nullptr;
+
+    glm::dvec3 tip{0};                 ///< by place
+    glm::dquat tip_global{1, 0, 0, 0};  ///< by place
+
+    /// Positions and orientations from the links' rotations, from link `first` on.
+    void place(std::size_t first = 0);
+    /// The same of the one link after `link`, or of the tip if it is the last.
+    void place_next(std::size_t link);
+    [[nodiscard]] glm::dquat parent_global(std::size_t link) const;
+    [[nodiscard]] double distance() const;        ///< tip to target, chain lengths
+    [[nodiscard]] double rotation_error() const;  ///< radians; 0 if no rotation counts
+    [[nodiscard]] bool is_reached() const;
+    /// What the solvers make small: weighted squares of both errors.
+    [[nodiscard]] double cost() const;
+    void save();
+    void restore();
+};
+
+/// The rotation brought inside the link's constraint.
+glm::dquat legal_local(const IkLink& link, const glm::dquat& local);
+/// The same by a slower and nearer way: for where a solver begins.
+glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
+/// As legal_local, but a step from link.local into the soft zone goes half way only.
+glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
+/// A turn by a rotation vector in base space, lessened by the link's freedom about its axes.
+glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
+/// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by. The
+/// links after it are not placed anew.
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
+
+// The solvers. Each begins with a placed problem whose links are legal, leaves it so, and returns its iterations.
+std::uint32_t solve_pull(IkProblem& problem);
+std::uint32_t solve_two_bone(IkProblem& problem);
+std::uint32_t solve_ccd(IkProblem& problem);
+std::uint32_t solve_fabrik(IkProblem& problem);
+std::uint32_t solve_aim(IkProblem& problem);
+std::uint32_t solve_least_squares(IkProblem& problem);
+/// Points every bone in turn at the target: what a chain does that cannot reach.
+void point_at_target(IkProblem& problem);
+
+}  // namespace bendy
