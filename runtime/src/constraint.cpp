@@ -19,9 +19,23 @@ AngleRange make_range(double low, double high, double soft_zone) {
     low = held(low, -1e3, 1e3, 0.0);
     high = held(high, -1e3, 1e3, 0.0);
     if (high < low) high = low;
-    const double half = 0.5 * (high - low);
-    if (half >= trig::kPi) return {0.0, trig::kPi};
-    return {std::remainder(0.5 * (low + high), kTurn), std::max(0.0, half - soft_zone)};
+    AngleRange range;
+    range.half = 0.5 * (high - low);
+    if (range.half >= trig::kPi) {
+        range.half = trig::kPi;
+    } else {
+        range.middle = std::remainder(0.5 * (low + high), kTurn);
+        range.half = std::max(0.0, range.half - soft_zone);
+    }
+    const auto turn = [](double angle) {
+        const trig::SinCos parts = trig::sin_cos(0.5 * angle);
+        return glm::dvec2(parts.cos, parts.sin);
+    };
+    range.middle_turn = turn(range.middle);
+    range.low_turn = turn(range.middle - range.half);
+    range.high_turn = turn(range.middle + range.half);
+    range.sine_half = turn(range.half).y;
+    return range;
 }
 
 /// sin(limit / 2) for a swing limit on one side. A little less than 1 at most: after half a turn of swing the twist

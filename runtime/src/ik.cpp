@@ -58,13 +58,9 @@ private:
     [[nodiscard]] Solver solver() const {
         if (options_.solver != Solver::any) return options_.solver;
         if (chain_.solver != Solver::any) return chain_.solver;
-        std::size_t bones = 0;
-        bool is_free = true;
-        for (const IkLink& link : links_) {
-            bones += link.bone_length > 0.0 ? 1 : 0;
-            is_free = is_free && link.constraint == nullptr;
-        }
-        return bones == 2 && is_free ? Solver::two_bone : Solver::least_squares;
+        const auto bones =
+            std::count_if(links_.begin(), links_.end(), [](const IkLink& link) { return link.bone_length > 0.0; });
+        return bones == 2 ? Solver::two_bone : Solver::least_squares;
     }
 
     [[nodiscard]] bool chain_can_change_length() const {
@@ -166,7 +162,7 @@ private:
         gather_pole();
         wanted_ = problem_.target;
         const glm::dvec3 way = wanted_ - problem_.origin;
-        is_out_of_reach_ = glm::dot(way, way) > problem_.reach * problem_.reach;
+        problem_.is_out_of_reach = glm::dot(way, way) > problem_.reach * problem_.reach;
         problem_.place();
         const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
                            glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
@@ -226,7 +222,7 @@ private:
     std::uint32_t solve() {
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
-        if (is_out_of_reach_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
+        if (problem_.is_out_of_reach && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
         switch (chosen) {
             case Solver::pull: return solve_pull(problem_);
             case Solver::ccd: return solve_ccd(problem_);
@@ -241,14 +237,14 @@ private:
         const std::uint32_t iterations = solve_two_bone(problem_);
         const bool is_free =
             std::all_of(links_.begin(), links_.end(), [](const IkLink& link) { return link.constraint == nullptr; });
-        if (is_free || is_out_of_reach_ || problem_.is_reached()) return iterations;
+        if (is_free || problem_.is_out_of_reach || problem_.is_reached()) return iterations;
         return iterations + solve_least_squares(problem_);
     }
 
     /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds only
     /// about where they are. Moves the problem's target by what the true tip is off; false if that is within tolerance.
     bool correct_target() {
-        if (!is_uneven_ || is_out_of_reach_) return false;
+        if (!is_uneven_ || problem_.is_out_of_reach) return false;
         const glm::dvec3 left = wanted_ - true_tip();
         if (glm::dot(left, left) <= problem_.tolerance * problem_.tolerance) return false;
         problem_.target += left;
@@ -281,7 +277,7 @@ private:
             links_[i].bone_length *= stretch_;
         }
         problem_.reach *= stretch_;
-        is_out_of_reach_ = is_out_of_reach_ && wanted > stretch_;
+        problem_.is_out_of_reach = problem_.is_out_of_reach && wanted > stretch_;
         problem_.place();
     }
 
@@ -315,7 +311,7 @@ private:
         if (is_there && is_turned) {
             result.status = ReachStatus::reached;
         } else {
-            result.status = is_out_of_reach_ ? ReachStatus::out_of_reach : ReachStatus::not_reached;
+            result.status = problem_.is_out_of_reach ? ReachStatus::out_of_reach : ReachStatus::not_reached;
         }
     }
 
@@ -331,7 +327,6 @@ private:
     glm::dvec3 wanted_{0};  ///< the problem's target before corrections
     double stretch_ = 1.0;
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
-    bool is_out_of_reach_ = false;
 };
 
 ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {

@@ -7,16 +7,16 @@ namespace bendy {
 namespace {
 
 /// The turn of one joint that brings the tip nearest to the target, in orientation too if that counts.
-glm::dvec3 best_turn(const IkProblem& problem, const IkLink& link, const glm::dvec3& tip, const glm::dquat& tip_global) {
+glm::dquat best_turn(const IkProblem& problem, const IkLink& link, const glm::dvec3& tip, const glm::dquat& tip_global) {
     const glm::dvec3 arm = tip - link.position;
     const glm::dvec3 to_target = problem.target - link.position;
-    if (!problem.has_rotation) return to_vector(between(arm, to_target));
+    if (!problem.has_rotation) return between(arm, to_target);
     // The least squares answer to: cross(turn, arm) = left over, turn = rotation that is left over.
     const double p = problem.position_weight;
     const double r = problem.rotation_weight;
     const glm::dmat3 A = glm::dmat3(p * glm::dot(arm, arm) + r + 1e-9) - p * glm::outerProduct(arm, arm);
     const glm::dvec3 rotation_left = to_vector(problem.target_rotation * glm::conjugate(tip_global));
-    return glm::inverse(A) * (p * glm::cross(arm, problem.target - tip) + r * rotation_left);
+    return from_vector(glm::inverse(A) * (p * glm::cross(arm, problem.target - tip) + r * rotation_left));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "ik_problem.h"
 #include "rotation.h"
+#include "trig.h"
 
 #include <cmath>
 
@@ -31,6 +32,29 @@ void reach_backwards(IkProblem& problem) {
     }
 }
 
+/// A hinge bends in one plane only. Turns the bone before it about itself, until that plane holds the hinge's goal.
+void twist_for_hinge(IkProblem& problem, std::size_t i) {
+    const IkLink& link = problem.links[i];
+    const IkLink& next = problem.links[i + 1];
+    if (next.constraint == nullptr || next.constraint->model != LimitModel::hinge) return;
+    const glm::dvec3 axis = (link.global * link.bone) / link.bone_length;
+    const glm::dvec3 hinge = link.global * (next.rest_frame * glm::dvec3(1.0, 0.0, 0.0));
+    const bool is_tip = i + 2 == problem.links.size();
+    const glm::dvec3 way = (is_tip ? problem.target : problem.links[i + 2].goal) - (link.position + axis * link.bone_length);
+    // The hinge's axis, turned by f, across the way: along + a cos(f) + b sin(f) = 0.
+    const double along = glm::dot(axis, hinge) * glm::dot(axis, way);
+    const glm::dvec3 side = hinge - axis * glm::dot(axis, hinge);
+    const double a = glm::dot(side, way);
+    const double b = glm::dot(glm::cross(axis, side), way);
+    const double most = std::sqrt(a * a + b * b);
+    if (most < 1e-9) return;
+    const double middle = trig::atan2(b, a);
+    const double opening = trig::acos(-along / most);
+    const double one = std::remainder(middle - opening, 2.0 * trig::kPi);
+    const double other = std::remainder(middle + opening, 2.0 * trig::kPi);
+    turn_link(problem, i, axis * (std::abs(one) < std::abs(other) ? one : other));
+}
+
 void reach_forwards(IkProblem& problem) {
     const std::size_t last = problem.links.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -38,10 +62,11 @@ void reach_forwards(IkProblem& problem) {
         const bool turns_by_orientation = i == last && problem.has_rotation && problem.rotation_weight > 0.0;
         if (turns_by_orientation) {
             const glm::dquat tip_global = link.global * problem.tip_rotation;
-            turn_link(problem, i, to_vector(problem.target_rotation * glm::conjugate(tip_global)));
+            turn_link(problem, i, problem.target_rotation * glm::conjugate(tip_global));
         } else if (link.bone_length > 0.0 && !link.is_fixed) {
             const glm::dvec3 goal = i == last ? problem.target : problem.links[i + 1].goal;
-            turn_link(problem, i, to_vector(between(link.global * link.bone, goal - link.position)));
+            turn_link(problem, i, between(link.global * link.bone, goal - link.position));
+            if (i < last) twist_for_hinge(problem, i);
         }
         problem.place_next(i);
     }

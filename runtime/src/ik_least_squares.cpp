@@ -152,19 +152,22 @@ private:
                 const double size = std::sqrt(glm::dot(turn, turn));
                 constexpr double kLongest = 1.0;  // radians: beyond it the derivative says nothing
                 if (size > kLongest) turn *= kLongest / size;
-                link.trial = softly_legal_local(
-                    link, glm::normalize(glm::conjugate(parent) * (from_vector(turn) * link.global)));
+                const glm::dquat rotation = from_vector(turn);
+                link.trial =
+                    softly_legal_local(link, glm::normalize(glm::conjugate(parent) * (rotation * link.global)));
                 if (link.constraint != nullptr && size > 0.0)
-                    is_stopped = take_stopped_direction(link, parent, turn) || is_stopped;
+                    is_stopped = take_stopped_direction(link, parent, rotation) || is_stopped;
             }
             parent = link.global;
         }
         return is_stopped;
     }
 
-    static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dvec3& turn) {
-        const glm::dvec3 done = to_vector(parent * link.trial * glm::conjugate(link.global));
-        const glm::dvec3 stopped = turn - done;
+    static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation) {
+        const glm::dquat done = upper_half(parent * link.trial * glm::conjugate(link.global));
+        // Half the rotation vectors, nearly.
+        const glm::dvec3 turn(rotation.x, rotation.y, rotation.z);
+        const glm::dvec3 stopped = turn - glm::dvec3(done.x, done.y, done.z);
         const double size = glm::dot(stopped, stopped);
         constexpr double kPart = 0.05;  // of the turn
         if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
@@ -214,13 +217,14 @@ void begin_anew(IkProblem& problem, std::uint32_t attempt, Dice& dice) {
 
 std::uint32_t solve_least_squares(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
+    const std::uint32_t restarts = problem.is_out_of_reach ? 0 : problem.options->restarts;
     LeastSquares method(problem);
     std::uint32_t iterations = method.descend(most);
     if (problem.is_reached()) return iterations;
     double best = problem.cost();
     problem.save();
     Dice dice;
-    for (std::uint32_t attempt = 0; attempt < problem.options->restarts; ++attempt) {
+    for (std::uint32_t attempt = 0; attempt < restarts; ++attempt) {
         begin_anew(problem, attempt, dice);
         iterations += method.descend(most);
         if (problem.cost() < best) {

@@ -110,21 +110,26 @@ glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector) {
     return axes * (link.freedom * (glm::conjugate(axes) * vector));
 }
 
-glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector) {
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation) {
     IkLink& l = problem.links[link];
+    const bool is_whole = l.freedom == glm::dvec3(1.0);
+    const glm::dquat turn = is_whole ? rotation : from_vector(freed(l, to_vector(rotation)));
     const glm::dquat parent = problem.parent_global(link);
-    const glm::dquat turned = from_vector(freed(l, vector)) * l.global;
     const glm::dquat before = l.global;
-    l.local = softly_legal_local(l, glm::normalize(glm::conjugate(parent) * turned));
+    l.local = softly_legal_local(l, glm::normalize(glm::conjugate(parent) * (turn * l.global)));
     l.global = parent * l.local;
     return l.global * glm::conjugate(before);
+}
+
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector) {
+    return turn_link(problem, link, from_vector(vector));
 }
 
 void point_at_target(IkProblem& problem) {
     for (std::size_t i = 0; i < problem.links.size(); ++i) {
         const IkLink& link = problem.links[i];
         if (link.is_fixed || link.bone_length == 0.0) continue;
-        turn_link(problem, i, to_vector(between(link.global * link.bone, problem.target - link.position)));
+        turn_link(problem, i, between(link.global * link.bone, problem.target - link.position));
         problem.place_next(i);
     }
     problem.place();

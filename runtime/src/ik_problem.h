@@ -25,6 +25,7 @@ struct IkProblem {
     glm::dvec3 pole{0};       ///< point to bend towards
     double pole_angle = 0.0;  ///< radians from there to the bend
     double reach = 1.0;       ///< the bones' lengths together: 1, or 0 for a chain without length
+    bool is_out_of_reach = false;  ///< the target is farther from the origin than that
     double tolerance = 1e-4;  ///< chain lengths; radians
     std::uint32_t iterations = 0;  ///< at most; 0: the solver's own
     const ReachOptions* options = nullptr;
@@ -57,6 +58,8 @@ glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
 /// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by. The
 /// links after it are not placed anew.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
+/// The same by a rotation, which is quicker where the link is wholly free.
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation);
 
 // The solvers. Each begins with a placed problem whose links are legal, leaves it so, and returns its iterations.
 std::uint32_t solve_pull(IkProblem& problem);

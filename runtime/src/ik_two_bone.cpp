@@ -62,6 +62,14 @@ glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::
     return glm::dot(x, x) > glm::dot(z, z) ? glm::cross(x, u) : glm::cross(z, u);
 }
 
+/// How far a turn of the link would take it outside its constraint, radians.
+double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& turn) {
+    const IkLink& l = problem.links[link];
+    if (l.constraint == nullptr) return 0.0;
+    const glm::dquat local = glm::conjugate(problem.parent_global(link)) * turn * l.global;
+    return angle_between(legal_local(l, local), local);
+}
+
 /// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
 void bend(IkProblem& problem, std::size_t middle, double distance) {
     const IkLink& link = problem.links[middle];
@@ -79,39 +87,60 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
     const double c = glm::dot(u, glm::cross(h, across));
     const double most = std::sqrt(b * b + c * c);
     if (most < 1e-12) return;
-    const double straight = trig::atan2(c, b);
-    const double opening = trig::acos((wanted - along) / most);
-    const auto nearer_to_none = [](double angle) { return std::remainder(angle, 2.0 * trig::kPi); };
-    double turn = nearer_to_none(straight - opening);
-    const double other = nearer_to_none(straight + opening);
-    const auto illegality = [&](double angle) {
-        const glm::dquat parent = problem.parent_global(middle);
-        const glm::dquat local = glm::normalize(glm::conjugate(parent) * from_vector(h * angle) * link.global);
-        return link.constraint == nullptr ? 0.0 : angle_between(legal_local(link, local), local);
+    // f is the opening to one side or the other of where the chain is straight; as cosine and sine.
+    const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
+    const double sine = std::sqrt(1.0 - open * open);
+    const auto turn = [&](double side) {
+        const glm::dvec2 f((b * open + side * c * sine) / most, (c * open - side * b * sine) / most);
+        // Half of it, the short way.
+        const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
+        return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    const double excess = illegality(turn) - illegality(other);
+    glm::dquat best = turn(1.0);
+    const glm::dquat other = turn(-1.0);
+    const double excess = illegality(problem, middle, best) - illegality(problem, middle, other);
     constexpr double kSame = 1e-6;
-    if (excess > kSame || (excess > -kSame && std::abs(other) < std::abs(turn))) turn = other;
-    turn_link(problem, middle, h * turn);
+    if (excess > kSame || (excess > -kSame && other.w > best.w)) best = other;
+    turn_link(problem, middle, best);
     problem.place(middle);
 }
 
-/// Turns the whole chain about the line from start to tip until the middle joint is on the pole's side.
-void turn_to_pole(IkProblem& problem, std::size_t middle) {
-    const glm::dvec3 line = problem.tip - problem.origin;
-    const double size = length_of(line);
-    if (size < 1e-12) return;
-    const glm::dvec3 axis = line / size;
-    const auto across = [&](const glm::dvec3& point) {
-        const glm::dvec3 v = point - problem.origin;
-        return v - axis * glm::dot(axis, v);
-    };
-    const glm::dvec3 knee = across(problem.links[middle].position);
-    const glm::dvec3 pole = across(problem.pole);
-    if (length_of(knee) < 1e-9 || length_of(pole) < 1e-9) return;
-    const double angle = trig::atan2(glm::dot(axis, glm::cross(knee, pole)), glm::dot(knee, pole)) + problem.pole_angle;
-    turn_link(problem, 0, axis * angle);
-    problem.place();
+/// The turn about `axis`, the line from start to target, that takes the bend, at `knee` from the start, to the pole.
+glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm::dvec3& axis) {
+    const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(axis, v); };
+    const glm::dvec3 bend = across(knee);
+    glm::dvec3 pole = across(problem.pole - problem.origin);
+    if (length_of(bend) < 1e-9 || length_of(pole) < 1e-9) return {1.0, 0.0, 0.0, 0.0};
+    if (problem.pole_angle != 0.0) pole = from_vector(axis * problem.pole_angle) * pole;
+    const glm::dquat turn = between(bend, pole);
+    return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
+}
+
+/// The turn about `axis`, of all around, that takes the start least outside its constraint.
+glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const glm::dvec3& axis) {
+    constexpr int kTurns = 24;
+    constexpr double kStep = 2.0 * trig::kPi / kTurns;
+    const auto badness = [&](double angle) { return illegality(problem, 0, from_vector(axis * angle) * aimed); };
+    double best = 0.0;
+    double least = illegality(problem, 0, aimed);
+    // From no turn outwards to both sides: of two legal ones the smaller.
+    for (int i = 1; i <= kTurns / 2 && least > 0.0; ++i) {
+        for (const double angle : {kStep * i, -kStep * i}) {
+            const double here = badness(angle);
+            if (here >= least) continue;
+            least = here;
+            best = angle;
+        }
+    }
+    for (double step = 0.5 * kStep; step > 1e-7 && least > 0.0; step *= 0.5) {
+        for (const double angle : {best - step, best + step}) {
+            const double here = badness(angle);
+            if (here >= least) continue;
+            least = here;
+            best = angle;
+        }
+    }
+    return best == 0.0 ? aimed : from_vector(axis * best) * aimed;
 }
 
 }  // namespace
@@ -123,12 +152,18 @@ std::uint32_t solve_two_bone(IkProblem& problem) {
     const double full = length_of(knee - problem.origin) + length_of(problem.tip - knee);
     const double distance = length_of(problem.target - problem.origin);
     bend(problem, middle, wanted_distance(distance, full, problem.options->softness));
-    turn_link(problem, 0, to_vector(between(problem.tip - problem.origin, problem.target - problem.origin)));
+    const glm::dvec3 way = problem.target - problem.origin;
+    glm::dquat aim = between(problem.tip - problem.origin, way);
+    if (distance > 1e-12) {
+        const glm::dvec3 axis = way / distance;
+        if (problem.has_pole) aim = pole_turn(problem, aim * (knee - problem.origin), axis) * aim;
+        if (problem.links[0].constraint != nullptr) aim = best_swivel(problem, aim, axis);
+    }
+    turn_link(problem, 0, aim);
     problem.place();
-    if (problem.has_pole) turn_to_pole(problem, middle);
     const std::size_t last = problem.links.size() - 1;
     if (problem.has_rotation && last > middle && problem.links[last].bone_length == 0.0) {
-        turn_link(problem, last, to_vector(problem.target_rotation * glm::conjugate(problem.tip_global)));
+        turn_link(problem, last, problem.target_rotation * glm::conjugate(problem.tip_global));
         problem.place(last);
     }
     return 1;

@@ -33,6 +33,14 @@ double nearest_angle(const AngleRange& range, double angle) {
     return range.middle + std::clamp(wrapped(angle - range.middle), -range.half, range.half);
 }
 
+/// The turn (cosine and sine of half the angle) of the range nearest to the given one, which comes back if it is inside.
+glm::dvec2 nearest_turn(const AngleRange& range, const glm::dvec2& turn) {
+    const double cosine = glm::dot(turn, range.middle_turn);  // of half the way to the middle
+    const double sine = turn.y * range.middle_turn.x - turn.x * range.middle_turn.y;
+    if (std::abs(sine) <= range.sine_half + 0.5 * kInside) return turn;
+    return (sine < 0.0) == (cosine < 0.0) ? range.high_turn : range.low_turn;
+}
+
 // --- swing and twist: R = swing * twist
 
 /// A swing as the unit vector (w, y, z) of its quaternion, whose x is 0.
@@ -484,12 +492,21 @@ glm::dquat nearest_rotation(LimitModel model, EulerOrder order, const LimitShape
 
 glm::dquat quick_legal_rotation(LimitModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
     if (model == LimitModel::swing_twist_ellipse || model == LimitModel::swing_twist_pyramid) {
-        const SwingTwist parts = split(R);
-        const bool is_twist_legal = holds(shape.angles[0], parts.twist);
-        const bool is_swing_legal = swing_holds(model, shape, parts.swing);
-        if (is_twist_legal && is_swing_legal) return R;
-        return join(is_swing_legal ? parts.swing : nearest_swing(model, shape, parts.swing),
-                    is_twist_legal ? parts.twist : nearest_angle(shape.angles[0], parts.twist));
+        const double length = std::sqrt(R.w * R.w + R.x * R.x);
+        const glm::dvec2 twist = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
+        // swing = R * conj(twist); its x is 0
+        const Swing swing(length, twist.x * R.y - twist.y * R.z, twist.x * R.z + twist.y * R.y);
+        const glm::dvec2 legal_twist = nearest_turn(shape.angles[0], twist);
+        const Swing legal_swing = nearest_swing(model, shape, swing);
+        if (legal_twist == twist && legal_swing == swing) return R;
+        return glm::dquat(legal_swing.x, 0.0, legal_swing.y, legal_swing.z) *
+               glm::dquat(legal_twist.x, legal_twist.y, 0.0, 0.0);
+    }
+    if (model == LimitModel::hinge) {
+        const double length = std::sqrt(R.w * R.w + R.x * R.x);
+        const glm::dvec2 turn = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
+        const glm::dvec2 legal = nearest_turn(shape.angles[0], turn);
+        return {legal.x, legal.y, 0.0, 0.0};
     }
     if (model == LimitModel::euler_box) {
         const EulerBox box = make_box(order, shape);

@@ -3,6 +3,7 @@
 #include <bendy/format/constraint.h>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 
 #include <array>
 #include <cstdint>
@@ -12,7 +13,12 @@ namespace bendy {
 /// An interval of angles on the circle.
 struct AngleRange {
     double middle = 0.0;  ///< radians
-    double half = 0.0;    ///< radians, 0 or more; pi or more: every angle
+    double half = 0.0;    ///< radians, 0 to pi; pi: every angle
+    // The same as turns: cosine and sine of half the angle.
+    glm::dvec2 middle_turn{1, 0};
+    glm::dvec2 low_turn{1, 0};
+    glm::dvec2 high_turn{1, 0};
+    double sine_half = 0.0;  ///< sin(half / 2)
 };
 
 /// What a constraint allows, made ready for use.

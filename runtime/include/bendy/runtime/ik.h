@@ -53,12 +53,13 @@ struct ReachResult {
 /// the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are. Allocates
 /// nothing; the same numbers give the same pose on every machine.
 ///     pull           Anderson's and Elias' force; one step a call, so it takes frames to arrive
-///     two_bone       closed form; of a longer chain, start and middle joint turn
+///     two_bone       closed form; of a longer chain, start and middle joint turn; where constraints keep it from the
+///                    target, least squares goes on
 ///     ccd            cyclic coordinate descent, from the tip up
 ///     fabrik         forward and backward reaching, the limits in the forward pass
 ///     aim            turns the tip's Z axis towards the target, by a share from each joint: looking at it
 ///     least_squares  damped least squares, with restarts: the most reliable
-/// Solver::any: two_bone for chains of two bones without constraints, else least_squares.
+/// Solver::any: two_bone for chains of two bones, else least_squares.
 ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options = {});
 
 /// Runs every chain that follows a target joint, in the order of their priority, with the chains' own influence.
