@@ -38,10 +38,11 @@ AngleRange make_range(double low, double high, double soft_zone) {
     return range;
 }
 
-/// sin(limit / 2) for a swing limit on one side. A little less than 1 at most: after half a turn of swing the twist
-/// could not be told.
+/// sin(limit / 2) for a swing limit on one side; infinite where it is free. A little less than 1 at most: after half a
+/// turn of swing the twist could not be told.
 double half_axis(double limit, double soft_zone) {
     constexpr double kLargest = 1.0 - 1e-12;
+    if (limit == LimitRecord::kFree) return LimitRecord::kFree;
     if (limit >= trig::kPi) return kLargest;
     return kLargest * trig::sin_cos(0.5 * std::max(0.0, held(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
 }

@@ -10,37 +10,54 @@
 namespace bendy {
 namespace {
 
-/// Where each link should be if the tip were at the target: from the tip up to the start.
+bool turns_by_orientation(const IkProblem& problem, std::size_t link) {
+    return link + 1 == problem.links.size() && problem.has_rotation && problem.rotation_weight > 0.0;
+}
+
+/// The next link that can turn, or the number of links. What is between moves with this one as if it were one bone.
+std::size_t next_moving(const IkProblem& problem, std::size_t link) {
+    do ++link;
+    while (link < problem.links.size() && problem.links[link].is_fixed);
+    return link;
+}
+
+glm::dvec3 position_of(const IkProblem& problem, std::size_t link) {
+    return link < problem.links.size() ? problem.links[link].position : problem.tip;
+}
+
+/// Where each moving link should be if the tip were at the target: from the tip up to the start.
 void reach_backwards(IkProblem& problem) {
     glm::dvec3 end = problem.target;
+    glm::dvec3 end_now = problem.tip;
     for (std::size_t i = problem.links.size(); i-- > 0;) {
         IkLink& link = problem.links[i];
-        const bool is_last = i + 1 == problem.links.size();
+        if (link.is_fixed) continue;
+        const glm::dvec3 bone = end_now - link.position;
         glm::dvec3 back = link.position - end;
-        if (is_last && problem.has_rotation && problem.rotation_weight > 0.0) {
-            // The last bone should lie as the target's orientation has it.
-            const glm::dquat wanted = problem.target_rotation * glm::conjugate(problem.tip_rotation);
-            back = -(wanted * link.bone);
-        }
+        // The last bone should lie as the target's orientation has it.
+        if (turns_by_orientation(problem, i))
+            back = -(problem.target_rotation * glm::conjugate(problem.tip_global)) * bone;
         const double length = std::sqrt(glm::dot(back, back));
-        if (length > 1e-12) {
-            end += back * (link.bone_length / length);
-        } else {
-            end -= link.global * link.bone;
-        }
+        end += length > 1e-12 ? back * (std::sqrt(glm::dot(bone, bone)) / length) : -bone;
         link.goal = end;  // of the link itself
+        end_now = link.position;
     }
 }
 
 /// A hinge bends in one plane only. Turns the bone before it about itself, until that plane holds the hinge's goal.
-void twist_for_hinge(IkProblem& problem, std::size_t i) {
+void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
+    if (next == problem.links.size()) return;
     const IkLink& link = problem.links[i];
-    const IkLink& next = problem.links[i + 1];
-    if (next.constraint == nullptr || next.constraint->model != LimitModel::hinge) return;
-    const glm::dvec3 axis = (link.global * link.bone) / link.bone_length;
-    const glm::dvec3 hinge = link.global * (next.rest_frame * glm::dvec3(1.0, 0.0, 0.0));
-    const bool is_tip = i + 2 == problem.links.size();
-    const glm::dvec3 way = (is_tip ? problem.target : problem.links[i + 2].goal) - (link.position + axis * link.bone_length);
+    const IkLink& hinged = problem.links[next];
+    if (hinged.constraint == nullptr || hinged.constraint->model != LimitModel::hinge) return;
+    const glm::dvec3 bone = hinged.position - link.position;
+    const double length = std::sqrt(glm::dot(bone, bone));
+    if (length < 1e-9) return;
+    const glm::dvec3 axis = bone / length;
+    const glm::dvec3 hinge = problem.parent_global(next) * (hinged.rest_frame * glm::dvec3(1.0, 0.0, 0.0));
+    const std::size_t after = next_moving(problem, next);
+    const glm::dvec3 goal = after == problem.links.size() ? problem.target : problem.links[after].goal;
+    const glm::dvec3 way = goal - hinged.position;
     // The hinge's axis, turned by f, across the way: along + a cos(f) + b sin(f) = 0.
     const double along = glm::dot(axis, hinge) * glm::dot(axis, way);
     const glm::dvec3 side = hinge - axis * glm::dot(axis, hinge);
@@ -56,19 +73,25 @@ void twist_for_hinge(IkProblem& problem, std::size_t i) {
 }
 
 void reach_forwards(IkProblem& problem) {
-    const std::size_t last = problem.links.size() - 1;
-    for (std::size_t i = 0; i <= last; ++i) {
-        const IkLink& link = problem.links[i];
-        const bool turns_by_orientation = i == last && problem.has_rotation && problem.rotation_weight > 0.0;
-        if (turns_by_orientation) {
-            const glm::dquat tip_global = link.global * problem.tip_rotation;
-            turn_link(problem, i, problem.target_rotation * glm::conjugate(tip_global));
-        } else if (link.bone_length > 0.0 && !link.is_fixed) {
-            const glm::dvec3 goal = i == last ? problem.target : problem.links[i + 1].goal;
-            turn_link(problem, i, between(link.global * link.bone, goal - link.position));
-            if (i < last) twist_for_hinge(problem, i);
+    const std::size_t links = problem.links.size();
+    std::size_t i = problem.links[0].is_fixed ? next_moving(problem, 0) : 0;
+    while (i < links) {
+        const std::size_t next = next_moving(problem, i);
+        const auto place = [&] {
+            for (std::size_t j = i; j < next; ++j) problem.place_next(j);
+        };
+        place();
+        if (turns_by_orientation(problem, i)) {
+            turn_link(problem, i, problem.target_rotation * glm::conjugate(problem.tip_global));
+        } else {
+            const glm::dvec3& position = problem.links[i].position;
+            const glm::dvec3 goal = next == links ? problem.target : problem.links[next].goal;
+            turn_link(problem, i, between(position_of(problem, next) - position, goal - position));
+            place();
+            twist_for_hinge(problem, i, next);
         }
-        problem.place_next(i);
+        place();
+        i = next;
     }
 }
 
@@ -83,6 +106,7 @@ std::uint32_t solve_fabrik(IkProblem& problem) {
         if (problem.is_reached()) return iteration;
         reach_backwards(problem);
         reach_forwards(problem);
+        problem.place();
         const double now = problem.cost();
         constexpr double kGain = 1e-6;  // of the cost
         constexpr std::uint32_t kPatience = 8;

@@ -96,8 +96,8 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
         const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
         return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    glm::dquat best = turn(1.0);
-    const glm::dquat other = turn(-1.0);
+    glm::dquat best = turn(-1.0);  // a straight chain bends the axis' way
+    const glm::dquat other = turn(1.0);
     const double excess = illegality(problem, middle, best) - illegality(problem, middle, other);
     constexpr double kSame = 1e-6;
     if (excess > kSame || (excess > -kSame && other.w > best.w)) best = other;

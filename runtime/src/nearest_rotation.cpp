@@ -13,6 +13,9 @@ namespace {
 /// Radians, or sines of half angles: what counts as inside, so that what was brought back stays as it is.
 constexpr double kInside = 1e-9;
 
+/// The largest y^2 + z^2 of a swing that is brought back: after half a turn of swing the twist could not be told.
+constexpr double kWidest = 1.0 - 1e-12;
+
 double dot(const glm::dquat& a, const glm::dquat& b) {
     return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -73,6 +76,11 @@ HalfAxes half_axes(const LimitShape& shape, double y, double z) {
     return {y < 0.0 ? shape.swing_low[0] : shape.swing_high[0], z < 0.0 ? shape.swing_low[1] : shape.swing_high[1]};
 }
 
+/// A free axis makes a band of the ellipse: |y| <= a, whatever z.
+bool is_free(double half_axis) {
+    return half_axis > 1.0;
+}
+
 bool ellipse_holds(const LimitShape& shape, const Swing& swing) {
     const HalfAxes axes = half_axes(shape, swing.y, swing.z);
     if (std::abs(swing.y) > axes.y + kInside || std::abs(swing.z) > axes.z + kInside) return false;
@@ -86,6 +94,15 @@ Swing nearest_on_quarter(double a, double b, const Swing& v) {
     const auto point = [&](double y, double z) {
         return Swing(std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z);
     };
+    if (is_free(a) && is_free(b)) return v;
+    if (is_free(a) || is_free(b)) {
+        // On the band's edge, a circle, right across from v.
+        const double edge = is_free(a) ? b : a;
+        const double along = is_free(a) ? v.y : v.z;
+        const double length = std::sqrt(v.x * v.x + along * along);
+        const double rest = length > 0.0 ? std::sqrt(std::max(0.0, kWidest - edge * edge)) * along / length : 0.0;
+        return is_free(a) ? point(rest, edge) : point(edge, rest);
+    }
     if (a < kInside) {
         const double length = std::sqrt(v.x * v.x + v.z * v.z);
         return point(0.0, length > 0.0 ? std::min(b, v.z / length) : 0.0);
@@ -148,8 +165,20 @@ Swing ellipse_point(const LimitShape& shape, double u) {
     if (turns == 1 || turns == 2) y = -y;
     if (turns == 2 || turns == 3) z = -z;
     const HalfAxes axes = half_axes(shape, y, z);
-    y *= axes.y;
-    z *= axes.z;
+    const auto edge = [](double half_axis) { return std::sqrt(std::max(0.0, kWidest - half_axis * half_axis)); };
+    if (is_free(axes.y) && is_free(axes.z)) {
+        y *= kWidest;  // all of the quarter is legal; its rim is the rim of the sphere's half
+        z *= kWidest;
+    } else if (is_free(axes.y)) {
+        y *= edge(axes.z);
+        z = std::copysign(axes.z, z);
+    } else if (is_free(axes.z)) {
+        z *= edge(axes.y);
+        y = std::copysign(axes.y, y);
+    } else {
+        y *= axes.y;
+        z *= axes.z;
+    }
     return {std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z};
 }
 
@@ -223,7 +252,8 @@ Swing nearest_in_ellipse(const LimitShape& shape, const Swing& v) {
 
 /// The pyramid's four planes, through the middle of the sphere: legal is n . (w, y, z) <= 0.
 std::array<Swing, 4> pyramid_planes(const LimitShape& shape) {
-    const auto plane = [](double sine, double sign, bool about_y) {
+    const auto plane = [](double half_axis, double sign, bool about_y) {
+        const double sine = std::min(half_axis, kWidest);
         const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
         return about_y ? Swing(-sine, sign * cosine, 0.0) : Swing(-sine, 0.0, sign * cosine);
     };

@@ -44,6 +44,8 @@ struct JointSpec {
     RestRecord rest;
     std::vector<PolygonRecord> polygons;
     std::string name;
+    std::vector<LimitRecord> limits;
+    std::vector<PullRecord> pulls;
 };
 
 struct PoolSpec {
@@ -58,6 +60,7 @@ struct PoolSpec {
 struct ModelSpec {
     std::vector<JointSpec> joints;  ///< pre-order
     std::vector<PoolSpec> pools;
+    std::vector<ChainRecord> chains;  ///< named by their numbers
 };
 
 template <class Vector>
@@ -120,10 +123,18 @@ inline Buffer build_file(const ModelSpec& spec) {
         if (!joint.name.empty()) writer.text_leaf(FourCC("NAME"), joint.name);
         writer.begin(FourCC("PIVO"));
         writer.leaf(FourCC("REST"), bytes_of(joint.rest));
+        for (const LimitRecord& limit : joint.limits) writer.leaf(FourCC("LIMT"), bytes_of(limit));
+        for (const PullRecord& pull : joint.pulls) writer.leaf(FourCC("PULL"), bytes_of(pull));
         writer.end();
         for (const PolygonRecord& range : joint.polygons) writer.leaf(FourCC("POLY"), bytes_of(range));
     }
     for (; !open.empty(); open.pop_back()) writer.end();
+    for (std::size_t chain = 0; chain < spec.chains.size(); ++chain) {
+        writer.begin(FourCC("IKCH"));
+        writer.text_leaf(FourCC("NAME"), std::to_string(chain));
+        writer.leaf(FourCC("KINF"), bytes_of(spec.chains[chain]));
+        writer.end();
+    }
     for (const PoolSpec& pool : spec.pools) put(writer, pool_node(pool));
     writer.end();
     writer.end();

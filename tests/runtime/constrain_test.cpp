@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = M_PI;
 constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr int kRotations = 200;
+constexpr int kRotations = 20000;
 
 double angle_of(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
@@ -79,8 +79,9 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
         const double off_z = std::abs(2.0 * std::atan2(swing.z, swing.w)) - limit_z;
         return std::max({off_twist, off_y, off_z, 0.0});
     }
-    const double a = std::sin(limit_y / 2.0);
-    const double b = std::sin(limit_z / 2.0);
+    // An infinite limit leaves its axis out.
+    const double a = std::isinf(side(1, swing.y)) ? 1e9 : std::sin(limit_y / 2.0);
+    const double b = std::isinf(side(2, swing.z)) ? 1e9 : std::sin(limit_z / 2.0);
     if (a < 1e-12 || b < 1e-12) {
         return std::max({off_twist, std::abs(swing.y) - a, std::abs(swing.z) - b, 0.0});
     }
@@ -117,6 +118,8 @@ std::vector<Case> all_cases() {
         {"WideEllipse", make_limit(swing_twist_ellipse, {-170, -179, -20}, {175, 180, 20})},
         {"OneSided", make_limit(swing_twist_ellipse, {0, 0, -45}, {0, 90, 0})},
         {"FreeTwist", make_limit(swing_twist_ellipse, {-400, -25, -50}, {400, 25, 50})},
+        {"Band", make_limit(swing_twist_ellipse, {-30, -25, -kInf}, {30, 40, kInf})},
+        {"HalfBand", make_limit(swing_twist_ellipse, {-kInf, -kInf, -20}, {kInf, 60, 70})},
         {"Pyramid", make_limit(swing_twist_pyramid, {-20, -30, -60}, {45, 50, 20})},
         {"WidePyramid", make_limit(swing_twist_pyramid, {-100, -180, -90}, {10, 180, 120})},
         {"FlatPyramid", make_limit(swing_twist_pyramid, {-10, 0, -70}, {10, 0, 70})},

@@ -24,7 +24,7 @@ struct AngleRange {
 /// What a constraint allows, made ready for use.
 struct LimitShape {
     std::array<AngleRange, 3> angles;          ///< hinge and twist: [0]; Euler box: X, Y, Z
-    std::array<double, 2> swing_low{1, 1};     ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1
+    std::array<double, 2> swing_low{1, 1};     ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1; infinity: free
     std::array<double, 2> swing_high{1, 1};    ///< and towards plus
     double largest = 0.0;                      ///< radians: largest angle
 };

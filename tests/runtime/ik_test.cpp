@@ -1,0 +1,529 @@
+#include <bendy/runtime/constrain.h>
+#include <bendy/runtime/ik.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using test::moved;
+using test::Owned;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr std::array kSolvers{Solver::any,    Solver::pull, Solver::two_bone,     Solver::ccd,
+                              Solver::fabrik, Solver::aim,  Solver::least_squares};
+/// Those that bring the tip to a target in one call.
+constexpr std::array kArriving{Solver::any, Solver::ccd, Solver::fabrik, Solver::least_squares};
+
+float radians(double degrees) {
+    return static_cast<float>(degrees * M_PI / 180.0);
+}
+
+LimitRecord ellipse(double twist, double swing) {
+    LimitRecord limit;
+    limit.model = static_cast<std::uint8_t>(LimitModel::swing_twist_ellipse);
+    limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};  // the twist is about the joint's Y
+    limit.rotation_min = {radians(-twist), radians(-swing), radians(-swing)};
+    limit.rotation_max = {radians(twist), radians(swing), radians(swing)};
+    return limit;
+}
+
+LimitRecord hinge(double low, double high) {
+    LimitRecord limit;
+    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
+    limit.rotation_min[0] = radians(low);
+    limit.rotation_max[0] = radians(high);
+    return limit;
+}
+
+/// A rope up the Y axis, one joint more than bones; bent by `bend` degrees to either side in turn; one chain over it all.
+test::ModelSpec rope(std::uint32_t bones, double bend = 5.0, float bone = 1.0f) {
+    test::ModelSpec spec;
+    for (std::uint32_t joint = 0; joint <= bones; ++joint) {
+        test::JointSpec j;
+        j.parent = joint == 0 ? kNone : joint - 1;
+        j.rest = test::turned(joint == 0 || joint == bones ? 0.0 : joint % 2 == 1 ? bend : -bend, 0);
+        j.rest.translation = {0.0f, joint == 0 ? 0.0f : bone, 0.0f};
+        spec.joints.push_back(j);
+    }
+    ChainRecord chain;
+    chain.effector = bones;
+    spec.chains.push_back(chain);
+    return spec;
+}
+
+glm::vec3 position_of(Pose& pose, std::uint32_t joint) {
+    local_to_model(pose);
+    return glm::vec3(pose.model_space()[joint][3]);
+}
+
+void expect_finite_and_unit(const Pose& pose) {
+    for (const JointTransform& joint : pose.local()) {
+        ASSERT_NEAR(glm::length(glm::dquat(joint.rotation)), 1.0, 1e-5);
+        ASSERT_TRUE(std::isfinite(joint.translation.x + joint.translation.y + joint.translation.z));
+    }
+}
+
+double worst_violation(const Model& model, const Pose& pose) {
+    double worst = 0.0;
+    for (std::uint32_t joint = 0; joint < model.joints().size(); ++joint) {
+        const Constraint* constraint = model.ik_constraint(joint);
+        if (constraint == nullptr) continue;
+        const glm::dquat R =
+            to_limit_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
+        worst = std::max(worst, violation(*constraint, R));
+    }
+    return worst;
+}
+
+TEST(Ik, EverySolverReachesWithAFreeChain) {
+    for (const std::uint32_t bones : {2u, 3u, 7u, 30u}) {
+        const Owned model(build_file(rope(bones)));
+        for (const Solver solver : kArriving) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            options.tolerance = 1e-3f;
+            const auto length = static_cast<float>(bones);
+            const glm::vec3 target(0.3f * length, 0.5f * length, 0.2f * length);
+            const ReachResult result = reach(model->chain("0"), target, pose, options);
+            EXPECT_EQ(result.status, ReachStatus::reached) << bones << ' ' << static_cast<int>(solver);
+            EXPECT_LE(glm::length(position_of(pose, bones) - target), 1.1e-3f);
+            EXPECT_NEAR(glm::length(position_of(pose, bones) - target), result.distance, 1e-4f * length);
+            expect_finite_and_unit(pose);
+        }
+    }
+}
+
+TEST(Ik, TwoBonesReachInClosedForm) {
+    const Owned model(build_file(rope(2)));
+    Pose pose(*model);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1.1f, 1.1f);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 target(uniform(random), uniform(random), uniform(random));
+        pose.set_rest();
+        ReachOptions options;
+        options.solver = Solver::two_bone;
+        const ReachResult result = reach(model->chain("0"), target, pose, options);
+        ASSERT_EQ(result.status, ReachStatus::reached);
+        ASSERT_EQ(result.iterations, 1u);
+        ASSERT_LE(glm::length(position_of(pose, 2) - target), 2e-5f);
+    }
+}
+
+TEST(Ik, ThePoleDecidesWhereTheKneeIs) {
+    test::ModelSpec spec = rope(2);
+    spec.chains[0].pole_vector = {0.0f, 0.0f, -1.0f};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 target(0.0f, 1.2f, 0.0f);
+    ReachOptions options;
+    options.solver = Solver::two_bone;
+    reach(model->chain("0"), target, pose, options);
+    EXPECT_NEAR(position_of(pose, 1).z, -0.8f, 1e-4f);  // sqrt(1 - 0.6^2) towards -Z
+    EXPECT_NEAR(position_of(pose, 1).x, 0.0f, 1e-4f);
+
+    options.pole = glm::vec3(5.0f, 0.5f, 0.0f);  // a point goes before the chain's own
+    reach(model->chain("0"), target, pose, options);
+    EXPECT_NEAR(position_of(pose, 1).x, 0.8f, 1e-4f);
+    EXPECT_NEAR(position_of(pose, 1).z, 0.0f, 1e-4f);
+    EXPECT_LE(glm::length(position_of(pose, 2) - target), 1e-4f);
+}
+
+TEST(Ik, ThePoleAngleTurnsTheBendAwayFromThePole) {
+    test::ModelSpec spec = rope(2);
+    spec.chains[0].pole_vector = {1.0f, 0.0f, 0.0f};
+    spec.chains[0].pole_angle = radians(90);
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    reach(model->chain("0"), glm::vec3(0.0f, 1.2f, 0.0f), pose);
+    // From +X a quarter turn about the line from start to tip, +Y: to -Z.
+    EXPECT_NEAR(position_of(pose, 1).z, -0.8f, 1e-4f);
+}
+
+TEST(Ik, SoftnessSlowsNearFullReach) {
+    const Owned model(build_file(rope(2)));
+    ReachOptions hard;
+    hard.solver = Solver::two_bone;
+    ReachOptions soft = hard;
+    soft.softness = 0.1f;
+    Pose pose(*model);
+    float before = 0.0f;
+    for (int i = 0; i <= 20; ++i) {
+        const float distance = 1.7f + 0.02f * static_cast<float>(i);
+        pose.set_rest();
+        reach(model->chain("0"), glm::vec3(0.0f, distance, 0.0f), pose, soft);
+        const float reached = position_of(pose, 2).y;
+        EXPECT_GT(reached, before);
+        EXPECT_LT(reached, 2.0f);
+        EXPECT_NEAR(reached, distance, distance < 1.8f ? 1e-4f : 0.15f);
+        EXPECT_TRUE(distance < 1.95f || reached < distance - 0.01f);
+        before = reached;
+    }
+    pose.set_rest();
+    reach(model->chain("0"), glm::vec3(0.0f, 1.98f, 0.0f), pose, hard);
+    EXPECT_NEAR(position_of(pose, 2).y, 1.98f, 1e-4f);
+}
+
+TEST(Ik, OutOfReachPointsAtTheTarget) {
+    for (const std::uint32_t bones : {1u, 2u, 5u, 40u}) {
+        const Owned model(build_file(rope(bones)));
+        for (const Solver solver : {Solver::any, Solver::ccd, Solver::fabrik, Solver::two_bone, Solver::least_squares}) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            const glm::vec3 target = glm::vec3(3.0f, -1.0f, 2.0f) * static_cast<float>(bones);
+            const ReachResult result = reach(model->chain("0"), target, pose, options);
+            EXPECT_EQ(result.status, ReachStatus::out_of_reach);
+            const glm::vec3 straight = glm::normalize(target) * static_cast<float>(bones);
+            EXPECT_LE(glm::length(position_of(pose, bones) - straight), 1e-3f * static_cast<float>(bones))
+                << bones << ' ' << static_cast<int>(solver);
+        }
+    }
+}
+
+TEST(Ik, PullArrivesOverSeveralFramesAndComesNearerInEach) {
+    test::ModelSpec spec = rope(3);
+    spec.chains[0].solver = static_cast<std::uint8_t>(Solver::pull);
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 target(1.0f, 1.5f, 0.5f);
+    ReachOptions options;
+    options.gain = 2.0f;
+    float before = glm::length(position_of(pose, 3) - target);
+    const float first = before;
+    int frames = 0;
+    for (; frames < 300; ++frames) {
+        const ReachResult result = reach(model->chain("0"), target, pose, options);
+        if (result.status == ReachStatus::reached) break;
+        EXPECT_EQ(result.iterations, 1u);
+        EXPECT_LT(result.distance, before * 1.001f) << frames;
+        EXPECT_TRUE(frames > 0 || result.distance > 0.5f * first);  // it does not snap
+        before = result.distance;
+    }
+    EXPECT_GT(frames, 5);
+    EXPECT_LT(frames, 300);
+}
+
+TEST(Ik, AimTurnsTheTipsZAxisToTheTarget) {
+    test::ModelSpec spec = rope(3);
+    spec.chains[0].solver = static_cast<std::uint8_t>(Solver::aim);
+    spec.chains[0].start = 2;  // neck and head
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 target(4.0f, 5.0f, 3.0f);
+    const ReachResult result = reach(model->chain("0"), target, pose);
+    EXPECT_EQ(result.status, ReachStatus::reached);
+    local_to_model(pose);
+    const glm::mat4& head = pose.model_space()[3];
+    const glm::vec3 forward = glm::normalize(glm::vec3(head[2]));
+    EXPECT_GT(glm::dot(forward, glm::normalize(target - glm::vec3(head[3]))), 1.0f - 1e-6f);
+    EXPECT_EQ(pose.local()[1].rotation, model->joints()[1].rest.rotation);  // outside the chain
+    EXPECT_NE(pose.local()[2].rotation, model->joints()[2].rest.rotation);  // has its share
+}
+
+TEST(Ik, OrientationIsReachedToo) {
+    const Owned model(build_file(rope(6)));
+    const glm::quat wanted = glm::normalize(glm::quat(0.6f, 0.3f, -0.5f, 0.4f));
+    const glm::vec3 position(1.5f, 2.0f, 1.0f);
+    for (const Solver solver : kArriving) {
+        Pose pose(*model);
+        ReachOptions options;
+        options.solver = solver;
+        options.tolerance = 1e-2f;
+        options.iterations = 500;
+        const ReachResult result = reach(model->chain("0"), {position, wanted}, pose, options);
+        EXPECT_EQ(result.status, ReachStatus::reached) << static_cast<int>(solver);
+        local_to_model(pose);
+        const glm::quat is = glm::quat_cast(glm::mat3(pose.model_space()[6]));
+        EXPECT_GT(std::abs(glm::dot(is, wanted)), std::cos(0.5 * 1.1e-2));
+        EXPECT_LE(glm::length(position_of(pose, 6) - position), 1.1e-2f);
+    }
+}
+
+TEST(Ik, ATipOffsetIsWhatReaches) {
+    test::ModelSpec spec = rope(2);
+    spec.chains[0].tip_offset = {0.0f, 0.5f, 0.25f};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 target(0.8f, 1.2f, -0.4f);
+    EXPECT_EQ(reach(model->chain("0"), target, pose).status, ReachStatus::reached);
+    local_to_model(pose);
+    const glm::vec3 tip = glm::vec3(pose.model_space()[2] * glm::vec4(0.0f, 0.5f, 0.25f, 1.0f));
+    EXPECT_LE(glm::length(tip - target), 1e-3f);
+}
+
+TEST(Ik, ConstraintsHoldWhateverTheTarget) {
+    test::ModelSpec spec = rope(5);
+    spec.joints[0].limits = {ellipse(30, 70)};
+    spec.joints[1].limits = {hinge(-5, 140)};
+    spec.joints[2].limits = {ellipse(10, 25)};
+    spec.joints[3].limits = {hinge(-30, 90)};
+    spec.joints[4].limits = {ellipse(0, 45)};
+    const Owned model(build_file(spec));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(-5.5f, 5.5f);
+    for (const Solver solver : kSolvers) {
+        for (int i = 0; i < 200; ++i) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            reach(model->chain("0"), glm::vec3(uniform(random), uniform(random), uniform(random)), pose, options);
+            ASSERT_LE(worst_violation(*model, pose), 1e-5) << static_cast<int>(solver);
+            expect_finite_and_unit(pose);
+        }
+    }
+}
+
+TEST(Ik, AnIllegalPoseIsMadeLegalAndCanBeIgnored) {
+    test::ModelSpec spec = rope(2);
+    spec.joints[1].limits = {hinge(0, 10)};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 near(0.0f, 0.5f, 0.0f);  // asks for a strong bend
+    EXPECT_EQ(reach(model->chain("0"), near, pose).status, ReachStatus::not_reached);
+    EXPECT_LE(worst_violation(*model, pose), 1e-5);
+    ReachOptions options;
+    options.obey_constraints = false;
+    EXPECT_EQ(reach(model->chain("0"), near, pose, options).status, ReachStatus::reached);
+    EXPECT_GT(worst_violation(*model, pose), 0.5);
+    EXPECT_EQ(reach(model->chain("0"), near, pose).status, ReachStatus::not_reached);
+    EXPECT_LE(worst_violation(*model, pose), 1e-5);
+}
+
+TEST(Ik, ScopeDecidesWhatTheSolverObeys) {
+    test::ModelSpec spec = rope(2);
+    spec.joints[1].limits = {hinge(0, 10)};
+    spec.joints[1].limits[0].scope = static_cast<std::uint8_t>(LimitScope::all_but_ik);
+    const Owned model(build_file(spec));
+    EXPECT_EQ(model->ik_constraint(1), nullptr);
+    ASSERT_NE(model->constraint(1), nullptr);
+    Pose pose(*model);
+    EXPECT_EQ(reach(model->chain("0"), glm::vec3(0.0f, 0.5f, 0.0f), pose).status, ReachStatus::reached);
+    constrain(pose);
+    const Constraint& constraint = *model->constraint(1);
+    const glm::dquat R = to_limit_space(constraint, model->joints()[1].rest.rotation, pose.local()[1].rotation);
+    EXPECT_LE(violation(constraint, R), 1e-5);
+    const glm::quat once = pose.local()[1].rotation;
+    constrain(pose);
+    EXPECT_EQ(pose.local()[1].rotation, once);
+}
+
+TEST(Ik, WeightsAndStiffnessSpareJoints) {
+    for (const Solver solver : {Solver::pull, Solver::ccd, Solver::fabrik, Solver::least_squares}) {
+        test::ModelSpec spec = rope(3);
+        spec.joints[1].pulls = {{0, 0.0f}};
+        const Owned model(build_file(spec));
+        Pose pose(*model);
+        ReachOptions options;
+        options.solver = solver;
+        options.iterations = 100;
+        options.tolerance = 0.01f;
+        EXPECT_EQ(reach(model->chain("0"), glm::vec3(1.0f, 2.0f, 0.5f), pose, options).status, ReachStatus::reached)
+            << static_cast<int>(solver);
+        EXPECT_GT(std::abs(glm::dot(pose.local()[1].rotation, model->joints()[1].rest.rotation)), 1.0f - 1e-6f);
+
+        spec = rope(3);
+        LimitRecord stiff;
+        stiff.stiffness = {0.0f, 1.0f, 1.0f};  // free about X only
+        spec.joints[0].limits = {stiff};
+        const Owned planar(build_file(spec));
+        Pose other(*planar);
+        reach(planar->chain("0"), glm::vec3(0.5f, 2.0f, 0.5f), other, options);
+        EXPECT_NEAR(other.local()[0].rotation.y, 0.0f, 1e-5f);
+        EXPECT_NEAR(other.local()[0].rotation.z, 0.0f, 1e-5f);
+        EXPECT_GT(std::abs(other.local()[0].rotation.x), 1e-3f);
+    }
+}
+
+TEST(Ik, InfluenceMixesTheSolutionIn) {
+    const Owned model(build_file(rope(2)));
+    Pose none(*model);
+    Pose half(*model);
+    ReachOptions options;
+    options.influence = 0.0f;
+    reach(model->chain("0"), glm::vec3(1.0f, 1.0f, 0.0f), none, options);
+    EXPECT_EQ(none.local()[0].rotation, model->joints()[0].rest.rotation);
+    options.influence = 0.5f;
+    reach(model->chain("0"), glm::vec3(1.0f, 1.0f, 0.0f), half, options);
+    const float left = glm::length(position_of(half, 2) - glm::vec3(1.0f, 1.0f, 0.0f));
+    EXPECT_GT(left, 0.05f);
+    EXPECT_LT(left, 1.0f);
+}
+
+TEST(Ik, StretchAndCompressReachWhatTheBonesDoNot) {
+    test::ModelSpec spec = rope(2);
+    spec.chains[0].stretch = 0.5f;
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    EXPECT_EQ(reach(model->chain("0"), glm::vec3(0.0f, 2.5f, 0.0f), pose).status, ReachStatus::reached);
+    EXPECT_LE(glm::length(position_of(pose, 2) - glm::vec3(0.0f, 2.5f, 0.0f)), 1e-3f);
+    pose.set_rest();
+    EXPECT_EQ(reach(model->chain("0"), glm::vec3(0.0f, 4.0f, 0.0f), pose).status, ReachStatus::out_of_reach);
+    EXPECT_NEAR(position_of(pose, 2).y, 3.0f, 1e-3f);
+}
+
+TEST(Ik, ChainsBelowMovedTurnedAndScaledJointsReachToo) {
+    test::ModelSpec spec = rope(4);
+    spec.joints[0].rest = test::turned(40, 2);
+    spec.joints[0].rest.scale = {0.5f, 2.0f, -1.0f};
+    spec.joints[1].rest.scale = {2.0f, 2.0f, 2.0f};
+    spec.joints[2].rest.scale = {1.0f, 1.3f, 0.7f};  // uneven, inside the chain
+    spec.chains[0].start = 1;
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 start = position_of(pose, 1);
+    const glm::vec3 target = start + 0.6f * (position_of(pose, 4) - start) + glm::vec3(0.1f, -0.2f, 0.3f);
+    const ReachResult result = reach(model->chain("0"), target, pose);
+    EXPECT_EQ(result.status, ReachStatus::reached);
+    EXPECT_LE(glm::length(position_of(pose, 4) - target), 2e-3f);
+}
+
+TEST(Ik, SeveralChainsRunByPriorityAndInfluence) {
+    test::ModelSpec spec = rope(4);
+    for (const float x : {1.0f, -1.0f}) {  // two joints to follow, beside the rope
+        test::JointSpec follow;
+        follow.rest = moved(x, 3.0f, 0.0f);
+        spec.joints.push_back(follow);
+    }
+    spec.chains[0].target = 5;
+    spec.chains[0].priority = 9;
+    ChainRecord second = spec.chains[0];
+    second.target = 6;
+    second.priority = 1;
+    spec.chains.push_back(second);
+    ChainRecord off = second;
+    off.influence = 0.0f;
+    off.priority = 200;
+    spec.chains.push_back(off);
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    reach_all(pose);
+    EXPECT_LE(glm::length(position_of(pose, 4) - glm::vec3(1.0f, 3.0f, 0.0f)), 1e-3f);  // the last one solved
+}
+
+TEST(Ik, SameNumbersSamePose) {
+    const Owned model(build_file(rope(5)));
+    for (const Solver solver : kSolvers) {
+        Pose a(*model);
+        Pose b(*model);
+        ReachOptions options;
+        options.solver = solver;
+        reach(model->chain("0"), glm::vec3(1.0f, 2.0f, 1.0f), a, options);
+        reach(model->chain("0"), glm::vec3(1.0f, 2.0f, 1.0f), b, options);
+        for (std::size_t joint = 0; joint < a.local().size(); ++joint)
+            EXPECT_EQ(a.local()[joint].rotation, b.local()[joint].rotation);
+    }
+}
+
+TEST(Ik, WhatIsNoNumberIsRefusedAndChangesNothing) {
+    const Owned model(build_file(rope(3)));
+    for (const Solver solver : kSolvers) {
+        ReachOptions options;
+        options.solver = solver;
+        for (const glm::vec3& bad : {glm::vec3(kNaN, 0, 0), glm::vec3(0, kInf, 0), glm::vec3(0, 0, -kInf)}) {
+            Pose pose(*model);
+            EXPECT_EQ(reach(model->chain("0"), bad, pose, options).status, ReachStatus::refused);
+            EXPECT_EQ(pose.local()[0].rotation, model->joints()[0].rest.rotation);
+        }
+        Pose pose(*model);
+        const ReachTarget turned{glm::vec3(1.0f), glm::quat(kNaN, 0, 0, 0)};
+        EXPECT_EQ(reach(model->chain("0"), turned, pose, options).status, ReachStatus::refused);
+        options.pole = glm::vec3(kNaN);
+        EXPECT_EQ(reach(model->chain("0"), glm::vec3(1.0f), pose, options).status, ReachStatus::refused);
+        EXPECT_EQ(reach(nullptr, glm::vec3(1.0f), pose).status, ReachStatus::refused);
+        pose.change_local()[1].rotation = glm::quat(kNaN, kNaN, kNaN, kNaN);
+        EXPECT_EQ(reach(model->chain("0"), glm::vec3(1.0f), pose).status, ReachStatus::refused);
+    }
+}
+
+/// Every awkward target for every solver: nothing may explode, and what moves stays legal.
+void expect_calm(const test::ModelSpec& spec, float size) {
+    const Owned model(build_file(spec));
+    const auto last = static_cast<std::uint32_t>(model->joints().size() - 1);
+    for (const Solver solver : kSolvers) {
+        for (const glm::vec3& target :
+             {glm::vec3(0.0f), position_of(*std::make_unique<Pose>(*model), last), glm::vec3(0.0f, size, 0.0f),
+              glm::vec3(0.0f, -size, 0.0f), glm::vec3(0.0f, 1e-20f, 0.0f), glm::vec3(1e30f, 0.0f, 0.0f),
+              glm::vec3(size, 0.0f, 0.0f), glm::vec3(0.0f, 0.5f * size, 0.0f)}) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            const ReachResult result = reach(model->chain("0"), target, pose, options);
+            ASSERT_NE(result.status, ReachStatus::refused);
+            ASSERT_TRUE(std::isfinite(result.distance)) << static_cast<int>(solver);
+            expect_finite_and_unit(pose);
+            ASSERT_LE(worst_violation(*model, pose), 1e-5);
+        }
+    }
+}
+
+TEST(Ik, NothingExplodes) {
+    expect_calm(rope(3), 3.0f);
+    expect_calm(rope(3, 0.0), 3.0f);         // straight
+    expect_calm(rope(2, 0.0), 2.0f);         // straight, two bones
+    expect_calm(rope(3, 5.0, 0.0f), 1.0f);   // no length at all
+    expect_calm(rope(1), 1.0f);              // one bone
+    expect_calm(rope(0), 1.0f);              // none: the effector is the start
+    expect_calm(rope(200), 200.0f);          // a long rope
+    expect_calm(rope(3, 5.0, 1e-10f), 3e-10f);
+    test::ModelSpec some = rope(4);
+    some.joints[2].rest.translation = {0.0f, 0.0f, 0.0f};  // one bone without length
+    expect_calm(some, 3.0f);
+    test::ModelSpec locked = rope(4);
+    for (test::JointSpec& joint : locked.joints) {
+        LimitRecord limit;
+        limit.model = static_cast<std::uint8_t>(LimitModel::locked);
+        joint.limits = {limit};
+    }
+    expect_calm(locked, 4.0f);
+    test::ModelSpec limited = rope(20);
+    for (test::JointSpec& joint : limited.joints) joint.limits = {ellipse(5, 10)};
+    expect_calm(limited, 20.0f);
+}
+
+TEST(Ik, AStraightChainBendsTheWayItPrefers) {
+    test::ModelSpec spec = rope(2, 0.0);
+    LimitRecord knee;
+    knee.preferred = {0.0f, 0.0f, radians(-20)};
+    spec.joints[1].limits = {knee};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    EXPECT_EQ(reach(model->chain("0"), glm::vec3(0.0f, 1.2f, 0.0f), pose).status, ReachStatus::reached);
+    EXPECT_NEAR(position_of(pose, 1).x, -0.8f, 1e-3f);  // a turn about -Z takes the shin to +X, so the knee goes to -X
+}
+
+TEST(Ik, SoftZoneSlowsTheApproachToALimit) {
+    test::ModelSpec hard = rope(2);
+    hard.joints[1].limits = {hinge(-20, 60)};
+    test::ModelSpec soft = hard;
+    soft.joints[1].limits[0].soft_zone = radians(35);
+    const Owned hard_model(build_file(hard));
+    const Owned soft_model(build_file(soft));
+    Pose a(*hard_model);
+    Pose b(*soft_model);
+    ReachOptions options;
+    options.solver = Solver::pull;
+    for (int frame = 0; frame < 4; ++frame) {
+        reach(hard_model->chain("0"), glm::vec3(0.0f, 0.0f, 1.0f), a, options);
+        reach(soft_model->chain("0"), glm::vec3(0.0f, 0.0f, 1.0f), b, options);
+    }
+    const float moved_hard = std::abs(a.local()[1].rotation.x - hard_model->joints()[1].rest.rotation.x);
+    const float moved_soft = std::abs(b.local()[1].rotation.x - soft_model->joints()[1].rest.rotation.x);
+    EXPECT_LT(moved_soft, 0.9f * moved_hard);
+    EXPECT_GT(moved_soft, 0.0f);
+}
+
+}  // namespace
+}  // namespace bendy
