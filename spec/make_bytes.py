@@ -365,7 +365,7 @@ def make_every_chunk():
                 leaf('EXTN', text('{"KHR_node_visibility":{"visible":true}}')),
                 box('SKIN', name('tip'),
                     box('PIVO', rest([0, 1, 0]),
-                        limit(3, [0, 0, half, half], [(-30, 30), (-40, 40), (-20, 60)])),  # X of the frame: up the bone
+                        limit(3, [0.5, 0.5, 0.5, 0.5], [(-30, 30), (-40, 40), (-20, 60)])),
                     box('MATE', surface([0, 0, 1, 1])), polygons(0, LOCAL | 0, 0, 3))),
             box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
             box('VECT', name('body'), pool_info(3, 0), extras('{"unit":"m"}'),
