@@ -472,8 +472,8 @@ def limit(model, *ranges, order=0, scope=0, flags=0, soft_zone=0.0, translation=
 
 
 def chain(start, effector, name=None, target=NONE, pole=NONE, solver=0, flags=0, iterations=0, priority=0,
-          tolerance=0.0, pole_vector=(0, 0, 0), pole_angle=0.0, tip=(0, 0, 0), tip_rotation=(0, 0, 0, 1), position=1.0, rotation=0.0,
-          influence=1.0, stretch=0.0, compress=0.0):
+          tolerance=0.0, pole_vector=(0, 0, 0), pole_angle=0.0, tip=(0, 0, 0), tip_rotation=(0, 0, 0, 1),
+          position=1.0, rotation=0.0, influence=1.0, stretch=0.0, compress=0.0):
     info = struct.pack("<4I2BHB3x17f", start, effector, target, pole, solver, flags, iterations, priority, tolerance,
                        *pole_vector, pole_angle, *tip, *tip_rotation, position, rotation, influence, stretch, compress)
     names = [] if name is None else [Chunk("NAME", name.encode())]
