@@ -20,8 +20,8 @@ bool read_limit(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint,
 
 /// Adds what is wrong with a constraint's numbers: NaN, a frame that is no unit quaternion, a minimum above its
 /// maximum, ranges that the model cannot have, stiffness outside 0 to 1, a rest pose outside the limits without the
-/// flag that says so. Axes count 0 to 2 for rotation, 3 to 5 for translation. \param offset where it stands \param
-/// joint whose it is, for the faults
+/// flag that says so. The faults name `joint`, stand at `offset`, and count axes 0 to 2 for rotation, 3 to 5 for
+/// translation.
 void check_limit(const LimitRecord& limit, std::uint32_t joint, std::uint64_t offset, Faults& faults);
 
 /// True when the rest pose, R = identity and no translation, is inside the limits: on the circle, and for an Euler box
