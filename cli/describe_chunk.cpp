@@ -1,13 +1,13 @@
 #include "describe_chunk.h"
 
+#include "brief.h"
 #include "problem.h"
 
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string_view>
 
 namespace bendy::cli {
@@ -110,34 +110,8 @@ R record_at(const ChunkTree& tree, std::uint32_t number) {
     return record;
 }
 
-/// A number with up to four significant digits; what is next to nothing is 0, as in a rest pose's rounding errors.
-std::string brief(float number) {
-    constexpr float kNextToNothing = 5e-7f;
-    if (std::abs(number) < kNextToNothing) return "0";
-    std::array<char, 32> digits{};
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 4).ptr;
-    return {digits.data(), end};
-}
-
-template <std::size_t N>
-std::string brief(const std::array<float, N>& numbers) {
-    std::string text;
-    for (const float number : numbers) {
-        if (!text.empty()) text += ' ';
-        text += brief(number);
-    }
-    return text;
-}
-
 std::string quoted(std::string_view text) {
-    constexpr std::size_t kMost = 72;
-    std::size_t cut = std::min(kMost, text.size());
-    while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
-        --cut;  // not inside a character
-    std::string quoted = "\"";
-    quoted.append(printable(text.substr(0, cut))).append(cut < text.size() ? "...\"" : "\"");
-    return quoted;
+    return '"' + brief(text) + '"';
 }
 
 std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
@@ -166,16 +140,18 @@ std::string polygons_text(const PolygonRecord& record) {
     return text;
 }
 
-/// Where the joint is, what moves with it, and whether the author left data on it.
+/// Where the joint is, what moves with it, whether it is limited, and whether the author left data on it.
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
     if (pivot != kNone)
         text.append("at ").append(brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation));
     std::array<std::uint64_t, kTopologies> polygons{};
-    std::uint64_t extras = 0;
+    bool has_extras = false;
+    bool has_extensions = false;
     for (const std::uint32_t child : tree.children(number)) {
-        if (tree[child].id == FourCC("EXTR")) extras = tree[child].size;
+        has_extras = has_extras || (tree[child].id == FourCC("EXTR") && tree[child].size != 0);
+        has_extensions = has_extensions || (tree[child].id == FourCC("EXTN") && tree[child].size != 0);
         if (!(tree[child].id == FourCC("POLY"))) continue;
         const auto record = record_at<PolygonRecord>(tree, child);
         if (record.topology < kTopologies)
@@ -183,9 +159,11 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     }
     for (std::size_t topology = 0; topology < kTopologies; ++topology) {
         if (polygons[topology] != 0)
-            text += ", " + grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]);
+            add_part(text, grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]));
     }
-    if (extras != 0) text += ", extras";
+    if (pivot != kNone && tree.find(pivot, FourCC("LIMT")) != kNone) add_part(text, "limited");
+    if (has_extras) add_part(text, "extras");
+    if (has_extensions) add_part(text, "extensions");
     return text;
 }
 
@@ -220,7 +198,7 @@ std::string version_text(const VersionRecord& version) {
 }
 
 /// What a record says, without the chunk's name.
-std::string content_text(const ChunkTree& tree, std::uint32_t number) {
+std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     const Chunk& chunk = tree[number];
     constexpr std::array<std::string_view, kMediaTypes> kMedia{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
     if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
@@ -232,6 +210,10 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number) {
         return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
                brief(rest.scale);
     }
+    if (chunk.id == FourCC("LIMT")) return limit_text(record_at<LimitRecord>(tree, number));
+    if (chunk.id == FourCC("PULL")) return rigs.pull_text(number);
+    if (chunk.id == FourCC("IKCH")) return rigs.chain_text(number);
+    if (chunk.id == FourCC("KINF")) return rigs.chain_info_text(number);
     if (chunk.id == FourCC("POLY")) return polygons_text(record_at<PolygonRecord>(tree, number));
     if (chunk.id == FourCC("VECT"))
         return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
@@ -252,7 +234,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number) {
 
 }  // namespace
 
-std::string describe_chunk(const ChunkTree& tree, std::uint32_t number) {
+std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     std::string text;
     const auto add = [&](const std::string& part, std::string_view separator) {
         if (part.empty()) return;
@@ -264,7 +246,7 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number) {
         if (name != kNone) add(quoted(as_text(tree.payload(name))), " ");
     }
     if (tree[number].codec() == 0) {
-        add(content_text(tree, number), "  ");
+        add(content_text(tree, number, rigs), "  ");
     } else {
         add("encoded with codec " + std::to_string(tree[number].codec()), " ");
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "describe_rig.h"
+
 #include <bendy/format/chunk_reader.h>
 
 #include <nlohmann/json.hpp>
@@ -10,8 +12,8 @@
 namespace bendy::cli {
 
 /// What is in a chunk, in a few words for the tree: a name, counts, the values that matter. Works on any tree, whatever
-/// its records hold.
-std::string describe_chunk(const ChunkTree& tree, std::uint32_t number);
+/// its records hold. \param rigs made of the same tree
+std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs);
 
 /// The fields of a chunk's record by name, as records.def has them; text chunks give {"text": ...}. Empty for chunks
 /// without a record.

@@ -28,17 +28,38 @@ struct Arguments {
 /// Chunks whose content the line of their parent already tells.
 bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
     constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
-                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY")};
-    if (chunk.id == FourCC("EXTR")) return tree[chunk.parent].id == FourCC("SKIN");
+                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY"), FourCC("KINF")};
+    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN")) return tree[chunk.parent].id == FourCC("SKIN");
     return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
 }
 
-/// True where the chunk has a number of its own kind that other records refer to: joint, pool, material, texture,
-/// cycle.
-bool is_numbered(FourCC id) {
-    return id == FourCC("SKIN") || id == FourCC("VECT") || id == FourCC("MATE") || id == FourCC("TEXT") ||
-           id == FourCC("CYCL");
-}
+/// Gives chunks that other records refer to their numbers, in file order.
+class Counters {
+public:
+    /// " 7", or nothing for a chunk without a number of its kind.
+    std::string label(FourCC id) {
+        if (id == FourCC("OBJE")) {
+            for (Counter& counter : counters_) counter.next = counter.is_of_object ? 0 : counter.next;
+        }
+        for (Counter& counter : counters_) {
+            if (counter.id == id) return ' ' + std::to_string(counter.next++);
+        }
+        return {};
+    }
+
+private:
+    struct Counter {
+        FourCC id;
+        bool is_of_object;  // numbered inside it
+        std::uint32_t next = 0;
+    };
+    std::array<Counter, 6> counters_{{{FourCC("SKIN"), true},
+                                      {FourCC("IKCH"), true},
+                                      {FourCC("VECT"), true},
+                                      {FourCC("CYCL"), true},
+                                      {FourCC("MATE"), false},
+                                      {FourCC("TEXT"), false}}};
+};
 
 std::string indentation(std::size_t depth) {
     constexpr std::size_t kMostLevels = 40;
@@ -50,18 +71,11 @@ std::string indentation(std::size_t depth) {
 void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
     std::cout << "      offset         size  chunk\n";
     std::vector<std::uint32_t> ends;  // of the containers that we are in
-    std::array<std::pair<FourCC, std::uint32_t>, 5> counters{
-        {{FourCC("SKIN"), 0}, {FourCC("VECT"), 0}, {FourCC("MATE"), 0}, {FourCC("TEXT"), 0}, {FourCC("CYCL"), 0}}};
-    const auto next_number = [&](FourCC id) {
-        const auto counter =
-            std::find_if(counters.begin(), counters.end(), [&](const auto& entry) { return entry.first == id; });
-        return counter->second++;
-    };
+    Counters counters;
+    const RigIndex rigs(tree);
     for (std::uint32_t number = 0; number < tree[root].end;) {
         const Chunk& chunk = tree[number];
-        if (chunk.id == FourCC("OBJE"))
-            counters[0].second = counters[1].second = counters[4].second = 0;  // numbered inside it
-        const std::string label = is_numbered(chunk.id) ? ' ' + std::to_string(next_number(chunk.id)) : std::string();
+        const std::string label = counters.label(chunk.id);
         if (number < root) {
             ++number;  // only counted
             continue;
@@ -75,7 +89,7 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
         std::snprintf(columns.data(), columns.size(), "%12llu %12llu  ", static_cast<unsigned long long>(chunk.offset),
                       static_cast<unsigned long long>(chunk.size));
         std::cout << columns.data() << indentation(ends.size()) << chunk.id.letters().data() << label;
-        const std::string content = describe_chunk(tree, number);
+        const std::string content = describe_chunk(tree, number, rigs);
         if (!content.empty()) std::cout << "  " << content;
         std::cout << '\n';
         if (chunk.is_container()) ends.push_back(chunk.end);

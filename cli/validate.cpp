@@ -46,7 +46,7 @@ nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, 
     for (const Error& fault : faults.list()) {
         list.push_back({{"code", code_name(fault.code)},
                         {"class", class_name(error_class(fault.code))},
-                        {"path", chunk_path(bytes, fault.offset)},
+                        {"path", whole_chunk_path(bytes, fault.offset)},
                         {"offset", fault.offset},
                         {"message", describe(fault)}});
     }

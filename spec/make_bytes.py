@@ -7,6 +7,7 @@
 It knows the format from these pages alone, so it is also a second, small writer. Python 3, nothing else.
 """
 
+import math
 import pathlib
 import re
 import struct
@@ -19,6 +20,7 @@ CONTAINER = 1 << 0
 REQUIRED = 1 << 1
 NONE = 0xFFFFFFFF
 LOCAL = 0x80000000
+INFINITE = float('inf')
 
 
 # --- sums -------------------------------------------------------------------------------------------------------------
@@ -213,6 +215,41 @@ def rest(translation, rotation=(0, 0, 0, 1), scale=(1, 1, 1), shear=(0, 0, 0)):
                 f32(scale, 'scale ' + words(scale)), f32(shear, 'shear ' + words(shear)))
 
 
+def limit(model, frame, rotation, scope=0, flags=0, order=0, soft_zone=0, translation=((-INFINITE, INFINITE),) * 3,
+          stiffness=(0, 0, 0), preferred=(0, 0, 0)):
+    """`rotation` and `translation` are (minimum, maximum) of X, Y, Z; rotation in degrees, None free."""
+    models = ('free', 'locked', 'hinge', 'swing-twist ellipse', 'swing-twist pyramid', 'Euler box', 'largest angle')
+    lows = [-INFINITE if pair is None else math.radians(pair[0]) for pair in rotation]
+    highs = [INFINITE if pair is None else math.radians(pair[1]) for pair in rotation]
+
+    def words(values):
+        return ' '.join('%g' % value for value in values)
+    return leaf('LIMT', u8(model, 'model %d (%s)' % (model, models[model])), u8(order, 'euler_order %d' % order),
+                u8(scope, 'scope %d' % scope), u8(flags, 'flags %d' % flags), f32(soft_zone, 'soft_zone %g' % soft_zone),
+                f32(frame, 'frame ' + words(frame)), f32(lows, 'rotation_min ' + words(lows)),
+                f32(highs, 'rotation_max ' + words(highs)),
+                f32([low for low, _ in translation], 'translation_min ' + words(low for low, _ in translation)),
+                f32([high for _, high in translation], 'translation_max ' + words(high for _, high in translation)),
+                f32(stiffness, 'stiffness ' + words(stiffness)), f32(preferred, 'preferred ' + words(preferred)))
+
+
+def pull(chain, weight):
+    return leaf('PULL', u32(chain, 'chain %d' % chain), f32(weight, 'weight %g' % weight))
+
+
+def chain_info(start, effector, target=NONE, pole=NONE, solver=0, tip_offset=(0, 0, 0)):
+    def joint(what, number):
+        return u32(number, '%s %s' % (what, 'none' if number == NONE else number))
+    solvers = ('any', 'pull', 'two-bone', 'CCD', 'FABRIK', 'aim', 'least squares')
+    return leaf('KINF', joint('start', start), joint('effector', effector), joint('target', target), joint('pole', pole),
+                u8(solver, 'solver %d (%s)' % (solver, solvers[solver])), u8(0, 'flags 0'), u16(16, 'iterations 16'),
+                u8(1, 'priority 1'), u8([0, 0, 0], 'reserved'), f32(0.001, 'tolerance 0.001'),
+                f32([0, 0, 1], 'pole_vector 0 0 1'), f32(0, 'pole_angle 0'),
+                f32(tip_offset, 'tip_offset %g %g %g' % tuple(tip_offset)), f32([0, 0, 0, 1], 'tip_rotation 0 0 0 1'),
+                f32(1, 'position_weight 1'), f32(0, 'rotation_weight 0'), f32(1, 'influence 1'), f32(0, 'stretch 0'),
+                f32(0, 'compress 0'))
+
+
 def polygons(pool, material, first, count):
     if material == NONE:
         word = 'none'
@@ -301,7 +338,7 @@ def make_one_joint():
 
 
 def make_every_chunk():
-    """Every chunk that version 0.1 has a record for: two joints, a soft-skinned triangle, a target, a cycle."""
+    """Every chunk that version 0.1 has a record for: two joints with an IK chain, a soft-skinned triangle, a target, a cycle."""
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     one_down = identity[:13] + [-1] + identity[14:]
     half = 0.7071067811865476
@@ -324,9 +361,13 @@ def make_every_chunk():
         box('OBJE',
             name('worm'),
             extras('{"species":"worm"}'),
-            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0])), extras('{"side":"mid"}'),
-                box('SKIN', name('tip'), box('PIVO', rest([0, 1, 0])),
+            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0]), pull(0, 0.5)), extras('{"side":"mid"}'),
+                leaf('EXTN', text('{"KHR_node_visibility":{"visible":true}}')),
+                box('SKIN', name('tip'),
+                    box('PIVO', rest([0, 1, 0]),
+                        limit(3, [0.5, 0.5, 0.5, 0.5], [(-30, 30), (-40, 40), (-20, 60)])),
                     box('MATE', surface([0, 0, 1, 1])), polygons(0, LOCAL | 0, 0, 3))),
+            box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
             box('VECT', name('body'), pool_info(3, 0), extras('{"unit":"m"}'),
                 palette([(0, identity), (1, one_down)]),
                 stream('POSI', 'f32', [[0, 0, 0], [1, 2, 0], [0, 2, 0]]),
@@ -346,6 +387,7 @@ def make_every_chunk():
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
                 leaf('TRAK', *tracks), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values))),
         extras('{"author":"us"}'),
+        leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),
                                               raw(png, 'the PNG file, %d bytes' % len(png)))))
 

@@ -3,17 +3,41 @@
 #include <bendy/format/cycle.h>
 #include <bendy/format/read_record.h>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace bendy {
 namespace {
 
-constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
+using Triple = std::array<float, 3>;
 
-bool holds(float low, float value, float high) {
-    return low <= value && value <= high;  // false for NaN
+constexpr std::uint64_t kFirstTranslation = 3;  // axes in faults: 0 to 2 of the rotation, 3 to 5 of the translation
+
+/// True when an angle on the circle is in the range: low <= angle + n turns <= high for a whole n. `half_turns` is the
+/// angle, as a multiple of what float has for pi, so that ranges written in float start where they should.
+bool holds_angle(float low, double half_turns, float high) {
+    constexpr double kHalfTurn = std::numbers::pi_v<float>;
+    constexpr double kTurn = 2.0 * kHalfTurn;
+    const double angle = half_turns * kHalfTurn;
+    const double first = std::ceil((double{low} - angle) / kTurn);  // the first n that is not below the range
+    return std::isinf(low) ? low < 0.0f && high > -LimitRecord::kFree : angle + first * kTurn <= double{high};
 }
 
+bool holds_angle_on_all_axes(const LimitRecord& limit, double half_turns) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!holds_angle(limit.rotation_min[axis], half_turns, limit.rotation_max[axis])) return false;
+    }
+    return true;
+}
+
+/// A range that some finite number lies in.
+bool is_possible(float low, float high) {
+    return low < LimitRecord::kFree && high > -LimitRecord::kFree;
+}
+
+/// The range of an axis that counts for the model; neither end is NaN.
 bool is_possible(const LimitRecord& limit, std::size_t axis) {
     const float low = limit.rotation_min[axis];
     const float high = limit.rotation_max[axis];
@@ -21,22 +45,40 @@ bool is_possible(const LimitRecord& limit, std::size_t axis) {
         case LimitModel::swing_twist_ellipse:
         case LimitModel::swing_twist_pyramid:
             if (axis != 0) return low <= 0.0f && high >= 0.0f;  // a swing range opens on both sides of rest
-            [[fallthrough]];
-        case LimitModel::hinge:
-        case LimitModel::euler_box: return low < LimitRecord::kFree && high > -LimitRecord::kFree;
-        case LimitModel::largest_angle: return high >= 0.0f;
-        default: return true;
+            return is_possible(low, high);
+        case LimitModel::largest_angle:
+            return high >= 0.0f;
+        default:
+            return is_possible(low, high);
     }
 }
 
-void check_pairs(const std::array<float, 3>& low, const std::array<float, 3>& high, std::size_t axes,
-                 std::uint64_t offset, Faults& faults) {
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+/// NaN on any axis; a minimum above its maximum on the first `axes`. `first` is the number of the X axis in faults.
+void check_pairs(const Triple& low, const Triple& high, std::size_t axes, std::uint64_t first, std::uint64_t offset,
+                 Faults& faults) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         if (std::isnan(low[axis]) || std::isnan(high[axis])) {
-            faults.add({ErrorCode::kNotFinite, offset, axis});
-        } else if (low[axis] > high[axis]) {
-            faults.add({ErrorCode::kLimitOrder, offset, axis});
+            faults.add({ErrorCode::kNotFinite, offset, first + axis});
+        } else if (axis < axes && low[axis] > high[axis]) {
+            faults.add({ErrorCode::kLimitOrder, offset, first + axis});
         }
+    }
+}
+
+void check_ranges(const LimitRecord& limit, std::uint64_t offset, Faults& faults) {
+    const auto model = static_cast<LimitModel>(limit.model);
+    const std::size_t axes = limited_axes(model);
+    const std::size_t before = faults.count();
+    check_pairs(limit.rotation_min, limit.rotation_max, model == LimitModel::largest_angle ? 0 : axes, 0, offset,
+                faults);
+    check_pairs(limit.translation_min, limit.translation_max, 3, kFirstTranslation, offset, faults);
+    if (faults.count() != before) return;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+        if (!is_possible(limit, axis)) faults.add({ErrorCode::kLimitRange, offset, axis});
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!is_possible(limit.translation_min[axis], limit.translation_max[axis]))
+            faults.add({ErrorCode::kLimitRange, offset, kFirstTranslation + axis});
     }
 }
 
@@ -59,49 +101,49 @@ bool read_limit(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint,
 unsigned limited_axes(LimitModel model) {
     switch (model) {
         case LimitModel::hinge:
-        case LimitModel::largest_angle: return 1;
+        case LimitModel::largest_angle:
+            return 1;
         case LimitModel::swing_twist_ellipse:
         case LimitModel::swing_twist_pyramid:
-        case LimitModel::euler_box: return 3;
-        default: return 0;
+        case LimitModel::euler_box:
+            return 3;
+        default:
+            return 0;
     }
 }
 
 bool holds_rest(const LimitRecord& limit) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!holds(limit.translation_min[axis], 0.0f, limit.translation_max[axis])) return false;
+        if (!(limit.translation_min[axis] <= 0.0f && limit.translation_max[axis] >= 0.0f)) return false;
     }
-    const auto model = static_cast<LimitModel>(limit.model);
-    if (model == LimitModel::largest_angle) return limit.rotation_max[0] >= 0.0f;
-    for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
-        // A range that holds a whole turn away from 0 holds 0 as well: angles are angles on the circle.
-        const float low = limit.rotation_min[axis];
-        const float high = limit.rotation_max[axis];
-        if (!holds(low, 0.0f, high) && !holds(low, kTurn, high) && !holds(low, -kTurn, high)) return false;
+    switch (static_cast<LimitModel>(limit.model)) {
+        case LimitModel::hinge:
+            return holds_angle(limit.rotation_min[0], 0.0, limit.rotation_max[0]);
+        case LimitModel::swing_twist_ellipse:
+        case LimitModel::swing_twist_pyramid:
+            return holds_angle(limit.rotation_min[0], 0.0, limit.rotation_max[0]) && limit.rotation_min[1] <= 0.0f &&
+                   limit.rotation_max[1] >= 0.0f && limit.rotation_min[2] <= 0.0f && limit.rotation_max[2] >= 0.0f;
+        case LimitModel::euler_box:  // no rotation has two forms: three times 0, three times half a turn
+            return holds_angle_on_all_axes(limit, 0.0) || holds_angle_on_all_axes(limit, 1.0);
+        case LimitModel::largest_angle:
+            return limit.rotation_max[0] >= 0.0f;
+        default:
+            return true;
     }
-    return true;
 }
 
 void check_limit(const LimitRecord& limit, std::uint32_t joint, std::uint64_t offset, Faults& faults) {
-    const auto model = static_cast<LimitModel>(limit.model);
     const std::size_t before = faults.count();
     if (!is_unit(limit.frame, kUnitTolerance)) faults.add({ErrorCode::kRotationNotUnit, offset, joint});
     check_finite(std::array{limit.soft_zone}, offset, faults);
     check_finite(limit.preferred, offset, faults);
-    if (limit.soft_zone < 0.0f) faults.add({ErrorCode::kLimitRange, offset, 0});
+    if (std::isfinite(limit.soft_zone) && limit.soft_zone < 0.0f)
+        faults.add({ErrorCode::kBelowZero, offset, offsetof(LimitRecord, soft_zone)});
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!holds(0.0f, limit.stiffness[axis], 1.0f)) faults.add({ErrorCode::kFractionRange, offset, axis});
+        if (!(limit.stiffness[axis] >= 0.0f && limit.stiffness[axis] <= 1.0f))
+            faults.add({ErrorCode::kFractionRange, offset, offsetof(LimitRecord, stiffness) + axis * sizeof(float)});
     }
-    check_pairs(limit.rotation_min, limit.rotation_max, model == LimitModel::largest_angle ? 0 : limited_axes(model),
-                offset, faults);
-    check_pairs(limit.translation_min, limit.translation_max, 3, offset, faults);
-    for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
-        if (std::isnan(limit.rotation_max[axis])) {
-            if (model == LimitModel::largest_angle) faults.add({ErrorCode::kNotFinite, offset, axis});
-        } else if (!is_possible(limit, axis)) {
-            faults.add({ErrorCode::kLimitRange, offset, axis});
-        }
-    }
+    check_ranges(limit, offset, faults);
     const bool is_sound = faults.count() == before;
     if (is_sound && !holds_rest(limit) && (limit.flags & kRestOutside) == 0)
         faults.add({ErrorCode::kRestOutside, offset, joint});

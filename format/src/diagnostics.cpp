@@ -14,13 +14,13 @@ std::string step_text(FourCC id, std::uint32_t place) {
     return text;
 }
 
-std::string join_steps(const std::vector<std::string>& steps) {
-    constexpr std::size_t kShown = 6;  // at either end
+/// With slashes between them, `shown` at either end; all if there is hardly more.
+std::string join_steps(const std::vector<std::string>& steps, std::size_t shown) {
     std::string path;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         if (i != 0) path += '/';
-        if (i == kShown && steps.size() > 2 * kShown + 1) {
-            const std::size_t left_out = steps.size() - 2 * kShown;
+        if (i == shown && steps.size() > 2 * shown + 1) {
+            const std::size_t left_out = steps.size() - 2 * shown;
             path += "... " + std::to_string(left_out) + " more ...";
             i += left_out - 1;
             continue;
@@ -42,20 +42,8 @@ std::string value_text(const Error& error, std::uint64_t value) {
     return std::to_string(value);
 }
 
-}  // namespace
-
-std::string describe(const Error& error) {
-    std::string text = error_text(error.code);
-    const auto fill = [&](std::string_view mark, std::uint64_t value) {
-        const std::size_t at = text.find(mark);
-        if (at != std::string::npos) text.replace(at, mark.size(), value_text(error, value));
-    };
-    fill("{v}", error.value);
-    fill("{l}", error.limit);
-    return text;
-}
-
-std::string chunk_path(Bytes bytes, std::uint64_t offset) {
+/// The steps of the path of the innermost chunk that holds `offset`.
+std::vector<std::string> find_steps(Bytes bytes, std::uint64_t offset) {
     std::vector<std::string> steps;
     std::uint64_t at = 0;
     std::uint64_t end = bytes.size();
@@ -83,7 +71,29 @@ std::string chunk_path(Bytes bytes, std::uint64_t offset) {
         at = payload;
         end = chunk_end;
     }
-    return join_steps(steps);
+    return steps;
+}
+
+}  // namespace
+
+std::string describe(const Error& error) {
+    std::string text = error_text(error.code);
+    const auto fill = [&](std::string_view mark, std::uint64_t value) {
+        const std::size_t at = text.find(mark);
+        if (at != std::string::npos) text.replace(at, mark.size(), value_text(error, value));
+    };
+    fill("{v}", error.value);
+    fill("{l}", error.limit);
+    return text;
+}
+
+std::string chunk_path(Bytes bytes, std::uint64_t offset) {
+    constexpr std::size_t kShown = 6;
+    return join_steps(find_steps(bytes, offset), kShown);
+}
+
+std::string whole_chunk_path(Bytes bytes, std::uint64_t offset) {
+    return join_steps(find_steps(bytes, offset), kMaxDepth);
 }
 
 std::uint32_t find_path(const ChunkTree& tree, std::string_view path) {

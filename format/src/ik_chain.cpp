@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <tuple>
 
@@ -24,16 +26,12 @@ std::vector<std::uint32_t> find_ends(const SkeletonView& skeleton) {
     return ends;
 }
 
-/// `ends`: see find_ends.
-ChainView read_chain(const ChunkTree& tree, std::uint32_t chunk, std::span<const std::uint32_t> ends, Faults& faults) {
-    ChainView chain;
-    chain.chunk = chunk;
-    chain.name = read_text(tree, chunk, FourCC("NAME"), faults);
-    chain.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
-    const auto record = read_child_record<ChainRecord>(tree, chunk, FourCC("KINF"), faults);
-    if (!record) return chain;
+/// Reads KINF into the view; false where it is missing or what it refers to is wrong. `ends`: see find_ends.
+bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std::uint32_t> ends, Faults& faults) {
+    const auto record = read_child_record<ChainRecord>(tree, chain.chunk, FourCC("KINF"), faults);
+    if (!record) return false;
     chain.record = *record;
-    const std::uint64_t offset = offset_of(tree, chunk, FourCC("KINF"));
+    const std::uint64_t offset = offset_of(tree, chain.chunk, FourCC("KINF"));
     check_reserved(record->reserved, offset, faults);
     check_enum(record->solver, kSolvers, offset, faults);
     check_enum(record->flags, kChainFlags, offset, faults);
@@ -47,10 +45,10 @@ ChainView read_chain(const ChunkTree& tree, std::uint32_t chunk, std::span<const
     check_joint(record->effector);
     if (record->target != kNone) check_joint(record->target);
     if (record->pole != kNone) check_joint(record->pole);
-    if (!in_range) return chain;
+    if (!in_range) return false;
     const bool is_above = record->start <= record->effector && record->effector < ends[record->start];
     if (!is_above) faults.add({ErrorCode::kChainPath, offset, record->start, record->effector});
-    return chain;
+    return is_above;
 }
 
 /// Holds the joints' weights against the chains.
@@ -70,8 +68,7 @@ void check_pulls(const ChunkTree& tree, const SkeletonView& skeleton, std::span<
         good.push_back(&pull);
     }
     const auto key = [](const PullView* pull) { return std::tie(pull->joint, pull->chain); };
-    std::stable_sort(good.begin(), good.end(),
-                     [&](const PullView* a, const PullView* b) { return key(a) < key(b); });
+    std::stable_sort(good.begin(), good.end(), [&](const PullView* a, const PullView* b) { return key(a) < key(b); });
     for (std::size_t i = 1; i < good.size(); ++i) {
         if (key(good[i - 1]) == key(good[i]))
             faults.add({ErrorCode::kPullRepeated, tree[good[i]->chunk].offset, good[i]->joint, good[i]->chain});
@@ -84,12 +81,16 @@ std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, 
                                    Faults& faults) {
     const std::vector<std::uint32_t> ends = find_ends(skeleton);
     std::vector<ChainView> chains;
-    const std::size_t before = faults.count();
+    bool are_sound = true;  // else weights cannot be held against them
     for (const std::uint32_t child : tree.children(object)) {
-        if (tree[child].id == FourCC("IKCH") && tree[child].is_container())
-            chains.push_back(read_chain(tree, child, ends, faults));
+        if (!(tree[child].id == FourCC("IKCH")) || !tree[child].is_container()) continue;
+        ChainView& chain = chains.emplace_back();
+        chain.chunk = child;
+        chain.name = read_text(tree, child, FourCC("NAME"), faults);
+        chain.extras = read_text(tree, child, FourCC("EXTR"), faults);
+        are_sound = read_record_of(tree, chain, ends, faults) && are_sound;
     }
-    if (faults.count() == before) check_pulls(tree, skeleton, chains, ends, faults);
+    if (are_sound) check_pulls(tree, skeleton, chains, ends, faults);
     return chains;
 }
 
@@ -103,11 +104,18 @@ void check_chain_values(const ChunkTree& tree, const ChainView& chain, Faults& f
     check_finite(std::array{record.stretch}, offset, faults);
     if (!is_unit(record.tip_rotation, kUnitTolerance))
         faults.add({ErrorCode::kRotationNotUnit, offset, record.effector});
-    const std::array fractions{record.position_weight, record.rotation_weight, record.influence, record.compress};
-    for (std::size_t i = 0; i < fractions.size(); ++i) {
-        if (!(fractions[i] >= 0.0f && fractions[i] <= 1.0f)) faults.add({ErrorCode::kFractionRange, offset, i});
-    }
-    if (record.stretch < 0.0f || record.tolerance < 0.0f) faults.add({ErrorCode::kFractionRange, offset, 4});
+    const auto check_fraction = [&](float number, std::size_t at) {
+        if (!(number >= 0.0f && number <= 1.0f)) faults.add({ErrorCode::kFractionRange, offset, at});
+    };
+    check_fraction(record.position_weight, offsetof(ChainRecord, position_weight));
+    check_fraction(record.rotation_weight, offsetof(ChainRecord, rotation_weight));
+    check_fraction(record.influence, offsetof(ChainRecord, influence));
+    check_fraction(record.compress, offsetof(ChainRecord, compress));
+    const auto check_not_negative = [&](float number, std::size_t at) {
+        if (std::isfinite(number) && number < 0.0f) faults.add({ErrorCode::kBelowZero, offset, at});
+    };
+    check_not_negative(record.tolerance, offsetof(ChainRecord, tolerance));
+    check_not_negative(record.stretch, offsetof(ChainRecord, stretch));
 }
 
 }  // namespace bendy

@@ -4,6 +4,8 @@
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
+#include <cstddef>
+
 namespace bendy {
 namespace {
 
@@ -121,7 +123,7 @@ void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, 
         check_limit(limit.record, limit.joint, tree[limit.chunk].offset, faults);
     for (const PullView& pull : skeleton.pulls) {
         if (!(pull.weight >= 0.0f && pull.weight <= 1.0f))
-            faults.add({ErrorCode::kFractionRange, tree[pull.chunk].offset, 0});
+            faults.add({ErrorCode::kFractionRange, tree[pull.chunk].offset, offsetof(PullRecord, weight)});
     }
 }
 

@@ -6,6 +6,7 @@
 
 import argparse
 import json
+import math
 import os
 import re
 import resource
@@ -92,11 +93,11 @@ def read_ply(data):
 
 
 def in_full(shown, path):
-    """A path as it is shown, with the steps that "... N more ..." stands for filled in from the real one."""
+    """A line with a path as it is shown, the steps that "... N more ..." stands for filled in from the real one."""
     match = re.search(r"\.\.\. (\d+) more \.\.\.", shown)
     if not match:
         return shown
-    before = shown[: match.start()].count("/")
+    before = shown[shown.rfind("(", 0, match.start()) + 1 : match.start()].count("/")
     return shown.replace(match.group(), "/".join(path.split("/")[before : before + int(match.group(1))]))
 
 
@@ -455,7 +456,203 @@ class Inspect(Case):
             self.assertRegex(self.failed("inspect", "cut.bendy", *more, file="cut.bendy"), r"\(HEAD, offset 0\)$")
 
 
+INFINITY = float("inf")
+FREE = (-INFINITY, INFINITY)
+NONE = 0xFFFFFFFF
+
+
+def limit(model, *ranges, order=0, scope=0, flags=0, soft_zone=0.0, translation=(FREE, FREE, FREE),
+          stiffness=(0, 0, 0), preferred=(0, 0, 0)):
+    """A LIMT; the ranges of X, Y, Z are (minimum, maximum) in degrees."""
+    ranges = [*ranges, FREE, FREE, FREE][:3]
+    return Chunk("LIMT", struct.pack(
+        "<4B23f", model, order, scope, flags, soft_zone, 0, 0, 0, 1,
+        *(math.radians(low) for low, _ in ranges), *(math.radians(high) for _, high in ranges),
+        *(low for low, _ in translation), *(high for _, high in translation), *stiffness, *preferred))
+
+
+def chain(start, effector, name=None, target=NONE, pole=NONE, solver=0, flags=0, iterations=0, priority=0,
+          tolerance=0.0, pole_vector=(0, 0, 0), pole_angle=0.0, tip=(0, 0, 0), tip_rotation=(0, 0, 0, 1),
+          position=1.0, rotation=0.0, influence=1.0, stretch=0.0, compress=0.0):
+    info = struct.pack("<4I2BHB3x17f", start, effector, target, pole, solver, flags, iterations, priority, tolerance,
+                       *pole_vector, pole_angle, *tip, *tip_rotation, position, rotation, influence, stretch, compress)
+    names = [] if name is None else [Chunk("NAME", name.encode())]
+    return Chunk("IKCH", children=[*names, Chunk("KINF", info)])
+
+
+def pull(number, weight):
+    return Chunk("PULL", struct.pack("<If", number, weight))
+
+
+class InspectRig(Case):
+    """Constraints and IK chains, as inspect shows them."""
+
+    def joints(self, root):
+        """The joints of a file with one object, in their order, and the number of each name."""
+        joints = [joint for _, joint in root.walk() if joint.letters == "SKIN"]
+        names = [next((c.payload.decode() for c in joint.children if c.letters == "NAME"), "") for joint in joints]
+        return joints, names.index
+
+    def pivot(self, joint):
+        return next(chunk for chunk in joint.children if chunk.letters == "PIVO")
+
+    def line(self, root, where, good=True):
+        """What inspect says of one chunk."""
+        path = self.folder / "rig.bendy"
+        path.write_bytes(root.write())
+        result = self.bendy("validate", path)
+        self.assertEqual(result.returncode, 0 if good else 1, result.stdout)
+        line = self.done("inspect", path, "--chunk", where, "--all").decode().splitlines()[1]
+        return re.fullmatch(r" *\d+ +\d+  \w{4}(?: \d+)?(?:  (.*))?", line)[1]
+
+    def limit_line(self, chunk, good=True):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
+        root.find("HEAD/OBJE/SKIN/PIVO").children.append(chunk)
+        return self.line(root, "HEAD/OBJE/SKIN/PIVO/LIMT", good)
+
+    def test_limits_are_in_degrees(self):
+        for chunk, text in (
+                (limit(0), "free"),
+                (limit(1), "locked"),
+                (limit(2, (0, 150)), "hinge 0 to 150 deg"),
+                (limit(2), "hinge free"),
+                (limit(2, (-INFINITY, 150)), "hinge up to 150 deg"),
+                (limit(2, (-12.5, INFINITY)), "hinge from -12.5 deg"),
+                (limit(3, (-35, 35), (-20, 20), (-25, 25), scope=1, flags=2),
+                 "swing-twist ellipse, twist -35 to 35 deg, swing -20 to 20 and -25 to 25 deg, IK only, proposed"),
+                (limit(4, FREE, FREE, (-25, 25)), "swing-twist pyramid, twist free, swing free and -25 to 25 deg"),
+                (limit(4), "swing-twist pyramid, twist free, swing free and free"),
+                (limit(5, (-1, 2), (-3, 4), (-5, 6), order=5), "Euler box ZYX -1 to 2, -3 to 4 and -5 to 6 deg"),
+                (limit(6, (0, 30)), "largest angle 30 deg"),
+                (limit(6), "largest angle free"),
+                (limit(1, translation=((0, 0),) * 3), "locked, no translation"),
+                (limit(0, translation=((0, 0), FREE, (-0.5, 0.25))),
+                 "free, translation 0 to 0, free and -0.5 to 0.25 m"),
+                (limit(0, scope=2, flags=1), "free, all but IK, approximated"),
+                (limit(2, (10, 20), flags=5), "hinge 10 to 20 deg, approximated, rest outside"),
+                (limit(0, stiffness=(0, 0.5, 1), soft_zone=math.radians(5), preferred=(math.radians(30), 0, 0)),
+                 "free, stiffness 0 0.5 1, soft zone 5 deg, preferred 30 0 0 deg")):
+            self.assertEqual(self.limit_line(chunk), text)
+
+    def test_limits_without_sense_are_shown(self):
+        self.assertEqual(self.limit_line(limit(99), good=False), "?")
+        self.assertEqual(self.limit_line(limit(5, order=99), good=False), "Euler box ? free, free and free")
+        self.assertEqual(self.limit_line(limit(2, (float("nan"), 1)), good=False), "hinge nan to 1 deg")
+        self.assertEqual(self.limit_line(Chunk("LIMT", b"\x02"), good=False), "hinge free")
+
+    def test_a_joint_says_that_it_is_limited(self):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
+        where = "HEAD/OBJE/SKIN"
+        self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles')
+        root.find(where + "/PIVO").children.append(limit(0))
+        root.find(where).children.append(Chunk("EXTN", b"{}"))
+        self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles, limited, extensions')
+
+    def test_a_joint_without_a_place_starts_with_what_it_has(self):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
+        joint = root.find("HEAD/OBJE/SKIN")
+        joint.children.remove(self.pivot(joint))
+        self.assertEqual(self.line(root, "HEAD/OBJE/SKIN", good=False), '"pole"  1 triangles')
+
+    def test_chains_name_their_joints(self):
+        root = Chunk.read(self.convert().read_bytes())
+        joints, number = self.joints(root)
+        arm = [number(f"mixamorig:Left{part}") for part in ("Arm", "ForeArm", "Hand")]
+        hips, head = number("mixamorig:Hips"), number("mixamorig:Head")
+        at = root.find("HEAD/OBJE").children
+        at[:] = [chunk for chunk in at if chunk.letters != "IKCH"]
+        for joint in joints:
+            self.pivot(joint).children[:] = [c for c in self.pivot(joint).children if c.letters != "PULL"]
+        at += [chain(arm[0], arm[2], "IK_LeftArm", solver=2),
+               chain(arm[0], arm[2], solver=4, target=head, pole=hips, position=0.75, rotation=0.5, influence=0.25,
+                     flags=3),
+               chain(hips, arm[2], solver=3),
+               chain(arm[1], arm[1], "wrist\x1b", solver=5)]
+        self.pivot(joints[arm[0]]).children.append(pull(0, 0.5))
+        self.pivot(joints[arm[1]]).children += [pull(1, 0.125), pull(3, 0.25)]
+        path = "mixamorig:LeftArm{} > mixamorig:LeftForeArm{} > mixamorig:LeftHand, "
+        self.assertEqual(self.line(root, "HEAD/OBJE/IKCH"), '"IK_LeftArm"  ' + path.format(" (0.5)", "") + "two-bone")
+        self.assertEqual(self.line(root, "HEAD/OBJE/IKCH[1]"),
+                         path.format("", " (0.125)") + "FABRIK, target mixamorig:Head, pole mixamorig:Hips, "
+                         "position 0.75, rotation 0.5, influence 0.25, approximated, proposed")
+        self.assertRegex(self.line(root, "HEAD/OBJE/IKCH[2]"),
+                         r"^mixamorig:Hips > \.\.\. \d more \.\.\. > mixamorig:LeftForeArm > mixamorig:LeftHand, CCD$")
+        self.assertEqual(self.line(root, "HEAD/OBJE/IKCH[3]"), '"wrist\\x1b"  mixamorig:LeftForeArm (0.25), aim')
+        pivot = next(where for where, chunk in root.walk() if chunk is self.pivot(joints[arm[0]]))
+        self.assertEqual(self.line(root, pivot + "/PULL"), "0.5 in IK_LeftArm")
+        pivot = next(where for where, chunk in root.walk() if chunk is self.pivot(joints[arm[1]]))
+        self.assertEqual(self.line(root, pivot + "/PULL"), "0.125 in chain 1")
+        self.assertEqual(self.line(root, pivot + "/PULL[1]"), "0.25 in wrist\\x1b")
+
+    def test_a_chain_says_how_it_is_solved(self):
+        root = Chunk.read(self.convert("tentacle").read_bytes())
+        at = root.find("HEAD/OBJE").children
+        at[:] = [chunk for chunk in at if chunk.letters != "IKCH"] + [
+            chain(0, 0, iterations=1000, priority=7, tolerance=0.25, pole_vector=(0, 0, 1), pole_angle=math.pi / 2,
+                  tip=(0, 0.5, 0), tip_rotation=(0, 1, 0, 0), stretch=0.5, compress=0.125)]
+        for joint in self.joints(root)[0]:
+            self.pivot(joint).children[:] = [c for c in self.pivot(joint).children if c.letters != "PULL"]
+        short = self.line(root, "HEAD/OBJE/IKCH")
+        self.assertTrue(short.endswith(", any solver"), short)
+        self.assertEqual(self.line(root, "HEAD/OBJE/IKCH/KINF"),
+                         short + ", at most 1,000 iterations, priority 7, tolerance 0.25 m, pole vector 0 0 1, "
+                         "pole angle 90 deg, tip 0 0.5 0 m, tip rotation 0 1 0 0, stretch 0.5, compress 0.125")
+
+    def test_chains_without_sense_are_shown(self):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "every_chunk.bendy").read_bytes())
+        at = root.find("HEAD/OBJE").children
+        at += [chain(1, 0), chain(NONE, 99, solver=200, target=5), Chunk("IKCH", children=[]),
+               Chunk("IKCH", children=[Chunk("KINF", b"")])]
+        self.pivot(root.find("HEAD/OBJE/SKIN")).children += [pull(5, 0.5), Chunk("PULL", b"")]
+        line = lambda where: self.line(root, where, good=False)  # noqa: E731
+        self.assertEqual(line("HEAD/OBJE/IKCH[1]"), "tip is not above root, any solver")
+        self.assertEqual(line("HEAD/OBJE/IKCH[2]"),
+                         "no joint 4294967295 is not above no joint 99, ?, target no joint 5")
+        self.assertEqual(line("HEAD/OBJE/IKCH[3]"), None)
+        self.assertEqual(line("HEAD/OBJE/IKCH[4]"), "root, any solver")
+        self.assertEqual(line("HEAD/OBJE/SKIN/PIVO/PULL[1]"), "0.5 in no chain 5")
+
+    def test_a_rope_with_many_chains_takes_no_time(self):
+        joint = Chunk("SKIN", children=[Chunk("PIVO", children=[Chunk("REST", struct.pack("<10f", *[0.0] * 10))])])
+        data = joint.write()
+        for _ in range(3000):  # Chunk.write recurses, so the rope is made by hand
+            body = joint.children[0].write() + data
+            head = b"SKIN" + bytes(4) + struct.pack("<Q", len(body) | 1 << 48)
+            data = head + body
+        body = data + chain(0, 3000).write() * 3000
+        body = b"OBJE" + bytes(4) + struct.pack("<Q", len(body) | 1 << 48) + body
+        (self.folder / "rope.bendy").write_bytes(b"HEAD" + bytes(4) + struct.pack("<Q", len(body) | 1 << 48) + body)
+        text = self.done("inspect", "rope.bendy").decode()
+        self.assertEqual(text.count("joint 0 > ... 2,998 more ... > joint 2999 > joint 3000"), 3000)
+
+    def test_json_has_no_infinities(self):
+        root = Chunk.read((SOURCE / "spec" / "examples" / "every_chunk.bendy").read_bytes())
+        (self.folder / "rig.bendy").write_bytes(root.write())
+        text = self.done("inspect", "rig.bendy", "--json")
+        chunks = json.loads(text, parse_constant=self.fail)["chunks"]
+        (fields,) = [entry["fields"] for entry in chunks if entry["id"] == "LIMT"]
+        payload = root.find("HEAD/OBJE/SKIN/SKIN/PIVO/LIMT").payload
+        self.assertEqual((fields["model"], fields["frame"]), (3, [0.5] * 4))
+        self.assertEqual([as_float(angle) for angle in fields["rotation_min"]], floats(payload[24:36]))
+        self.assertEqual([fields["translation_min"], fields["translation_max"]], [[None] * 3] * 2)
+        (fields,) = [entry["fields"] for entry in chunks if entry["id"] == "KINF"]
+        self.assertEqual([fields[key] for key in ("start", "effector", "target", "solver")], [0, 1, NONE, 3])
+        self.assertEqual(fields["tip_offset"], [0, 1, 0])
+        (fields,) = [entry["fields"] for entry in chunks if entry["id"] == "PULL"]
+        self.assertEqual(fields, {"chain": 0, "weight": 0.5})
+
+
 class Validate(Case):
+    def test_a_path_is_whole_in_json(self):
+        joint = Chunk("SKIN", children=[])  # without its PIVO
+        for _ in range(20):
+            joint = Chunk("SKIN", children=[joint])
+        (self.folder / "deep.bendy").write_bytes(Chunk("HEAD", children=[Chunk("OBJE", children=[joint])]).write())
+        (entry,) = json.loads(self.bendy("validate", "deep.bendy", "--json").stdout)
+        self.assertIn("HEAD/OBJE" + 21 * "/SKIN", [fault["path"] for fault in entry["faults"]])
+        self.assertIn(b"(HEAD/OBJE/SKIN/SKIN/SKIN/SKIN/... 11 more .../SKIN/",
+                      self.bendy("validate", "deep.bendy").stdout)
+
     def test_good_files_are_silent(self):
         files = self.good_files()
         self.assertEqual(self.done("validate", *files), b"")
@@ -482,7 +679,7 @@ class Validate(Case):
         for line, fault in zip(lines, entry["faults"]):
             self.assertTrue(line.startswith(f"{name}: {fault['code']}: {fault['message']} ("), line)
             self.assertTrue(line.endswith(f"offset {fault['offset']})"), line)
-            self.assertIn(fault["path"], line)
+            self.assertIn(fault["path"], in_full(line, fault["path"]))  # JSON has it whole
             self.assertIn(fault["class"], ("malformed", "invalid", "unsupported", "io"))
         return entry["faults"]
 
@@ -505,7 +702,7 @@ class Validate(Case):
             broken[chunk.offset + 16 + len(chunk.payload) // 2] ^= 0x10
             faults = self.faults(bytes(broken))
             sums = [fault for fault in faults if fault["code"] == "SUM_MISMATCH"]
-            places = [(in_full(fault["path"], path), fault["offset"]) for fault in sums]
+            places = [(fault["path"], fault["offset"]) for fault in sums]
             self.assertEqual(places, [(path, chunk.offset)])
 
     def test_a_wrong_value_with_right_sums_is_found_where_it_is(self):

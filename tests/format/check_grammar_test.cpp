@@ -218,20 +218,39 @@ TEST(CheckGrammar, TakesReservedChunksWhateverTheyHold) {
     const Bytes anything = as_byte_span("\xff\xfe anything");
     at(root, "HEAD/OBJE")
         .children.push_back(
-            make_container(FourCC("IKCH"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
+            make_container(FourCC("LODD"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
     at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("LODD"), anything, 0x0100));
     at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything));
-    for (const FourCC id : {FourCC("LIMT"), FourCC("PULL")}) {
-        for (int twice = 0; twice < 2; ++twice)
-            at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(make_leaf(id, anything));
-    }
     EXPECT_EQ(faults_in(root), Lines{});
 }
 
 TEST(CheckGrammar, RefusesAReservedChunkThatIsRequired) {
     Node root = sample();
-    at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(make_leaf(FourCC("LIMT"), {}, kRequiredFlag));
-    EXPECT_EQ(faults_in(root), Lines{"REQUIRED_CHUNK_UNKNOWN HEAD/OBJE/SKIN/PIVO/LIMT"});
+    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), {}, kRequiredFlag));
+    EXPECT_EQ(faults_in(root), Lines{"REQUIRED_CHUNK_UNKNOWN HEAD/OBJE/CYCL/MARK"});
+}
+
+TEST(CheckGrammar, ReservesNothingButLevelsOfDetailAndMarkers) {
+    std::set<std::string> reserved;
+#define BENDY_CHUNK(id, shape, parents, times, what) \
+    if (std::string_view(what).ends_with("(reserved)")) reserved.insert(#id);
+#include <bendy/format/chunk_ids.def>
+#undef BENDY_CHUNK
+    EXPECT_EQ(reserved, (std::set<std::string>{"LODD", "MARK"}));
+}
+
+TEST(CheckGrammar, RefusesConstraintsAndChainsInTheWrongPlaceOrShape) {
+    Node root = sample();
+    at(root, "HEAD/OBJE/SKIN").children.push_back(make_leaf(FourCC("LIMT")));
+    at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("PULL")));
+    at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("IKCH")));
+    at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(make_container(FourCC("LIMT")));
+    at(root, "HEAD/OBJE/IKCH").children.push_back(make_leaf(FourCC("REST")));
+    Lines faults = faults_in(root);
+    std::sort(faults.begin(), faults.end());
+    EXPECT_EQ(faults, (Lines{"CHUNK_MISPLACED HEAD/OBJE/IKCH/REST", "CHUNK_MISPLACED HEAD/OBJE/PULL",
+                             "CHUNK_MISPLACED HEAD/OBJE/SKIN/LIMT", "NOT_A_CONTAINER HEAD/OBJE/IKCH[2]",
+                             "NOT_A_LEAF HEAD/OBJE/SKIN/PIVO/LIMT"}));
 }
 
 }  // namespace

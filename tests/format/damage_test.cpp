@@ -69,6 +69,7 @@ double read_everything(const ChunkTree& tree, const Document& document) {
     const auto look_at = [&](std::string_view text) {
         for (const char letter : text) sum += letter;
     };
+    look_at(document.extensions);
     for (const TextureView& texture : document.textures) {
         look_at(texture.name);
         for (const ImageView& image : texture.images) {
@@ -88,6 +89,28 @@ double read_everything(const ChunkTree& tree, const Document& document) {
             look_at(joints[joint].name);
             const std::uint32_t parent = joints[joint].parent;
             EXPECT_TRUE(parent == kNone || parent < joint);
+        }
+        for (const JointView& joint : joints) look_at(joint.extensions);
+        for (const LimitView& limit : object.skeleton.limits) {
+            sum += joints[limit.joint].rest.scale[0];
+            EXPECT_LT(limit.record.model, kLimitModels);
+            EXPECT_LT(limit.record.euler_order, kEulerOrders);
+            EXPECT_LT(limit.record.scope, kLimitScopes);
+        }
+        for (const ChainView& chain : object.chains) {
+            look_at(chain.name);
+            look_at(chain.extras);
+            EXPECT_LT(chain.record.solver, kSolvers);
+            for (const std::uint32_t joint : {chain.record.target, chain.record.pole})
+                sum += joint == kNone ? 0.0f : joints[joint].rest.scale[0];
+            std::uint32_t link = chain.record.effector;
+            while (link != chain.record.start) link = joints[link].parent;  // ends at start, never past a root
+        }
+        for (const PullView& pull : object.skeleton.pulls) {
+            const ChainRecord& chain = object.chains[pull.chain].record;
+            std::uint32_t link = chain.effector;
+            while (link != pull.joint && link != chain.start) link = joints[link].parent;
+            EXPECT_EQ(link, pull.joint);
         }
         for (const PoolView& pool : object.pools) {
             if (pool.joint != kNone) sum += joints[pool.joint].rest.scale[0];

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <set>
@@ -62,6 +63,17 @@ TEST(ChunkPath, IsShortenedInTheMiddle) {
     EXPECT_EQ(deepest(9), "HEAD/OBJE/SKIN/SKIN/SKIN/SKIN/SKIN/SKIN/SKIN/SKIN/SKIN/PIVO/REST");
     EXPECT_EQ(deepest(10), "HEAD/OBJE/SKIN/SKIN/SKIN/SKIN/... 2 more .../SKIN/SKIN/SKIN/SKIN/PIVO/REST");
     EXPECT_EQ(deepest(10'000), "HEAD/OBJE/SKIN/SKIN/SKIN/SKIN/... 9992 more .../SKIN/SKIN/SKIN/SKIN/PIVO/REST");
+}
+
+TEST(ChunkPath, IsWholeWhereProgramsReadIt) {
+    const Loaded rope(rope_file(10'000));
+    const std::uint64_t offset = rope.tree.chunks().back().offset;
+    const std::string whole = whole_chunk_path(rope.file, offset);
+    EXPECT_EQ(std::count(whole.begin(), whole.end(), '/'), 10'003);
+    EXPECT_EQ(rope.tree[find_path(rope.tree, whole)].offset, offset);
+    const Loaded sample(sample_file());
+    for (const Chunk& chunk : sample.tree.chunks())
+        EXPECT_EQ(whole_chunk_path(sample.file, chunk.offset), chunk_path(sample.file, chunk.offset));
 }
 
 TEST(ChunkPath, WorksAsFarAsHeadersCanBeTrusted) {

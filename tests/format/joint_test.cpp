@@ -36,6 +36,8 @@ TEST(Skeleton, NumbersJointsInPreOrder) {
     EXPECT_EQ(skeleton.joints[0].extras, "{\"mass\":3}");
     EXPECT_EQ(skeleton.joints[1].extras, "");
     EXPECT_EQ(skeleton.joints[2].rest.translation[1], 0.25f);
+    EXPECT_EQ(skeleton.joints[3].extensions, "{\"KHR_y\":[]}");
+    EXPECT_EQ(skeleton.joints[0].extensions, "");
 }
 
 TEST(Skeleton, TakesSeveralRoots) {
@@ -205,7 +207,8 @@ TEST(Skeleton, ReadsTheLongestRopeAndRefusesALongerOne) {
     const Buffer longer = rope_file(kMaxJoints + 1);
     EXPECT_EQ(faults_in(longer), Lines{"TOO_MANY_JOINTS HEAD/OBJE"});
     // HEAD, OBJE and PIVO are levels too.
-    EXPECT_EQ(validate(rope_file(kMaxDepth - 3)).list().at(0).code, ErrorCode::kTooManyJoints);
+    const Faults too_many = validate(rope_file(kMaxDepth - 3));
+    EXPECT_EQ(too_many.list().at(0).code, ErrorCode::kTooManyJoints);
     const Faults too_deep = validate(rope_file(kMaxDepth - 2));
     ASSERT_EQ(too_deep.list().size(), 1u);
     EXPECT_EQ(too_deep.list()[0].code, ErrorCode::kTooDeep);

@@ -23,13 +23,17 @@
 //      TEXT[2]   the image of TEXT[1]
 //      MATE      global material
 //      OBJE
-//       SKIN     joint 0 "hip", a local MATE, POLY: triangle of pool 0
-//        SKIN    joint 1 "spine", POLY: triangle of pool 0, POLY[1]: point of pool 1
+//       SKIN     joint 0 "hip", a local MATE, POLY: triangle of pool 0, PULL: 0.5 in chain 0
+//        SKIN    joint 1 "spine", POLY: triangle of pool 0, POLY[1]: point of pool 1, LIMT: a hinge for every pose,
+//                LIMT[1]: swing and twist for IK
 //         SKIN   joint 2 "head", POLY: triangle of pool 1 in the global material, POLY[1]: line of pool 1
-//        SKIN[1] joint 3 "tail"
+//        SKIN[1] joint 3 "tail", with a node's extensions, PULL: 0.25 in chain 1
+//       IKCH     chain 0 "back": from hip to head, to be reached: tail
+//       IKCH[1]  chain 1: tail alone
 //       VECT     pool 0: skinned by joints 0 and 1, four vertices, a dense and a sparse target
 //       VECT[1]  pool 1: rigid, six vertices
 //       CYCL     translation linear, rotation cubic, scale step, weights linear, rotation in fixed frames
+//      EXTN
 //      EXTR
 namespace bendy::test {
 
@@ -86,14 +90,42 @@ inline Buffer palette_payload(const std::vector<std::uint32_t>& joints) {
     return payload;
 }
 
-inline void begin_joint(ChunkWriter& writer, std::string_view name, float up) {
+inline void begin_joint(ChunkWriter& writer, std::string_view name, float up,
+                        const std::vector<LimitRecord>& limits = {}, const std::vector<PullRecord>& pulls = {}) {
     writer.begin(FourCC("SKIN"));
     writer.text_leaf(FourCC("NAME"), name);
     writer.begin(FourCC("PIVO"));
     RestRecord rest;
     rest.translation = {0.0f, up, 0.0f};
     writer.leaf(FourCC("REST"), bytes_of(rest));
+    for (const LimitRecord& limit : limits) writer.leaf(FourCC("LIMT"), bytes_of(limit));
+    for (const PullRecord& pull : pulls) writer.leaf(FourCC("PULL"), bytes_of(pull));
     writer.end();
+}
+
+/// From 0 to 2 radians about X.
+inline LimitRecord hinge() {
+    LimitRecord limit;
+    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
+    limit.rotation_min[0] = 0.0f;
+    limit.rotation_max[0] = 2.0f;
+    limit.soft_zone = 0.125f;
+    limit.preferred = {0.25f, 0.0f, 0.0f};
+    return limit;
+}
+
+inline LimitRecord swing_and_twist() {
+    LimitRecord limit;
+    limit.model = static_cast<std::uint8_t>(LimitModel::swing_twist_ellipse);
+    limit.scope = static_cast<std::uint8_t>(LimitScope::ik_only);
+    limit.flags = kProposed;
+    limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};
+    limit.rotation_min = {-0.5f, -0.25f, 0.0f};
+    limit.rotation_max = {0.5f, 0.75f, 1.0f};
+    limit.translation_min = {0.0f, -0.125f, 0.0f};
+    limit.translation_max = {0.0f, 0.125f, LimitRecord::kFree};
+    limit.stiffness = {0.0f, 0.5f, 1.0f};
+    return limit;
 }
 
 inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t material, Topology topology,
@@ -108,7 +140,7 @@ inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t 
 }
 
 inline void put_skeleton(ChunkWriter& writer) {
-    begin_joint(writer, "hip", 1.0f);
+    begin_joint(writer, "hip", 1.0f, {}, {{0, 0.5f}});
     writer.text_leaf(FourCC("EXTR"), R"({"mass":3})");
     put_polygons(writer, 0, kLocalMaterial | 0u, Topology::triangles, 0, 3);
     writer.begin(FourCC("MATE"));
@@ -117,7 +149,7 @@ inline void put_skeleton(ChunkWriter& writer) {
     writer.leaf(FourCC("SURF"), bytes_of(local));
     writer.end();
 
-    begin_joint(writer, "spine", 0.5f);
+    begin_joint(writer, "spine", 0.5f, {hinge(), swing_and_twist()});
     put_polygons(writer, 0, kNone, Topology::triangles, 3, 3);
     put_polygons(writer, 1, kNone, Topology::points, 5, 1);
 
@@ -126,9 +158,44 @@ inline void put_skeleton(ChunkWriter& writer) {
     put_polygons(writer, 1, 0, Topology::lines, 3, 2);
     writer.end();  // head
     writer.end();  // spine
-    begin_joint(writer, "tail \xc3\xa9", -0.25f);
+    begin_joint(writer, "tail \xc3\xa9", -0.25f, {}, {{1, 0.25f}});
+    writer.text_leaf(FourCC("EXTN"), R"({"KHR_y":[]})");
     writer.end();  // tail
     writer.end();  // hip
+}
+
+inline void put_chains(ChunkWriter& writer) {
+    ChainRecord back;
+    back.start = 0;
+    back.effector = 2;
+    back.target = 3;
+    back.solver = static_cast<std::uint8_t>(Solver::fabrik);
+    back.flags = kApproximated;
+    back.iterations = 12;
+    back.priority = 7;
+    back.tolerance = 0.0625f;
+    back.pole_vector = {0.0f, 0.0f, 1.0f};
+    back.pole_angle = -0.5f;
+    back.tip_offset = {0.0f, 0.25f, 0.0f};
+    back.tip_rotation = {0.0f, 1.0f, 0.0f, 0.0f};
+    back.position_weight = 0.75f;
+    back.rotation_weight = 0.25f;
+    back.influence = 0.5f;
+    back.stretch = 1.5f;
+    back.compress = 0.125f;
+    writer.begin(FourCC("IKCH"));
+    writer.text_leaf(FourCC("NAME"), "back");
+    writer.leaf(FourCC("KINF"), bytes_of(back));
+    writer.text_leaf(FourCC("EXTR"), "[1]");
+    writer.end();
+
+    ChainRecord wag;
+    wag.start = 3;
+    wag.effector = 3;
+    wag.pole = 0;
+    writer.begin(FourCC("IKCH"));
+    writer.leaf(FourCC("KINF"), bytes_of(wag));
+    writer.end();
 }
 
 inline void put_skinned_pool(ChunkWriter& writer) {
@@ -285,10 +352,12 @@ inline Buffer sample_file() {
     writer.text_leaf(FourCC("NAME"), "fox");
     writer.text_leaf(FourCC("EXTR"), "{\"a\":1}");
     put_skeleton(writer);
+    put_chains(writer);
     put_skinned_pool(writer);
     put_rigid_pool(writer);
     put_cycle(writer);
     writer.end();
+    writer.text_leaf(FourCC("EXTN"), "{\"KHR_z\":{}}");
     writer.text_leaf(FourCC("EXTR"), "{\"file\":true}");
     writer.end();
     return std::move(writer).finish();

@@ -18,12 +18,14 @@ struct LimitView {
 /// Reads a LIMT chunk. A fault of shape (size, model, order, scope, flags) is added and gives false.
 bool read_limit(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, LimitView& limit, Faults& faults);
 
-/// Adds what is wrong with a constraint's numbers: NaN, a frame that is no unit quaternion, a minimum above its maximum,
-/// ranges that the model cannot have, stiffness outside 0 to 1, a rest pose outside the limits that the flags do not
-/// admit. \param offset where it stands, \param joint whose it is, for the faults
+/// Adds what is wrong with a constraint's numbers: NaN, a frame that is no unit quaternion, a minimum above its
+/// maximum, ranges that the model cannot have, stiffness outside 0 to 1, a rest pose outside the limits without the
+/// flag that says so. The faults name `joint`, stand at `offset`, and count axes 0 to 2 for rotation, 3 to 5 for
+/// translation.
 void check_limit(const LimitRecord& limit, std::uint32_t joint, std::uint64_t offset, Faults& faults);
 
-/// True when the rest pose, R = identity and no translation, is inside the limits.
+/// True when the rest pose, R = identity and no translation, is inside the limits: on the circle, and for an Euler box
+/// in either of its two forms.
 bool holds_rest(const LimitRecord& limit);
 
 /// How many of rotation_min and rotation_max count for the model: 3 (X, Y, Z), 1 (X: hinge, largest angle) or 0.

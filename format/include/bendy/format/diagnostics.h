@@ -19,6 +19,9 @@ std::string describe(const Error& error);
 /// headers can be trusted. Deep paths are shortened in the middle: "HEAD/OBJE/SKIN/... 9997 more .../SKIN/PIVO".
 std::string chunk_path(Bytes bytes, std::uint64_t offset);
 
+/// The same, with nothing left out: for programs, as find_path takes it. Up to kMaxDepth steps long.
+std::string whole_chunk_path(Bytes bytes, std::uint64_t offset);
+
 /// The chunk that a path names, or kNone. Accepts what chunk_path writes in full, and "@OFFSET" for the innermost chunk
 /// at a byte offset.
 std::uint32_t find_path(const ChunkTree& tree, std::string_view path);

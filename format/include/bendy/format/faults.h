@@ -20,7 +20,8 @@ public:
             ++left_out_;
         }
     }
-    [[nodiscard]] const std::vector<Error>& list() const { return list_; }
+    [[nodiscard]] const std::vector<Error>& list() const& { return list_; }
+    const std::vector<Error>& list() const&& = delete;  // it would outlive its owner
     [[nodiscard]] std::size_t left_out() const { return left_out_; }
     /// All faults so far, kept or not.
     [[nodiscard]] std::size_t count() const { return list_.size() + left_out_; }

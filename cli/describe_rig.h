@@ -1,0 +1,44 @@
+#pragma once
+
+#include <bendy/format/joint.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bendy::cli {
+
+/// A constraint in few words, angles in degrees: "hinge 0 to 150 deg, IK only, proposed".
+std::string limit_text(const LimitRecord& limit);
+
+/// The names behind the numbers in IKCH, KINF and PULL. Works on any tree, whatever its records hold, in time linear in
+/// it; the tree must outlive this.
+class RigIndex {
+public:
+    explicit RigIndex(const ChunkTree& tree);
+
+    /// Of an IKCH: its links with the weights that they have, its solver, and what it reaches for: "hip (0.5) > spine >
+    /// head, two-bone, target ball". Of a long chain the middle is left out.
+    [[nodiscard]] std::string chain_text(std::uint32_t chunk) const;
+    /// Of a KINF: the same, and every number that is not its default.
+    [[nodiscard]] std::string chain_info_text(std::uint32_t chunk) const;
+    /// Of a PULL: "0.5 in LeftArm".
+    [[nodiscard]] std::string pull_text(std::uint32_t chunk) const;
+
+private:
+    struct Object {
+        std::uint32_t chunk = 0;
+        SkeletonView skeleton;
+        std::vector<std::uint32_t> depths;  ///< of each joint; a root has 0
+        std::vector<std::uint32_t> chains;  ///< the IKCH chunks
+        std::vector<PullView> pulls;        ///< by chain, then joint
+    };
+
+    [[nodiscard]] const Object* object_of(std::uint32_t chunk) const;
+    [[nodiscard]] std::string links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const;
+
+    const ChunkTree* tree_;
+    std::vector<Object> objects_;
+};
+
+}  // namespace bendy::cli
