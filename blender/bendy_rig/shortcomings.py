@@ -16,7 +16,15 @@ def bone_notes(bone):
         count = sum(c.type == kind and is_at_work(c) for c in bone.constraints)
         if count > 1:
             notes.append((True, f'{count} {KINDS[kind]} constraints, which Blender keeps one after the other'))
+    if is_forgotten(bone):
+        notes.append((False, 'IK limits: the twist is locked and one swing axis is free, so Blender itself forgets the other\'s limit'))
     return notes
+
+
+def is_forgotten(bone):
+    """Measured in Blender 3.4, and its source says so: its segment of two swing axes compares a limit with 0, not with the angle."""
+    swings = [axis for axis in 'xz' if not getattr(bone, f'lock_ik_{axis}')]
+    return bone.lock_ik_y and len(swings) == 2 and sum(getattr(bone, f'use_ik_limit_{axis}') for axis in swings) == 1
 
 
 def limit_notes(bone, constraint):

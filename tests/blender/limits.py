@@ -83,15 +83,53 @@ def swing_twist_excess(limit, rotation):
     over = 0.0 if low <= twist <= high else min(abs(math.remainder(twist - end, 2 * math.pi)) for end in (low, high))
     size, reach = 0.0, math.hypot(*swing)
     for value, (low, high) in zip(swing, bounds[1:]):
-        end = abs(high if value > 0 else low)
-        half_axis = math.inf if math.isinf(end) else math.sin(min(end, math.pi) / 2)
-        if half_axis > 1e-9:
-            size = math.hypot(size, value / half_axis)
+        most = half_axis(value, (low, high))
+        if most > 1e-9:
+            size = math.hypot(size, value / most)
         else:
             over = max(over, 2 * math.asin(min(1.0, abs(value))))
     if size > 1.0:
         over = max(over, 2 * math.asin(min(1.0, reach)) - 2 * math.asin(min(1.0, reach / size)))
     return over
+
+
+def nearest_in_ellipse(limit, rotation):
+    """(the nearest legal rotation, how much nearer it is than any that is not beside it), by search.
+
+    For a given swing the best twist is known; so swings are tried all round and at all sizes, and the best place is refined.
+    """
+    bounds = ranges(limit)
+
+    def rotation_at(turn, size):
+        swing = [math.cos(turn), math.sin(turn)]
+        length = math.hypot(*(value / half_axis(value, low_high) for value, low_high in zip(swing, bounds[1:])))
+        reach = size * min(1.0, 1.0 / length if length > 0.0 else 1.0)
+        swing = (0.0, swing[0] * reach, swing[1] * reach, math.sqrt(max(0.0, 1.0 - reach * reach)))
+        left = product(conjugate(swing), rotation)
+        return product(swing, about(0, clamp_angle(2 * math.atan2(left[0], left[3]), *bounds[0])))
+
+    def distance(place):
+        return angle_between(rotation, rotation_at(*place))
+
+    places = [(math.pi * turn / 60, size / 15) for turn in range(120) for size in range(16)]
+    tried = sorted((distance(place), place) for place in places)
+    over, best = tried[0]
+    step = 0.1
+    while step > 1e-8:
+        beside = [(best[0] + dx * step, min(1.0, max(0.0, best[1] + dy * step))) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+        nearest = min(beside, key=distance)
+        if distance(nearest) < over:
+            over, best = distance(nearest), nearest
+        else:
+            step /= 2
+    found = rotation_at(*best)
+    others = (d for d, place in tried if angle_between(rotation_at(*place), found) > 0.3)
+    return found, next(others, math.inf) - over
+
+
+def half_axis(value, low_high):
+    end = abs(low_high[1] if value > 0 else low_high[0])
+    return math.inf if math.isinf(end) else max(math.sin(min(end, math.pi) / 2), 1e-9)
 
 
 # ------------------------------------------------------------------------------------------------- Euler angles
