@@ -11,7 +11,7 @@ import bpy
 from .axes import FileAxes
 from .export_report import ExportReport
 from .ik_chains import chain_joints, chain_record, ik_constraints
-from .joint_limits import joint_record
+from .joint_limits import joint_record, says_a_limit
 from .shortcomings import bone_notes, chain_notes, object_notes
 
 
@@ -26,14 +26,16 @@ class RigError(Exception):
 
 
 def kept(hook):
-    """A hook whose exceptions become errors of the report."""
+    """A hook whose exceptions become errors of the report, each once."""
     @functools.wraps(hook)
     def wrapped(self, *arguments):
         try:
             hook(self, *arguments)
         except Exception as error:      # the exporter would only print it
-            traceback.print_exc()
-            self.report.errors.append(f'{hook.__name__}: {type(error).__name__}: {error}')
+            text = f'{hook.__name__}: {type(error).__name__}: {error}'
+            if text not in self.report.errors:
+                traceback.print_exc()
+                self.report.errors.append(text)
     return wrapped
 
 
@@ -42,56 +44,59 @@ class RigExtras:
 
     def __init__(self):
         self.report = LastExport.report = ExportReport()
-        self.rig_nodes = {}         # armature object's name -> its node
-        self.exported = {}          # armature object's name -> the names of its bones in the file
+        self.rigs = {}              # armature object's name -> the object
+        self.rig_nodes = {}         # armature object's name -> its node, unless the exporter leaves armatures out
+        self.joint_nodes = {}       # armature object's name -> bone's name -> its nodes; of the scene that is being exported
         self.done = set()           # armature objects whose chains are written
         self.chain_names = set()
 
     @kept
-    def gather_joint_hook(self, node, bone, *rest):
+    def gather_joint_hook(self, node, bone, *_):
         if not isinstance(bone, bpy.types.PoseBone) or node.name != bone.name:
             return                  # an added leaf
-        notes = bone_notes(bone)
-        record = joint_record(bone, FileAxes(rest[-1].get('gltf_yup', True)))
-        exported = self.exported.setdefault(bone.id_data.name, set())
-        if bone.name not in exported:       # an instance of a collection has the bones once more
-            exported.add(bone.name)
-            self.report.add_notes(bone.name, notes)
-        if record:
-            self.report.joints.append(bone.name)
-        if record or notes:
-            node.extras = {**(node.extras or {}), 'rig_joint': with_notes(record or {}, notes)}
+        self.rigs[bone.id_data.name] = bone.id_data
+        self.joint_nodes.setdefault(bone.id_data.name, {}).setdefault(bone.name, []).append(node)
 
     @kept
-    def gather_node_hook(self, node, obj, *rest):
+    def gather_node_hook(self, node, obj, *_):
         if not isinstance(obj, bpy.types.Object):
             return                  # a collection
         if obj.type == 'ARMATURE':
+            self.rigs[obj.name] = obj
             self.rig_nodes.setdefault(obj.name, node)
         self.report.add_notes(obj.name, object_notes(obj))
 
     @kept
-    def gather_scene_hook(self, scene, blender_scene, *rest):
+    def gather_scene_hook(self, scene, _, *rest):
         """All nodes of the scene are made now, so it is known which joints are in the file."""
         axes = FileAxes(rest[-1].get('gltf_yup', True))
-        for name in {**self.rig_nodes, **self.exported}:
-            rig = bpy.data.objects[name]
-            if name in self.done:
-                continue
-            self.done.add(name)
-            self.note_missing(rig, axes)
-            node = self.rig_nodes.get(name)
-            add_chains(node or scene, self.chains(rig, axes, node is not None))
+        for name, rig in self.rigs.items():
+            nodes = self.joint_nodes.pop(name, {})
+            self.add_joints(rig, axes, nodes)
+            if name not in self.done:
+                self.done.add(name)
+                rig_node = self.rig_nodes.get(name)
+                add_chains(rig_node or scene, self.chains(rig, axes, nodes, rig_node is not None))
         self.report.is_finished = True
 
-    def note_missing(self, rig, axes):
-        exported = self.exported.get(rig.name, set())
-        missing = [bone.name for bone in rig.pose.bones if bone.name not in exported and joint_record(bone, axes)]
-        if missing:
+    def add_joints(self, rig, axes, nodes):
+        """nodes: bone's name -> its nodes, which are several where a collection has instances."""
+        missing = []
+        for bone in rig.pose.bones:
+            record, notes = joint_record(bone, axes), bone_notes(bone)
+            if bone.name in nodes:
+                if rig.name not in self.done:
+                    self.report.add_notes(bone.name, notes)
+            elif says_a_limit(record):
+                missing.append(bone.name)
+            for node in nodes.get(bone.name, []) if record or notes else []:
+                self.report.joints += [bone.name] if says_a_limit(record) else []
+                node.extras = {**(node.extras or {}), 'rig_joint': with_notes(dict(record or {}), notes)}
+        if missing and rig.name not in self.done:
             self.report.add_notes(rig.name, [(False, f'not in the file, nor their limits: {", ".join(missing)}')])
 
-    def chains(self, rig, axes, has_node):
-        records, exported = [], self.exported.get(rig.name, set())
+    def chains(self, rig, axes, exported, has_node):
+        records = []
         for bone, constraint in ik_constraints(rig):
             joints = chain_joints(bone, constraint)
             if not any(joint in exported for joint in joints):
@@ -137,7 +142,7 @@ def with_notes(record, notes):
 def finish_export(export_settings):
     """Called by the exporter before it writes the file."""
     report = LastExport.report
-    if not report.is_finished:
+    if not report.is_finished and not report.errors:
         report.errors.append('the exporter called no hook')
     print('\n'.join(report.lines()))
     if report.errors and LastExport.must_succeed:

@@ -82,7 +82,7 @@ def run_exporter(context, path, options):
     is_guest = ADDON not in addons
     if is_guest:
         addons.new().module = ADDON
-    frame = context.scene.frame_current
+    frame, influences = context.scene.frame_current, constraint_influences()
     LastExport.must_succeed = True
     try:
         if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
@@ -91,8 +91,15 @@ def run_exporter(context, path, options):
         LastExport.must_succeed = False
         if context.scene.frame_current != frame:
             context.scene.frame_set(frame)
+        for constraint, influence in influences:
+            constraint.influence = influence
         if is_guest:
             addons.remove(addons[ADDON])
+
+
+def constraint_influences():
+    """Where clips animate an influence, the exporter leaves the last clip's value behind, and a second export would write that."""
+    return [(c, c.influence) for obj in bpy.data.objects if obj.pose for bone in obj.pose.bones for c in bone.constraints]
 
 
 def check_file(path, report):
@@ -106,7 +113,7 @@ def check_file(path, report):
 def what_failed(error):
     """An operator's exception holds a traceback; its last line says what it was."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith('Location:')]
-    return lines[-1] if lines else type(error).__name__
+    return lines[-1].split('RigError: ')[-1] if lines else type(error).__name__
 
 
 def draw_menu_entry(menu, context):

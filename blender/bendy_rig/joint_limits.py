@@ -30,6 +30,11 @@ def joint_record(bone, axes):
     return {'rest_orientation': rest_orientation(bone, axes), 'length': shortest(bone.bone.length), **record}
 
 
+def says_a_limit(record):
+    """Whether a record of extras, or None, says more than which channels are locked and what could not be said."""
+    return any(key in (record or {}) for key in ('euler_limits', 'location_limits', 'swing_twist', 'stiffness'))
+
+
 def is_at_work(constraint):
     return not constraint.mute and constraint.influence > 0.0
 

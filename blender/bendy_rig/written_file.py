@@ -2,6 +2,8 @@
 import json
 import struct
 
+from .joint_limits import says_a_limit
+
 
 def read_document(path):
     """The JSON of a .glb or .gltf file."""
@@ -15,8 +17,8 @@ def read_document(path):
 
 
 def count_records(document):
-    """(joints with limits, chains) in a glTF document. A record that has only notes limits nothing."""
+    """(joints with limits, chains) in a glTF document."""
     nodes, scenes = document.get('nodes', []), document.get('scenes', [])
-    joints = [node['extras']['rig_joint'] for node in nodes if 'rig_joint' in node.get('extras', {})]
+    joints = [node for node in nodes if says_a_limit(node.get('extras', {}).get('rig_joint'))]
     rigs = [owner['extras']['rig_ik'] for owner in nodes + scenes if 'rig_ik' in owner.get('extras', {})]
-    return sum('rest_orientation' in joint for joint in joints), sum(len(rig['chains']) for rig in rigs)
+    return len(joints), sum(len(rig['chains']) for rig in rigs)

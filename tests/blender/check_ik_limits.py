@@ -72,8 +72,8 @@ def main():
                         at_limit += excess(shrunken(limits[name]), local_rotation(posed, name)) > 1e-6
                         caught += excess(mistaken(limits[name]), local_rotation(posed, name)) > TOLERANCE
     print(f'IK limits: {len(chains)} chains, {TARGETS} targets each, {rotations} rotations, {at_limit} at a limit')
-    print('  worst excess, radians: ' + '; '.join(f'{kind} {over:.1e}' for kind, over in worst.items()))
-    print(f'  {caught} rotations are outside of the mirrored limits')
+    print('  - worst excess, radians: ' + '; '.join(f'{kind} {over:.1e}' for kind, over in worst.items()))
+    print(f'  - {caught} rotations are outside of the mirrored limits')
     check(at_limit >= 50, 'the solver hardly met a limit')
     check(worst['no pole'] < TOLERANCE and worst['pole, other joints'] < TOLERANCE, 'outside')
     asymmetric = any(limit and mistaken(limit) != limit for limit in limits.values())

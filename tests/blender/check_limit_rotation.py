@@ -70,10 +70,10 @@ class Tally:
                 self.worst_agreed = max(self.worst_agreed, difference)
 
     def print(self):
-        print(f'  {self.inside} inside, {self.outside} outside, {self.turned_over} legal by their other angles')
-        print(f'  worst, radians: each angle clamped is not what Blender does {self.worst_replay:.1e}; what Blender gives is not legal '
+        print(f'  - {self.inside} inside, {self.outside} outside, {self.turned_over} legal by their other angles')
+        print(f'  - worst, radians: each angle clamped is not what Blender does {self.worst_replay:.1e}; what Blender gives is not legal '
               f'{self.worst_excess:.1e}; inside, moved {self.worst_inside:.1e}')
-        print(f'  outside, nearest is what Blender gives: {self.same}; {self.must_agree} of them must be, worst {self.worst_agreed:.1e}; '
+        print(f'  - outside, nearest is what Blender gives: {self.same}; {self.must_agree} of them must be, worst {self.worst_agreed:.1e}; '
               f'largest difference of the others {self.largest_difference:.2g}')
 
     def judge(self):

@@ -145,7 +145,7 @@ def compare(committed, made):
         check((old['from'], old['limit']) == (new['from'], new['limit']), f'{old} is now {new}: make cases.json again')
         check(angle_between(old['in'], new['in']) < 1e-6, f'{old} is now {new}: make cases.json again')
         worst = max(worst, angle_between(old['out'], new['out']))
-    print(f'  cases.json: this Blender differs by {worst:.1e} radians at most')
+    print(f'  - cases.json: this Blender differs by {worst:.1e} radians at most')
     check(worst < TOLERANCE, 'Blender does otherwise than cases.json says')
 
 
@@ -165,7 +165,7 @@ def main():
     if committed['blender'] == made['blender']:
         compare(committed, made)
     else:
-        print(f'  cases.json is of Blender {committed["blender"]}: not compared')
+        print(f'  - cases.json is of Blender {committed["blender"]}: not compared')
 
 
 main()
