@@ -16,15 +16,18 @@ def bone_notes(bone):
         count = sum(c.type == kind and is_at_work(c) for c in bone.constraints)
         if count > 1:
             notes.append((True, f'{count} {KINDS[kind]} constraints, which Blender keeps one after the other'))
-    if is_forgotten(bone):
-        notes.append((False, 'IK limits: the twist is locked and one swing axis is free, so Blender itself forgets the other\'s limit'))
-    return notes
+    return notes + ik_limit_notes(bone)
 
 
-def is_forgotten(bone):
-    """Measured in Blender 3.4, and its source says so: its segment of two swing axes compares a limit with 0, not with the angle."""
+def ik_limit_notes(bone):
+    """Measured in Blender 3.4: what its solver makes of a swing with a limit on one axis only, the other one being free."""
     swings = [axis for axis in 'xz' if not getattr(bone, f'lock_ik_{axis}')]
-    return bone.lock_ik_y and len(swings) == 2 and sum(getattr(bone, f'use_ik_limit_{axis}') for axis in swings) == 1
+    limited = [axis for axis in 'xz' if axis not in swings or getattr(bone, f'use_ik_limit_{axis}')]
+    if len(limited) != 1:
+        return []
+    if bone.lock_ik_y and len(swings) == 2:
+        return [(False, 'IK limits: one swing axis is free and the twist is locked, so Blender itself forgets the other one\'s limit')]
+    return [(True, 'IK limits: one swing axis is free, so Blender keeps the other one within a band, and the record within an ellipse')]
 
 
 def limit_notes(bone, constraint):

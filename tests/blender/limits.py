@@ -53,13 +53,13 @@ def limited_part(limit, q):
     return normalized(product(product(conjugate(frame), q), frame))
 
 
-def excess(limit, q):
-    """How far outside the limit the rotation is: radians, 0 inside."""
+def excess(limit, q, has_bands=False):
+    """How far outside the limit the rotation is: radians, 0 inside. has_bands: see half_axis."""
     rotation = limited_part(limit, q)
     if limit['model'] == 'euler_box':
         return angle_between(rotation, nearest_in_euler_box(limit, rotation))
     if limit['model'] == 'swing_twist_ellipse':
-        return swing_twist_excess(limit, rotation)
+        return swing_twist_excess(limit, rotation, has_bands)
     raise ValueError(limit['model'])
 
 
@@ -75,7 +75,21 @@ def swing_and_twist(rotation):
     return (sign * swing[1], sign * swing[2]), math.remainder(angle, 2 * math.pi)
 
 
-def swing_twist_excess(limit, rotation):
+def half_axis(value, low_high, has_bands=False):
+    """Of the ellipse on the side of value. A free axis has 1, as if half a turn were its limit; Blender's has no end, so that the
+    other axis keeps to a band."""
+    end = abs(low_high[1] if value > 0 else low_high[0])
+    if math.isinf(end) and has_bands:
+        return math.inf
+    return max(math.sin(min(end, math.pi) / 2), 1e-9)
+
+
+def is_band(limit):
+    """Whether one swing axis is free, and the other one is not."""
+    return limit['model'] == 'swing_twist_ellipse' and (limit.get('y') is None) != (limit.get('z') is None)
+
+
+def swing_twist_excess(limit, rotation, has_bands=False):
     """The larger of the twist's excess, the short way round, and of the swing's: towards rest, until it meets the ellipse."""
     swing, twist = swing_and_twist(rotation)
     bounds = ranges(limit)
@@ -83,7 +97,7 @@ def swing_twist_excess(limit, rotation):
     over = 0.0 if low <= twist <= high else min(abs(math.remainder(twist - end, 2 * math.pi)) for end in (low, high))
     size, reach = 0.0, math.hypot(*swing)
     for value, (low, high) in zip(swing, bounds[1:]):
-        most = half_axis(value, (low, high))
+        most = half_axis(value, (low, high), has_bands)
         if most > 1e-9:
             size = math.hypot(size, value / most)
         else:
@@ -125,11 +139,6 @@ def nearest_in_ellipse(limit, rotation):
     found = rotation_at(*best)
     others = (d for d, place in tried if angle_between(rotation_at(*place), found) > 0.3)
     return found, next(others, math.inf) - over
-
-
-def half_axis(value, low_high):
-    end = abs(low_high[1] if value > 0 else low_high[0])
-    return math.inf if math.isinf(end) else max(math.sin(min(end, math.pi) / 2), 1e-9)
 
 
 # ------------------------------------------------------------------------------------------------- Euler angles
