@@ -14,7 +14,8 @@ import addon_utils
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from limits import NO_ROTATION, angle_between, product
+from file_nodes import Nodes
+from limits import angle_between
 from posing import arguments, check, only_armature, read_glb
 
 ROTATION_ERROR, POSITION_ERROR = 1e-6, 1e-6     # of 32-bit floats that went through a few products
@@ -26,26 +27,6 @@ def as_float(value):
 
 def same_numbers(record, wanted, what):
     check(len(record) == len(wanted) and all(as_float(a) == as_float(b) for a, b in zip(record, wanted)), f'{what}: {record}, not {wanted}')
-
-
-class Nodes:
-    """The file's nodes by name, with their places in the file's space."""
-
-    def __init__(self, document):
-        self.by_name = {node['name']: node for node in document['nodes']}
-        self.parent = {document['nodes'][child]['name']: node['name'] for node in document['nodes'] for child in node.get('children', [])}
-
-    def rotation(self, name):
-        own = tuple(self.by_name[name].get('rotation', NO_ROTATION))
-        return product(self.rotation(self.parent[name]), own) if name in self.parent else own
-
-    def position(self, name):
-        own = self.by_name[name].get('translation', (0, 0, 0))
-        if name not in self.parent:
-            return tuple(own)
-        q = self.rotation(self.parent[name])
-        turned = product(product(q, (*own, 0.0)), (-q[0], -q[1], -q[2], q[3]))
-        return tuple(a + b for a, b in zip(self.position(self.parent[name]), turned))
 
 
 def check_joint(bone, record, nodes):

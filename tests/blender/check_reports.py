@@ -4,6 +4,7 @@ blender -b --factory-startup --python check_reports.py -- FOLDER
 """
 import hashlib
 import json
+import math
 import os
 import sys
 
@@ -11,6 +12,8 @@ import addon_utils
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from file_nodes import Nodes
+from limits import angle_between
 from posing import arguments, check, read_glb
 from rigkit import empty_scene, make_armature
 
@@ -108,6 +111,17 @@ def check_strange(path):
     check(chains(document)[1]['orientation_weight'] == 0.5, 'orientation weight')
 
 
+def check_places(path):
+    """The armature is turned and moved, and the file's second sources say the same."""
+    document = read_glb(path)
+    nodes = Nodes(document)
+    for name, record in joints(document).items():
+        if 'rest_orientation' in record:
+            check(angle_between(record['rest_orientation'], nodes.rotation(name)) < 1e-5, f'{name}: rest orientation')
+    for chain in chains(document):
+        check(math.dist(chain['target']['position'], nodes.position('aim', above='Strange')) < 1e-5, f'{chain["name"]}: target')
+
+
 def check_again(path):
     """The same bytes a second time, from the plain exporter too while the add-on is enabled; not the rig when it is not."""
     def digest(name):
@@ -163,6 +177,7 @@ def main():
     addon_utils.enable('bendy_rig')
     path = os.path.join(folder, 'strange.glb')
     check_strange(path)
+    check_places(path)
     check_again(path)
     check_options(folder)
     check_failure(folder)
