@@ -23,8 +23,8 @@ UP = (0, -1, 0)
 def strange_rig():
     """Of everything that is not said, or not quite, one."""
     empty_scene(1)
-    bones = [dict(name=f'b{i}', head=(0.1 * (i % 2), 0, i), tail=(0.1 * ((i + 1) % 2), 0, i + 1), z_axis=UP, parent=f'b{i - 1}' if i else None)
-             for i in range(8)]
+    bones = [dict(name=f'b{i}', head=(0.1 * (i % 2), 0, i), tail=(0.1 * ((i + 1) % 2), 0, i + 1), z_axis=UP,
+                  parent=f'b{i - 1}' if i else None) for i in range(8)]
     rig = make_armature('Strange', bones + [dict(name='aim', head=(2, 0, 2), tail=(2, 0, 3), z_axis=UP, deform=False)])
     rig.rotation_euler, rig.location = (0.3, 0.2, 0.1), (1, 2, 3)
     bone = rig.pose.bones

@@ -6,7 +6,7 @@ import struct
 import sys
 
 import bpy
-from mathutils import Matrix, Quaternion, Vector
+from mathutils import Quaternion, Vector
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, '..', '..')
@@ -104,6 +104,3 @@ def move_target(rig, name, matrix):
     """matrix: in the armature's space."""
     rig.pose.bones[name].matrix = matrix
     bpy.context.view_layer.update()
-
-
-__all__ = [name for name in dir() if not name.startswith('_')]
