@@ -1,0 +1,149 @@
+"""The hooks that Blender's glTF exporter calls, and what they put into the nodes.
+
+The exporter makes one RigExtras for each export. It prints what goes wrong in a hook and goes on; so nothing goes wrong
+in these: errors are kept, and finish_export stops an export that wanted the rig.
+"""
+import functools
+import traceback
+
+import bpy
+
+from .axes import FileAxes
+from .export_report import ExportReport
+from .ik_chains import chain_joints, chain_record, ik_constraints
+from .joint_limits import joint_record, says_a_limit
+from .shortcomings import bone_notes, chain_notes, object_notes
+
+
+class LastExport:
+    """The exporter gives its extensions no way back to who called it."""
+    report = ExportReport()
+    must_succeed = False            # errors stop the export before it writes a file
+
+
+class RigError(Exception):
+    """The export was stopped because the rig is not, or not all, in the file."""
+
+
+def kept(hook):
+    """A hook whose exceptions become errors of the report, each once."""
+    @functools.wraps(hook)
+    def wrapped(self, *arguments):
+        try:
+            hook(self, *arguments)
+        except Exception as error:      # the exporter would only print it
+            text = f'{hook.__name__}: {type(error).__name__}: {error}'
+            if text not in self.report.errors:
+                traceback.print_exc()
+                self.report.errors.append(text)
+    return wrapped
+
+
+class RigExtras:
+    """The exporter's hooks; the names are the exporter's, and the settings come last in every version."""
+
+    def __init__(self):
+        self.report = LastExport.report = ExportReport()
+        self.rigs = {}              # armature object's name -> the object
+        self.rig_nodes = {}         # armature object's name -> its node, unless the exporter leaves armatures out
+        self.joint_nodes = {}       # armature object's name -> bone's name -> its nodes; of the scene that is being exported
+        self.done = set()           # armature objects whose chains are written
+        self.chain_names = set()
+
+    @kept
+    def gather_joint_hook(self, node, bone, *_):
+        if not isinstance(bone, bpy.types.PoseBone) or node.name != bone.name:
+            return                  # an added leaf
+        self.rigs[bone.id_data.name] = bone.id_data
+        self.joint_nodes.setdefault(bone.id_data.name, {}).setdefault(bone.name, []).append(node)
+
+    @kept
+    def gather_node_hook(self, node, obj, *_):
+        if not isinstance(obj, bpy.types.Object):
+            return                  # a collection
+        if obj.type == 'ARMATURE':
+            self.rigs[obj.name] = obj
+            self.rig_nodes.setdefault(obj.name, node)
+        self.report.add_notes(obj.name, object_notes(obj))
+
+    @kept
+    def gather_scene_hook(self, scene, _, *rest):
+        """All nodes of the scene are made now, so it is known which joints are in the file."""
+        axes = FileAxes(rest[-1].get('gltf_yup', True))
+        for name, rig in self.rigs.items():
+            nodes = self.joint_nodes.pop(name, {})
+            self.add_joints(rig, axes, nodes)
+            if name not in self.done:
+                self.done.add(name)
+                rig_node = self.rig_nodes.get(name)
+                add_chains(rig_node or scene, self.chains(rig, axes, nodes, rig_node is not None))
+        self.report.is_finished = True
+
+    def add_joints(self, rig, axes, nodes):
+        """nodes: bone's name -> its nodes, which are several where a collection has instances."""
+        missing = []
+        for bone in rig.pose.bones:
+            record, notes = joint_record(bone, axes), bone_notes(bone)
+            if bone.name in nodes:
+                if rig.name not in self.done:
+                    self.report.add_notes(bone.name, notes)
+            elif says_a_limit(record):
+                missing.append(bone.name)
+            for node in nodes.get(bone.name, []) if record or notes else []:
+                self.report.joints += [bone.name] if says_a_limit(record) else []
+                node.extras = {**(node.extras or {}), 'rig_joint': with_notes(dict(record or {}), notes)}
+        if missing and rig.name not in self.done:
+            self.report.add_notes(rig.name, [(False, f'not in the file, nor their limits: {", ".join(missing)}')])
+
+    def chains(self, rig, axes, exported, has_node):
+        records = []
+        for bone, constraint in ik_constraints(rig):
+            joints = chain_joints(bone, constraint)
+            if not any(joint in exported for joint in joints):
+                self.report.add_notes(constraint.name, [(False, f'IK on {bone.name}: its bones are not in the file: left out')])
+                continue
+            name = self.unique_name(constraint.name, bone.name)
+            notes = chain_notes(bone, constraint, joints, exported)
+            if name != constraint.name:
+                notes.append((False, f'one of several chains named {constraint.name}'))
+            self.report.chains.append(name)
+            self.report.add_notes(name, notes)
+            records.append(with_notes(chain_record(name, joints, rig, constraint, axes, has_node), notes))
+        return records
+
+    def unique_name(self, name, bone):
+        """Chains are known by their names, and Blender calls every new one IK."""
+        wanted, number = name, 1
+        while wanted in self.chain_names:
+            wanted = f'{name}.{bone}' if number == 1 else f'{name}.{bone}.{number}'
+            number += 1
+        self.chain_names.add(wanted)
+        return wanted
+
+
+def add_chains(owner, chains):
+    """owner: the node of the rig, or the scene where the exporter leaves armatures out."""
+    if not chains:
+        return
+    extras = dict(owner.extras or {})
+    before = extras.get('rig_ik', {}).get('chains', [])
+    extras['rig_ik'] = {'up': '+Y', 'order_rule': 'XYZ means Rz*Ry*Rx', 'chains': before + chains}
+    owner.extras = extras
+
+
+def with_notes(record, notes):
+    if any(approximated for approximated, _ in notes):
+        record['approximated'] = True
+    if notes:
+        record['notes'] = [text for _, text in notes]
+    return record
+
+
+def finish_export(export_settings):
+    """Called by the exporter before it writes the file."""
+    report = LastExport.report
+    if not report.is_finished and not report.errors:
+        report.errors.append('the exporter called no hook')
+    print('\n'.join(report.lines()))
+    if report.errors and LastExport.must_succeed:
+        raise RigError(report.errors[0])
