@@ -73,7 +73,8 @@ struct HalfAxes {
     double y, z;
 };
 HalfAxes half_axes(const LimitShape& shape, double y, double z) {
-    return {y < 0.0 ? shape.swing_low[0] : shape.swing_high[0], z < 0.0 ? shape.swing_low[1] : shape.swing_high[1]};
+    return {std::signbit(y) ? shape.swing_low[0] : shape.swing_high[0],
+            std::signbit(z) ? shape.swing_low[1] : shape.swing_high[1]};
 }
 
 /// A free axis makes a band of the ellipse: |y| <= a, whatever z.
@@ -243,8 +244,8 @@ Swing nearest_in_ellipse(const LimitShape& shape, const Swing& v) {
     if (v.x < 0.0) return best_on_ellipse(shape, [&](const Swing& s) { return glm::dot(s, v); });
     if (ellipse_holds(shape, v)) return v;
     // The nearest point lies on v's own side of both axes.
-    const double side_y = v.y < 0.0 ? -1.0 : 1.0;
-    const double side_z = v.z < 0.0 ? -1.0 : 1.0;
+    const double side_y = std::signbit(v.y) ? -1.0 : 1.0;
+    const double side_z = std::signbit(v.z) ? -1.0 : 1.0;
     const HalfAxes axes = half_axes(shape, v.y, v.z);
     const Swing s = nearest_on_quarter(axes.y, axes.z, {v.x, side_y * v.y, side_z * v.z});
     return {s.x, side_y * s.y, side_z * s.z};
