@@ -15,10 +15,10 @@
 
 // What the IK solvers reach, how fast, and whether they keep to the constraints:
 //     bench/ik [TARGETS] [UNREACHABLE]        default 10000 1000
-// Chains of 2, 5, 20 and 100 joints, one metre in all, free and constrained. Targets are made by posing the chain at random
-// inside its limits (all joints, up to 2 radians about each axis), unreachable ones lie 1.1 to 3 metres away. Every solve begins
-// at the rest pose, which is bent a little; it succeeds within 0.1 % of the chain's length. One core; the time is that of
-// bendy::reach as a program calls it, reading and writing the pose included.
+// Chains of 2, 5, 20 and 100 joints, one metre in all, free and constrained. Targets are made by posing the chain at
+// random inside its limits (all joints, up to 2 radians about each axis), unreachable ones lie 1.1 to 3 metres away.
+// Every solve begins at the rest pose, which is bent a little; it succeeds within 0.1 % of the chain's length. One
+// core; the time is that of bendy::reach as a program calls it, reading and writing the pose included.
 namespace {
 
 using namespace bendy;
@@ -53,13 +53,19 @@ std::vector<std::byte> make_chain_file(std::uint32_t joints, bool is_constrained
             };
             // A shoulder, an elbow, and what a spine or a tentacle has, by turns.
             switch (joint % 4) {
-                case 0: set(LimitModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60}); break;
+                case 0:
+                    set(LimitModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60});
+                    break;
                 case 1:
                     set(LimitModel::hinge, {-10, 0, 0}, {140, 0, 0});
                     limit.frame = {0.0f, 0.0f, 0.0f, 1.0f};
                     break;
-                case 2: set(LimitModel::euler_box, {-30, -40, -40}, {30, 40, 40}); break;
-                default: set(LimitModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 35}); break;
+                case 2:
+                    set(LimitModel::euler_box, {-30, -40, -40}, {30, 40, 40});
+                    break;
+                default:
+                    set(LimitModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 35});
+                    break;
             }
             out.leaf(FourCC("LIMT"), bytes_of(limit));
         }
@@ -181,7 +187,8 @@ void run(std::uint32_t joints, bool is_constrained, std::size_t reachable, std::
                     100.0 * static_cast<double>(near.successes) / static_cast<double>(near.solves),
                     static_cast<double>(near.iterations) / static_cast<double>(near.solves),
                     percentile(near.microseconds, 0.5), percentile(near.microseconds, 0.99),
-                    100.0 * static_cast<double>(beyond.successes) / static_cast<double>(std::max<std::uint64_t>(beyond.solves, 1)),
+                    100.0 * static_cast<double>(beyond.successes) /
+                        static_cast<double>(std::max<std::uint64_t>(beyond.solves, 1)),
                     beyond.microseconds.empty() ? 0.0 : percentile(beyond.microseconds, 0.5),
                     std::max(near.worst_violation, beyond.worst_violation));
         std::fflush(stdout);
@@ -193,7 +200,9 @@ void run(std::uint32_t joints, bool is_constrained, std::size_t reachable, std::
 int main(int argc, char** argv) {
     const std::size_t reachable = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 10'000;
     const std::size_t unreachable = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1'000;
-    std::puts("|     |             |                  | reachable |     |    us   |    us   | unreachable | us | worst violation |");
+    std::puts(
+        "|     |             |                  | reachable |     |    us   |    us   | unreachable | us | worst "
+        "violation |");
     std::puts("| joints | limits | solver | reached | iterations | median | 99 % | points | median | rad |");
     std::puts("|---|---|---|---|---|---|---|---|---|---|");
     for (const std::uint32_t joints : {2u, 5u, 20u, 100u}) {

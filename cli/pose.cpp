@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "mesh_writer.h"
 #include "problem.h"
+#include "reach_request.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -23,6 +24,8 @@ struct Arguments {
     std::string clip;
     bool has_clip = false;
     float time = 0.0f;
+    bool constrain = false;
+    ReachRequest reach;
     std::filesystem::path output;
 };
 
@@ -77,6 +80,8 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
         object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
         object.time = arguments.time;
     }
+    if (arguments.constrain) constrain(pose);
+    reach_targets(arguments.reach, arguments.file, pose);
     local_to_model(pose);
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
@@ -128,9 +133,22 @@ void add_pose(CLI::App& program) {
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
         ->needs(clip);
+    command->add_flag("--constrain", arguments->constrain, "bring the clip's pose inside the joints' constraints");
+    CLI::Option* reach =
+        command->add_option("--reach", arguments->reach.targets,
+                            "after the clip, move an IK chain's tip to a point: CHAIN=X,Y,Z in metres; or "
+                            "with an orientation, CHAIN=X,Y,Z,QX,QY,QZ,QW; may be repeated");
+    command->add_option("--solver", arguments->reach.solver, "for --reach; chain: what the file says")
+        ->check(CLI::IsMember(solver_names()))
+        ->capture_default_str()
+        ->needs(reach);
+    command->add_flag("--ignore-limits", arguments->reach.ignore_limits, "reach without the joints' constraints")
+        ->needs(reach);
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
-    command->footer("Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj");
+    command->footer(
+        "Examples: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
+        "          bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");
     command->callback([arguments, clip] {
         arguments->has_clip = clip->count() != 0;
         if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");

@@ -56,8 +56,7 @@ void constrain(Pose& pose) {
         const glm::dquat R = to_limit_space(constraint, rest.rotation, joint.rotation);
         const glm::dquat legal = clamp_rotation(constraint, R);
         if (angle_between(legal, R) > kRounding) joint.rotation = from_limit_space(constraint, rest.rotation, legal);
-        if (constraint.limits_translation)
-            joint.translation = clamp_translation(constraint, rest, joint.translation);
+        if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
     }
 }
 

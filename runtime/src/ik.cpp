@@ -111,8 +111,7 @@ private:
             link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
             link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
             link.rest_frame = glm::normalize(glm::dquat(joint.rest.rotation)) * link.frame;
-            link.freedom =
-                link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
+            link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
             link.local = nearest_legal_local(link, glm::normalize(glm::dquat(transform.rotation)));
         }
         problem_.scale = length > 0.0 ? length : 1.0;
@@ -143,8 +142,8 @@ private:
         problem_.options = &options_;
         problem_.origin = glm::dvec3(pose_.local()[chain_.start].translation) / problem_.scale;
         problem_.target = to_base(target_.position);
-        problem_.tip_rotation = unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1],
-                                      record.tip_rotation[2]});
+        problem_.tip_rotation =
+            unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
         problem_.position_weight = fraction(record.position_weight, 1.0);
         problem_.has_rotation = target_.rotation.has_value();
         problem_.rotation_weight = fraction(record.rotation_weight, 0.0);
@@ -222,13 +221,19 @@ private:
     std::uint32_t solve() {
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
-        if (problem_.is_out_of_reach && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
+        if (problem_.is_out_of_reach && chosen != Solver::pull && problem_.position_weight > 0.0)
+            point_at_target(problem_);
         switch (chosen) {
-            case Solver::pull: return solve_pull(problem_);
-            case Solver::ccd: return solve_ccd(problem_);
-            case Solver::fabrik: return solve_fabrik(problem_);
-            case Solver::two_bone: return two_bone();
-            default: return solve_least_squares(problem_);
+            case Solver::pull:
+                return solve_pull(problem_);
+            case Solver::ccd:
+                return solve_ccd(problem_);
+            case Solver::fabrik:
+                return solve_fabrik(problem_);
+            case Solver::two_bone:
+                return two_bone();
+            default:
+                return solve_least_squares(problem_);
         }
     }
 
@@ -241,8 +246,9 @@ private:
         return iterations + solve_least_squares(problem_);
     }
 
-    /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds only
-    /// about where they are. Moves the problem's target by what the true tip is off; false if that is within tolerance.
+    /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds
+    /// only about where they are. Moves the problem's target by what the true tip is off; false if that is within
+    /// tolerance.
     bool correct_target() {
         if (!is_uneven_ || problem_.is_out_of_reach) return false;
         const glm::dvec3 left = wanted_ - true_tip();
@@ -283,7 +289,8 @@ private:
 
     /// Writes the links' rotations into the pose.
     void scatter() {
-        const double influence = std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
+        const double influence =
+            std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
         const std::span<JointTransform> local = pose_.change_local();
         for (const IkLink& link : links_) {
             JointTransform& joint = local[link.joint];

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-// Looking at a target: the tip's Z axis is turned towards it. Each joint does its share of what is left, the last one all
-// of it, so that a neck and a head turn together.
+// Looking at a target: the tip's Z axis is turned towards it. Each joint does its share of what is left, the last one
+// all of it, so that a neck and a head turn together.
 namespace bendy {
 namespace {
 

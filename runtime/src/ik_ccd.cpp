@@ -1,13 +1,15 @@
 #include "ik_problem.h"
 #include "rotation.h"
 
-// Cyclic coordinate descent (Wang and Chen, "A combined optimization method for solving the inverse kinematics problem of
-// mechanical manipulators", 1991): from the tip up, each joint in turn brings the tip as near to the target as it can.
+// Cyclic coordinate descent (Wang and Chen, "A combined optimization method for solving the inverse kinematics problem
+// of mechanical manipulators", 1991): from the tip up, each joint in turn brings the tip as near to the target as it
+// can.
 namespace bendy {
 namespace {
 
 /// The turn of one joint that brings the tip nearest to the target, in orientation too if that counts.
-glm::dquat best_turn(const IkProblem& problem, const IkLink& link, const glm::dvec3& tip, const glm::dquat& tip_global) {
+glm::dquat best_turn(const IkProblem& problem, const IkLink& link, const glm::dvec3& tip,
+                     const glm::dquat& tip_global) {
     const glm::dvec3 arm = tip - link.position;
     const glm::dvec3 to_target = problem.target - link.position;
     if (!problem.has_rotation) return between(arm, to_target);

@@ -18,7 +18,8 @@ constexpr std::size_t kMost = 6;
 using Vector = std::array<double, kMost>;
 using Matrix = std::array<Vector, kMost>;
 
-/// y of (A + damping) y = e, A symmetric with no negative eigenvalue, its first `size` rows; by Cholesky's decomposition.
+/// y of (A + damping) y = e, A symmetric with no negative eigenvalue, its first `size` rows; by Cholesky's
+/// decomposition.
 Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
     for (std::size_t j = 0; j < size; ++j) {
         double diagonal = A[j][j] + damping;
@@ -96,8 +97,7 @@ private:
         const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
         Vector e{p.x, p.y, p.z};
         if (size_ == 6) {
-            const glm::dvec3 r =
-                rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
+            const glm::dvec3 r = rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
             e[3] = r.x;
             e[4] = r.y;
             e[5] = r.z;
@@ -137,8 +137,8 @@ private:
         return A;
     }
 
-    /// Turns every link by mobility J^T y into its trial. True if a constraint stopped a link in a direction in which it
-    /// was free so far: that direction is then taken from its mobility.
+    /// Turns every link by mobility J^T y into its trial. True if a constraint stopped a link in a direction in which
+    /// it was free so far: that direction is then taken from its mobility.
     bool apply(const Vector& y) {
         const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
         const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);

@@ -78,17 +78,15 @@ void IkProblem::restore() {
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
-    return through_limits(link, local, [&](const glm::dquat& R) {
-        return quick_legal_rotation(c.model, c.euler_order, c.shape, R);
-    });
+    return through_limits(
+        link, local, [&](const glm::dquat& R) { return quick_legal_rotation(c.model, c.euler_order, c.shape, R); });
 }
 
 glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
-    return through_limits(link, local, [&](const glm::dquat& R) {
-        return nearest_rotation(c.model, c.euler_order, c.shape, R);
-    });
+    return through_limits(link, local,
+                          [&](const glm::dquat& R) { return nearest_rotation(c.model, c.euler_order, c.shape, R); });
 }
 
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {

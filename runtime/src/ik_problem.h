@@ -22,15 +22,15 @@ struct IkProblem {
     glm::dquat target_rotation{1, 0, 0, 0};
     glm::dquat tip_rotation{1, 0, 0, 0};  ///< in the last link's axes
     bool has_pole = false;
-    glm::dvec3 pole{0};       ///< point to bend towards
-    double pole_angle = 0.0;  ///< radians from there to the bend
-    double reach = 1.0;       ///< the bones' lengths together: 1, or 0 for a chain without length
+    glm::dvec3 pole{0};            ///< point to bend towards
+    double pole_angle = 0.0;       ///< radians from there to the bend
+    double reach = 1.0;            ///< the bones' lengths together: 1, or 0 for a chain without length
     bool is_out_of_reach = false;  ///< the target is farther from the origin than that
-    double tolerance = 1e-4;  ///< chain lengths; radians
+    double tolerance = 1e-4;       ///< chain lengths; radians
     std::uint32_t iterations = 0;  ///< at most; 0: the solver's own
     const ReachOptions* options = nullptr;
 
-    glm::dvec3 tip{0};                 ///< by place
+    glm::dvec3 tip{0};                  ///< by place
     glm::dquat tip_global{1, 0, 0, 0};  ///< by place
 
     /// Positions and orientations from the links' rotations, from link `first` on.
@@ -55,8 +55,8 @@ glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
 /// A turn by a rotation vector in base space, lessened by the link's freedom about its axes.
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
-/// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by. The
-/// links after it are not placed anew.
+/// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by.
+/// The links after it are not placed anew.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
 /// The same by a rotation, which is quicker where the link is wholly free.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation);

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-// E. F. Anderson's "pull" solver, after Hugo Elias: a force F pulls the tip towards the target; for each joint from the tip
-// up, and each of its axes A, with B the way from the joint to the tip,
+// E. F. Anderson's "pull" solver, after Hugo Elias: a force F pulls the tip towards the target; for each joint from the
+// tip up, and each of its axes A, with B the way from the joint to the tip,
 //     angle = gain * |F| * sin(A, F) * sin(B, F) * sign((A x B) . F)
-// The paper takes for B the joint's own bone; the way to the tip is the same for the last joint and right for the others.
+// The paper takes for B the joint's own bone; the way to the tip is the same for the last joint and right for the
+// others.
 namespace bendy {
 
 std::uint32_t solve_pull(IkProblem& problem) {

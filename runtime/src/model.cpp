@@ -78,8 +78,12 @@ void Model::build_rig(Data& data) {
                 if (obeyed.in_poses == kNone) obeyed.in_poses = number;
                 if (obeyed.in_ik == kNone) obeyed.in_ik = number;
                 break;
-            case LimitScope::ik_only: obeyed.in_ik = number; break;
-            case LimitScope::all_but_ik: obeyed.in_poses = number; break;
+            case LimitScope::ik_only:
+                obeyed.in_ik = number;
+                break;
+            case LimitScope::all_but_ik:
+                obeyed.in_poses = number;
+                break;
         }
     }
     if (data.object.chains.empty()) return;

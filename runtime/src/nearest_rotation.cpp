@@ -31,12 +31,14 @@ bool holds(const AngleRange& range, double angle) {
     return std::abs(wrapped(angle - range.middle)) <= range.half + kInside;
 }
 
-/// The angle of the range nearest on the circle. Measured from the middle nothing jumps at pi; the cut is at the far side.
+/// The angle of the range nearest on the circle. Measured from the middle nothing jumps at pi; the cut is at the far
+/// side.
 double nearest_angle(const AngleRange& range, double angle) {
     return range.middle + std::clamp(wrapped(angle - range.middle), -range.half, range.half);
 }
 
-/// The turn (cosine and sine of half the angle) of the range nearest to the given one, which comes back if it is inside.
+/// The turn (cosine and sine of half the angle) of the range nearest to the given one, which comes back if it is
+/// inside.
 glm::dvec2 nearest_turn(const AngleRange& range, const glm::dvec2& turn) {
     const double cosine = glm::dot(turn, range.middle_turn);  // of half the way to the middle
     const double sine = turn.y * range.middle_turn.x - turn.x * range.middle_turn.y;
@@ -92,9 +94,7 @@ bool ellipse_holds(const LimitShape& shape, const Swing& swing) {
 
 /// The point of a quarter of the ellipse, half axes (a, b), nearest to v on the sphere; v's w, y and z are 0 or more.
 Swing nearest_on_quarter(double a, double b, const Swing& v) {
-    const auto point = [&](double y, double z) {
-        return Swing(std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z);
-    };
+    const auto point = [&](double y, double z) { return Swing(std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z); };
     if (is_free(a) && is_free(b)) return v;
     if (is_free(a) || is_free(b)) {
         // On the band's edge, a circle, right across from v.
@@ -153,8 +153,8 @@ Swing nearest_on_quarter(double a, double b, const Swing& v) {
     return point(end.y, end.z);
 }
 
-/// A point of the whole ellipse. A quarter has t = tan(f / 2) in [0, 1]; four of them make the circle: u modulo 4, denser
-/// where the quarters meet, since narrow ellipses are most bent there.
+/// A point of the whole ellipse. A quarter has t = tan(f / 2) in [0, 1]; four of them make the circle: u modulo 4,
+/// denser where the quarters meet, since narrow ellipses are most bent there.
 Swing ellipse_point(const LimitShape& shape, double u) {
     const double quarter = std::floor(u);
     const double part = u - quarter;
@@ -263,9 +263,8 @@ std::array<Swing, 4> pyramid_planes(const LimitShape& shape) {
 }
 
 bool pyramid_holds(const std::array<Swing, 4>& planes, const Swing& swing) {
-    return swing.x >= -kInside && std::all_of(planes.begin(), planes.end(), [&](const Swing& plane) {
-        return glm::dot(plane, swing) <= kInside;
-    });
+    return swing.x >= -kInside && std::all_of(planes.begin(), planes.end(),
+                                              [&](const Swing& plane) { return glm::dot(plane, swing) <= kInside; });
 }
 
 /// The swing of the pyramid nearest to v: v itself, or the foot of v on one of the planes, or a corner.
@@ -322,7 +321,8 @@ void consider_twist(LimitModel model, const LimitShape& shape, const glm::dquat&
         best.consider(join(nearest_swing(model, shape, side), twist), R);
 }
 
-/// With the twist free, cos^2 of half the angle that is left after the best one: M from both parts that a twist can take.
+/// With the twist free, cos^2 of half the angle that is left after the best one: M from both parts that a twist can
+/// take.
 struct LeftOver {
     Swing w, x;  ///< dot(w, swing), dot(x, swing): of conj(swing) * R
     explicit LeftOver(const glm::dquat& R) : w(R.w, R.y, R.z), x(R.x, -R.z, R.y) {}
@@ -394,8 +394,12 @@ struct Order {
     double sign;              ///< 1 if X, Y, Z can be turned into them, else -1
 };
 Order order_of(EulerOrder order) {
-    constexpr std::array<Order, kEulerOrders> kOrders{{
-        {{0, 1, 2}, 1.0}, {{0, 2, 1}, -1.0}, {{1, 0, 2}, -1.0}, {{1, 2, 0}, 1.0}, {{2, 0, 1}, 1.0}, {{2, 1, 0}, -1.0}}};
+    constexpr std::array<Order, kEulerOrders> kOrders{{{{0, 1, 2}, 1.0},
+                                                       {{0, 2, 1}, -1.0},
+                                                       {{1, 0, 2}, -1.0},
+                                                       {{1, 2, 0}, 1.0},
+                                                       {{2, 0, 1}, 1.0},
+                                                       {{2, 1, 0}, -1.0}}};
     return kOrders[static_cast<std::size_t>(order)];
 }
 
@@ -511,13 +515,19 @@ glm::dquat nearest_to_none(const glm::dquat& R) {
 
 glm::dquat nearest_rotation(LimitModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
     switch (model) {
-        case LimitModel::locked: return nearest_to_none(R);
-        case LimitModel::hinge: return nearest_on_hinge(shape.angles[0], R);
+        case LimitModel::locked:
+            return nearest_to_none(R);
+        case LimitModel::hinge:
+            return nearest_on_hinge(shape.angles[0], R);
         case LimitModel::swing_twist_ellipse:
-        case LimitModel::swing_twist_pyramid: return nearest_swing_twist(model, shape, R);
-        case LimitModel::euler_box: return nearest_in_box(make_box(order, shape), R);
-        case LimitModel::largest_angle: return nearest_by_angle(shape.largest, R);
-        default: return R;
+        case LimitModel::swing_twist_pyramid:
+            return nearest_swing_twist(model, shape, R);
+        case LimitModel::euler_box:
+            return nearest_in_box(make_box(order, shape), R);
+        case LimitModel::largest_angle:
+            return nearest_by_angle(shape.largest, R);
+        default:
+            return R;
     }
 }
 

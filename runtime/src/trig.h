@@ -25,25 +25,26 @@ inline SinCos sin_cos(double angle) {
     const double s = x * x;
     // Taylor's series, whose next terms are below 1e-18 at pi/4.
     const double sine =
-        x +
-        x * s *
-            (-1.0 / 6 +
-             s * (1.0 / 120 +
-                  s * (-1.0 / 5040 +
-                       s * (1.0 / 362880 + s * (-1.0 / 39916800 + s * (1.0 / 6227020800.0 - s / 1307674368000.0))))));
+        x + x * s *
+                (-1.0 / 6 +
+                 s * (1.0 / 120 +
+                      s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800 +
+                                                                  s * (1.0 / 6227020800.0 - s / 1307674368000.0))))));
     const double cosine =
         1.0 +
-        s * (-0.5 +
-             s * (1.0 / 24 +
-                  s * (-1.0 / 720 +
-                       s * (1.0 / 40320 +
-                            s * (-1.0 / 3628800 + s * (1.0 / 479001600.0 - s * (1.0 / 87178291200.0 -
-                                                                                s / 20922789888000.0)))))));
+        s * (-0.5 + s * (1.0 / 24 + s * (-1.0 / 720 +
+                                         s * (1.0 / 40320 + s * (-1.0 / 3628800 + s * (1.0 / 479001600.0 -
+                                                                                       s * (1.0 / 87178291200.0 -
+                                                                                            s / 20922789888000.0)))))));
     switch (static_cast<std::int64_t>(turns) & 3) {
-        case 0: return {sine, cosine};
-        case 1: return {cosine, -sine};
-        case 2: return {-sine, -cosine};
-        default: return {-cosine, sine};
+        case 0:
+            return {sine, cosine};
+        case 1:
+            return {cosine, -sine};
+        case 2:
+            return {-sine, -cosine};
+        default:
+            return {-cosine, sine};
     }
 }
 

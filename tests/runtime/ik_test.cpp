@@ -46,7 +46,8 @@ LimitRecord hinge(double low, double high) {
     return limit;
 }
 
-/// A rope up the Y axis, one joint more than bones; bent by `bend` degrees to either side in turn; one chain over it all.
+/// A rope up the Y axis, one joint more than bones; bent by `bend` degrees to either side in turn; one chain over it
+/// all.
 test::ModelSpec rope(std::uint32_t bones, double bend = 5.0, float bone = 1.0f) {
     test::ModelSpec spec;
     for (std::uint32_t joint = 0; joint <= bones; ++joint) {
@@ -179,7 +180,8 @@ TEST(Ik, SoftnessSlowsNearFullReach) {
 TEST(Ik, OutOfReachPointsAtTheTarget) {
     for (const std::uint32_t bones : {1u, 2u, 5u, 40u}) {
         const Owned model(build_file(rope(bones)));
-        for (const Solver solver : {Solver::any, Solver::ccd, Solver::fabrik, Solver::two_bone, Solver::least_squares}) {
+        for (const Solver solver :
+             {Solver::any, Solver::ccd, Solver::fabrik, Solver::two_bone, Solver::least_squares}) {
             Pose pose(*model);
             ReachOptions options;
             options.solver = solver;
@@ -471,12 +473,12 @@ void expect_calm(const test::ModelSpec& spec, float size) {
 
 TEST(Ik, NothingExplodes) {
     expect_calm(rope(3), 3.0f);
-    expect_calm(rope(3, 0.0), 3.0f);         // straight
-    expect_calm(rope(2, 0.0), 2.0f);         // straight, two bones
-    expect_calm(rope(3, 5.0, 0.0f), 1.0f);   // no length at all
-    expect_calm(rope(1), 1.0f);              // one bone
-    expect_calm(rope(0), 1.0f);              // none: the effector is the start
-    expect_calm(rope(200), 200.0f);          // a long rope
+    expect_calm(rope(3, 0.0), 3.0f);        // straight
+    expect_calm(rope(2, 0.0), 2.0f);        // straight, two bones
+    expect_calm(rope(3, 5.0, 0.0f), 1.0f);  // no length at all
+    expect_calm(rope(1), 1.0f);             // one bone
+    expect_calm(rope(0), 1.0f);             // none: the effector is the start
+    expect_calm(rope(200), 200.0f);         // a long rope
     expect_calm(rope(3, 5.0, 1e-10f), 3e-10f);
     test::ModelSpec some = rope(4);
     some.joints[2].rest.translation = {0.0f, 0.0f, 0.0f};  // one bone without length

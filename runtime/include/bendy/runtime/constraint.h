@@ -23,10 +23,11 @@ struct AngleRange {
 
 /// What a constraint allows, made ready for use.
 struct LimitShape {
-    std::array<AngleRange, 3> angles;          ///< hinge and twist: [0]; Euler box: X, Y, Z
-    std::array<double, 2> swing_low{1, 1};     ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1; infinity: free
-    std::array<double, 2> swing_high{1, 1};    ///< and towards plus
-    double largest = 0.0;                      ///< radians: largest angle
+    std::array<AngleRange, 3> angles;  ///< hinge and twist: [0]; Euler box: X, Y, Z
+    std::array<double, 2> swing_low{
+        1, 1};  ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1; infinity: free
+    std::array<double, 2> swing_high{1, 1};  ///< and towards plus
+    double largest = 0.0;                    ///< radians: largest angle
 };
 
 /// A joint's constraint. R below is the joint's rotation away from rest in the constraint's frame C:
@@ -36,7 +37,7 @@ struct Constraint {
     LimitModel model = LimitModel::free;
     EulerOrder euler_order = EulerOrder::xyz;
     LimitScope scope = LimitScope::every_pose;
-    std::uint8_t flags = 0;        ///< kApproximated, kProposed, kRestOutside
+    std::uint8_t flags = 0;  ///< kApproximated, kProposed, kRestOutside
     bool limits_translation = false;
     glm::dquat frame{1, 0, 0, 0};  ///< C
     LimitShape shape;

@@ -13,11 +13,13 @@ namespace bendy {
 
 /// What a chain is to reach, in model space.
 struct ReachTarget {
-    glm::vec3 position{0.0f};           ///< metres
-    std::optional<glm::quat> rotation;  ///< the tip's orientation; counts by the chain's rotation weight, 1 if that is 0
+    glm::vec3 position{0.0f};  ///< metres
+    std::optional<glm::quat>
+        rotation;  ///< the tip's orientation; counts by the chain's rotation weight, 1 if that is 0
 
     ReachTarget() = default;
-    ReachTarget(const glm::vec3& where) : position(where) {}  // NOLINT(google-explicit-constructor): a point is a target
+    ReachTarget(const glm::vec3& where)
+        : position(where) {}  // NOLINT(google-explicit-constructor): a point is a target
     ReachTarget(const glm::vec3& where, const glm::quat& orientation) : position(where), rotation(orientation) {}
 };
 
@@ -25,12 +27,12 @@ struct ReachTarget {
 struct ReachOptions {
     Solver solver = Solver::any;
     std::uint32_t iterations = 0;  ///< at most
-    float tolerance = 0.0f;        ///< metres, default 0.0001 of the chain's length; radians, of that number, for rotation
-    float influence = 1.0f;        ///< 0 to 1: how much of the solution is mixed into the pose
-    float softness = 0.0f;         ///< 0 to 1: two-bone: the share of its length over which the chain slows near full reach
-    float gain = 1.0f;             ///< pull: radians per chain length of distance
-    float step_limit = 0.2f;       ///< pull: radians per joint and call
-    std::uint32_t restarts = 8;    ///< least squares: other beginnings that it tries when it is stuck
+    float tolerance = 0.0f;   ///< metres, default 0.0001 of the chain's length; radians, of that number, for rotation
+    float influence = 1.0f;   ///< 0 to 1: how much of the solution is mixed into the pose
+    float softness = 0.0f;    ///< 0 to 1: two-bone: the share of its length over which the chain slows near full reach
+    float gain = 1.0f;        ///< pull: radians per chain length of distance
+    float step_limit = 0.2f;  ///< pull: radians per joint and call
+    std::uint32_t restarts = 8;     ///< least squares: other beginnings that it tries when it is stuck
     std::optional<glm::vec3> pole;  ///< point in model space to bend towards; default: the chain's pole joint or vector
     bool obey_constraints = true;
 };
@@ -44,13 +46,13 @@ enum class ReachStatus : std::uint8_t {
 
 struct ReachResult {
     ReachStatus status = ReachStatus::refused;
-    float distance = 0.0f;         ///< metres left between tip and target
-    float angle = 0.0f;            ///< radians left between the tip's orientation and the target's, if one was asked for
+    float distance = 0.0f;  ///< metres left between tip and target
+    float angle = 0.0f;     ///< radians left between the tip's orientation and the target's, if one was asked for
     std::uint32_t iterations = 0;  ///< that were made
 };
 
-/// Moves a chain of the pose's model so that its tip (the effector's tip offset) reaches the target. The incoming pose is
-/// the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are. Allocates
+/// Moves a chain of the pose's model so that its tip (the effector's tip offset) reaches the target. The incoming pose
+/// is the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are. Allocates
 /// nothing; the same numbers give the same pose on every machine.
 ///     pull           Anderson's and Elias' force; one step a call, so it takes frames to arrive
 ///     two_bone       closed form; of a longer chain, start and middle joint turn; where constraints keep it from the

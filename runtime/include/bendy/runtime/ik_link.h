@@ -13,10 +13,10 @@ namespace bendy {
 /// A joint of a chain while an IK solver works on it; a Pose keeps as many as its model's longest chain has, so that
 /// reaching allocates nothing. Rotations and bones in the space of the start's parent, lengths in chain lengths.
 struct IkLink {
-    glm::dquat local;       ///< relative to the link before
-    glm::dvec3 bone;        ///< to the next link or the tip, in this link's axes
-    glm::dquat rest_frame;  ///< q_rest * C
-    glm::dquat frame;       ///< C
+    glm::dquat local;                        ///< relative to the link before
+    glm::dvec3 bone;                         ///< to the next link or the tip, in this link's axes
+    glm::dquat rest_frame;                   ///< q_rest * C
+    glm::dquat frame;                        ///< C
     const Constraint* constraint = nullptr;  ///< null: free
     glm::dvec3 freedom{1};                   ///< 0 to 1 about the frame's axes: weight * (1 - stiffness)
     double bone_length = 0.0;

@@ -44,7 +44,7 @@ struct Chain {
     std::uint32_t number = 0;
     std::uint32_t start = 0;
     std::uint32_t effector = 0;
-    std::uint32_t links = 0;  ///< joints from start to effector, both counted
+    std::uint32_t links = 0;       ///< joints from start to effector, both counted
     std::uint32_t target = kNone;  ///< joint to be reached, or kNone
     std::uint32_t pole = kNone;    ///< joint to bend towards, or kNone
     Solver solver = Solver::any;
