@@ -84,7 +84,8 @@ std::vector<std::byte> make_chain_file(std::uint32_t joints, bool is_constrained
 
 glm::vec3 tip_of(Pose& pose) {
     local_to_model(pose);
-    return glm::vec3(pose.model_space().back()[3]);
+    const glm::vec4& position = pose.model_space().back()[3];
+    return {position.x, position.y, position.z};
 }
 
 /// A pose inside the limits, at random.

@@ -90,9 +90,10 @@ void reach_targets(const ReachRequest& request, const std::filesystem::path& fil
         const std::vector<float> n = equals == std::string::npos
                                          ? std::vector<float>()
                                          : read_numbers(std::string_view(text).substr(equals + 1));
-        if (n.size() != 3 && n.size() != 7)
+        if (n.size() != 3 && n.size() != 7) {
             throw CLI::ValidationError("--reach",
                                        "must be CHAIN=X,Y,Z in metres, or with a rotation CHAIN=X,Y,Z,QX,QY,QZ,QW");
+        }
         ReachTarget target({n[0], n[1], n[2]});
         if (n.size() == 7) {
             const glm::quat rotation(n[6], n[3], n[4], n[5]);

@@ -28,7 +28,9 @@ glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, c
 
 glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R) {
     const glm::dquat relative = constraint.frame * R * glm::conjugate(constraint.frame);
-    return glm::quat(glm::normalize(glm::dquat(rest) * relative));
+    const glm::dquat local = glm::normalize(glm::dquat(rest) * relative);
+    return {static_cast<float>(local.w), static_cast<float>(local.x), static_cast<float>(local.y),
+            static_cast<float>(local.z)};
 }
 
 glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest, const glm::vec3& translation) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bendy {
 namespace {
@@ -42,7 +43,7 @@ AngleRange make_range(double low, double high, double soft_zone) {
 /// turn of swing the twist could not be told.
 double half_axis(double limit, double soft_zone) {
     constexpr double kLargest = 1.0 - 1e-12;
-    if (limit == LimitRecord::kFree) return LimitRecord::kFree;
+    if (limit == std::numeric_limits<double>::infinity()) return limit;
     if (limit >= trig::kPi) return kLargest;
     return kLargest * trig::sin_cos(0.5 * std::max(0.0, held(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
 }

@@ -189,7 +189,7 @@ private:
         glm::dvec4 position(glm::dvec3(pose_.local()[joint].translation), 1.0);
         for (joint = model_.joints()[joint].parent; joint != kNone; joint = model_.joints()[joint].parent)
             position = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * position;
-        return glm::dvec3(position);
+        return {position.x, position.y, position.z};
     }
 
     [[nodiscard]] glm::dvec3 tip_offset() const {

@@ -13,13 +13,12 @@ namespace bendy {
 
 /// What a chain is to reach, in model space.
 struct ReachTarget {
-    glm::vec3 position{0.0f};  ///< metres
-    std::optional<glm::quat>
-        rotation;  ///< the tip's orientation; counts by the chain's rotation weight, 1 if that is 0
+    glm::vec3 position{0.0f};           ///< metres
+    std::optional<glm::quat> rotation;  ///< of the tip; counts by the chain's rotation weight, 1 if that is 0
 
     ReachTarget() = default;
-    ReachTarget(const glm::vec3& where)
-        : position(where) {}  // NOLINT(google-explicit-constructor): a point is a target
+    // NOLINTNEXTLINE(google-explicit-constructor): a point is a target
+    ReachTarget(const glm::vec3& where) : position(where) {}
     ReachTarget(const glm::vec3& where, const glm::quat& orientation) : position(where), rotation(orientation) {}
 };
 
