@@ -21,6 +21,7 @@ struct Arguments {
     std::filesystem::path output;
     std::string scene;
     std::string images = "embed";
+    std::filesystem::path rig;
     bool quiet = false;
 };
 
@@ -94,11 +95,13 @@ void run(Arguments arguments) {
     converter::ConvertOptions options;
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
+    if (!arguments.rig.empty()) options.rig = arguments.rig;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
         const converter::ImportError& error = bytes.error();
-        fail(arguments.input, printable(error.place.empty() ? error.message : error.place + ": " + error.message));
+        fail(error.file.empty() ? arguments.input : error.file,
+             printable(error.place.empty() ? error.message : error.place + ": " + error.message));
     }
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.input, arguments.output, ignored))
@@ -122,6 +125,8 @@ void add_convert(CLI::App& program) {
         ->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command->add_option("--rig", arguments->rig,
+                        "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly; what the format cannot hold is named in a warning.\n"
