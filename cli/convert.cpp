@@ -3,6 +3,7 @@
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
@@ -12,6 +13,9 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -52,6 +56,29 @@ std::string list_cycles(const Model& model) {
     return list.str();
 }
 
+/// The line of constraints and chains; empty if there are none.
+std::string describe_rig(Bytes bytes) {
+    constexpr std::size_t kShown = 20;
+    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) return {};
+    Faults faults;
+    const Document document = read_document(*tree, faults);
+    std::size_t limits = 0;
+    std::vector<std::string_view> chains;
+    for (const ObjectView& object : document.objects) {
+        limits += object.skeleton.limits.size();
+        for (const ChainView& chain : object.chains) chains.push_back(chain.name);
+    }
+    if (limits == 0 && chains.empty()) return {};
+    std::string line = "\n  rig        " + counted(limits, "constraint", "constraints");
+    if (chains.empty()) return line;
+    line += ", " + counted(chains.size(), "chain", "chains");
+    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i) {
+        line += (i == 0 ? ": " : ", ") + (chains[i].empty() ? '#' + std::to_string(i) : printable(chains[i]));
+    }
+    return chains.size() > kShown ? line + ", ..." : line;
+}
+
 void print_summary(const Arguments& arguments, Bytes bytes) {
     const Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(arguments.output, model.error(), bytes);
@@ -71,7 +98,7 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
 
     std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
     if (images != 0) std::cout << ", " << grouped(images) << " of them images";
-    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
+    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints") << describe_rig(bytes);
     std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
     if (most_influences != 0)
