@@ -46,7 +46,9 @@ public:
             gather(scene_.joints[joint].extras, joint, "nodes." + name_of(joint) + ".extras");
         gather(scene_.extras, kNone, "scene.extras");
         // All axes first: a limit in the parent's space needs the parent's.
-        for (const Extra& extra : joints_) guard("constraints left out", extra.place, [&] { read_bone(extra); });
+        std::erase_if(joints_, [&](const Extra& extra) {
+            return !guard("constraints left out", extra.place, [&] { read_bone(extra); });
+        });
         for (const Extra& extra : joints_) guard("constraints left out", extra.place, [&] { read_limits(extra); });
         for (const Extra& extra : chains_) guard("chains left out", extra.place, [&] { read_chains(extra); });
         tell_apart();
@@ -62,14 +64,16 @@ private:
         return name.empty() ? '#' + std::to_string(joint) : key(name);
     }
 
-    /// Does `work`; what is wrong is named, and the rest goes on.
+    /// Does `work`; what is wrong is named, and the rest goes on. False if something was.
     template <class Work>
-    void guard(const char* left_out, const std::string& place, Work work) {
+    bool guard(const char* left_out, const std::string& place, Work work) {
         try {
             work();
+            return true;
         } catch (const Failure& failure) {
             report_.warn(std::string(left_out) + ": " + failure.error.message,
                          failure.error.place.empty() ? place : failure.error.place);
+            return false;
         }
     }
 

@@ -9,7 +9,7 @@ namespace bendy::converter {
 /// Bounds the work of matching: a small hostile file can set any number of globs against any number of joints.
 class Effort {
 public:
-    static constexpr std::uint64_t kMost = 1'000'000'000;  ///< steps: characters compared, links walked
+    static constexpr std::uint64_t kMost = 400'000'000;  ///< steps: a character compared is one
 
     /// Counts `steps`, or fails with an empty place.
     void take(std::uint64_t steps) {

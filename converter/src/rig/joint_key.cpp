@@ -116,6 +116,8 @@ JointKey parse_joint_key(std::string_view text, const std::string& place) {
 
 bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Effort& effort) {
     using Kind = JointKey::Step::Kind;
+    constexpr std::uint64_t kStart = 8;  // a glob that fails at once takes time too
+    effort.take(kStart);
     std::size_t step = 0;
     std::size_t at = 0;
     // Where the last * stands and what of the name it has not taken: on a mismatch it takes one character more.
@@ -139,7 +141,6 @@ bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Eff
             return false;
         }
     }
-    effort.take(1);
     while (step < glob.size() && glob[step].kind == Kind::any_run) ++step;
     return step == glob.size();
 }
