@@ -40,7 +40,8 @@ Rig parse_rig(std::string_view text, Report& report) {
             rig.chains.push_back(std::move(chain));
         }
     }
-    fields.find("$schema");  // editors look there
+    std::string schema;
+    fields.read("$schema", schema);  // for editors
     fields.refuse_others();
     return rig;
 }
