@@ -6,7 +6,7 @@
 #include "fields.h"
 #include "parse_chain.h"
 #include "parse_limit.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -45,7 +45,7 @@ public:
         for (std::uint32_t joint = 0; joint < scene_.joints.size(); ++joint)
             gather(scene_.joints[joint].extras, joint, "nodes." + name_of(joint) + ".extras");
         gather(scene_.extras, kNone, "scene.extras");
-        // All axes first: a limit in the parent's space needs the parent's.
+        find_armatures();
         std::erase_if(joints_, [&](const Extra& extra) {
             return !guard("constraints left out", extra.place, [&] { read_bone(extra); });
         });
@@ -95,6 +95,7 @@ private:
 
     void read_bone(const Extra& extra) {
         Fields fields(extra.value, extra.place, AngleUnit::radians);
+        read_notes(fields);
         fields.read("stretch", rig_.stretch[extra.joint], 0.0f);
         if (fields.find("rest_orientation") == nullptr) return;
         std::array<float, 4> written{};
@@ -134,10 +135,39 @@ private:
         scene_.joints[extra.joint].limits = std::move(limits);
     }
 
+    /// What the writing tool has to say of it.
+    void read_notes(Fields& fields) {
+        const OrderedJson* notes = fields.find("notes");
+        if (notes == nullptr) return;
+        for (const OrderedJson& note : need_list(*notes, fields.place_of("notes"))) {
+            if (!note.is_string()) continue;
+            std::string text = note.get<std::string>();
+            std::replace_if(
+                text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+            report_.warn(std::move(text), fields.place());
+        }
+    }
+
     [[nodiscard]] BoneAxes axes_of_bone(std::uint32_t joint) const {
-        const std::uint32_t parent = scene_.joints[joint].parent;
         const Rotation& axes = rig_.axes[joint];
-        return {axes, parent == kNone ? axes : glm::conjugate(rig_.axes[parent]) * axes};
+        const std::uint32_t armature = armature_of_[joint];
+        return {axes, armature == kNone ? axes : glm::conjugate(rest_.orientation(armature)) * axes};
+    }
+
+    /// The node above the bones: above the topmost joint of a skin.
+    void find_armatures() {
+        std::vector<bool> is_bound(scene_.joints.size());
+        for (const Mesh& mesh : scene_.meshes) {
+            for (const std::uint32_t joint : mesh.palette.joints) is_bound[joint] = true;
+        }
+        std::vector<bool> is_bone(scene_.joints.size());
+        armature_of_.assign(scene_.joints.size(), kNone);
+        for (std::uint32_t joint = 0; joint < scene_.joints.size(); ++joint) {
+            const std::uint32_t parent = scene_.joints[joint].parent;
+            const bool is_below = parent != kNone && is_bone[parent];
+            is_bone[joint] = is_below || is_bound[joint];
+            if (is_bone[joint]) armature_of_[joint] = is_below ? armature_of_[parent] : parent;
+        }
     }
 
     void read_chains(const Extra& extra) {
@@ -148,6 +178,7 @@ private:
             guard("chain left out", place, [&] {
                 Fields chain(list[i], place, AngleUnit::radians);
                 const bool is_blenders = chain.find("joints") != nullptr;
+                if (is_blenders) read_notes(chain);
                 found_.push_back({is_blenders ? read_blender_chain(chain, extra.joint, rig_, effort_, report_)
                                               : resolve_chain(parse_chain(list[i], place, AngleUnit::radians), scene_,
                                                               rig_.index, effort_),
@@ -176,9 +207,10 @@ private:
     Scene& scene_;
     Claims& claims_;
     Report& report_;
-    RestPose rest_;
+    RestFrames rest_;
     BlenderRig rig_;
     Effort effort_;
+    std::vector<std::uint32_t> armature_of_;  ///< by joint: the node above the bones; kNone: the joint is no bone
     std::vector<Extra> joints_;
     std::vector<Extra> chains_;
     std::vector<NamedChain> found_;

@@ -76,11 +76,11 @@ private:
         const std::string place = fields_.place_of("joints");
         const OrderedJson& names = need_list(fields_.need("joints"), place);
         if (names.empty()) fail(place, "it must not be empty");
-        start_ = find_joint(names.front(), at(place, 0));
         last_ = find_joint(names.back(), at(place, names.size() - 1));
+        start_ = find_start(names, place);
         if (!rig_.index.is_above(start_, last_)) {
-            fail(place,
-                 "joint " + shown(names.front()) + " is neither " + shown(names.back()) + " itself nor above it");
+            fail(place, "joint " + quote(rig_.scene.joints[start_].name) + " is neither " + shown(names.back()) +
+                            " itself nor above it");
         }
         for (std::uint32_t joint = last_; joint != start_; joint = rig_.scene.joints[joint].parent)
             links_.push_back(joint);
@@ -89,6 +89,18 @@ private:
         effort_.take(8 * links_.size());
         chain_.record.start = start_;
         chain_.record.effector = last_;
+    }
+
+    /// The first joint of the list that is in the file.
+    std::uint32_t find_start(const OrderedJson& names, const std::string& place) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (!names[i].is_string()) fail(at(place, i), "it must be a string, not " + shown(names[i]));
+            const std::uint32_t joint = rig_.index.find(names[i].get_ref<const std::string&>(), node_);
+            if (joint != kNone) return joint;
+            chain_.record.flags |= kApproximated;
+            report_.warn("a chain starts at a joint that is not there: it starts below", at(place, i));
+        }
+        return last_;
     }
 
     void read_numbers() {
@@ -108,6 +120,9 @@ private:
         fields_.read("stretch", stretches);
         if (!reaches) record.position_weight = 0.0f;
         record.rotation_weight = turns ? orientation_weight : 0.0f;
+        bool is_approximated = false;
+        fields_.read("approximated", is_approximated);
+        if (is_approximated) record.flags |= kApproximated;
         if (!stretches) return;
         for (const std::uint32_t joint : links_) record.stretch = std::max(record.stretch, rig_.stretch[joint]);
         if (record.stretch > 0.0f)

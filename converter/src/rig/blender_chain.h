@@ -3,7 +3,7 @@
 #include "effort.h"
 #include "fields.h"
 #include "joint_index.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
@@ -17,7 +17,7 @@ namespace bendy::converter {
 struct BlenderRig {
     const Scene& scene;
     const JointIndex& index;
-    const RestPose& rest;
+    const RestFrames& rest;
     std::vector<Rotation> axes;  ///< by joint: its axes in model space when the rig was written
     std::vector<float> stretch;  ///< by joint: how readily the bone grows for IK; 0 not at all
 };

@@ -44,6 +44,7 @@ struct Box {
 struct Source {
     std::string place;
     Space space = Space::rest;
+    std::array<float, 4> zero{-0.70710678f, 0.0f, 0.0f, 0.70710678f};  ///< the orientation whose angles are 0
     std::uint8_t order = 0;
     float influence = 1.0f;
     Box box;
@@ -62,6 +63,7 @@ std::vector<Source> read_sources(Fields& fields, std::string_view key, bool is_r
         one.read_word("space", kSpaceNames, space);
         source.space = static_cast<Space>(space);
         if (is_rotation) one.read_word("order", kOrderNames, source.order);
+        one.read_rotation("zero", source.zero);
         one.read("influence", source.influence, 0.0f, 1.0f);
         for (std::size_t axis = 0; axis < 3; ++axis)
             one.read_range(kAxisNames[axis], source.box.low[axis], source.box.high[axis]);
@@ -82,20 +84,19 @@ void note_influence(const Source& source, LimitRecord& limit, Report& report) {
     }
 }
 
-/// Where a box limits not R but D * R, D the bone's rest orientation in the box's space. With D as
-/// R(last) * R(middle) * R(first), the frame that turns the first back leaves a box that D's angles shift; that is
-/// exact if the middle angle is zero. False where it is too large for the box to resemble what was meant.
-bool shift_box(const Rotation& rest, LimitRecord& limit) {
+/// Where a box limits not the bone's rotation q but r q conj(zero), r the bone's rest orientation in the box's space.
+/// That is D Q with D = r conj(zero) and Q = zero q conj(zero). With D as R(last) R(middle) R(first), the frame that
+/// turns the first back leaves a box for Q that D's angles shift; exactly so if the middle angle is zero. False where
+/// that one is too large for the box to resemble what was meant.
+bool shift_box(const Rotation& rest, const Rotation& zero, LimitRecord& limit) {
     constexpr double kResembles = std::numbers::pi / 3.0;
-    constexpr double kExact = 1e-4;
     const auto order = static_cast<EulerOrder>(limit.euler_order);
     const auto [first, middle, last] = axes_of(order);
-    const std::array<double, 3> angles = to_euler(rest, order);
+    const std::array<double, 3> angles = to_euler(rest * glm::conjugate(zero), order);
     if (std::abs(angles[middle]) > kResembles) return false;
-    if (std::abs(angles[middle]) > kExact) limit.flags |= kApproximated;
     glm::dvec3 axis(0.0);
     axis[static_cast<int>(first)] = 1.0;
-    limit.frame = to_record(glm::angleAxis(-angles[first], axis));
+    limit.frame = to_record(glm::conjugate(zero) * glm::angleAxis(-angles[first], axis));
     for (std::size_t i = 0; i < 3; ++i) {
         float& low = limit.rotation_min[i];
         float& high = limit.rotation_max[i];
@@ -112,20 +113,13 @@ bool shift_box(const Rotation& rest, LimitRecord& limit) {
 
 /// False where the space cannot be held.
 bool place_box(const Source& source, const BoneAxes& bone, LimitRecord& limit, Report& report) {
-    switch (source.space) {
-        case Space::rest:
-            return true;
-        case Space::rest_with_parent:
-            return shift_box(bone.in_parent, limit);
-        case Space::armature:
-        case Space::world:
-            approximate(limit, "a rotation limit in the armature's or the world's space counts from the rest pose",
-                        source.place, report);
-            return shift_box(bone.in_model, limit);
-        case Space::custom:
-            return false;
-    }
-    return false;
+    if (source.space == Space::rest) return true;
+    if (source.space == Space::custom) return false;
+    approximate(limit, "a rotation limit counts the parents' motion in Blender, and does not here", source.place,
+                report);
+    if (source.space == Space::rest_with_parent) return true;
+    const Rotation& rest = source.space == Space::world ? bone.in_file : bone.in_armature;
+    return shift_box(rest, to_rotation(source.zero), limit);
 }
 
 std::optional<LimitRecord> read_rotation_box(Fields& fields, const BoneAxes& bone, Report& report) {
@@ -229,9 +223,13 @@ std::vector<LimitRecord> read_blender_limits(Fields& fields, const BoneAxes& bon
             location->scope = static_cast<std::uint8_t>(LimitScope::all_but_ik);  // the solver moves no joint
         }
     }
+    bool is_approximated = false;
+    fields.read("approximated", is_approximated);
     std::vector<LimitRecord> limits;
     for (const auto& limit : {rotation, ik, location}) {
-        if (limit) limits.push_back(*limit);
+        if (!limit) continue;
+        limits.push_back(*limit);
+        if (is_approximated) limits.back().flags |= kApproximated;
     }
     return limits;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fields.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/format/records.h>
@@ -13,8 +13,8 @@ namespace bendy::converter {
 
 /// The axes of a bone at rest when its limits were written.
 struct BoneAxes {
-    Rotation in_model;
-    Rotation in_parent;
+    Rotation in_file;      ///< model space
+    Rotation in_armature;  ///< the space of the node above the bones
 };
 
 /// The constraints that node.extras.rig_joint gives a bone in Blender's terms (spec/rig.md), in the axes of that time:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <bendy/format/records.h>
 

@@ -63,7 +63,7 @@ TEST(AttachRig, WhatIsClaimedStays) {
     EXPECT_EQ(scene.chains[1].name, "leg");
 }
 
-TEST(AttachRig, ARestPoseOutsideIsFlaggedAndNamed) {
+TEST(AttachRig, ARestFramesOutsideIsFlaggedAndNamed) {
     Scene scene = make_row({"a", "b"});
     Report report;
     attach(scene,

@@ -2,7 +2,7 @@
 
 #include "rig/attach_extras.h"
 #include "rig/euler.h"
-#include "rig/rest_pose.h"
+#include "rig/rest_frames.h"
 
 #include <bendy/format/constraint.h>
 
@@ -158,46 +158,82 @@ bool is_inside(const LimitRecord& limit, const Rotation& rotation) {
     return true;
 }
 
-TEST(RigExtras, ABoxInTheParentsSpaceCountsTheRestRotation) {
-    // Blender limits the angles of D * R. With D turned about the first and last axes only, that is held exactly.
+std::string text_of(const Rotation& r) {
+    return '[' + std::to_string(r.x) + ',' + std::to_string(r.y) + ',' + std::to_string(r.z) + ',' +
+           std::to_string(r.w) + ']';
+}
+
+TEST(RigExtras, ABoxInTheArmaturesSpaceCountsTheRestRotation) {
+    // Blender limits the angles of g conj(zero), g the bone's orientation. With the parents at rest that is held
+    // exactly if the bone rests turned about the first and the last axis only.
     std::mt19937 random(2);
     std::uniform_real_distribution<double> angle(-1.2, 1.2);
+    LimitRecord source;
+    source.rotation_min = {-0.5f, -0.7f, -1.0f};
+    source.rotation_max = {0.9f, 0.3f, 0.4f};
+    int inside = 0;
     for (int i = 0; i < 200; ++i) {
-        const Rotation rest =
-            glm::angleAxis(angle(random), glm::dvec3(0, 0, 1)) * glm::angleAxis(angle(random), glm::dvec3(1, 0, 0));
-        const glm::vec4 xyzw(rest.x, rest.y, rest.z, rest.w);
-        const Read got = read(
-            R"({"euler_limits": [{"space": "rest_with_parent", "order": "XYZ", "x": [-0.5, 0.9], "y": [-0.7, 0.3], "z": [-1, 0.4]}]})",
-            xyzw);
+        const Rotation zero = glm::normalize(Rotation(1.0, angle(random), angle(random), angle(random)));
+        const Rotation rest = glm::angleAxis(angle(random), glm::dvec3(0, 0, 1)) *
+                              glm::angleAxis(angle(random), glm::dvec3(1, 0, 0)) * zero;
+        const Read got = read(R"({"euler_limits": [{"space": ")" + std::string(i % 2 == 0 ? "armature" : "world") +
+                                  R"(", "zero": )" + text_of(zero) +
+                                  R"(, "order": "XYZ", "x": [-0.5, 0.9], "y": [-0.7, 0.3], "z": [-1, 0.4]}]})",
+                              glm::vec4(rest.x, rest.y, rest.z, rest.w));
         const LimitRecord& limit = got.limits.at(0);
-        EXPECT_EQ(limit.flags & kApproximated, 0);
-        LimitRecord source;
-        source.rotation_min = {-0.5f, -0.7f, -1.0f};
-        source.rotation_max = {0.9f, 0.3f, 0.4f};
-        int inside = 0;
+        EXPECT_NE(limit.flags & kApproximated, 0);
         for (int k = 0; k < 50; ++k) {
             const Rotation local =
                 glm::normalize(Rotation(1.0, 0.5 * angle(random), 0.5 * angle(random), 0.5 * angle(random)));
-            const bool is_legal = is_inside(source, glm::normalize(rest * local));
+            const bool is_legal = is_inside(source, glm::normalize(rest * local * glm::conjugate(zero)));
             EXPECT_EQ(is_inside(limit, local), is_legal);
             inside += is_legal ? 1 : 0;
         }
-        EXPECT_EQ(holds_rest(limit), is_inside(source, rest));
     }
+    EXPECT_GT(inside, 500);
 }
 
 TEST(RigExtras, OtherSpacesAreApproximatedOrLeftOut) {
-    const Read world = read(R"({"euler_limits": [{"space": "world", "x": [-1, 1]}]})");
-    EXPECT_EQ(world.limits.at(0).flags, kApproximated);
-    EXPECT_EQ(world.lines.size(), 1u);
+    const Read with_parent =
+        read(R"({"euler_limits": [{"space": "rest_with_parent", "x": [-1, 1]}]})", {0.6f, 0, 0, 0.8f});
+    EXPECT_EQ(with_parent.limits.at(0).flags, kApproximated);
+    EXPECT_EQ(with_parent.limits[0].frame, LimitRecord{}.frame);
+    EXPECT_EQ(with_parent.limits[0].rotation_max[0], 1.0f);
+    EXPECT_EQ(with_parent.lines.size(), 1u);
     const Read custom = read(R"({"euler_limits": [{"space": "custom", "x": [-1, 1]}]})");
     EXPECT_TRUE(custom.limits.empty());
     EXPECT_EQ(custom.lines.size(), 1u);
-    const auto turned = static_cast<float>(std::sqrt(0.5));
-    const Read across =
-        read(R"({"euler_limits": [{"space": "armature", "x": [-1, 1]}]})", {0.0f, turned, 0.0f, turned});
+    const auto half = static_cast<float>(std::sqrt(0.5));
+    const Read across = read(R"({"euler_limits": [{"space": "armature", "zero": [0, 0, 0, 1], "x": [-1, 1]}]})",
+                             {0.0f, half, 0.0f, half});
     EXPECT_TRUE(across.limits.empty());
     EXPECT_EQ(across.lines.size(), 2u);
+    // A bone that rests with its armature's axes, as Blender has them.
+    const Read plain = read(R"({"euler_limits": [{"space": "armature", "x": [-0.5, 1]}]})", {-half, 0.0f, 0.0f, half});
+    EXPECT_NEAR(plain.limits.at(0).rotation_min[0], -0.5, 1e-6);
+    EXPECT_NEAR(plain.limits[0].rotation_max[0], 1.0, 1e-6);
+}
+
+TEST(RigExtras, TheArmatureIsAboveTheTopmostJointOfASkin) {
+    const auto half = static_cast<float>(std::sqrt(0.5));
+    // The armature is turned about Z by a quarter, which is nothing to the bone in its space.
+    Scene scene = make_scene({{"World"}, {"Armature", 0, {}, {0.0f, 0.0f, half, half}}, {"Root", 1}, {"Bone", 2}});
+    scene.meshes.resize(1);
+    scene.meshes[0].palette.joints = {3, 2};
+    scene.joints[3].extras =
+        R"({"rig_joint": {"euler_limits": [{"space": "armature", "zero": [0, 0, 0, 1], "z": [-0.5, 1]}]}})";
+    attach_all(scene);
+    EXPECT_NEAR(scene.joints[3].limits.at(0).rotation_min[2], -0.5, 1e-6);
+    scene.joints[3].limits.clear();
+    scene.joints[3].extras.replace(scene.joints[3].extras.find("armature"), 8, "world");
+    attach_all(scene);
+    EXPECT_NEAR(scene.joints[3].limits.at(0).rotation_min[2], -0.5 - kPi / 2, 1e-6);
+}
+
+TEST(RigExtras, WhatTheExporterNotesIsPassedOn) {
+    const Read got = read(R"({"stiffness": [0, 0.5, 0], "approximated": true, "notes": ["it is\nmuted", 3]})");
+    EXPECT_EQ(got.limits.at(0).flags, kApproximated);
+    EXPECT_EQ(got.lines, std::vector<std::string>{"nodes.Bone.extras.rig_joint: it is muted"});
 }
 
 TEST(RigExtras, LimitLocationGoesWithTheBoxOrAlone) {
@@ -254,7 +290,7 @@ TEST(RigExtras, WhatIsWrongIsNamedAndLeftOut) {
     EXPECT_NE(line(R"({"rest_orientation": [0, 0, 0, 0], "euler_limits": 3})"), "nothing");
 }
 
-TEST(RigExtras, ARestPoseOutsideIsFlaggedAndNamed) {
+TEST(RigExtras, ARestFramesOutsideIsFlaggedAndNamed) {
     const Read got = read(R"({"euler_limits": [{"x": [0.5, 1]}]})");
     EXPECT_EQ(got.limits.at(0).flags, kRestOutside);
     ASSERT_EQ(got.lines.size(), 1u);
@@ -267,10 +303,6 @@ TEST(RigExtras, LimitsAreTurnedBackWhereAToolTurnedTheBone) {
     const auto any = [&] {
         return glm::normalize(Rotation(normal(random), normal(random), normal(random), normal(random)));
     };
-    const auto text = [](const Rotation& r) {
-        return '[' + std::to_string(r.x) + ',' + std::to_string(r.y) + ',' + std::to_string(r.z) + ',' +
-               std::to_string(r.w) + ']';
-    };
     for (int i = 0; i < 50; ++i) {
         const Rotation then = any();
         const Rotation now = any();
@@ -279,7 +311,7 @@ TEST(RigExtras, LimitsAreTurnedBackWhereAToolTurnedTheBone) {
         Scene scene = make_scene({{"parent", kNone, {}, {parent.x, parent.y, parent.z, parent.w}},
                                   {"bone", 0, {}, {rest.x, rest.y, rest.z, rest.w}}});
         const std::string limits = R"("euler_limits": [{"x": [-1, 1]}], "swing_twist": {"swing_x": [-1, 1]}})";
-        scene.joints[1].extras = R"({"rig_joint": {"rest_orientation": )" + text(then) + ", " + limits + "}";
+        scene.joints[1].extras = R"({"rig_joint": {"rest_orientation": )" + text_of(then) + ", " + limits + "}";
         const Report report = attach_all(scene);
         ASSERT_EQ(report.warnings().size(), 1u);
         ASSERT_EQ(scene.joints[1].limits.size(), 2u);
@@ -455,6 +487,15 @@ TEST(RigExtras, BadChainsAreNamedAndLeftOutAndTheOthersStay) {
               place + ".weights.Hand: chain left out: the chain has no such joint");
     EXPECT_EQ(line(R"({"name": "c", "joints": ["Upper"], "influence": 2})"),
               place + ".influence: chain left out: 2.0 is not between 0.0 and 1.0");
+}
+
+TEST(RigExtras, AChainWhoseFirstBonesAreNotInTheFileStartsBelow) {
+    Scene scene = make_arm(
+        R"({"name": "c", "joints": ["Gone", "Lower"], "approximated": true, "notes": ["not in the file: Gone"]})");
+    const Report report = attach_all(scene);
+    EXPECT_EQ(scene.chains.at(0).record.start, 2u);
+    EXPECT_EQ(scene.chains[0].record.flags, kApproximated);
+    EXPECT_EQ(report.warnings().size(), 2u);
 }
 
 TEST(RigExtras, JointsOutOfRangeMakeNoChain) {

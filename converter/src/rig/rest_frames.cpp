@@ -1,4 +1,4 @@
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -27,7 +27,7 @@ std::array<float, 4> to_record(const Rotation& rotation) {
             static_cast<float>(unit.w)};
 }
 
-RestPose::RestPose(const Scene& scene) {
+RestFrames::RestFrames(const Scene& scene) {
     orientations_.reserve(scene.joints.size());
     matrices_.reserve(scene.joints.size());
     for (const Joint& joint : scene.joints) {
@@ -43,7 +43,7 @@ RestPose::RestPose(const Scene& scene) {
     }
 }
 
-glm::dvec3 RestPose::place(std::uint32_t joint, const glm::dvec3& point) const {
+glm::dvec3 RestFrames::place(std::uint32_t joint, const glm::dvec3& point) const {
     return glm::dvec3(matrices_[joint] * glm::dvec4(point, 1.0));
 }
 

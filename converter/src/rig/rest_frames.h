@@ -19,9 +19,9 @@ Rotation to_rotation(const std::array<float, 4>& xyzw);
 std::array<float, 4> to_record(const Rotation& rotation);
 
 /// Where a scene's joints are at rest, in model space.
-class RestPose {
+class RestFrames {
 public:
-    explicit RestPose(const Scene& scene);
+    explicit RestFrames(const Scene& scene);
 
     /// The joint's axes: the rotations on the way from the root, scales left aside; unit.
     [[nodiscard]] const Rotation& orientation(std::uint32_t joint) const { return orientations_[joint]; }
