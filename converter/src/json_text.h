@@ -1,27 +1,14 @@
 #pragma once
 
+#include "members_in_order.h"
+
 #include <bendy/converter/report.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cstddef>
-#include <functional>
 #include <string_view>
-#include <utility>
 
 namespace bendy::converter {
-
-/// An object's members in the order of the text, doubled ones included. nlohmann's own ordered_map looks for doubles at
-/// every member that it adds, which takes quadratic time.
-template <class Key, class T, class Less, class Allocator>
-struct MembersInOrder : nlohmann::ordered_map<Key, T, Less, Allocator> {
-    using Base = nlohmann::ordered_map<Key, T, Less, Allocator>;
-    using Base::Base;
-    T& operator[](Key key) {
-        this->emplace_back(std::move(key), T{});
-        return this->back().second;
-    }
-};
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::basic_json<MembersInOrder>;

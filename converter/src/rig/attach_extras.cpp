@@ -81,14 +81,15 @@ private:
         if (extras.find("rig_") == std::string::npos) return;
         const auto value = parse_json_text<OrderedJson>(extras, report_);
         if (!value.is_object()) return;
-        for (const auto& [name, member] : value.items()) {
-            const bool is_joint = name == "rig_joint" && joint != kNone;
-            if (!is_joint && name != "rig_ik") continue;
-            Extra extra{joint, place + '.' + name, member};
+        for (auto member = value.begin(); member != value.end(); ++member) {
+            const bool is_joint = member.key() == "rig_joint" && joint != kNone;
+            if (!is_joint && member.key() != "rig_ik") continue;
+            Extra extra{joint, place, *member};
+            extra.place.append(".").append(member.key());
             guard("extras left out", extra.place, [&] {
-                if (member.is_string())
-                    extra.value = parse_json_text<OrderedJson>(member.template get_ref<const std::string&>(), report_);
-                (is_joint ? joints_ : chains_).push_back(std::move(extra));
+                if (member->is_string())
+                    extra.value = parse_json_text<OrderedJson>(member->get_ref<const std::string&>(), report_);
+                (is_joint ? joints_ : chains_).push_back(extra);
             });
         }
     }

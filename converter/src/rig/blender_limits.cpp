@@ -136,9 +136,10 @@ std::optional<LimitRecord> read_rotation_box(Fields& fields, const BoneAxes& bon
         }
         note_influence(source, *limit, report);
         const bool is_alike = source.space == first.space && source.order == first.order;
-        if (!is_alike || !first.box.intersect(source.box))
+        if (!is_alike || !first.box.intersect(source.box)) {
             approximate(*limit, "of several rotation limits that do not go together the first counts", source.place,
                         report);
+        }
     }
     if (!limit) return limit;
     limit->rotation_min = first.box.low;
@@ -193,9 +194,10 @@ std::optional<LimitRecord> read_location_box(Fields& fields, Report& report) {
         }
         if (!limit) limit.emplace();
         note_influence(source, *limit, report);
-        if (!box.intersect(source.box))
+        if (!box.intersect(source.box)) {
             approximate(*limit, "of several location limits that do not go together the first counts", source.place,
                         report);
+        }
     }
     if (!limit) return limit;
     limit->translation_min = box.low;

@@ -127,9 +127,12 @@ void Fields::read(std::string_view key, std::string& text) {
 void Fields::read(std::string_view key, bool& value) {
     const OrderedJson* found = find(key);
     if (found == nullptr) return;
-    const bool is_number = *found == 0 || *found == 1;
-    if (!found->is_boolean() && !is_number) fail(place_of(key), "it must be true or false, not " + shown(*found));
-    value = found->is_boolean() ? found->get<bool>() : *found == 1;
+    const double number = found->is_number()                          ? found->get<double>()
+                          : found->is_boolean() && found->get<bool>() ? 1.0
+                                                                      : 0.0;
+    const bool is_good = found->is_boolean() || (found->is_number() && (number == 0.0 || number == 1.0));
+    if (!is_good) fail(place_of(key), "it must be true or false, not " + shown(*found));
+    value = number != 0.0;
 }
 
 void Fields::read(std::string_view key, float& number, float low, float high) {

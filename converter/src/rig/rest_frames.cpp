@@ -44,7 +44,8 @@ RestFrames::RestFrames(const Scene& scene) {
 }
 
 glm::dvec3 RestFrames::place(std::uint32_t joint, const glm::dvec3& point) const {
-    return glm::dvec3(matrices_[joint] * glm::dvec4(point, 1.0));
+    const glm::dvec4 placed = matrices_[joint] * glm::dvec4(point, 1.0);
+    return {placed.x, placed.y, placed.z};
 }
 
 }  // namespace bendy::converter
