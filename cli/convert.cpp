@@ -3,6 +3,7 @@
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
@@ -12,6 +13,9 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -21,6 +25,7 @@ struct Arguments {
     std::filesystem::path output;
     std::string scene;
     std::string images = "embed";
+    std::filesystem::path rig;
     bool quiet = false;
 };
 
@@ -51,6 +56,29 @@ std::string list_cycles(const Model& model) {
     return list.str();
 }
 
+/// The line of constraints and chains; empty if there are none.
+std::string describe_rig(Bytes bytes) {
+    constexpr std::size_t kShown = 20;
+    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) return {};
+    Faults faults;
+    const Document document = read_document(*tree, faults);
+    std::size_t limits = 0;
+    std::vector<std::string_view> chains;
+    for (const ObjectView& object : document.objects) {
+        limits += object.skeleton.limits.size();
+        for (const ChainView& chain : object.chains) chains.push_back(chain.name);
+    }
+    if (limits == 0 && chains.empty()) return {};
+    std::string line = "\n  rig        " + counted(limits, "constraint", "constraints");
+    if (chains.empty()) return line;
+    line += ", " + counted(chains.size(), "chain", "chains");
+    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i) {
+        line += (i == 0 ? ": " : ", ") + (chains[i].empty() ? '#' + std::to_string(i) : printable(chains[i]));
+    }
+    return chains.size() > kShown ? line + ", ..." : line;
+}
+
 void print_summary(const Arguments& arguments, Bytes bytes) {
     const Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(arguments.output, model.error(), bytes);
@@ -70,7 +98,7 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
 
     std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
     if (images != 0) std::cout << ", " << grouped(images) << " of them images";
-    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
+    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints") << describe_rig(bytes);
     std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
     if (most_influences != 0)
@@ -94,11 +122,13 @@ void run(Arguments arguments) {
     converter::ConvertOptions options;
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
+    if (!arguments.rig.empty()) options.rig = arguments.rig;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
         const converter::ImportError& error = bytes.error();
-        fail(arguments.input, printable(error.place.empty() ? error.message : error.place + ": " + error.message));
+        fail(error.file.empty() ? arguments.input : error.file,
+             printable(error.place.empty() ? error.message : error.place + ": " + error.message));
     }
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.input, arguments.output, ignored))
@@ -122,6 +152,8 @@ void add_convert(CLI::App& program) {
         ->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command->add_option("--rig", arguments->rig,
+                        "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly; what the format cannot hold is named in a warning.\n"

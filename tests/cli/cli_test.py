@@ -22,10 +22,11 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import strange_file  # noqa: E402
+from schema import is_valid  # noqa: E402
 
 BENDY = ""
 SOURCE = Path()
-COMMANDS = ("convert", "inspect", "validate", "pose")
+COMMANDS = ("convert", "inspect", "validate", "pose", "rig")
 # How to run a program that can write no more than 5000 bytes: a limit stands for the full disk, and the signal that
 # comes with it stays ignored.
 FULL_DISK = {"restore_signals": False,
@@ -195,7 +196,7 @@ class CommandLine(Case):
             self.misused(command)
 
     def test_one_file_too_many_is_named(self):
-        for command in ("convert", "inspect", "pose"):
+        for command in ("convert", "inspect", "pose", "rig"):
             self.assertIn("second.bendy", self.misused(command, self.convert(), "second.bendy"))
 
     def test_what_a_user_typed_cannot_forge_lines(self):
@@ -204,7 +205,7 @@ class CommandLine(Case):
     def test_missing_and_empty_files_and_folders_fail_in_one_line(self):
         (self.folder / "empty").write_bytes(b"")
         (self.folder / "folder").mkdir()
-        for command in ("convert", "inspect", "pose"):
+        for command in ("convert", "inspect", "pose", "rig"):
             for name in ("missing", "empty", "folder", "empty/below", "missing/below"):
                 line = self.failed(command, name, file=name)
                 self.assertGreater(len(line), len(f"bendy: error: {name}: "))
@@ -212,13 +213,13 @@ class CommandLine(Case):
 
     def test_a_text_file_is_no_bendy_file(self):
         (self.folder / "text").write_text("hello, world, this is no bendy file at all\n")
-        for command in ("inspect", "pose"):
+        for command in ("inspect", "pose", "rig"):
             self.assertIn("not a bendy file", self.failed(command, "text", file="text"))
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
     def test_a_full_standard_output_fails(self):
         for arguments in (("inspect", self.convert()), ("inspect", self.convert(), "--json"), ("pose", self.convert()),
-                          ("inspect", self.convert(), "--hex")):
+                          ("inspect", self.convert(), "--hex"), ("rig", self.convert())):
             with open("/dev/full", "wb") as full:
                 result = subprocess.run([BENDY, *arguments], stdout=full, stderr=subprocess.PIPE, timeout=120,
                                         check=False)
@@ -906,6 +907,149 @@ class PoseCommand(Case):
         (self.folder / "far.bendy").write_bytes(root.write())
         self.failed("pose", "far.bendy", "-o", "far.obj", file="far.bendy")
         self.assertEqual(self.files(), ["far.bendy"])
+
+
+class Rig(Case):
+    def write(self, rig, name="rig.json"):
+        (self.folder / name).write_text(rig if isinstance(rig, str) else json.dumps(rig))
+        return name
+
+    def convert_with(self, rig, *more, source="tentacle"):
+        """The rig of an example that was converted with a rig file; warnings in `self.warnings`."""
+        result = self.bendy("convert", SOURCE / "examples" / f"{source}.glb", "--rig", self.write(rig), "-q", "-o",
+                            "out.bendy", *more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.warnings = result.stderr.decode().splitlines()
+        self.assertEqual(self.done("validate", "out.bendy"), b"")
+        return json.loads(self.done("rig", "out.bendy"))
+
+    def refused(self, rig):
+        """What is said of a rig file that cannot be used."""
+        line = self.failed("convert", SOURCE / "examples" / "tentacle.glb", "--rig", self.write(rig), "-o", "x.bendy",
+                           file="rig.json")
+        self.assertFalse((self.folder / "x.bendy").exists())
+        return line.removeprefix("bendy: error: rig.json: ")
+
+    def test_a_rig_that_is_put_back_gives_the_same_file(self):
+        for name in ("mannequin", "tentacle"):
+            self.done("rig", self.convert(name), "-o", "rig.json")
+            rig = json.loads((self.folder / "rig.json").read_text())
+            self.assertEqual(rig["complete"], True)
+            self.assertGreater(len(rig["joints"]), 5)
+            self.assertGreater(len(rig["chains"]), 0)
+            self.assertEqual((self.folder / "rig.json").read_bytes(), self.done("rig", self.convert(name)))
+            self.done("convert", SOURCE / "examples" / f"{name}.glb", "--rig", "rig.json", "-o", "again.bendy")
+            self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert(name).read_bytes())
+
+    def test_the_summary_tells_constraints_and_chains(self):
+        text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
+        chunks = [chunk.letters for _, chunk in Chunk.read((self.folder / "m.bendy").read_bytes()).walk()]
+        self.assertIn(f"\n  rig        {chunks.count('LIMT')} constraints, 4 chains: IK_LeftArm, IK_RightArm, ", text)
+        text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "--rig",
+                         self.write({"bendy_rig": 1, "complete": True})).decode()
+        self.assertNotIn("  rig  ", text)
+
+    def test_globs_names_and_numbers(self):
+        rig = self.convert_with({"bendy_rig": 1, "complete": True, "joints": {
+            "seg_0[123]": {"model": "hinge", "x": [0, 30]}, "*_0?": {"model": "locked"}, "seg_02": [],
+            "#0": {"model": "largest_angle", "angle": 90}, "seg_03*": {"model": "free"}, "Nose": []}})
+        self.assertEqual({name: limit["model"] for name, limit in rig["joints"].items()},
+                         {"TentacleRig": "largest_angle", "seg_03": "free",
+                          **{f"seg_0{i}": "locked" for i in (0, 1, 4, 5, 6, 7, 8, 9)}})
+        self.assertNotIn("chains", rig)
+        self.assertEqual([line.rpartition("rig.json: ")[2] for line in self.warnings],
+                         ["joints.'seg_0[123]': no joint takes 'seg_0[123]'", "joints.Nose: no joint takes 'Nose'"])
+
+    def test_what_the_rig_file_leaves_open_the_extras_say(self):
+        before = json.loads(self.done("rig", self.convert("tentacle")))
+        rig = self.convert_with({"bendy_rig": 1, "joints": {"seg_03": [], "seg_04": {"model": "locked"}}, "chains": [
+            {"name": "other", "start": "seg_00", "effector": "seg_02", "extras": {"note": [1]}}]})
+        joints = dict(before["joints"], seg_04={"model": "locked"})
+        del joints["seg_03"]
+        self.assertEqual(rig["joints"], joints)
+        self.assertEqual([chain["name"] for chain in rig["chains"]], ["other", "IK_tip"])
+        self.assertEqual(rig["chains"][0]["extras"], {"note": [1]})
+        rig = self.convert_with({"bendy_rig": 1, "chains": [{"name": "IK_tip", "start": "seg_00", "effector": "seg_02"}]})
+        self.assertEqual(rig["chains"], [{"name": "IK_tip", "start": "seg_00", "effector": "seg_02"}])
+        self.assertEqual(rig["joints"], before["joints"])
+
+    def test_faults_are_told_with_their_place(self):
+        self.assertEqual(self.refused({"bendy_rig": 1, "joints": {"*Knee*": {"model": "hinge", "x": ["a", 1]}}}),
+                         "joints.'*Knee*'.x[0]: a number is due, not 'a'")
+        self.assertEqual(self.refused({"bendy_rig": 1, "chains": [{"name": "c", "start": "nose", "effector": "#1"}]}),
+                         "chains[0].start: there is no joint 'nose'")
+        self.assertRegex(self.refused('{\n  "bendy_rig" 1}'), r"^invalid JSON at line 2, column 15 \(byte \d+\): ")
+        self.assertIn("nested deeper", self.refused('{"bendy_rig": ' + "[" * 100_000))
+        self.assertIn("1e+400", self.refused('{"bendy_rig": 1e+400}'))
+        self.assertIn("there is no text", self.refused(""))
+        self.assertNotIn("\x1b", self.refused({"bendy_rig": 1, "joints": {"\x1b[31m[": {}}}))
+
+    def test_rig_files_that_cannot_be_read_are_named(self):
+        (self.folder / "folder").mkdir()
+        for name in ("missing.json", "folder"):
+            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "--rig", name, "-o", "x", file=name)
+        self.assertEqual(self.files(), ["folder"])
+
+    def test_a_damaged_file_is_refused_with_its_place(self):
+        data = bytearray(self.convert("tentacle").read_bytes())
+        chunk = Chunk.read(bytes(data)).find("HEAD/OBJE/SKIN/PIVO/REST")
+        data[chunk.offset + 20] ^= 1
+        (self.folder / "bad.bendy").write_bytes(data)
+        self.assertRegex(self.failed("rig", "bad.bendy", file="bad.bendy"), rf"offset {chunk.offset}\)$")
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        self.failed("rig", self.convert("tentacle"), "-o", "missing/rig.json", file="missing/rig.json")
+        self.assertEqual(self.files(), [])
+
+    def schema_says(self, rig):
+        schema = json.loads((SOURCE / "spec" / "rig.schema.json").read_text())
+        return is_valid(rig, schema, schema)
+
+    def test_the_schema_accepts_what_is_written_and_the_example(self):
+        for name in ("mannequin", "tentacle"):
+            self.assertTrue(self.schema_says(json.loads(self.done("rig", self.convert(name)))))
+        example = (SOURCE / "spec" / "rig.md").read_text().partition("```json\n")[2].partition("```")[0]
+        self.assertTrue(self.schema_says(json.loads(example)))
+
+    def test_the_schema_and_the_program_agree(self):
+        schema = json.loads((SOURCE / "spec" / "rig.schema.json").read_text())
+        parts = schema["$defs"]
+        models = parts["constraint"]["properties"]["model"]["enum"]
+        samples = [None, True, 0, 1, 2, -1, 0.5, 70000, "", "x", [], {}, [1], [0, 0], [-1, 1], [None, None], [0, 0, 0],
+                   [0, 0, 1], [2, 0, 0], [0, 0, 0, 1], {"x": [0, 1]}, {"w": [0, 1]}, {"seg_00": 1}, {"seg_01": 2},
+                   {"model": "free"}, [{"model": "free"}]]
+        rigs = [None, [], {}, {"bendy_rig": 2}, {"bendy_rig": 1, "joint": {}}]
+        for key in schema["properties"]:
+            rigs += [{"bendy_rig": 1, key: sample} for sample in samples]
+        for key, rule in {**parts["constraint"]["properties"], "unknown": {}}.items():
+            for model in models if key in ("order", "x", "y", "z", "angle") else ("hinge",):
+                for sample in samples + rule.get("enum", []):
+                    rigs.append({"bendy_rig": 1, "joints": {"seg_00": {"model": model, key: sample}}})
+        for key, rule in {**parts["chain"]["properties"], "unknown": {}}.items():
+            chain = {"name": "c", "start": "seg_00", "effector": "seg_01"}
+            rigs += [{"bendy_rig": 1, "chains": [{**chain, key: s}]} for s in samples + rule.get("enum", [])]
+            if key in chain:
+                rigs.append({"bendy_rig": 1, "chains": [{k: v for k, v in chain.items() if k != key}]})
+        # What a schema cannot say: joints that are there, ranges in order that hold 0 where they must, no zero rotation.
+        beyond = re.compile(r"there is no joint|nor above it|is above the maximum|must hold 0|is no rotation|no such joint")
+        agreed = {True: 0, False: 0}
+        for rig in rigs:
+            self.write(rig)
+            result = self.bendy("convert", self.row(), "--rig",
+                                "rig.json", "-q", "-o", "out.bendy")
+            if result.returncode == 1 and beyond.search(result.stderr.decode()):
+                continue
+            self.assertEqual(result.returncode == 0, self.schema_says(rig), (rig, result.stderr))
+            agreed[result.returncode == 0] += 1
+        self.assertGreater(min(agreed.values()), 100)
+
+    def row(self):
+        """A small file with the joints that the samples name."""
+        path = self.shared / "row.gltf"
+        if not path.exists():
+            path.write_text(json.dumps({"asset": {"version": "2.0"}, "nodes": [
+                {"name": "seg_00", "children": [1]}, {"name": "seg_01", "children": [2]}, {"name": "x"}]}))
+        return path
 
 
 def main():

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <bendy/converter/report.h>
+#include "json_text.h"
 
-#include <nlohmann/json.hpp>
+#include <bendy/converter/report.h>
 
 #include <string>
 #include <string_view>
 
 namespace bendy::converter::gltf {
-
-using Json = nlohmann::json;
 
 /// Parses glTF's JSON and checks it: a 2.x asset, no required extension that is unknown, and for everything that the
 /// importer reads that it is there, of the right type, finite, in range, and that indices point at something. Integers

@@ -77,7 +77,7 @@ std::string one_line(std::string text) {
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
     try {
         return gltf::import(file, options, report);
-    } catch (const gltf::Failure& failure) {
+    } catch (const Failure& failure) {
         return ImportError{gltf::one_line(failure.error.place), gltf::one_line(failure.error.message)};
     } catch (const std::bad_alloc&) {
         return ImportError{{}, "not enough memory"};

@@ -6,12 +6,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace bendy::converter {
 
 struct ConvertOptions {
     GltfOptions gltf;
+    /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
+    std::optional<std::filesystem::path> rig;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -11,8 +12,9 @@ namespace bendy::converter {
 /// Why an import failed: what is wrong and where in the source, e.g. place
 /// `meshes[2].primitives[0].attributes.JOINTS_0`.
 struct ImportError {
-    std::string place;    ///< JSON path in the source, or empty where the whole file is meant
-    std::string message;  ///< one line, no trailing full stop
+    std::string place;                ///< JSON path in the source, or empty where the whole file is meant
+    std::string message;              ///< one line, no trailing full stop
+    std::filesystem::path file = {};  ///< the file that is meant where it is another than the one to import
 };
 
 /// Something that the result does not hold, or holds otherwise than the source: said by name, and counted.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
 std::string key(const std::string& name) {
     const bool plain = !name.empty() && name.size() < 80 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -33,4 +33,4 @@ std::string quote(std::string_view name) {
     return text + '\'';
 }
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <utility>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
-/// What the importer throws inside this folder when the source is bad; import_gltf catches it and returns the error.
+/// What the readers inside this folder throw when the source is bad; the public functions catch it and return the
+/// error.
 struct Failure {
     ImportError error;
 };
@@ -29,4 +30,4 @@ std::string key(const std::string& name);
 /// A name from the source, fit to stand in a one-line message: control characters escaped, long ones cut.
 std::string quote(std::string_view name);
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

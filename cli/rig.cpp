@@ -1,0 +1,57 @@
+#include "commands.h"
+#include "problem.h"
+
+#include <bendy/converter/write_rig.h>
+#include <bendy/format/check_sums.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/format/file.h>
+
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+};
+
+void run(const Arguments& arguments) {
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    const Bytes bytes = file->bytes();
+    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) fail(arguments.file, tree.error(), bytes);
+    Faults faults;
+    check_sums(*tree, faults);
+    const Document document = read_document(*tree, faults);
+    if (faults.empty()) check_values(*tree, document, faults);
+    if (!faults.empty()) fail(arguments.file, faults.list().front(), bytes);
+    if (document.objects.empty()) fail(arguments.file, "there is no object in the file");
+    if (document.objects.size() > 1)
+        warn(arguments.file, "there are " + grouped(document.objects.size()) + " objects; the rig is the first one's");
+
+    const std::string text = converter::write_rig(document.objects.front());
+    if (arguments.output.empty()) {
+        std::cout << text;
+    } else if (const auto written = write_file(arguments.output, as_byte_span(text)); !written) {
+        fail(arguments.output, describe(written.error()));
+    }
+}
+
+}  // namespace
+
+void add_rig(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("rig", "Write a file's joint constraints and IK chains as JSON");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");
+    command->footer(
+        "Edit it and put it back with `bendy convert --rig`; the layout is spec/rig.md.\n"
+        "Example: bendy rig fox.bendy -o fox.rig.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <bendy/format/document.h>
+
+#include <string>
+
+namespace bendy::converter {
+
+/// The constraints and chains of an object as a rig file (spec/rig.md), "complete": convert --rig makes the same
+/// records of it, to the bit. Only ranges that a constraint's model has no use for are left out. \param object  passes
+/// check_values
+std::string write_rig(const ObjectView& object);
+
+}  // namespace bendy::converter

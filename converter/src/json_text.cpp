@@ -1,0 +1,110 @@
+#include "json_text.h"
+
+#include "failure.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace bendy::converter {
+namespace {
+
+constexpr std::size_t kMaxNesting = 128;  // of arrays and objects: what copies or prints JSON recurses
+
+bool is_hex(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+
+/// Whether text[i] starts `\uXYxx` with XY from `low` to `high` (hexadecimal digits of a surrogate's first byte).
+bool is_surrogate(std::string_view text, std::size_t i, char low, char high) {
+    if (i > text.size() || text.size() - i < 6 || text[i] != '\\' || text[i + 1] != 'u') return false;
+    const char first = text[i + 2];
+    const char second = text[i + 3] >= 'a' ? static_cast<char>(text[i + 3] - 'a' + 'A') : text[i + 3];
+    return (first == 'd' || first == 'D') && second >= low && second <= high && is_hex(text[i + 4]) &&
+           is_hex(text[i + 5]);
+}
+
+/// One pass over the text, before it is parsed: bounds the nesting, and finds escapes that are half a surrogate pair.
+/// JSON allows those, UTF-8 cannot hold them; in the copy they stand as U+FFFD. Returns how many there were.
+std::size_t scan_text(std::string_view text, std::string& repaired) {
+    std::size_t depth = 0;
+    std::size_t unpaired = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '"') in_string = false;
+            if (c != '\\') continue;
+            if (is_surrogate(text, i, '8', 'B') && is_surrogate(text, i + 6, 'C', 'F')) {
+                i += 11;
+            } else if (is_surrogate(text, i, '8', 'F')) {
+                if (unpaired++ == 0) repaired = text;
+                repaired.replace(i, 6, "\\ufffd");
+                i += 5;
+            } else {
+                i += 1;
+            }
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMaxNesting) {
+                fail({}, "the JSON is nested deeper than " + std::to_string(kMaxNesting) + " levels (byte " +
+                             std::to_string(i) + ")");
+            }
+        } else if ((c == '}' || c == ']') && depth > 0) {
+            --depth;
+        }
+    }
+    return unpaired;
+}
+
+[[noreturn]] void fail_at_byte(std::string_view text, std::size_t byte, std::string_view reason) {
+    constexpr std::size_t kMaxReason = 160;
+    byte = std::min(byte, text.size());
+    const std::string_view before = text.substr(0, byte);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+    std::string message = "invalid JSON at line " + std::to_string(line) + ", column " +
+                          std::to_string(std::max<std::size_t>(1, byte - line_start)) + " (byte " +
+                          std::to_string(byte) + "): ";
+    // The library's text repeats the place before the reason.
+    if (const std::size_t colon = reason.find("column "); colon != std::string_view::npos) {
+        if (const std::size_t end = reason.find(": ", colon); end != std::string_view::npos)
+            reason.remove_prefix(end + 2);
+    }
+    const bool cut = reason.size() > kMaxReason;
+    for (const char c : reason.substr(0, kMaxReason)) message += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (cut) {
+        while (!message.empty() && (static_cast<unsigned char>(message.back()) & 0xc0u) == 0x80u) message.pop_back();
+        message += "...";
+    }
+    fail({}, message);
+}
+
+}  // namespace
+
+template <class Value>
+Value parse_json_text(std::string_view text, Report& report) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) fail({}, "invalid JSON: there is no text");
+    std::string repaired;
+    if (const std::size_t unpaired = scan_text(text, repaired); unpaired > 0) {
+        report.warn("half a surrogate pair in a string was replaced by U+FFFD", {}, unpaired);
+        text = repaired;
+    }
+    try {
+        return Value::parse(text.begin(), text.end());
+    } catch (const typename Value::parse_error& error) {
+        fail_at_byte(text, error.byte, error.what());
+    } catch (const typename Value::out_of_range& error) {
+        const std::string_view reason =
+            error.what();  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+        fail({}, "invalid JSON: " + std::string(reason.substr(std::min(reason.find(' ') + 1, reason.size()), 160)));
+    }
+}
+
+template Json parse_json_text<Json>(std::string_view text, Report& report);
+template OrderedJson parse_json_text<OrderedJson>(std::string_view text, Report& report);
+
+}  // namespace bendy::converter

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+
+#include "rig/rig.h"
+
+#include <optional>
+
+namespace bendy::converter {
+
+/// Gives a scene its joint constraints and IK chains. The sources come in the order of their authority (spec/rig.md):
+/// what an earlier one says of a joint, or of a chain's name, no later one changes. Fails where the rig file does not
+/// go with the scene.
+void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, Report& report);
+
+}  // namespace bendy::converter

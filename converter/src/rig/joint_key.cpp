@@ -1,0 +1,159 @@
+#include "joint_key.h"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace bendy::converter {
+namespace {
+
+constexpr std::string_view kSpecial = "*?[\\";
+
+/// Length in bytes of the character at text[at], which is well-formed UTF-8 or taken byte by byte.
+std::size_t length_at(std::string_view text, std::size_t at) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t length = first < 0xc0 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    return length <= text.size() - at ? length : 1;
+}
+
+char32_t character_at(std::string_view text, std::size_t at, std::size_t length) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    if (length == 1) return first;
+    char32_t character = first & (0x7fu >> length);
+    for (std::size_t i = 1; i < length; ++i)
+        character = character << 6 | (static_cast<unsigned char>(text[at + i]) & 0x3fu);
+    return character;
+}
+
+/// Reads a key character by character.
+class KeyReader {
+public:
+    KeyReader(std::string_view text, const std::string& place) : text_(text), place_(place) {}
+
+    [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
+
+    /// The next character; `is_plain` tells a special one from one whose meaning was taken by a backslash.
+    char32_t next(bool& is_plain) {
+        is_plain = text_[at_] == '\\';
+        if (is_plain && ++at_ == text_.size()) fail(place_, "it ends in a backslash that stands before nothing");
+        const std::size_t length = length_at(text_, at_);
+        const char32_t character = character_at(text_, at_, length);
+        at_ += length;
+        return character;
+    }
+
+    /// What stands between [ and ].
+    std::u32string next_set() {
+        std::u32string characters;
+        while (!at_end()) {
+            bool is_plain = false;
+            const char32_t character = next(is_plain);
+            if (character != U']' || is_plain) {
+                characters += character;
+                continue;
+            }
+            if (characters.empty()) fail(place_, "it has an empty []");
+            std::sort(characters.begin(), characters.end());
+            return characters;
+        }
+        fail(place_, "it has a [ without a ]");
+    }
+
+private:
+    std::string_view text_;
+    const std::string& place_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::u32string characters_of(std::string_view utf8) {
+    std::u32string characters;
+    for (std::size_t at = 0; at < utf8.size();) {
+        const std::size_t length = length_at(utf8, at);
+        characters += character_at(utf8, at, length);
+        at += length;
+    }
+    return characters;
+}
+
+bool parse_joint_number(std::string_view text, std::uint64_t& number) {
+    if (text.size() < 2 || text.front() != '#') return false;
+    const char* end = text.data() + text.size();
+    if (!std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
+    if (std::from_chars(text.data() + 1, end, number).ec != std::errc()) number = UINT64_MAX;
+    return true;
+}
+
+JointKey parse_joint_key(std::string_view text, const std::string& place) {
+    JointKey key;
+    key.name = text;
+    if (parse_joint_number(text, key.number)) {
+        key.kind = JointKey::Kind::number;
+        return key;
+    }
+    KeyReader reader(text, place);
+    while (!reader.at_end()) {
+        bool is_plain = false;
+        const char32_t character = reader.next(is_plain);
+        JointKey::Step step{JointKey::Step::Kind::one_of, {character}};
+        if (!is_plain && character == U'*') step = {JointKey::Step::Kind::any_run, {}};
+        if (!is_plain && character == U'?') step = {JointKey::Step::Kind::any_one, {}};
+        const bool is_set = !is_plain && character == U'[';
+        if (is_set) step.characters = reader.next_set();
+        if (is_set || step.kind != JointKey::Step::Kind::one_of) key.kind = JointKey::Kind::glob;
+        key.glob.push_back(std::move(step));
+    }
+    if (key.kind == JointKey::Kind::glob) return key;
+    key.glob.clear();
+    key.name.clear();
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == '\\') ++at;  // never the last: next() has seen to that
+        key.name += text[at];
+    }
+    return key;
+}
+
+bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Effort& effort) {
+    using Kind = JointKey::Step::Kind;
+    constexpr std::uint64_t kStart = 8;  // a glob that fails at once takes time too
+    effort.take(kStart);
+    std::size_t step = 0;
+    std::size_t at = 0;
+    // Where the last * stands and what of the name it has not taken: on a mismatch it takes one character more.
+    std::size_t run = glob.size();
+    std::size_t run_end = 0;
+    while (at < name.size()) {
+        effort.take(1);
+        const bool is_left = step < glob.size();
+        if (is_left && glob[step].kind == Kind::any_run) {
+            run = step++;
+            run_end = at;
+        } else if (is_left &&
+                   (glob[step].kind == Kind::any_one ||
+                    std::binary_search(glob[step].characters.begin(), glob[step].characters.end(), name[at]))) {
+            ++step;
+            ++at;
+        } else if (run != glob.size()) {
+            step = run + 1;
+            at = ++run_end;
+        } else {
+            return false;
+        }
+    }
+    while (step < glob.size() && glob[step].kind == Kind::any_run) ++step;
+    return step == glob.size();
+}
+
+std::string escape_joint_name(std::string_view name) {
+    std::string key;
+    std::uint64_t number = 0;
+    if (parse_joint_number(name, number)) key = '\\';
+    for (const char c : name) {
+        if (kSpecial.find(c) != std::string_view::npos) key += '\\';
+        key += c;
+    }
+    return key;
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,252 @@
+#include <bendy/converter/write_rig.h>
+
+#include "angle.h"
+#include "failure.h"
+#include "joint_key.h"
+#include "json_text.h"
+#include "names.h"
+
+#include <bendy/format/constraint.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+bool is_same(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+/// The shortest text of a double. A zero keeps its sign, which JSON's integers would lose.
+std::string shortest(double number) {
+    if (number == 0.0) return std::signbit(number) ? "-0.0" : "0";
+    const bool is_handy = std::abs(number) >= 1e-6 && std::abs(number) < 1e15;
+    std::array<char, 40> text{};
+    char* const end = text.data() + text.size();
+    const auto written = is_handy ? std::to_chars(text.data(), end, number, std::chars_format::fixed)
+                                  : std::to_chars(text.data(), end, number);
+    return {text.data(), written.ptr};
+}
+
+double rounded(double number, int digits) {
+    std::array<char, 40> text{};
+    const auto written =
+        std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::scientific, digits - 1);
+    double back = 0.0;
+    std::from_chars(text.data(), written.ptr, back);
+    return back;
+}
+
+/// The fewest digits that come back to the same float.
+template <class Back>
+std::string fewest_digits(double number, float wanted, Back back) {
+    constexpr int kAlwaysEnough = 17;
+    int digits = 1;
+    while (digits < kAlwaysEnough && !is_same(static_cast<float>(back(rounded(number, digits))), wanted)) ++digits;
+    return shortest(rounded(number, digits));
+}
+
+std::string plain(float number) {
+    if (std::isinf(number)) return "null";
+    return fewest_digits(number, number, [](double read) { return read; });
+}
+
+std::string degrees(float radians) {
+    if (std::isinf(radians)) return "null";
+    return fewest_digits(radians / kRadiansPerDegree, radians, to_radians);
+}
+
+std::string json_string(std::string_view text) {
+    return OrderedJson(text).dump();
+}
+
+template <class Number>
+std::string list(std::span<const float> numbers, Number number) {
+    std::string text;
+    for (const float value : numbers) text += (text.empty() ? "" : ", ") + number(value);
+    return '[' + text + ']';
+}
+
+/// An object on one line; members that say the default are left out.
+class Line {
+public:
+    void add(std::string_view key, const std::string& value) {
+        text_ += (text_.empty() ? "" : ", ") + json_string(key) + ": " + value;
+    }
+    void add_word(std::string_view key, std::span<const std::string_view> words, std::uint8_t number) {
+        if (number != 0) add(key, json_string(words[number]));
+    }
+    void add_count(std::string_view key, unsigned number) {
+        if (number != 0) add(key, std::to_string(number));
+    }
+    void add_number(std::string_view key, float number, float usual = 0.0f) {
+        if (!is_same(number, usual)) add(key, plain(number));
+    }
+    void add_angle(std::string_view key, float angle, float usual = 0.0f) {
+        if (!is_same(angle, usual)) add(key, degrees(angle));
+    }
+    template <std::size_t N, class Number>
+    void add_list(std::string_view key, const std::array<float, N>& numbers, const std::array<float, N>& usual,
+                  Number number) {
+        for (std::size_t i = 0; i < N; ++i) {
+            if (is_same(numbers[i], usual[i])) continue;
+            add(key, list(numbers, number));
+            return;
+        }
+    }
+    template <class Number>
+    void add_range(std::string_view key, float low, float high, Number number) {
+        if (low == -LimitRecord::kFree && high == LimitRecord::kFree) return;
+        add(key, list(std::array{low, high}, number));
+    }
+    void add_flag(std::string_view key, std::uint8_t flags, std::uint8_t flag) {
+        if ((flags & flag) != 0) add(key, "true");
+    }
+
+    [[nodiscard]] bool empty() const { return text_.empty(); }
+    [[nodiscard]] std::string text() const { return '{' + text_ + '}'; }
+
+private:
+    std::string text_;
+};
+
+std::string write_limit(const LimitRecord& limit) {
+    const LimitRecord usual;
+    const auto model = static_cast<LimitModel>(limit.model);
+    Line line;
+    line.add("model", json_string(kModelNames[limit.model]));
+    if (model == LimitModel::euler_box) line.add_word("order", kOrderNames, limit.euler_order);
+    line.add_word("scope", kScopeNames, limit.scope);
+    line.add_list("frame", limit.frame, usual.frame, plain);
+    if (model == LimitModel::largest_angle) {
+        line.add_angle("angle", limit.rotation_max[0], usual.rotation_max[0]);
+    } else {
+        for (std::size_t axis = 0; axis < limited_axes(model); ++axis)
+            line.add_range(kAxisNames[axis], limit.rotation_min[axis], limit.rotation_max[axis], degrees);
+    }
+    Line translation;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        translation.add_range(kAxisNames[axis], limit.translation_min[axis], limit.translation_max[axis], plain);
+    if (!translation.empty()) line.add("translation", translation.text());
+    line.add_list("stiffness", limit.stiffness, usual.stiffness, plain);
+    line.add_list("preferred", limit.preferred, usual.preferred, degrees);
+    line.add_angle("soft_zone", limit.soft_zone);
+    line.add_flag("approximated", limit.flags, kApproximated);
+    line.add_flag("proposed", limit.flags, kProposed);
+    line.add_flag("rest_outside", limit.flags, kRestOutside);
+    return line.text();
+}
+
+class Writer {
+public:
+    explicit Writer(const ObjectView& object) : object_(object), weights_(object.chains.size()) {
+        for (const JointView& joint : object.skeleton.joints) ++count_[joint.name];
+        for (const PullView& pull : object.skeleton.pulls)
+            weights_[pull.chain].add(key_of(pull.joint), plain(pull.weight));
+    }
+
+    std::string write() const {
+        std::string text = "{\n  \"bendy_rig\": 1,\n  \"complete\": true";
+        const std::vector<LimitView>& limits = object_.skeleton.limits;  // ordered by joint
+        std::string entries;
+        for (std::size_t i = 0; i < limits.size();) {
+            const std::uint32_t joint = limits[i].joint;
+            std::vector<std::string> constraints;
+            for (; i < limits.size() && limits[i].joint == joint; ++i)
+                constraints.push_back(write_limit(limits[i].record));
+            entries += (entries.empty() ? "\n    " : ",\n    ") + json_string(key_of(joint)) + ": ";
+            entries += constraints.size() == 1 ? constraints.front() : '[' + joined(constraints) + "\n    ]";
+        }
+        if (!entries.empty()) text += ",\n  \"joints\": {" + entries + "\n  }";
+        std::string chains;
+        for (std::size_t i = 0; i < object_.chains.size(); ++i)
+            chains += (chains.empty() ? "\n    " : ",\n    ") + write_chain(i);
+        if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
+        return text + "\n}\n";
+    }
+
+private:
+    static std::string joined(const std::vector<std::string>& constraints) {
+        std::string text;
+        for (const std::string& constraint : constraints)
+            text += (text.empty() ? "\n      " : ",\n      ") + constraint;
+        return text;
+    }
+
+    [[nodiscard]] bool is_named(std::uint32_t joint) const {
+        const std::string_view name = object_.skeleton.joints[joint].name;
+        return !name.empty() && count_.at(name) == 1;
+    }
+
+    /// As a key of joints and weights.
+    [[nodiscard]] std::string key_of(std::uint32_t joint) const {
+        return is_named(joint) ? escape_joint_name(object_.skeleton.joints[joint].name) : '#' + std::to_string(joint);
+    }
+
+    /// As a chain's start, effector, target or pole, where nothing is escaped.
+    [[nodiscard]] std::string name_of(std::uint32_t joint) const {
+        const std::string_view name = object_.skeleton.joints[joint].name;
+        std::uint64_t number = 0;
+        const bool means_itself = is_named(joint) && !parse_joint_number(name, number);
+        return means_itself ? std::string(name) : '#' + std::to_string(joint);
+    }
+
+    [[nodiscard]] std::string write_chain(std::size_t number) const {
+        const ChainView& chain = object_.chains[number];
+        const ChainRecord& record = chain.record;
+        const ChainRecord usual;
+        Line line;
+        line.add("name", json_string(chain.name));
+        line.add("start", json_string(name_of(record.start)));
+        line.add("effector", json_string(name_of(record.effector)));
+        if (record.target != kNone) line.add("target", json_string(name_of(record.target)));
+        if (record.pole != kNone) line.add("pole", json_string(name_of(record.pole)));
+        line.add_word("solver", kSolverNames, record.solver);
+        line.add_count("iterations", record.iterations);
+        line.add_count("priority", record.priority);
+        line.add_number("tolerance", record.tolerance);
+        line.add_list("pole_vector", record.pole_vector, usual.pole_vector, plain);
+        line.add_angle("pole_angle", record.pole_angle);
+        line.add_list("tip_offset", record.tip_offset, usual.tip_offset, plain);
+        line.add_list("tip_rotation", record.tip_rotation, usual.tip_rotation, plain);
+        line.add_number("position_weight", record.position_weight, usual.position_weight);
+        line.add_number("rotation_weight", record.rotation_weight);
+        line.add_number("influence", record.influence, usual.influence);
+        line.add_number("stretch", record.stretch);
+        line.add_number("compress", record.compress);
+        if (!weights_[number].empty()) line.add("weights", weights_[number].text());
+        line.add_flag("approximated", record.flags, kApproximated);
+        line.add_flag("proposed", record.flags, kProposed);
+        if (!chain.extras.empty()) line.add("extras", write_extras(chain.extras));
+        return line.text();
+    }
+
+    /// Extras of other writers may be no JSON: then they are a string of it.
+    static std::string write_extras(std::string_view extras) {
+        try {
+            Report unheard;
+            return parse_json_text<OrderedJson>(extras, unheard).dump();
+        } catch (const Failure&) {
+            return json_string(extras);
+        }
+    }
+
+    const ObjectView& object_;
+    std::unordered_map<std::string_view, std::size_t> count_;  ///< joints by name
+    std::vector<Line> weights_;                                ///< by chain
+};
+
+}  // namespace
+
+std::string write_rig(const ObjectView& object) {
+    return Writer(object).write();
+}
+
+}  // namespace bendy::converter
