@@ -21,6 +21,7 @@ struct Arguments {
     std::filesystem::path output;
     std::string scene;
     std::string images = "embed";
+    bool auto_rig = false;
     bool quiet = false;
 };
 
@@ -32,6 +33,10 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
         warn(file, printable(line));
     }
+}
+
+void print_proposals(const converter::Report& report) {
+    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
 }
 
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
@@ -94,6 +99,7 @@ void run(Arguments arguments) {
     converter::ConvertOptions options;
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
+    options.auto_rig = arguments.auto_rig;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
@@ -106,6 +112,7 @@ void run(Arguments arguments) {
     if (const auto written = write_file(arguments.output, *bytes); !written)
         fail(arguments.output, describe(written.error()));
     print_warnings(arguments.input, report);
+    print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, *bytes);
 }
 
@@ -122,6 +129,8 @@ void add_convert(CLI::App& program) {
         ->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command->add_flag("--auto-rig", arguments->auto_rig,
+                      "propose IK chains and joint limits by the joints' names, and list them");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly; what the format cannot hold is named in a warning.\n"

@@ -1,5 +1,8 @@
 #include <bendy/converter/convert.h>
 
+#include "rig/auto_rig.h"
+#include "rig/vrm.h"
+
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
@@ -15,9 +18,11 @@ constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report) {
-    const auto scene = import_gltf(file, options.gltf, report);
+    auto scene = import_gltf(file, options.gltf, report);
     if (!scene) return scene.error();
     try {
+        add_vrm_chains(*scene, report);
+        if (options.auto_rig) auto_rig(*scene, report);
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);

@@ -12,6 +12,8 @@ namespace bendy::converter {
 
 struct ConvertOptions {
     GltfOptions gltf;
+    /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
+    bool auto_rig = false;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named
