@@ -36,16 +36,19 @@ struct Ranges {
 //   elbow 0 to 150; forearm 80 either way, given to the wrist as most rigs turn it there
 //   wrist: flexion 80, extension 70, to the thumb 20, to the little finger 30
 //   hip: flexion 120, extension 30, abduction 45, adduction 30, rotation 45 either way
-//   knee 0 to 135
+//   knee 0 to 135; bent, the shin turns 30 either way (Levangie & Norkin)
+//   elbow and knee sideways 10: play of the rig, no human's
 //   ankle: up 20, down 50, inversion 35, eversion 15; foot outward 10, inward 20 (Magee, Orthopedic Physical
 //   Assessment) toes: up 80, down 30 (Merck Manual) neck and head together: forward, back and sideways 45, rotation 60
 //   spine, all joints together: forward 80, back 25, sideways 35, rotation 45
 constexpr Ranges kShoulder{{-50, 10}, {-20, 25}, {-10, 45}};  // Z forward: + raises
 constexpr Ranges kUpperArm{{-90, 70}, {-135, 90}, {-140, 90}};
 constexpr Range kElbow{0, 150};
+constexpr Ranges kForearm{{-80, 80}, {-10, 10}, kElbow};  // Z the hinge
 constexpr Ranges kHand{{-80, 80}, {-20, 30}, {-80, 70}};  // Z to the thumb: + extends
 constexpr Ranges kUpperLeg{{-45, 45}, {-120, 30}, {-30, 45}};
 constexpr Range kKnee{0, 135};
+constexpr Ranges kShin{{-30, 30}, {-10, 10}, kKnee};      // Z the hinge
 constexpr Ranges kFoot{{-35, 15}, {-20, 50}, {-20, 10}};  // Z up: + outward
 constexpr Range kToes{-80, 30};
 constexpr Ranges kNeck{{-60, 60}, {-45, 45}, {-45, 45}};  // Y to the right: - bends forward
@@ -114,13 +117,13 @@ private:
 
         propose_swing(shoulder, along(shoulder, upper_arm), stance_.forward, of_side(kShoulder, right));
         propose_swing(upper_arm, along(upper_arm, lower_arm), stance_.forward, of_side(kUpperArm, right), outward);
-        propose_bend(upper_arm, lower_arm, end_of(hand, right ? 1 : 0), stance_.forward, kElbow);
+        propose_bend(upper_arm, lower_arm, end_of(hand, right ? 1 : 0), stance_.forward, kForearm);
         if (!found_.has_split_hands) {
             const auto to_thumb = along(hand, thumb);
             propose_swing(hand, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward, of_side(kHand, right));
         }
         propose_swing(upper_leg, along(upper_leg, lower_leg), stance_.forward, of_side(kUpperLeg, right), -stance_.up);
-        propose_bend(upper_leg, lower_leg, end_of(foot, right ? 3 : 2), -stance_.forward, kKnee);
+        propose_bend(upper_leg, lower_leg, end_of(foot, right ? 3 : 2), -stance_.forward, kShin);
         const auto to_toes = along(foot, toes);
         propose_swing(foot, to_toes ? *to_toes : stance_.forward, stance_.up, of_side(kFoot, right));
         propose_hinge(toes, stance_.left, kToes);
@@ -177,7 +180,7 @@ private:
     }
 
     /// The hinge between two bones of a limb. At rest it is bent by some angle already: the range's zero moves there.
-    void propose_bend(std::uint32_t upper, std::uint32_t lower, std::uint32_t end, glm::dvec3 towards, Range range) {
+    void propose_bend(std::uint32_t upper, std::uint32_t lower, std::uint32_t end, glm::dvec3 towards, Ranges ranges) {
         const auto first = along(upper, lower);
         const auto second = along(lower, end);
         if (!first || !second) return;
@@ -193,8 +196,12 @@ private:
             if (glm::dot(shown, axis) < 0.5) return warn_of_strange_rest(lower);
             axis = shown;
         }
-        if (!move_zero(range, glm::dot(bend, axis))) return warn_of_strange_rest(lower);
-        propose_hinge(lower, axis, range);
+        if (!move_zero(ranges.z, glm::dot(bend, axis))) return warn_of_strange_rest(lower);
+        propose_hinge(lower, axis, ranges.z);
+        const auto z = unit_across(axis, *second);
+        if (!z || limits_.empty() || limits_.back().joint != lower) return;
+        const glm::dmat3 axes(*second, glm::cross(*z, *second), *z);
+        limits_.back().looser = make_limit(lower, LimitModel::swing_twist_ellipse, axes, ranges);
     }
 
     void propose_hinge(std::uint32_t joint, glm::dvec3 axis, Range range) {
@@ -205,8 +212,14 @@ private:
     }
 
     void add(std::uint32_t joint, LimitModel model, const glm::dmat3& axes, const Ranges& ranges) {
+        if (const auto limit = make_limit(joint, model, axes, ranges)) limits_.push_back({joint, *limit});
+    }
+
+    /// \param axes X, Y, Z of the limit's frame in model space
+    [[nodiscard]] std::optional<LimitRecord> make_limit(std::uint32_t joint, LimitModel model, const glm::dmat3& axes,
+                                                        const Ranges& ranges) const {
         const std::optional<glm::dquat> orientation = rest_.orientation(joint);
-        if (!orientation) return;
+        if (!orientation) return std::nullopt;
         const glm::dquat frame = glm::normalize(glm::conjugate(*orientation) * to_rotation(axes));
         LimitRecord limit;
         limit.model = static_cast<std::uint8_t>(model);
@@ -218,7 +231,7 @@ private:
             limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * kDegree);
             limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * kDegree);
         }
-        limits_.push_back({joint, limit});
+        return limit;
     }
 
     void warn_of_strange_rest(std::uint32_t joint) {

@@ -8,6 +8,7 @@
 #include <bendy/converter/scene.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bendy::converter {
@@ -15,6 +16,10 @@ namespace bendy::converter {
 struct ProposedLimit {
     std::uint32_t joint = 0;
     LimitRecord limit;
+    /// Of an elbow or knee: the hinge with the little that such a joint turns about other axes, where rigs have no
+    /// joint for it.
+    std::optional<LimitRecord> looser = std::nullopt;
+    bool is_widened = false;  ///< by fit_to_clips
 };
 
 /// Limits of a human's joints, turned to this character's rest pose; flagged kProposed. Hinges for elbows, knees and

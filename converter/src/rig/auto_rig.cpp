@@ -2,6 +2,7 @@
 
 #include "anatomy.h"
 #include "find_humanoid.h"
+#include "fit_to_clips.h"
 #include "limb_chains.h"
 #include "rest_pose.h"
 #include "vrm.h"
@@ -11,11 +12,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter {
 namespace {
@@ -183,11 +187,14 @@ std::string line_of(const Scene& scene, const Chain& chain) {
 
 std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
     const LimitRecord& limit = proposed.limit;
-    const std::string name = name_of(scene, proposed.joint) + ": ";
-    if (limit.model == static_cast<std::uint8_t>(LimitModel::hinge))
-        return name + "hinge " + range_of(limit, 0) + " degrees";
-    return name + "swing_twist_ellipse, twist " + range_of(limit, 0) + ", swing " + range_of(limit, 1) + " and " +
-           range_of(limit, 2) + " degrees";
+    std::string line = name_of(scene, proposed.joint);
+    if (limit.model == static_cast<std::uint8_t>(LimitModel::hinge)) {
+        line += ": hinge " + range_of(limit, 0) + " degrees";
+    } else {
+        line += ": swing_twist_ellipse, twist " + range_of(limit, 0) + ", swing " + range_of(limit, 1) + " and " +
+                range_of(limit, 2) + " degrees";
+    }
+    return proposed.is_widened ? line + ", widened to its clips" : line;
 }
 
 }  // namespace
@@ -208,7 +215,9 @@ void auto_rig(Scene& scene, Report& report) {
 
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
-    for (const ProposedLimit& proposed : propose_limits(scene, rest, found, posture->stance, report)) {
+    std::vector<ProposedLimit> limits = propose_limits(scene, rest, found, posture->stance, report);
+    fit_to_clips(scene, limits, report);
+    for (const ProposedLimit& proposed : limits) {
         Joint& joint = scene.joints[proposed.joint];
         if (!joint.limits.empty()) continue;
         joint.limits.push_back(proposed.limit);

@@ -94,6 +94,10 @@ std::optional<Chain> make_head(const Humanoid& humanoid, const RestPose& rest, c
                                               to_rotation(glm::dmat3(stance.left, stance.up, stance.forward)));
         chain.record.tip_rotation = to_array<4>(glm::dvec4(tip.x, tip.y, tip.z, tip.w));
     }
+    const std::uint32_t neck = humanoid[HumanBone::neck];
+    const double length = glm::distance(rest.position(neck), rest.position(head));
+    const auto ahead = rest.point_in_space_of(head, rest.position(neck) + length * stance.forward);
+    if (ahead) chain.record.tip_offset = to_array<3>(*ahead);
     return chain;
 }
 
