@@ -1,5 +1,6 @@
 #include <bendy/converter/convert.h>
 
+#include "rig/articulations.h"
 #include "rig/auto_rig.h"
 #include "rig/vrm.h"
 
@@ -22,6 +23,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     if (!scene) return scene.error();
     try {
         add_vrm_chains(*scene, report);
+        add_articulations(*scene, report);
         if (options.auto_rig) auto_rig(*scene, report);
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
