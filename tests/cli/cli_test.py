@@ -325,6 +325,17 @@ class Convert(Case):
         self.assertRegex(result.stderr.decode(), r"(?i)^bendy: warning: camera\.gltf: .*camera")
         self.assertNotIn(b"warning", result.stdout)
 
+    def test_what_is_proposed_is_listed_on_standard_error(self):
+        mannequin = SOURCE / "examples" / "mannequin.glb"
+        result = self.bendy("convert", mannequin, "--auto-rig", "-o", "m.bendy")
+        self.assertEqual(result.returncode, 0)
+        lines = result.stderr.decode().splitlines()
+        self.assertIn("bendy: proposed: mixamorig:LeftLeg: hinge -6 to 129 degrees", lines)
+        self.assertTrue(any(line.startswith("bendy: proposed: chain ") for line in lines), lines)
+        self.assertNotIn(b"proposed", result.stdout)
+        self.done("validate", "m.bendy")
+        self.assertNotIn(b"proposed", self.bendy("convert", mannequin, "-o", "plain.bendy").stderr)
+
     def test_names_are_escaped_in_the_summary(self):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
         self.assertIn("slide\\x09now", text)

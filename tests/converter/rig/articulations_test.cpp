@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <vector>
+
 namespace bendy::converter {
 namespace {
 
@@ -34,10 +37,11 @@ Rigged rig(const Json& articulations, Json node = Json::object()) {
     return result;
 }
 
-Rigged rig_stages(const Json& stages, Json node = Json::object()) {
-    Rigged result = rig({{{"name", "A"}, {"stages", stages}}}, std::move(node));
+Rigged rig_stages(const std::vector<Json>& stages, Json node = Json::object()) {
+    const Json list(stages);
+    Rigged result = rig({{{"name", "A"}, {"stages", list}}}, std::move(node));
     if (result.scene.joints[0].limits.size() != 1) {
-        ADD_FAILURE() << "no limit of " << stages;
+        ADD_FAILURE() << "no limit of " << list;
         result.scene.joints[0].limits.resize(1);
     }
     return result;
@@ -94,13 +98,15 @@ TEST(Articulations, ShiftsAreInTheJointsScale) {
 }
 
 TEST(Articulations, WhatALimitCannotSayIsApproximated) {
-    for (const Json& stages : {Json{stage("xRotate", -1, 1), stage("yRotate", -1, 1), stage("xRotate", -1, 1)},
-                               Json{stage("xRotate", -1, 1), stage("yTranslate", 0, 1)}, Json{stage("xScale", 0, 1)},
-                               Json{stage("uniformScale", 0, 1), stage("xRotate", 0, 1)}}) {
+    for (const std::vector<Json>& stages :
+         {std::vector<Json>{stage("xRotate", -1, 1), stage("yRotate", -1, 1), stage("xRotate", -1, 1)},
+          std::vector<Json>{stage("xRotate", -1, 1), stage("yTranslate", 0, 1)},
+          std::vector<Json>{stage("xScale", 0, 1)},
+          std::vector<Json>{stage("uniformScale", 0, 1), stage("xRotate", 0, 1)}}) {
         const Rigged rigged = rig_stages(stages);
-        EXPECT_NE(rigged.limit().flags & kApproximated, 0) << stages;
-        EXPECT_EQ(rigged.report.warnings().size(), 1u) << stages;
-        EXPECT_EQ(warned(rigged.report, "extensions.AGI_articulations.articulations[0]"), 1u) << stages;
+        EXPECT_NE(rigged.limit().flags & kApproximated, 0) << Json(stages);
+        EXPECT_EQ(rigged.report.warnings().size(), 1u) << Json(stages);
+        EXPECT_EQ(warned(rigged.report, "extensions.AGI_articulations.articulations[0]"), 1u) << Json(stages);
     }
     EXPECT_NE(rig_stages({stage("xRotate", 0, 1)}, {{"scale", {1, 2, 1}}}).limit().flags & kApproximated, 0);
     const Rigged side_by_side = rig_stages({stage("xRotate", -1, 1), stage("xRotate", -2, 3)});
