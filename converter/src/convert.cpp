@@ -1,8 +1,8 @@
 #include <bendy/converter/convert.h>
 
+#include "humanoid/auto_rig.h"
+#include "humanoid/vrm.h"
 #include "rig/articulations.h"
-#include "rig/auto_rig.h"
-#include "rig/vrm.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/diagnostics.h>
@@ -23,8 +23,8 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     if (!scene) return scene.error();
     try {
         add_vrm_chains(*scene, report);
-        add_articulations(*scene, report);
-        if (options.auto_rig) auto_rig(*scene, report);
+        add_articulations(*scene, {}, report);
+        if (options.auto_rig) auto_rig(*scene, {}, report);
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);

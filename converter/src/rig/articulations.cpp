@@ -251,18 +251,19 @@ std::optional<std::string> articulation_of(const Joint& joint, Report& report) {
 
 }  // namespace
 
-void add_articulations(Scene& scene, Report& report) {
+void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     if (scene.extensions.find(kName) == std::string::npos) return;
     const Json extensions = Json::parse(scene.extensions, nullptr, false);
     if (!extensions.is_object() || !extensions.contains(kName)) return;
     const std::map<std::string, Articulation> articulations = read_articulations(extensions[kName], report);
-    for (Joint& joint : scene.joints) {
+    for (std::size_t number = 0; number < scene.joints.size(); ++number) {
+        Joint& joint = scene.joints[number];
         const std::optional<std::string> name = articulation_of(joint, report);
         if (!name) continue;
         const auto articulation = articulations.find(*name);
         if (articulation == articulations.end()) {
             report.warn("node of an articulation that is not there", joint.name);
-        } else if (joint.limits.empty()) {
+        } else if (joint.limits.empty() && (claimed.empty() || !claimed[number])) {
             joint.limits.push_back(to_limit(articulation->second, joint, report));
         }
     }

@@ -1,6 +1,6 @@
 #include "rig/articulations.h"
 
-#include "humanoid_gltf.h"
+#include "../humanoid/humanoid_gltf.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/validate.h>
@@ -32,7 +32,7 @@ Rigged rig(const Json& articulations, Json node = Json::object()) {
     gltf.json["extensions"]["AGI_articulations"]["articulations"] = articulations;
     const Import import = gltf.import();
     Rigged result{*import, import.report};
-    add_articulations(result.scene, result.report);
+    add_articulations(result.scene, {}, result.report);
     EXPECT_TRUE(validate(build_chunks(result.scene, "test", result.report)).empty());
     return result;
 }
@@ -151,8 +151,11 @@ TEST(Articulations, WhatIsWrongIsNamedByItsPlace) {
 TEST(Articulations, LeaveLimitsThatAreThere) {
     Scene scene = rig_stages({stage("xRotate", 0, 1)}).scene;
     Report report;
-    add_articulations(scene, report);
+    add_articulations(scene, {}, report);
     EXPECT_EQ(scene.joints[0].limits.size(), 1u);
+    scene.joints[0].limits.clear();
+    add_articulations(scene, {true}, report);
+    EXPECT_TRUE(scene.joints[0].limits.empty());
 }
 
 TEST(Articulations, PointingVectorsAreSaidToBeKept) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "humanoid.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <bendy/converter/scene.h>
 
@@ -23,6 +23,6 @@ struct NamedHumanoid {
 /// Looks for limbs, spine and head by name among the joints that meshes are bound to and those above them; among all
 /// where no mesh is bound. A limb's bones lie below one another, other joints may be between. Of several fitting joints
 /// the one nearest the root counts.
-NamedHumanoid find_humanoid(const Scene& scene, const RestPose& rest);
+NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest);
 
 }  // namespace bendy::converter

@@ -4,7 +4,7 @@
 #include "find_humanoid.h"
 #include "fit_to_clips.h"
 #include "limb_chains.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 #include "vrm.h"
 
 #include <glm/geometric.hpp>
@@ -26,7 +26,7 @@ namespace {
 
 using Bone = HumanBone;
 
-NamedHumanoid find(const Scene& scene, const RestPose& rest) {
+NamedHumanoid find(const Scene& scene, const RestFrames& rest) {
     Report said_before;  // when the extension's own chains were made
     if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, said_before)) {
         NamedHumanoid found;
@@ -44,7 +44,7 @@ struct Posture {
 
 class Measurer {
 public:
-    Measurer(const RestPose& rest, const NamedHumanoid& found) : rest_(rest), found_(found) {}
+    Measurer(const RestFrames& rest, const NamedHumanoid& found) : rest_(rest), found_(found) {}
 
     /// Left is where the left limbs are, up where the spine goes or the legs come from, and forward follows; nothing if
     /// that gives no axes.
@@ -106,13 +106,13 @@ private:
         return std::nullopt;
     }
 
-    const RestPose& rest_;
+    const RestFrames& rest_;
     const NamedHumanoid& found_;
 };
 
 /// Chains for limbs whose hand or foot is moved by a rig of its own: their tip is where that one rests, it their
 /// target.
-std::vector<Chain> make_loose_chains(const Scene& scene, const RestPose& rest, const NamedHumanoid& found) {
+std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found) {
     struct Limb {
         const char* name;
         Bone upper, lower;
@@ -199,8 +199,8 @@ std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
 
 }  // namespace
 
-void auto_rig(Scene& scene, Report& report) {
-    const RestPose rest(scene);
+void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
+    const RestFrames rest(scene);
     const NamedHumanoid found = find(scene, rest);
     const std::optional<Posture> posture = Measurer(rest, found).measure();
     if (!posture) return report.warn("auto-rig: no joints with the names of a human's limbs, nothing proposed");
@@ -219,7 +219,7 @@ void auto_rig(Scene& scene, Report& report) {
     fit_to_clips(scene, limits, report);
     for (const ProposedLimit& proposed : limits) {
         Joint& joint = scene.joints[proposed.joint];
-        if (!joint.limits.empty()) continue;
+        if (!joint.limits.empty() || (!claimed.empty() && claimed[proposed.joint])) continue;
         joint.limits.push_back(proposed.limit);
         report.propose(line_of(scene, proposed));
     }

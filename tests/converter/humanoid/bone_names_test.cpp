@@ -1,4 +1,4 @@
-#include "rig/bone_names.h"
+#include "humanoid/bone_names.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,10 @@ std::vector<bool> find_bound(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         for (const std::uint32_t joint : mesh.palette.joints) bound[joint] = has_any = true;
     }
-    if (!has_any) return std::vector<bool>(scene.joints.size(), true);
+    if (!has_any) {
+        bound.assign(bound.size(), true);
+        return bound;
+    }
     for (std::size_t joint = bound.size(); joint-- > 0;) {
         const std::uint32_t parent = scene.joints[joint].parent;
         if (bound[joint] && parent != kNone) bound[parent] = true;
@@ -35,7 +38,7 @@ struct Candidate {
 
 class Finder {
 public:
-    Finder(const Scene& scene, const RestPose& rest) : scene_(scene), rest_(rest), bound_(find_bound(scene)) {
+    Finder(const Scene& scene, const RestFrames& rest) : scene_(scene), rest_(rest), bound_(find_bound(scene)) {
         names_.resize(scene.joints.size());
         children_.resize(scene.joints.size());
         for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
@@ -232,7 +235,7 @@ private:
     }
 
     const Scene& scene_;
-    const RestPose& rest_;
+    const RestFrames& rest_;
     std::vector<bool> bound_;
     std::vector<std::optional<BoneName>> names_;
     std::vector<std::vector<std::uint32_t>> children_;         ///< those that are bound
@@ -242,7 +245,7 @@ private:
 
 }  // namespace
 
-NamedHumanoid find_humanoid(const Scene& scene, const RestPose& rest) {
+NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest) {
     return Finder(scene, rest).find();
 }
 

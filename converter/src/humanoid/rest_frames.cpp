@@ -1,4 +1,4 @@
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -46,11 +46,11 @@ std::optional<glm::dvec3> unit_across(glm::dvec3 vector, glm::dvec3 axis) {
     return glm::length(across) > 1e-6 ? unit(across) : std::nullopt;
 }
 
-glm::dquat to_rotation(const glm::dmat3& axes) {
+glm::dquat rotation_of_axes(const glm::dmat3& axes) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
-RestPose::RestPose(const Scene& scene) {
+RestFrames::RestFrames(const Scene& scene) {
     joints_.reserve(scene.joints.size());
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
         const Joint& joint = scene.joints[number];
@@ -70,11 +70,11 @@ RestPose::RestPose(const Scene& scene) {
     }
 }
 
-std::optional<glm::dvec3> RestPose::direction(std::uint32_t from, std::uint32_t to) const {
+std::optional<glm::dvec3> RestFrames::direction(std::uint32_t from, std::uint32_t to) const {
     return unit(joints_[to].position - joints_[from].position);
 }
 
-std::optional<glm::dquat> RestPose::orientation(std::uint32_t joint) const {
+std::optional<glm::dquat> RestFrames::orientation(std::uint32_t joint) const {
     constexpr double kTolerance = 0.01;
     glm::dmat3 axes = joints_[joint].axes;
     const double length = glm::length(axes[0]);
@@ -86,16 +86,16 @@ std::optional<glm::dquat> RestPose::orientation(std::uint32_t joint) const {
         if (!(std::abs(glm::dot(axes[column], next)) < kTolerance)) return std::nullopt;
     }
     if (!(glm::determinant(axes) > 0.0)) return std::nullopt;
-    return to_rotation(axes);
+    return rotation_of_axes(axes);
 }
 
-std::optional<glm::dvec3> RestPose::to_space_of(std::uint32_t joint, glm::dvec3 direction) const {
+std::optional<glm::dvec3> RestFrames::to_space_of(std::uint32_t joint, glm::dvec3 direction) const {
     if (joint == kNone) return unit(direction);
     const std::optional<glm::dmat3> inverse = inverse_of(joints_[joint].space);
     return inverse ? unit(*inverse * direction) : std::nullopt;
 }
 
-std::optional<glm::dvec3> RestPose::point_in_space_of(std::uint32_t joint, glm::dvec3 point) const {
+std::optional<glm::dvec3> RestFrames::point_in_space_of(std::uint32_t joint, glm::dvec3 point) const {
     const std::optional<glm::dmat3> inverse = inverse_of(joints_[joint].space);
     if (!inverse) return std::nullopt;
     const glm::dvec3 local = *inverse * (point - joints_[joint].position);

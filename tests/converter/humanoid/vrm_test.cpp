@@ -1,4 +1,4 @@
-#include "rig/vrm.h"
+#include "humanoid/vrm.h"
 
 #include "humanoid_gltf.h"
 

@@ -14,9 +14,9 @@ namespace bendy::converter {
 
 /// The rest pose in model space, and who is below whom. Numbers of strange files may be huge: what is not finite, or
 /// has no direction, is nothing here.
-class RestPose {
+class RestFrames {
 public:
-    explicit RestPose(const Scene& scene);
+    explicit RestFrames(const Scene& scene);
 
     /// Metres.
     [[nodiscard]] glm::dvec3 position(std::uint32_t joint) const { return joints_[joint].position; }
@@ -59,6 +59,6 @@ std::optional<glm::dvec3> unit(glm::dvec3 vector);
 std::optional<glm::dvec3> unit_across(glm::dvec3 vector, glm::dvec3 axis);
 
 /// The rotation whose X, Y, Z axes are the columns, orthonormal and right-handed.
-glm::dquat to_rotation(const glm::dmat3& axes);
+glm::dquat rotation_of_axes(const glm::dmat3& axes);
 
 }  // namespace bendy::converter

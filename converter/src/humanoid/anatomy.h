@@ -2,7 +2,7 @@
 
 #include "find_humanoid.h"
 #include "limb_chains.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
@@ -25,7 +25,7 @@ struct ProposedLimit {
 /// Limits of a human's joints, turned to this character's rest pose; flagged kProposed. Hinges for elbows, knees and
 /// toes, swing and twist for the others; spec/rig.md has the ranges. The rest pose is inside. Where the rest pose lies
 /// more than 10 degrees outside what a human can do there is no limit, and a warning.
-std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestPose& rest, const NamedHumanoid& found,
+std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
                                           const Stance& stance, Report& report);
 
 }  // namespace bendy::converter

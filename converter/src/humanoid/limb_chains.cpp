@@ -41,7 +41,7 @@ Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, 
 }
 
 /// The direction in which the limb bends, in the space of start's parent; zeros if there is none.
-std::array<float, 3> pole_of(const Scene& scene, const RestPose& rest, const Limb& limb, const Humanoid& humanoid,
+std::array<float, 3> pole_of(const Scene& scene, const RestFrames& rest, const Limb& limb, const Humanoid& humanoid,
                              const Stance& stance) {
     const std::uint32_t start = humanoid[limb.start];
     const std::uint32_t effector = humanoid[limb.effector];
@@ -54,7 +54,7 @@ std::array<float, 3> pole_of(const Scene& scene, const RestPose& rest, const Lim
     return pole ? to_array<3>(*pole) : std::array<float, 3>{};
 }
 
-Chain make_limb(const Scene& scene, const RestPose& rest, const Limb& limb, const Humanoid& humanoid,
+Chain make_limb(const Scene& scene, const RestFrames& rest, const Limb& limb, const Humanoid& humanoid,
                 const Stance& stance, std::uint8_t flags) {
     const std::uint32_t start = humanoid[limb.start];
     const std::uint32_t effector = humanoid[limb.effector];
@@ -73,7 +73,7 @@ Chain make_limb(const Scene& scene, const RestPose& rest, const Limb& limb, cons
 }
 
 /// From the first bone of the spine to the neck. The hips are left alone: they carry the legs.
-std::optional<Chain> make_spine(const Humanoid& humanoid, const RestPose& rest, std::uint8_t flags) {
+std::optional<Chain> make_spine(const Humanoid& humanoid, const RestFrames& rest, std::uint8_t flags) {
     const std::uint32_t start = humanoid[HumanBone::spine];
     if (start == kNone) return std::nullopt;
     for (const HumanBone end : {HumanBone::neck, HumanBone::head, HumanBone::upper_chest, HumanBone::chest}) {
@@ -83,7 +83,7 @@ std::optional<Chain> make_spine(const Humanoid& humanoid, const RestPose& rest, 
     return std::nullopt;
 }
 
-std::optional<Chain> make_head(const Humanoid& humanoid, const RestPose& rest, const Stance& stance,
+std::optional<Chain> make_head(const Humanoid& humanoid, const RestFrames& rest, const Stance& stance,
                                std::uint8_t flags) {
     const std::uint32_t head = humanoid[HumanBone::head];
     if (head == kNone || !humanoid.has(HumanBone::neck) || !rest.is_below(head, humanoid[HumanBone::neck]))
@@ -91,7 +91,7 @@ std::optional<Chain> make_head(const Humanoid& humanoid, const RestPose& rest, c
     Chain chain = make_chain("Head", humanoid[HumanBone::neck], head, Solver::aim, flags);
     if (const std::optional<glm::dquat> orientation = rest.orientation(head)) {
         const glm::dquat tip = glm::normalize(glm::conjugate(*orientation) *
-                                              to_rotation(glm::dmat3(stance.left, stance.up, stance.forward)));
+                                              rotation_of_axes(glm::dmat3(stance.left, stance.up, stance.forward)));
         chain.record.tip_rotation = to_array<4>(glm::dvec4(tip.x, tip.y, tip.z, tip.w));
     }
     const std::uint32_t neck = humanoid[HumanBone::neck];
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> path_of(const Scene& scene, std::uint32_t start, std:
     return {};
 }
 
-std::optional<glm::dvec3> bend_of(const RestPose& rest, std::uint32_t start, std::uint32_t middle, glm::dvec3 end) {
+std::optional<glm::dvec3> bend_of(const RestFrames& rest, std::uint32_t start, std::uint32_t middle, glm::dvec3 end) {
     constexpr double kStraight = std::numbers::pi / 180.0;
     const std::optional<glm::dvec3> upper = rest.direction(start, middle);
     const std::optional<glm::dvec3> lower = unit(end - rest.position(middle));
@@ -124,7 +124,7 @@ std::optional<glm::dvec3> bend_of(const RestPose& rest, std::uint32_t start, std
     return bend > kStraight ? unit_across(*upper, *along) : std::nullopt;
 }
 
-std::vector<Chain> make_limb_chains(const Scene& scene, const RestPose& rest, const Humanoid& humanoid,
+std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, const Humanoid& humanoid,
                                     const Stance& stance, std::uint8_t flags, const std::string& where,
                                     Report& report) {
     std::vector<Chain> chains;

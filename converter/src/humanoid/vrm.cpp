@@ -1,7 +1,7 @@
 #include "vrm.h"
 
 #include "limb_chains.h"
-#include "rest_pose.h"
+#include "rest_frames.h"
 
 #include <nlohmann/json.hpp>
 
@@ -118,7 +118,7 @@ void add_vrm_chains(Scene& scene, Report& report) {
         stance.left = -stance.left;
         stance.forward = -stance.forward;
     }
-    const RestPose rest(scene);
+    const RestFrames rest(scene);
     add_new_chains(scene, make_limb_chains(scene, rest, vrm->bones, stance, 0, vrm->place, report));
 }
 

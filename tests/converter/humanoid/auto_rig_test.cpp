@@ -1,4 +1,4 @@
-#include "rig/auto_rig.h"
+#include "humanoid/auto_rig.h"
 
 #include "humanoid_gltf.h"
 
@@ -40,9 +40,9 @@ struct Rigged {
     }
 };
 
-Rigged rig(Scene scene) {
+Rigged rig(Scene scene, const std::vector<bool>& claimed = {}) {
     Rigged result{std::move(scene), {}};
-    auto_rig(result.scene, result.report);
+    auto_rig(result.scene, claimed, result.report);
     EXPECT_TRUE(validate(build_chunks(result.scene, "test", result.report)).empty());
     for (const Joint& joint : result.scene.joints) {
         for (const LimitRecord& limit : joint.limits) {
@@ -224,6 +224,15 @@ TEST(AutoRig, LeavesWhatIsThere) {
     EXPECT_EQ(rigged.scene.chains[0].record.effector, 0u);
     EXPECT_EQ(rigged.scene.chains.size(), 6u);
     EXPECT_EQ(rigged.report.proposals().size(), 24u);
+}
+
+TEST(AutoRig, ClaimedJointsStayFree) {
+    const Scene scene = *HumanoidGltf().build().import();
+    std::vector<bool> claimed(scene.joints.size());
+    claimed[joint_named(scene, "leftLowerArm")] = true;
+    const Rigged rigged = rig(scene, claimed);
+    EXPECT_EQ(rigged.limited(), 19u);
+    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftLowerArm")].limits.empty());
 }
 
 TEST(AutoRig, AFootThatAnIkRigMovesIsTheTarget) {

@@ -90,7 +90,8 @@ glm::dvec3 swing_between(glm::dvec3 from, glm::dvec3 to) {
 
 class Proposer {
 public:
-    Proposer(const Scene& scene, const RestPose& rest, const NamedHumanoid& found, const Stance& stance, Report& report)
+    Proposer(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, const Stance& stance,
+             Report& report)
         : scene_(scene), rest_(rest), found_(found), bones_(found.bones), stance_(stance), report_(report) {}
 
     std::vector<ProposedLimit> propose() {
@@ -220,7 +221,7 @@ private:
                                                         const Ranges& ranges) const {
         const std::optional<glm::dquat> orientation = rest_.orientation(joint);
         if (!orientation) return std::nullopt;
-        const glm::dquat frame = glm::normalize(glm::conjugate(*orientation) * to_rotation(axes));
+        const glm::dquat frame = glm::normalize(glm::conjugate(*orientation) * rotation_of_axes(axes));
         LimitRecord limit;
         limit.model = static_cast<std::uint8_t>(model);
         limit.flags = kProposed;
@@ -240,7 +241,7 @@ private:
     }
 
     const Scene& scene_;
-    const RestPose& rest_;
+    const RestFrames& rest_;
     const NamedHumanoid& found_;
     const Humanoid& bones_;
     const Stance& stance_;
@@ -250,7 +251,7 @@ private:
 
 }  // namespace
 
-std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestPose& rest, const NamedHumanoid& found,
+std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
                                           const Stance& stance, Report& report) {
     return Proposer(scene, rest, found, stance, report).propose();
 }
