@@ -171,15 +171,20 @@ std::string range_of(const LimitRecord& limit, std::size_t axis) {
 std::string line_of(const Scene& scene, const Chain& chain) {
     constexpr std::array<const char*, kSolvers> kNames{"any",    "pull", "two_bone",     "ccd",
                                                        "fabrik", "aim",  "least_squares"};
+    constexpr std::size_t kShown = 12;
+    std::vector<bool> is_passive(scene.joints.size());
+    for (const Chain::Weight& weight : chain.weights) is_passive[weight.joint] = weight.weight == 0.0f;
+    std::vector<std::uint32_t> joints = path_of(scene, chain.record.start, chain.record.effector);
+    joints.erase(std::remove_if(joints.begin(), joints.end(), [&](std::uint32_t joint) { return is_passive[joint]; }),
+                 joints.end());
     std::string line = "chain " + chain.name + ": ";
-    const char* separator = "";
-    for (const std::uint32_t joint : path_of(scene, chain.record.start, chain.record.effector)) {
-        const auto is_passive = [&](const Chain::Weight& weight) {
-            return weight.joint == joint && weight.weight == 0.0f;
-        };
-        if (std::any_of(chain.weights.begin(), chain.weights.end(), is_passive)) continue;
-        line += separator + name_of(scene, joint);
-        separator = " > ";
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (i > 0) line += " > ";
+        if (joints.size() > kShown && i == kShown - 1) {
+            line += "... > ";
+            i = joints.size() - 1;
+        }
+        line += name_of(scene, joints[i]);
     }
     if (chain.record.target != kNone) line += " to " + name_of(scene, chain.record.target);
     return line + ", " + kNames[chain.record.solver];
