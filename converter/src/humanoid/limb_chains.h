@@ -21,9 +21,11 @@ struct Stance {
 
 /// The chains of a humanoid: LeftArm, RightArm, LeftLeg, RightLeg (two-bone), Spine (CCD) and Head (aim), those whose
 /// bones are there. Limbs bend to where they are bent at rest, by more than a degree; a straight one bends knees
-/// forward and elbows backward. Joints between the bones, as twist segments, get weight 0. The head's tip has the
-/// character's axes: Z forward, Y up. A limb whose end is not below its start, or has no such bone, is named in
-/// `report` and left out. \param flags of the chains \param where the JSON path to name, may be empty
+/// forward and elbows backward. Joints between the bones, as twist segments, get weight 0. The head's tip lies straight
+/// ahead of the neck and has the character's axes: Z forward, Y up. A limb whose end is not below its start, or has no
+/// such bone, is named in `report` and left out.
+/// \param flags  of the chains
+/// \param where  the JSON path to name, may be empty
 std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, const Humanoid& humanoid,
                                     const Stance& stance, std::uint8_t flags, const std::string& where, Report& report);
 
