@@ -26,6 +26,7 @@ struct Arguments {
     std::string scene;
     std::string images = "embed";
     std::filesystem::path rig;
+    bool auto_rig = false;
     bool quiet = false;
 };
 
@@ -37,6 +38,10 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
         warn(file, printable(line));
     }
+}
+
+void print_proposals(const converter::Report& report) {
+    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
 }
 
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
@@ -123,6 +128,7 @@ void run(Arguments arguments) {
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
     if (!arguments.rig.empty()) options.rig = arguments.rig;
+    options.auto_rig = arguments.auto_rig;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
@@ -136,6 +142,7 @@ void run(Arguments arguments) {
     if (const auto written = write_file(arguments.output, *bytes); !written)
         fail(arguments.output, describe(written.error()));
     print_warnings(arguments.input, report);
+    print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, *bytes);
 }
 
@@ -154,6 +161,8 @@ void add_convert(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
+    command->add_flag("--auto-rig", arguments->auto_rig,
+                      "propose IK chains and joint limits by the joints' names, and list them");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly; what the format cannot hold is named in a warning.\n"

@@ -24,7 +24,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         if (options.rig) rig = read_rig(*options.rig, report);
         auto scene = import_gltf(file, options.gltf, report);
         if (!scene) return scene.error();
-        attach_rigs(*scene, rig, report);
+        attach_rigs(*scene, rig, options.auto_rig, report);
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);

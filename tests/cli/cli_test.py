@@ -327,6 +327,25 @@ class Convert(Case):
         self.assertRegex(result.stderr.decode(), r"(?i)^bendy: warning: camera\.gltf: .*camera")
         self.assertNotIn(b"warning", result.stdout)
 
+    def test_what_is_proposed_is_listed_on_standard_error(self):
+        nodes = [{"name": "Hips", "translation": [0, 1, 0], "children": [1, 4]}]
+        for name, x in (("Left", 0.1), ("Right", -0.1)):
+            at = len(nodes)
+            nodes += [{"name": f"{name}UpLeg", "translation": [x, 0, 0], "children": [at + 1]},
+                      {"name": f"{name}Leg", "translation": [0, -0.45, 0], "children": [at + 2]},
+                      {"name": f"{name}Foot", "translation": [0, -0.45, 0]}]
+        (self.folder / "legs.gltf").write_text(json.dumps(
+            {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
+        result = self.bendy("convert", "legs.gltf", "--auto-rig")
+        self.assertEqual(result.returncode, 0)
+        lines = result.stderr.decode().splitlines()
+        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone", lines)
+        self.assertIn("bendy: proposed: LeftLeg: hinge 0 to 135 degrees", lines)
+        self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
+        self.assertNotIn(b"proposed", result.stdout)
+        self.done("validate", "legs.bendy")
+        self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
+
     def test_names_are_escaped_in_the_summary(self):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
         self.assertIn("slide\\x09now", text)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 namespace bendy::converter::gltf {
@@ -14,7 +15,7 @@ namespace {
 enum class Use : std::uint8_t {
     decoded,   ///< the importer does what it says
     material,  ///< becomes part of the material, or stays there as JSON; material.cpp reports
-    ignored,   ///< changes neither shape nor motion, and has no place in the Scene
+    ignored,   ///< changes neither shape nor motion; kept as JSON on nodes and the root, has no place elsewhere
 };
 
 struct Known {
@@ -44,9 +45,15 @@ constexpr std::array kKnown = {
     Known{"KHR_materials_specular", Use::material},
     Known{"KHR_materials_transmission", Use::material},
     Known{"KHR_materials_volume", Use::material},
+    Known{"AGI_articulations", Use::ignored},
+    Known{"AGI_stk_metadata", Use::ignored},
     Known{"KHR_lights_punctual", Use::ignored},
     Known{"KHR_materials_variants", Use::ignored},
     Known{"KHR_xmp_json_ld", Use::ignored},
+    Known{"VRM", Use::ignored},
+    Known{"VRMC_node_constraint", Use::ignored},
+    Known{"VRMC_springBone", Use::ignored},
+    Known{"VRMC_vrm", Use::ignored},
 };
 
 const Known* find_known(std::string_view name) {
@@ -59,8 +66,8 @@ struct Occurrence {
     std::uint64_t count = 0;
 };
 
-/// Finds the `extensions` objects of a file. Materials are left to material.cpp, extras are the author's own, and what
-/// stands inside an extension goes with it.
+/// Finds the `extensions` objects of a file. Materials are left to material.cpp, the root and nodes to
+/// keep_extensions.cpp, extras are the author's own, and what stands inside an extension goes with it.
 class Finder {
 public:
     // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
@@ -83,16 +90,27 @@ public:
     }
 
     std::map<std::string, Occurrence> found;
+    std::set<std::string> kept;
 
 private:
     void count(const Json& extensions, const std::string& place) {
         if (!extensions.is_object()) return;
+        if (place.empty() || is_node(place)) {
+            for (auto extension = extensions.begin(); extension != extensions.end(); ++extension)
+                kept.insert(extension.key());
+            return;
+        }
         for (auto extension = extensions.begin(); extension != extensions.end(); ++extension) {
             Occurrence& occurrence = found[extension.key()];
             if (occurrence.count++ == 0) {
-                occurrence.first_place = (place.empty() ? "" : place + '.') + "extensions." + key(extension.key());
+                occurrence.first_place = place + ".extensions." + key(extension.key());
             }
         }
+    }
+
+    /// "nodes[12]": an element of the root's array.
+    static bool is_node(std::string_view place) {
+        return place.substr(0, 6) == "nodes[" && place.find(']') == place.size() - 1;
     }
 };
 
@@ -113,6 +131,7 @@ void report_extensions(const Json& root, Report& report) {
     for (std::size_t i = 0; i < used.size(); ++i) {
         // Listed without a trace: still something that the author counted on. Materials report for themselves.
         const auto& name = used[i].get_ref<const std::string&>();
+        if (finder.kept.count(name) != 0) continue;
         const auto& occurrence = finder.found.emplace(name, Occurrence{at("extensionsUsed", i), 0}).first->second;
         if (occurrence.count == 0 && name.rfind("KHR_materials_", 0) == 0) finder.found.erase(name);
     }

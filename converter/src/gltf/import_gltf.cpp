@@ -8,6 +8,7 @@
 #include "extensions.h"
 #include "failure.h"
 #include "image.h"
+#include "keep_extensions.h"
 #include "material.h"
 #include "mesh.h"
 #include "skeleton.h"
@@ -55,6 +56,7 @@ Scene import(const std::filesystem::path& file, const GltfOptions& options, Repo
     report_extensions(root, report);
     const Skeleton skeleton = import_skeleton(document, options.scene, scene);
     report_left_out(root, skeleton, report);
+    keep_extensions(document, skeleton, scene);
     import_images(document, options.embed_images, scene);
     import_materials(document, scene);
     const MeshesOfNode meshes = import_meshes(document, skeleton, scene);

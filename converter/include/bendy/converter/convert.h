@@ -15,6 +15,8 @@ struct ConvertOptions {
     GltfOptions gltf;
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
+    /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
+    bool auto_rig = false;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named

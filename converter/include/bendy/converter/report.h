@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace bendy::converter {
@@ -25,13 +26,19 @@ struct Warning {
 };
 
 /// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
+/// And what was proposed.
 class Report {
 public:
     void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
     [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
+    /// Notes what was guessed and put into the result: one line, as `chain LeftArm: ...`.
+    void propose(std::string line) { proposals_.push_back(std::move(line)); }
+    [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
+
 private:
     std::vector<Warning> warnings_;
+    std::vector<std::string> proposals_;
     std::unordered_map<std::string, std::size_t> place_of_;  // message: index into warnings_
 };
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+
+#include <vector>
+
+namespace bendy::converter {
+
+/// Proposes IK chains and anatomical limits for a character whose joints have names of a human's, or a VRM humanoid:
+/// for joints without limits that are not `claimed`, and chains whose names are not taken. All is flagged kProposed and
+/// listed in `report`. Of a four-legged animal with such names, only the chains.
+/// \param claimed  by joint: somebody has said that it has no limits; empty: nobody has
+void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report);
+
+}  // namespace bendy::converter

@@ -1,0 +1,252 @@
+#include "find_humanoid.h"
+
+#include "bone_names.h"
+#include "limb_chains.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+/// Joints that meshes are bound to, with their ancestors; all if there are none.
+std::vector<bool> find_bound(const Scene& scene) {
+    std::vector<bool> bound(scene.joints.size());
+    bool has_any = false;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const std::uint32_t joint : mesh.palette.joints) bound[joint] = has_any = true;
+    }
+    if (!has_any) {
+        bound.assign(bound.size(), true);
+        return bound;
+    }
+    for (std::size_t joint = bound.size(); joint-- > 0;) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (bound[joint] && parent != kNone) bound[parent] = true;
+    }
+    return bound;
+}
+
+struct Candidate {
+    std::uint32_t joint = kNone;
+    std::uint32_t order = 0;  ///< the least is the best: sure names first, then those near the root
+};
+
+class Finder {
+public:
+    Finder(const Scene& scene, const RestFrames& rest) : scene_(scene), rest_(rest), bound_(find_bound(scene)) {
+        names_.resize(scene.joints.size());
+        children_.resize(scene.joints.size());
+        for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+            if (!bound_[joint]) continue;
+            if (scene.joints[joint].parent != kNone) children_[scene.joints[joint].parent].push_back(joint);
+            names_[joint] = read_bone_name(scene.joints[joint].name);
+            if (!names_[joint]) continue;
+            constexpr std::uint32_t kPerRank = 1u << 24;
+            list(names_[joint]->part, names_[joint]->side)
+                .push_back({joint, names_[joint]->rank * kPerRank + std::min(rest.depth(joint), kPerRank - 1)});
+        }
+        for (auto& of_part : lists_) {
+            for (auto& of_side : of_part) {
+                std::stable_sort(of_side.begin(), of_side.end(),
+                                 [](const Candidate& a, const Candidate& b) { return a.order < b.order; });
+                // Rigs have one, or a few; more is no rig, and the search must stay linear.
+                if (of_side.size() > kMost) of_side.resize(kMost);
+            }
+        }
+    }
+
+    NamedHumanoid find() {
+        for (const BodySide side : {BodySide::left, BodySide::right}) {
+            find_arm(side);
+            find_leg(side);
+        }
+        find_trunk();
+        return found_;
+    }
+
+private:
+    static constexpr std::size_t kMost = 8;
+    using Candidates = std::vector<Candidate>;
+
+    Candidates& list(BodyPart part, BodySide side) {
+        return lists_[static_cast<std::size_t>(part)][static_cast<std::size_t>(side)];
+    }
+
+    [[nodiscard]] bool is_below(std::uint32_t joint, std::uint32_t ancestor) const {
+        return ancestor == kNone || rest_.is_below(joint, ancestor);
+    }
+
+    /// The best joint of the part below `ancestor`; kNone: anywhere.
+    std::uint32_t pick(BodyPart part, BodySide side, std::uint32_t ancestor = kNone) {
+        for (const Candidate& candidate : list(part, side)) {
+            if (is_below(candidate.joint, ancestor)) return candidate.joint;
+        }
+        return kNone;
+    }
+
+    /// The best pair of an upper and a lower bone, from these lists in turn.
+    bool pick_pair(BodySide side, std::initializer_list<std::pair<BodyPart, BodyPart>> lists, std::uint32_t& upper,
+                   std::uint32_t& lower) {
+        for (const auto& [upper_part, lower_part] : lists) {
+            for (const Candidate& candidate : list(upper_part, side)) {
+                upper = candidate.joint;
+                lower = pick(lower_part, side, upper);
+                if (lower != kNone) return true;
+            }
+        }
+        upper = lower = kNone;
+        return false;
+    }
+
+    [[nodiscard]] HumanBone of_side(HumanBone left, BodySide side) const {
+        return side == BodySide::left ? left : mirrored(left);
+    }
+
+    /// The joint of that name below the limb's lower bone, else the lower bone's only child.
+    std::uint32_t find_end(BodyPart part, BodySide side, std::uint32_t lower, std::size_t loose) {
+        const std::uint32_t end = pick(part, side, lower);
+        if (end != kNone) return end;
+        found_.loose_ends[loose] = pick(part, side);
+        if (found_.loose_ends[loose] != kNone) return kNone;
+        const std::vector<std::uint32_t>& children = children_[lower];
+        return children.size() == 1 ? children.front() : kNone;
+    }
+
+    void find_arm(BodySide side) {
+        std::uint32_t upper = kNone;
+        std::uint32_t lower = kNone;
+        if (!pick_pair(side,
+                       {{BodyPart::upper_arm, BodyPart::lower_arm},
+                        {BodyPart::arm, BodyPart::lower_arm},
+                        {BodyPart::upper_arm, BodyPart::arm},
+                        {BodyPart::shoulder, BodyPart::lower_arm}},
+                       upper, lower)) {
+            return;
+        }
+        const std::uint32_t hand = find_end(BodyPart::hand, side, lower, side == BodySide::left ? 0 : 1);
+        found_.bones[of_side(HumanBone::left_upper_arm, side)] = upper;
+        found_.bones[of_side(HumanBone::left_lower_arm, side)] = lower;
+        found_.bones[of_side(HumanBone::left_hand, side)] = hand;
+        const std::uint32_t shoulder = pick(BodyPart::shoulder, side);
+        if (shoulder != kNone && rest_.is_below(upper, shoulder))
+            found_.bones[of_side(HumanBone::left_shoulder, side)] = shoulder;
+        if (hand == kNone) return;
+        if (names_[hand] && names_[hand]->rank != 0 && children_[lower].size() > 1) found_.has_split_hands = true;
+        found_.bones[of_side(HumanBone::left_thumb, side)] = pick(BodyPart::thumb, side, hand);
+    }
+
+    void find_leg(BodySide side) {
+        std::uint32_t upper = kNone;
+        std::uint32_t lower = kNone;
+        if (!pick_pair(side,
+                       {{BodyPart::upper_leg, BodyPart::lower_leg},
+                        {BodyPart::upper_leg, BodyPart::leg},
+                        {BodyPart::leg, BodyPart::lower_leg}},
+                       upper, lower)) {
+            return;
+        }
+        const std::uint32_t foot = find_end(BodyPart::foot, side, lower, side == BodySide::left ? 2 : 3);
+        found_.bones[of_side(HumanBone::left_upper_leg, side)] = upper;
+        found_.bones[of_side(HumanBone::left_lower_leg, side)] = lower;
+        found_.bones[of_side(HumanBone::left_foot, side)] = foot;
+        if (foot != kNone) found_.bones[of_side(HumanBone::left_toes, side)] = pick(BodyPart::toes, side, foot);
+    }
+
+    /// The nearest joint that both are below, kNone if there is none.
+    [[nodiscard]] std::uint32_t common_ancestor(HumanBone a, HumanBone b) const {
+        if (!found_.bones.has(a) || !found_.bones.has(b)) return kNone;
+        std::uint32_t joint = scene_.joints[found_.bones[a]].parent;
+        while (joint != kNone && !rest_.is_below(found_.bones[b], joint)) joint = scene_.joints[joint].parent;
+        return joint;
+    }
+
+    [[nodiscard]] bool is_named(std::uint32_t joint, std::initializer_list<BodyPart> parts) const {
+        return joint != kNone && names_[joint] &&
+               std::find(parts.begin(), parts.end(), names_[joint]->part) != parts.end();
+    }
+
+    void find_trunk() {
+        Humanoid& bones = found_.bones;
+        const std::uint32_t legs = common_ancestor(HumanBone::left_upper_leg, HumanBone::right_upper_leg);
+        bones[HumanBone::hips] = pick(BodyPart::hips, BodySide::none);
+        for (const Candidate& candidate : list(BodyPart::hips, BodySide::none)) {
+            if (legs != kNone && (candidate.joint == legs || rest_.is_below(legs, candidate.joint))) {
+                bones[HumanBone::hips] = candidate.joint;
+                break;
+            }
+        }
+        // Rigify calls the hips `spine`: what carries the legs.
+        if (!bones.has(HumanBone::hips) && is_named(legs, {BodyPart::spine})) bones[HumanBone::hips] = legs;
+        find_head();
+        if (!bones.has(HumanBone::head)) return;
+        const std::vector<std::uint32_t> path = path_from_hips();
+        const auto spine = std::find_if(path.begin(), path.end(), [&](std::uint32_t joint) {
+            return joint != bones[HumanBone::hips] && is_named(joint, {BodyPart::spine, BodyPart::chest});
+        });
+        if (spine != path.end() && *spine != bones[HumanBone::neck] && *spine != bones[HumanBone::head])
+            bones[HumanBone::spine] = *spine;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> path_from_hips() const {
+        const std::uint32_t head = found_.bones[HumanBone::head];
+        const std::uint32_t hips = found_.bones[HumanBone::hips];
+        std::vector<std::uint32_t> path;
+        for (std::uint32_t joint = head; joint != kNone; joint = scene_.joints[joint].parent) {
+            path.push_back(joint);
+            if (joint == hips) break;
+        }
+        std::reverse(path.begin(), path.end());
+        return path;
+    }
+
+    void find_head() {
+        Humanoid& bones = found_.bones;
+        bones[HumanBone::head] = pick(BodyPart::head, BodySide::none);
+        if (bones.has(HumanBone::head)) {
+            for (const Candidate& candidate : list(BodyPart::neck, BodySide::none)) {
+                if (!rest_.is_below(bones[HumanBone::head], candidate.joint)) continue;
+                bones[HumanBone::neck] = candidate.joint;
+                break;
+            }
+            return;
+        }
+        // Rigify counts its spine up to the head: what follows where the arms leave is neck and head.
+        const std::uint32_t arms = common_ancestor(HumanBone::left_upper_arm, HumanBone::right_upper_arm);
+        if (!is_named(arms, {BodyPart::spine, BodyPart::chest})) return;
+        std::uint32_t last = arms;
+        for (bool goes_on = true; goes_on;) {
+            goes_on = false;
+            for (const std::uint32_t child : children_[last]) {
+                if (!is_named(child, {BodyPart::spine})) continue;
+                if (last == arms) bones[HumanBone::neck] = child;
+                last = child;
+                goes_on = true;
+                break;
+            }
+        }
+        if (last == arms) return;
+        bones[HumanBone::head] = last;
+        if (bones[HumanBone::neck] == last) bones[HumanBone::neck] = kNone;
+    }
+
+    const Scene& scene_;
+    const RestFrames& rest_;
+    std::vector<bool> bound_;
+    std::vector<std::optional<BoneName>> names_;
+    std::vector<std::vector<std::uint32_t>> children_;         ///< those that are bound
+    std::array<std::array<Candidates, 3>, kBodyParts> lists_;  ///< by part and side
+    NamedHumanoid found_;
+};
+
+}  // namespace
+
+NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest) {
+    return Finder(scene, rest).find();
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <bendy/format/records.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace bendy::converter {
+
+/// The parts of a human's skeleton that chains and limits are made for. Left and right are the character's own; the
+/// right limbs follow the left ones in the same order.
+enum class HumanBone : std::uint8_t {
+    hips,
+    spine,
+    chest,
+    upper_chest,
+    neck,
+    head,
+    left_shoulder,  ///< the clavicle
+    left_upper_arm,
+    left_lower_arm,
+    left_hand,
+    left_thumb,  ///< its first bone, or the second: only its side of the hand counts
+    left_upper_leg,
+    left_lower_leg,
+    left_foot,
+    left_toes,
+    right_shoulder,
+    right_upper_arm,
+    right_lower_arm,
+    right_hand,
+    right_thumb,
+    right_upper_leg,
+    right_lower_leg,
+    right_foot,
+    right_toes,
+};
+inline constexpr std::size_t kHumanBones = 24;
+inline constexpr std::size_t kLimbBones = 9;  ///< of one side
+
+constexpr bool is_right(HumanBone bone) {
+    return bone >= HumanBone::right_shoulder;
+}
+
+/// The right-hand counterpart of a left bone.
+constexpr HumanBone mirrored(HumanBone left) {
+    return static_cast<HumanBone>(static_cast<std::size_t>(left) + kLimbBones);
+}
+
+/// Which joint is which bone; kNone: none is.
+class Humanoid {
+public:
+    Humanoid() { joints_.fill(kNone); }
+
+    std::uint32_t& operator[](HumanBone bone) { return joints_[static_cast<std::size_t>(bone)]; }
+    std::uint32_t operator[](HumanBone bone) const { return joints_[static_cast<std::size_t>(bone)]; }
+    [[nodiscard]] bool has(HumanBone bone) const { return (*this)[bone] != kNone; }
+
+private:
+    std::array<std::uint32_t, kHumanBones> joints_{};
+};
+
+/// The name that VRM has for the bone, as `leftUpperArm`.
+std::string_view vrm_name(HumanBone bone);
+
+/// The bone of that VRM name; nothing for fingers' further bones, eyes, jaw and what VRM does not know.
+std::optional<HumanBone> bone_of_vrm_name(std::string_view name);
+
+}  // namespace bendy::converter

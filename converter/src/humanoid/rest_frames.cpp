@@ -1,0 +1,105 @@
+#include "rest_frames.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy::converter {
+namespace {
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+glm::dmat3 rotation_of(const Transform& rest) {
+    const glm::dvec4 q(rest.rotation);
+    return glm::mat3_cast(glm::dquat(q.w, q.x, q.y, q.z));
+}
+
+glm::dmat3 stretch_of(const Transform& rest) {
+    const glm::dvec3 scale(rest.scale);
+    const glm::dvec3 shear(rest.shear);
+    return {{scale.x, 0.0, 0.0}, {shear.x, scale.y, 0.0}, {shear.y, shear.z, scale.z}};
+}
+
+/// The inverse; nothing for a matrix without volume, or as good as none.
+std::optional<glm::dmat3> inverse_of(const glm::dmat3& m) {
+    const double volume = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    if (!std::isfinite(volume) || !(std::abs(glm::determinant(m)) > 1e-9 * volume)) return std::nullopt;
+    return glm::inverse(m);
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> unit(glm::dvec3 vector) {
+    const double length = glm::length(vector);
+    if (!std::isfinite(length) || !(length > 1e-12)) return std::nullopt;
+    return vector / length;
+}
+
+std::optional<glm::dvec3> unit_across(glm::dvec3 vector, glm::dvec3 axis) {
+    const std::optional<glm::dvec3> direction = unit(vector);
+    if (!direction) return std::nullopt;
+    const glm::dvec3 across = *direction - glm::dot(*direction, axis) * axis;
+    return glm::length(across) > 1e-6 ? unit(across) : std::nullopt;
+}
+
+glm::dquat rotation_of_axes(const glm::dmat3& axes) {
+    return glm::normalize(glm::quat_cast(axes));
+}
+
+RestFrames::RestFrames(const Scene& scene) {
+    joints_.reserve(scene.joints.size());
+    for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
+        const Joint& joint = scene.joints[number];
+        Placed placed{joint.rest.translation, rotation_of(joint.rest), glm::dmat3(1.0), number + 1, 0};
+        if (joint.parent != kNone) {
+            const Placed& parent = joints_[joint.parent];
+            placed.position = parent.position + parent.space * placed.position;
+            placed.axes = parent.space * placed.axes;
+            placed.depth = parent.depth + 1;
+        }
+        placed.space = placed.axes * stretch_of(joint.rest);
+        joints_.push_back(placed);
+    }
+    for (auto number = static_cast<std::uint32_t>(joints_.size()); number-- > 0;) {
+        const std::uint32_t parent = scene.joints[number].parent;
+        if (parent != kNone) joints_[parent].end = std::max(joints_[parent].end, joints_[number].end);
+    }
+}
+
+std::optional<glm::dvec3> RestFrames::direction(std::uint32_t from, std::uint32_t to) const {
+    return unit(joints_[to].position - joints_[from].position);
+}
+
+std::optional<glm::dquat> RestFrames::orientation(std::uint32_t joint) const {
+    constexpr double kTolerance = 0.01;
+    glm::dmat3 axes = joints_[joint].axes;
+    const double length = glm::length(axes[0]);
+    if (!std::isfinite(length) || !(length > 1e-12)) return std::nullopt;
+    axes /= length;
+    for (int column = 0; column < 3; ++column) {
+        const glm::dvec3 next = axes[(column + 1) % 3];
+        if (!(std::abs(glm::length(axes[column]) - 1.0) < kTolerance)) return std::nullopt;
+        if (!(std::abs(glm::dot(axes[column], next)) < kTolerance)) return std::nullopt;
+    }
+    if (!(glm::determinant(axes) > 0.0)) return std::nullopt;
+    return rotation_of_axes(axes);
+}
+
+std::optional<glm::dvec3> RestFrames::to_space_of(std::uint32_t joint, glm::dvec3 direction) const {
+    if (joint == kNone) return unit(direction);
+    const std::optional<glm::dmat3> inverse = inverse_of(joints_[joint].space);
+    return inverse ? unit(*inverse * direction) : std::nullopt;
+}
+
+std::optional<glm::dvec3> RestFrames::point_in_space_of(std::uint32_t joint, glm::dvec3 point) const {
+    const std::optional<glm::dmat3> inverse = inverse_of(joints_[joint].space);
+    if (!inverse) return std::nullopt;
+    const glm::dvec3 local = *inverse * (point - joints_[joint].position);
+    return is_finite(local) ? std::optional(local) : std::nullopt;
+}
+
+}  // namespace bendy::converter

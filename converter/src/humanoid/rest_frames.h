@@ -1,0 +1,64 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bendy::converter {
+
+/// The rest pose in model space, and who is below whom. Numbers of strange files may be huge: what is not finite, or
+/// has no direction, is nothing here.
+class RestFrames {
+public:
+    explicit RestFrames(const Scene& scene);
+
+    /// Metres.
+    [[nodiscard]] glm::dvec3 position(std::uint32_t joint) const { return joints_[joint].position; }
+
+    /// Unit vector from one joint to the other.
+    [[nodiscard]] std::optional<glm::dvec3> direction(std::uint32_t from, std::uint32_t to) const;
+
+    /// The joint's rest axes in model space; nothing where the ancestors' scale makes them no rotation.
+    [[nodiscard]] std::optional<glm::dquat> orientation(std::uint32_t joint) const;
+
+    /// A direction of model space in the joint's own space, unit; kNone: a root's parent.
+    [[nodiscard]] std::optional<glm::dvec3> to_space_of(std::uint32_t joint, glm::dvec3 direction) const;
+
+    /// A point of model space in the joint's own space.
+    [[nodiscard]] std::optional<glm::dvec3> point_in_space_of(std::uint32_t joint, glm::dvec3 point) const;
+
+    /// Whether `joint` is a descendant of `ancestor`.
+    [[nodiscard]] bool is_below(std::uint32_t joint, std::uint32_t ancestor) const {
+        return ancestor < joint && joint < joints_[ancestor].end;
+    }
+
+    /// Number of ancestors.
+    [[nodiscard]] std::uint32_t depth(std::uint32_t joint) const { return joints_[joint].depth; }
+
+private:
+    struct Placed {
+        glm::dvec3 position;
+        glm::dmat3 axes;      ///< the parents' linear part times the joint's rotation
+        glm::dmat3 space;     ///< with the joint's own scale: joint to model space
+        std::uint32_t end;    ///< one past the last descendant: the order is pre-order
+        std::uint32_t depth;  ///< number of ancestors
+    };
+    std::vector<Placed> joints_;
+};
+
+/// The vector with length 1; nothing if it has no direction.
+std::optional<glm::dvec3> unit(glm::dvec3 vector);
+
+/// What of `vector` is at right angles to the unit vector `axis`, as a unit vector.
+std::optional<glm::dvec3> unit_across(glm::dvec3 vector, glm::dvec3 axis);
+
+/// The rotation whose X, Y, Z axes are the columns, orthonormal and right-handed.
+glm::dquat rotation_of_axes(const glm::dmat3& axes);
+
+}  // namespace bendy::converter
