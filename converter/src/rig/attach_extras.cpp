@@ -38,7 +38,7 @@ public:
           report_(report),
           rest_(scene),
           rig_{scene, index, rest_, {}, std::vector<float>(scene.joints.size())} {
-        for (std::uint32_t joint = 0; joint < index.size(); ++joint) rig_.axes.push_back(rest_.orientation(joint));
+        for (std::uint32_t joint = 0; joint < index.size(); ++joint) rig_.axes.push_back(rest_.turn(joint));
     }
 
     void attach() {
@@ -102,7 +102,7 @@ private:
         std::array<float, 4> written{};
         fields.read_rotation("rest_orientation", written);
         const Rotation then = to_rotation(written);
-        if (!is_turned(then, rest_.orientation(extra.joint))) return;
+        if (!is_turned(then, rest_.turn(extra.joint))) return;
         rig_.axes[extra.joint] = then;
         report_.warn("the joint's axes are others than when its limits were written; the limits are turned back",
                      extra.place + ".rest_orientation");
@@ -126,7 +126,7 @@ private:
             if (limits.empty()) return;
         }
         const Rotation& then = rig_.axes[extra.joint];
-        const Rotation& now = rest_.orientation(extra.joint);
+        const Rotation& now = rest_.turn(extra.joint);
         for (LimitRecord& limit : limits) {
             if (is_turned(then, now)) limit.frame = to_record(glm::conjugate(now) * then * to_rotation(limit.frame));
             check_limit_at(limit, extra.place);
@@ -152,7 +152,7 @@ private:
     [[nodiscard]] BoneAxes axes_of_bone(std::uint32_t joint) const {
         const Rotation& axes = rig_.axes[joint];
         const std::uint32_t armature = armature_of_[joint];
-        return {axes, armature == kNone ? axes : glm::conjugate(rest_.orientation(armature)) * axes};
+        return {axes, armature == kNone ? axes : glm::conjugate(rest_.turn(armature)) * axes};
     }
 
     /// The node above the bones: above the topmost joint of a skin.

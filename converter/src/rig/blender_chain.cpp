@@ -134,7 +134,7 @@ private:
         std::array<float, 3> offset{};
         fields_.read("effector_offset", offset);
         // In the bone's axes of today.
-        const Rotation turn = glm::conjugate(rig_.rest.orientation(last_)) * rig_.axes[last_];
+        const Rotation turn = glm::conjugate(rig_.rest.turn(last_)) * rig_.axes[last_];
         glm::dvec3 local(offset[0], offset[1], offset[2]);
         if (2.0 * std::acos(std::min(1.0, std::abs(turn.w))) > 1e-3) local = turn * local;
         tip_ = rig_.rest.place(last_, local);
@@ -200,7 +200,7 @@ private:
 
     void keep_vector(glm::dvec3 direction) {
         const std::uint32_t parent = rig_.scene.joints[start_].parent;
-        if (parent != kNone) direction = glm::conjugate(rig_.rest.orientation(parent)) * direction;
+        if (parent != kNone) direction = glm::conjugate(rig_.rest.turn(parent)) * direction;
         for (std::size_t i = 0; i < 3; ++i)
             chain_.record.pole_vector[i] = static_cast<float>(direction[static_cast<int>(i)]);
     }

@@ -63,7 +63,7 @@ TEST(AttachRig, WhatIsClaimedStays) {
     EXPECT_EQ(scene.chains[1].name, "leg");
 }
 
-TEST(AttachRig, ARestFramesOutsideIsFlaggedAndNamed) {
+TEST(AttachRig, ARestPoseOutsideIsFlaggedAndNamed) {
     Scene scene = make_row({"a", "b"});
     Report report;
     attach(scene,

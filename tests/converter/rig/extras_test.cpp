@@ -2,7 +2,7 @@
 
 #include "rig/attach_extras.h"
 #include "rig/euler.h"
-#include "rig/rest_frames.h"
+#include "rest_frames.h"
 
 #include <bendy/format/constraint.h>
 
@@ -290,7 +290,7 @@ TEST(RigExtras, WhatIsWrongIsNamedAndLeftOut) {
     EXPECT_NE(line(R"({"rest_orientation": [0, 0, 0, 0], "euler_limits": 3})"), "nothing");
 }
 
-TEST(RigExtras, ARestFramesOutsideIsFlaggedAndNamed) {
+TEST(RigExtras, ARestPoseOutsideIsFlaggedAndNamed) {
     const Read got = read(R"({"euler_limits": [{"x": [0.5, 1]}]})");
     EXPECT_EQ(got.limits.at(0).flags, kRestOutside);
     ASSERT_EQ(got.lines.size(), 1u);

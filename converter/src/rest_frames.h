@@ -6,11 +6,18 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace bendy::converter {
+
+using Rotation = glm::dquat;
+
+/// x y z w as in records, unit.
+Rotation to_rotation(const std::array<float, 4>& xyzw);
+std::array<float, 4> to_record(const Rotation& rotation);
 
 /// The rest pose in model space, and who is below whom. Numbers of strange files may be huge: what is not finite, or
 /// has no direction, is nothing here.
@@ -20,6 +27,14 @@ public:
 
     /// Metres.
     [[nodiscard]] glm::dvec3 position(std::uint32_t joint) const { return joints_[joint].position; }
+
+    /// A point of the joint's space; metres.
+    [[nodiscard]] glm::dvec3 place(std::uint32_t joint, const glm::dvec3& point = glm::dvec3(0.0)) const {
+        return joints_[joint].position + joints_[joint].space * point;
+    }
+
+    /// The joint's axes: the rotations on the way from the root, scales left aside; unit.
+    [[nodiscard]] const Rotation& turn(std::uint32_t joint) const { return joints_[joint].turn; }
 
     /// Unit vector from one joint to the other.
     [[nodiscard]] std::optional<glm::dvec3> direction(std::uint32_t from, std::uint32_t to) const;
@@ -44,6 +59,7 @@ public:
 private:
     struct Placed {
         glm::dvec3 position;
+        Rotation turn;        ///< the rotations on the way from the root
         glm::dmat3 axes;      ///< the parents' linear part times the joint's rotation
         glm::dmat3 space;     ///< with the joint's own scale: joint to model space
         std::uint32_t end;    ///< one past the last descendant: the order is pre-order

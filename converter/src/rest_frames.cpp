@@ -13,9 +13,9 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-glm::dmat3 rotation_of(const Transform& rest) {
-    const glm::dvec4 q(rest.rotation);
-    return glm::mat3_cast(glm::dquat(q.w, q.x, q.y, q.z));
+Rotation rotation_of(const Transform& rest) {
+    const glm::vec4& q = rest.rotation;
+    return to_rotation({q.x, q.y, q.z, q.w});
 }
 
 glm::dmat3 stretch_of(const Transform& rest) {
@@ -50,14 +50,26 @@ glm::dquat rotation_of_axes(const glm::dmat3& axes) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
+Rotation to_rotation(const std::array<float, 4>& xyzw) {
+    return glm::normalize(Rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]));
+}
+
+std::array<float, 4> to_record(const Rotation& rotation) {
+    const Rotation unit = glm::normalize(rotation);
+    return {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z),
+            static_cast<float>(unit.w)};
+}
+
 RestFrames::RestFrames(const Scene& scene) {
     joints_.reserve(scene.joints.size());
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
         const Joint& joint = scene.joints[number];
-        Placed placed{joint.rest.translation, rotation_of(joint.rest), glm::dmat3(1.0), number + 1, 0};
+        const Rotation rotation = rotation_of(joint.rest);
+        Placed placed{joint.rest.translation, rotation, glm::mat3_cast(rotation), glm::dmat3(1.0), number + 1, 0};
         if (joint.parent != kNone) {
             const Placed& parent = joints_[joint.parent];
             placed.position = parent.position + parent.space * placed.position;
+            placed.turn = glm::normalize(parent.turn * rotation);
             placed.axes = parent.space * placed.axes;
             placed.depth = parent.depth + 1;
         }
