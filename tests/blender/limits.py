@@ -129,7 +129,7 @@ def nearest_in_ellipse(limit, rotation, swing_of=ellipse_swing):
     while step > 1e-8:
         beside = [(best[0] + dx * step, min(1.0, max(0.0, best[1] + dy * step))) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
         nearest = min(beside, key=distance)
-        if distance(nearest) < over:
+        if distance(nearest) < over - 1e-12:
             over, best = distance(nearest), nearest
         else:
             step /= 2

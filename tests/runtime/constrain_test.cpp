@@ -239,10 +239,10 @@ TEST_P(ConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
         const glm::dquat R = clamp_rotation(constraint, some_rotation(random, i)) * small_rotation(random, 0.1);
         const glm::dquat beside = R * small_rotation(random, kStep);
         const double moved = angle_of(clamp_rotation(constraint, R), clamp_rotation(constraint, beside));
-        largest = std::max(largest, moved / kStep);
+        largest = std::max(largest, moved / angle_of(R, beside));
     }
     RecordProperty("largest", std::to_string(largest));
-    EXPECT_LE(largest, 3.0);
+    EXPECT_LE(largest, 1.5);
 }
 
 TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
@@ -252,7 +252,7 @@ TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
     std::vector<glm::dquat> legal;
     for (int i = 0; i < 3000; ++i)
         legal.push_back(clamp_rotation(constraint, i % 3 == 0 ? random_rotation(random) : small_rotation(random, 3.0)));
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         const glm::dquat R = i % 2 == 0 ? random_rotation(random) : small_rotation(random, 3.0);
         const glm::dquat found = clamp_rotation(constraint, R);
         const double distance = angle_of(found, R);
@@ -272,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(Models, ConstrainCase, testing::ValuesIn(all_cases()),
 /// Follows R(angle) from 0 to 4 pi; returns the largest step of what it is clamped to by the step of R.
 template <class Path>
 double largest_step(const Constraint& constraint, const Path& R) {
-    constexpr int kSteps = 40000;
+    constexpr int kSteps = 5000;
     glm::dquat last = clamp_rotation(constraint, R(0.0));
     double largest = 0.0;
     for (int i = 1; i <= kSteps; ++i) {
