@@ -20,14 +20,11 @@ def bone_notes(bone):
 
 
 def ik_limit_notes(bone):
-    """Measured in Blender 3.4: what its solver makes of a swing with a limit on one axis only, the other one being free."""
-    swings = [axis for axis in 'xz' if not getattr(bone, f'lock_ik_{axis}')]
-    limited = [axis for axis in 'xz' if axis not in swings or getattr(bone, f'use_ik_limit_{axis}')]
-    if len(limited) != 1:
-        return []
-    if bone.lock_ik_y and len(swings) == 2:
+    """Measured in Blender 3.4: its solver forgets a swing limit where the other swing axis is free and the twist is locked."""
+    limited = bone.use_ik_limit_x + bone.use_ik_limit_z
+    if bone.lock_ik_y and not (bone.lock_ik_x or bone.lock_ik_z) and limited == 1:
         return [(False, 'IK limits: one swing axis is free and the twist is locked, so Blender itself forgets the other one\'s limit')]
-    return [(True, 'IK limits: one swing axis is free, so Blender keeps the other one within a band, and the record within an ellipse')]
+    return []
 
 
 def limit_notes(bone, constraint):

@@ -53,13 +53,13 @@ def limited_part(limit, q):
     return normalized(product(product(conjugate(frame), q), frame))
 
 
-def excess(limit, q, has_bands=False):
-    """How far outside the limit the rotation is: radians, 0 inside. has_bands: see half_axis."""
+def excess(limit, q):
+    """How far outside the limit the rotation is: radians, 0 inside."""
     rotation = limited_part(limit, q)
     if limit['model'] == 'euler_box':
         return angle_between(rotation, nearest_in_euler_box(limit, rotation))
     if limit['model'] == 'swing_twist_ellipse':
-        return swing_twist_excess(limit, rotation, has_bands)
+        return swing_twist_excess(limit, rotation)
     raise ValueError(limit['model'])
 
 
@@ -75,21 +75,13 @@ def swing_and_twist(rotation):
     return (sign * swing[1], sign * swing[2]), math.remainder(angle, 2 * math.pi)
 
 
-def half_axis(value, low_high, has_bands=False):
-    """Of the ellipse on the side of value. A free axis has 1, as if half a turn were its limit; Blender's has no end, so that the
-    other axis keeps to a band."""
+def half_axis(value, low_high):
+    """Of the ellipse on the side of value. A free axis has no end, so that the other one keeps to a band."""
     end = abs(low_high[1] if value > 0 else low_high[0])
-    if math.isinf(end) and has_bands:
-        return math.inf
-    return max(math.sin(min(end, math.pi) / 2), 1e-9)
+    return math.inf if math.isinf(end) else max(math.sin(min(end, math.pi) / 2), 1e-9)
 
 
-def is_band(limit):
-    """Whether one swing axis is free, and the other one is not."""
-    return limit['model'] == 'swing_twist_ellipse' and (limit.get('y') is None) != (limit.get('z') is None)
-
-
-def swing_twist_excess(limit, rotation, has_bands=False):
+def swing_twist_excess(limit, rotation):
     """The larger of the twist's excess, the short way round, and of the swing's: towards rest, until it meets the ellipse."""
     swing, twist = swing_and_twist(rotation)
     bounds = ranges(limit)
@@ -97,7 +89,7 @@ def swing_twist_excess(limit, rotation, has_bands=False):
     over = 0.0 if low <= twist <= high else min(abs(math.remainder(twist - end, 2 * math.pi)) for end in (low, high))
     size, reach = 0.0, math.hypot(*swing)
     for value, (low, high) in zip(swing, bounds[1:]):
-        most = half_axis(value, (low, high), has_bands)
+        most = half_axis(value, (low, high))
         if most > 1e-9:
             size = math.hypot(size, value / most)
         else:
@@ -107,20 +99,25 @@ def swing_twist_excess(limit, rotation, has_bands=False):
     return over
 
 
-def nearest_in_ellipse(limit, rotation):
+def ellipse_swing(limit, turn, size):
+    """The swing of the ellipse in direction turn, size 0 to 1 of the way to its edge; after half a turn no twist can be told."""
+    swing = (math.cos(turn), math.sin(turn))
+    length = math.hypot(*(value / half_axis(value, low_high) for value, low_high in zip(swing, ranges(limit)[1:])))
+    reach = size * min(1.0 - 1e-9, 1.0 / length if length > 0.0 else 1.0)
+    return (0.0, swing[0] * reach, swing[1] * reach, math.sqrt(max(0.0, 1.0 - reach * reach)))
+
+
+def nearest_in_ellipse(limit, rotation, swing_of=ellipse_swing):
     """(the nearest legal rotation, how much nearer it is than any that is not beside it), by search.
 
     For a given swing the best twist is known; so swings are tried all round and at all sizes, and the best place is refined.
     """
-    bounds = ranges(limit)
+    twist = ranges(limit)[0]
 
     def rotation_at(turn, size):
-        swing = [math.cos(turn), math.sin(turn)]
-        length = math.hypot(*(value / half_axis(value, low_high) for value, low_high in zip(swing, bounds[1:])))
-        reach = size * min(1.0, 1.0 / length if length > 0.0 else 1.0)
-        swing = (0.0, swing[0] * reach, swing[1] * reach, math.sqrt(max(0.0, 1.0 - reach * reach)))
+        swing = swing_of(limit, turn, size)
         left = product(conjugate(swing), rotation)
-        return product(swing, about(0, clamp_angle(2 * math.atan2(left[0], left[3]), *bounds[0])))
+        return product(swing, about(0, clamp_angle(2 * math.atan2(left[0], left[3]), *twist)))
 
     def distance(place):
         return angle_between(rotation, rotation_at(*place))
@@ -132,7 +129,7 @@ def nearest_in_ellipse(limit, rotation):
     while step > 1e-8:
         beside = [(best[0] + dx * step, min(1.0, max(0.0, best[1] + dy * step))) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
         nearest = min(beside, key=distance)
-        if distance(nearest) < over:
+        if distance(nearest) < over - 1e-12:
             over, best = distance(nearest), nearest
         else:
             step /= 2
@@ -213,7 +210,7 @@ def must_agree(limit, angles, moved):
 def clamp_angle(angle, low, high):
     """The value in [low, high] that is nearest to angle on the circle."""
     if math.isinf(low) or math.isinf(high):
-        return min(max(math.remainder(angle, 2 * math.pi), low), high)
+        return angle
     turned = math.remainder(angle - (low + high) / 2, 2 * math.pi) + (low + high) / 2
     return min(max(turned, low), high)
 

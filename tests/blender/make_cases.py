@@ -13,7 +13,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from limits import (about, all_orders, angle_between, each_clamped, excess, from_euler, is_band, limited_part, limits_of_extras, must_agree,
+from limits import (about, all_orders, angle_between, each_clamped, excess, from_euler, limited_part, limits_of_extras, must_agree,
                     nearest_in_ellipse, nearest_in_euler_box, outside_axes)
 from posing import (TOLERANCE, arguments, blender_quaternion, check, evaluated, local_rotation, move_target, one_bone_rig,
                     random_rotation, set_rotation)
@@ -27,8 +27,6 @@ WHAT = [
     'in: what was asked for. out: what Blender made of it. out is legal: clamping it moves it by no more than tolerance.',
     'same: clamping in to the nearest legal rotation gives out, within tolerance. Where it is false, Blender gives another '
     'legal rotation, and the nearest is no further from in than out is.',
-    'band: of ik_limits, where one swing axis is free and the other is not. Blender keeps the other within a band, |s| <= '
-    'sin(limit / 2), and the format within the ellipse whose half axis on the free side is 1: out may lie outside of that.',
 ]
 
 
@@ -37,9 +35,8 @@ def number(value):
 
 
 def case(source, limit, asked, got, same):
-    check(excess(limit, got, has_bands=True) < TOLERANCE, f'{source}: {limit} {asked} -> {got} is not legal')
-    record = {'from': source, 'limit': limit, 'in': [number(v) for v in asked], 'out': [number(v) for v in got], 'same': same}
-    return {**record, 'band': True} if is_band(limit) else record
+    check(excess(limit, got) < TOLERANCE, f'{source}: {limit} {asked} -> {got} is not legal')
+    return {'from': source, 'limit': limit, 'in': [number(v) for v in asked], 'out': [number(v) for v in got], 'same': same}
 
 
 # ------------------------------------------------------------------------------------------------- Limit Rotation
@@ -128,8 +125,7 @@ def ik_case(rig, bone, limit, asked):
     got = local_rotation(evaluated(rig), 'b')
     nearest, margin = nearest_in_ellipse(limit, limited_part(limit, asked))
     off = angle_between(nearest, limited_part(limit, got))
-    check(is_band(limit) or angle_between(nearest, limited_part(limit, asked)) < angle_between(asked, got) + TOLERANCE,
-          f'{limit} {asked}: not the nearest')
+    check(angle_between(nearest, limited_part(limit, asked)) < angle_between(asked, got) + TOLERANCE, f'{limit} {asked}: not the nearest')
     same = off < TOLERANCE / 5 and margin > 0.05        # of two that are as near, the program may choose the other one
     return case('ik_limits', limit, asked, got, same)
 
@@ -160,8 +156,6 @@ def main():
     for source in ('limit_rotation', 'ik_limits'):
         own = [c for c in cases if c['from'] == source]
         print(f'Cases of {source}: {len(own)}, {sum(c["same"] for c in own)} where the nearest legal rotation is what Blender gives')
-    bands = [excess(c['limit'], c['out']) for c in cases if c.get('band')]
-    print(f'  - {len(bands)} with one free swing axis, outside of the ellipse by up to {max(bands):.2g} radians')
     if not mode:
         with open(path, 'w', encoding='utf-8', newline='\n') as file:
             file.write(as_text(made))

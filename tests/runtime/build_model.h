@@ -44,8 +44,8 @@ struct JointSpec {
     RestRecord rest;
     std::vector<PolygonRecord> polygons;
     std::string name;
-    std::vector<LimitRecord> limits;
-    std::vector<PullRecord> pulls;
+    std::vector<LimitRecord> limits{};
+    std::vector<PullRecord> pulls{};
 };
 
 struct PoolSpec {
@@ -60,7 +60,7 @@ struct PoolSpec {
 struct ModelSpec {
     std::vector<JointSpec> joints;  ///< pre-order
     std::vector<PoolSpec> pools;
-    std::vector<ChainRecord> chains;  ///< named by their numbers
+    std::vector<ChainRecord> chains{};  ///< named by their numbers
 };
 
 template <class Vector>

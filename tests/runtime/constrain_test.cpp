@@ -1,5 +1,6 @@
 #include <bendy/runtime/constrain.h>
 
+#include "nearest_rotation.h"
 #include "runtime/build_model.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // What is legal is said here a second time, with the mathematical library and straight from spec/constraints.md.
@@ -18,7 +20,12 @@ namespace {
 
 constexpr double kPi = M_PI;
 constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr int kRotations = 20000;
+/// Random rotations per model, all its cases together.
+#ifdef NDEBUG
+constexpr int kRotations = 1'000'000;
+#else
+constexpr int kRotations = 20'000;
+#endif
 
 double angle_of(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
@@ -42,11 +49,14 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
     const auto& high = limit.rotation_max;
     const double angle = angle_of(R, glm::dquat(1, 0, 0, 0));
     switch (static_cast<LimitModel>(limit.model)) {
-        case LimitModel::free: return 0.0;
-        case LimitModel::locked: return angle;
+        case LimitModel::free:
+            return 0.0;
+        case LimitModel::locked:
+            return angle;
         case LimitModel::hinge:
             return std::max({std::abs(R.y), std::abs(R.z), outside(2.0 * std::atan2(R.x, R.w), low[0], high[0])});
-        case LimitModel::largest_angle: return std::max(0.0, angle - high[0]);
+        case LimitModel::largest_angle:
+            return std::max(0.0, angle - high[0]);
         case LimitModel::euler_box: {
             constexpr std::array<std::array<int, 3>, 6> kOrders{
                 {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
@@ -64,7 +74,8 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
             };
             return std::min(off(first, second, third), off(first + kPi, kPi - second, third + kPi));
         }
-        default: break;
+        default:
+            break;
     }
     const double length = std::hypot(R.w, R.x);
     const glm::dquat twist = length < 1e-12 ? glm::dquat(1, 0, 0, 0) : glm::dquat(R.w / length, R.x / length, 0, 0);
@@ -148,40 +159,100 @@ glm::dquat small_rotation(std::mt19937& random, double size) {
     return glm::normalize(glm::dquat(1.0, uniform(random), uniform(random), uniform(random)));
 }
 
-class ConstrainCase : public testing::TestWithParam<Case> {};
+/// How many of the model's rotations fall to each of its cases.
+int rotations_of(const LimitRecord& limit) {
+    const std::vector<Case> cases = all_cases();
+    const auto same =
+        std::count_if(cases.begin(), cases.end(), [&](const Case& c) { return c.limit.model == limit.model; });
+    return kRotations / static_cast<int>(same) + 1;
+}
+
+/// Half of them anywhere, half of them near the rest pose, where legal ones are.
+glm::dquat some_rotation(std::mt19937& random, int i) {
+    return i % 2 == 0 ? random_rotation(random) : small_rotation(random, 2.0);
+}
+
+class ConstrainCase : public testing::TestWithParam<Case> {
+protected:
+    [[nodiscard]] const LimitRecord& limit() const { return GetParam().limit; }
+
+    [[nodiscard]] glm::dquat quickly_clamped(const Constraint& c, const glm::dquat& R) const {
+        return quick_legal_rotation(c.model, c.euler_order, c.shape, R);
+    }
+
+    /// Whether a share of all rotations is legal.
+    [[nodiscard]] bool has_volume() const {
+        constexpr std::array<std::string_view, 6> kFlat{"Locked",   "Knee",        "HingeAcrossPi",
+                                                        "OneSided", "FlatPyramid", "BoxOneAxis"};
+        return std::find(kFlat.begin(), kFlat.end(), GetParam().name) == kFlat.end();
+    }
+};
 
 TEST_P(ConstrainCase, RandomRotationsComeInsideStayThereAndWhatIsInsideStaysAsItIs) {
-    const LimitRecord& limit = GetParam().limit;
-    const Constraint constraint = prepared(limit);
+    const Constraint constraint = prepared(limit());
+    const int count = rotations_of(limit());
     std::mt19937 random(7);
     int inside = 0;
-    for (int i = 0; i < kRotations; ++i) {
-        // Half of them anywhere, half of them near the rest pose, where legal ones are.
-        const glm::dquat R = i % 2 == 0 ? random_rotation(random) : small_rotation(random, 2.0);
+    for (int i = 0; i < count; ++i) {
+        const glm::dquat R = some_rotation(random, i);
         const glm::dquat legal = clamp_rotation(constraint, R);
         ASSERT_NEAR(glm::length(legal), 1.0, 1e-12);
-        ASSERT_LE(illegality(limit, legal), 2e-7) << i;
+        ASSERT_LE(illegality(limit(), legal), 2e-7) << i;
         ASSERT_EQ(clamp_rotation(constraint, legal), legal) << i;
-        if (illegality(limit, R) <= 1e-12) {
+        if (illegality(limit(), R) <= 1e-12) {
             ++inside;
             ASSERT_EQ(legal, R) << i;
         }
     }
-    const auto model = static_cast<LimitModel>(limit.model);
-    const bool has_volume = model != LimitModel::locked && model != LimitModel::hinge && GetParam().name != "OneSided" &&
-                            GetParam().name != "FlatPyramid" && GetParam().name != "BoxOneAxis";
-    EXPECT_TRUE(!has_volume || inside > kRotations / 1000) << inside;
+    EXPECT_TRUE(!has_volume() || inside > count / 1000) << inside;
+}
+
+// What solvers clamp with.
+TEST_P(ConstrainCase, TheQuickClampComesInsideAndStaysThereAndWhatIsInsideStaysAsItIs) {
+    const Constraint constraint = prepared(limit());
+    const int count = rotations_of(limit());
+    std::mt19937 random(13);
+    int inside = 0;
+    for (int i = 0; i < count; ++i) {
+        const glm::dquat R = some_rotation(random, i);
+        const glm::dquat legal = quickly_clamped(constraint, R);
+        ASSERT_NEAR(glm::length(legal), 1.0, 1e-12);
+        ASSERT_LE(illegality(limit(), legal), 2e-7) << i;
+        ASSERT_LE(angle_of(quickly_clamped(constraint, legal), legal), 1e-9) << i;
+        if (illegality(limit(), R) <= 1e-12) {
+            ++inside;
+            ASSERT_LE(angle_of(legal, R), 1e-12) << i;
+        }
+    }
+    EXPECT_TRUE(!has_volume() || inside > count / 1000) << inside;
+}
+
+TEST_P(ConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
+    constexpr std::array<std::string_view, 3> kHollow{"WideEllipse", "WidePyramid",
+                                                      "BoxWide"};  // wider than half a turn
+    if (std::find(kHollow.begin(), kHollow.end(), GetParam().name) != kHollow.end()) GTEST_SKIP();
+    constexpr double kStep = 1e-5;  // radians
+    const Constraint constraint = prepared(limit());
+    std::mt19937 random(17);
+    double largest = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dquat R = clamp_rotation(constraint, some_rotation(random, i)) * small_rotation(random, 0.1);
+        const glm::dquat beside = R * small_rotation(random, kStep);
+        const double moved = angle_of(clamp_rotation(constraint, R), clamp_rotation(constraint, beside));
+        largest = std::max(largest, moved / angle_of(R, beside));
+    }
+    RecordProperty("largest", std::to_string(largest));
+    EXPECT_LE(largest, 1.5);
 }
 
 TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
-    const LimitRecord& limit = GetParam().limit;
-    const Constraint constraint = prepared(limit);
+    const Constraint constraint = prepared(limit());
     std::mt19937 random(11);
     // Legal rotations all over the range: the brought-back forms of random ones.
     std::vector<glm::dquat> legal;
     for (int i = 0; i < 3000; ++i)
         legal.push_back(clamp_rotation(constraint, i % 3 == 0 ? random_rotation(random) : small_rotation(random, 3.0)));
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         const glm::dquat R = i % 2 == 0 ? random_rotation(random) : small_rotation(random, 3.0);
         const glm::dquat found = clamp_rotation(constraint, R);
         const double distance = angle_of(found, R);
@@ -197,6 +268,49 @@ TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
 
 INSTANTIATE_TEST_SUITE_P(Models, ConstrainCase, testing::ValuesIn(all_cases()),
                          [](const auto& test) { return test.param.name; });
+
+/// Follows R(angle) from 0 to 4 pi; returns the largest step of what it is clamped to by the step of R.
+template <class Path>
+double largest_step(const Constraint& constraint, const Path& R) {
+    constexpr int kSteps = 5000;
+    glm::dquat last = clamp_rotation(constraint, R(0.0));
+    double largest = 0.0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const glm::dquat now = clamp_rotation(constraint, R(4.0 * kPi * i / kSteps));
+        largest = std::max(largest, angle_of(last, now) * kSteps / (4.0 * kPi));
+        last = now;
+    }
+    return largest;
+}
+
+glm::dquat turn(double angle, const glm::dvec3& axis) {
+    return glm::angleAxis(angle, glm::normalize(axis));
+}
+
+TEST(Constrain, NothingJumpsAtPi) {
+    using enum LimitModel;
+    const auto about_x = [](double angle) { return turn(angle, {1, 0, 0}); };
+    // Through pi, there and back, inside the range and beyond its ends, but not as far as where the other end is
+    // nearer.
+    const auto there_and_back = [&](double angle) { return about_x(kPi + 1.8 * std::sin(angle)); };
+    const Constraint hinged = prepared(make_limit(hinge, {120, 0, 0}, {250, 0, 0}));
+    EXPECT_LE(largest_step(hinged, there_and_back), 1.81);
+    const Constraint free_hinge = prepared(make_limit(hinge, {-180, 0, 0}, {180, 0, 0}));
+    EXPECT_LE(largest_step(free_hinge, about_x), 1.01);
+    for (const double swing : {0.0, 0.5, 0.9, 1.4}) {  // inside and outside
+        const glm::dquat bent = turn(swing, {0, 0.6, 0.8});
+        const auto twisted = [&](double angle) { return bent * about_x(angle); };
+        const auto twisted_back = [&](double angle) { return bent * there_and_back(angle); };
+        for (const LimitModel model : {swing_twist_ellipse, swing_twist_pyramid}) {
+            const Constraint free_twist = prepared(make_limit(model, {-200, -50, -40}, {200, 35, 60}));
+            EXPECT_LE(largest_step(free_twist, twisted), 1.6) << swing;
+            const Constraint across = prepared(make_limit(model, {100, -50, -40}, {260, 35, 60}));
+            EXPECT_LE(largest_step(across, twisted_back), 2.5) << swing;
+        }
+    }
+    const Constraint box = prepared(make_limit(euler_box, {100, -40, -30}, {260, 40, 30}));
+    EXPECT_LE(largest_step(box, there_and_back), 1.81);
+}
 
 }  // namespace
 }  // namespace bendy
