@@ -147,8 +147,8 @@ void add_pose(CLI::App& program) {
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
     command->footer(
-        "Examples: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
-        "          bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");
+        "Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
+        "         bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");
     command->callback([arguments, clip] {
         arguments->has_clip = clip->count() != 0;
         if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");

@@ -61,6 +61,7 @@ Solver find_solver(const std::string& name) {
 std::string length_text(float metres) {
     std::ostringstream text;
     text.precision(3);
+    if (metres < 1e-6f) return "less than 0.001 mm";
     if (metres < 0.001f) {
         text << metres * 1000.0f << " mm";
     } else {

@@ -107,7 +107,7 @@ private:
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
             length += link.bone_length;
             is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
-            scale *= std::cbrt(std::abs(double{transform.scale.x} * transform.scale.y * transform.scale.z));
+            scale *= mean_scale(transform.scale);
             link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
             link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
             link.rest_frame = glm::normalize(glm::dquat(joint.rest.rotation)) * link.frame;
@@ -209,6 +209,11 @@ private:
                std::abs(s.x - s.z) > kSame * std::abs(s.x) || s.x < 0.0f;
     }
 
+    static double mean_scale(const glm::vec3& scale) {
+        if (scale.x == scale.y && scale.x == scale.z) return std::abs(scale.x);
+        return (std::abs(double{scale.x}) + std::abs(scale.y) + std::abs(scale.z)) / 3.0;
+    }
+
     static glm::dquat unit(const glm::dquat& q) {
         const double length = glm::length(q);
         return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
@@ -294,8 +299,9 @@ private:
         const std::span<JointTransform> local = pose_.change_local();
         for (const IkLink& link : links_) {
             JointTransform& joint = local[link.joint];
-            const glm::dquat mixed =
-                influence == 1.0 ? link.local : glm::slerp(glm::dquat(joint.rotation), link.local, influence);
+            const glm::dquat mixed = influence == 1.0
+                                         ? link.local
+                                         : between(glm::normalize(glm::dquat(joint.rotation)), link.local, influence);
             joint.rotation = glm::quat(glm::normalize(mixed));
             if (stretch_ != 1.0 && link.joint != chain_.start)
                 joint.translation *= static_cast<float>(1.0 + influence * (stretch_ - 1.0));

@@ -66,7 +66,7 @@ public:
             const bool is_stuck = cost - now < kStuck * cost;
             if (is_better) {
                 cost = now;
-                damping = std::max(damping * 0.2, 1e-9);
+                damping = std::max(damping * 0.3, 1e-9);
             } else {
                 for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
                 problem_.place();
@@ -86,8 +86,10 @@ private:
             link.mobility =
                 glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
         }
-        constexpr int kRounds = 3;
-        for (int round = 0; round < kRounds; ++round) {
+        // In a short chain few joints can do a stopped one's part, and they may be stopped in turn.
+        constexpr std::size_t kShort = 4;
+        const int rounds = problem_.links.size() <= kShort ? 3 : 2;
+        for (int round = 0; round < rounds; ++round) {
             const Vector y = solve(gather(), errors(), size_, damping);
             if (!apply(y)) return;
         }

@@ -99,7 +99,7 @@ glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
         };
         const double in_zone = depth(R);
         const bool goes_deeper = in_zone > 0.0 && in_zone > depth(before);
-        return quick_legal_rotation(c.model, c.euler_order, c.shape, goes_deeper ? glm::slerp(before, R, 0.5) : R);
+        return quick_legal_rotation(c.model, c.euler_order, c.shape, goes_deeper ? between(before, R, 0.5) : R);
     });
 }
 

@@ -29,12 +29,13 @@ std::size_t find_middle(const IkProblem& problem) {
 }
 
 /// How far the tip should be from the start: the target's distance, slowed near full reach, where a straight leg would
-/// snap: it then comes nearer by an exponential that never arrives.
+/// snap: it then comes nearer and nearer and never arrives.
 double wanted_distance(double distance, double full, double softness) {
     const double zone = full * std::clamp(softness, 0.0, 1.0);
     const double hard = full - zone;
     if (zone <= 0.0 || distance <= hard) return distance;
-    return hard + zone * (1.0 - std::exp(-(distance - hard) / zone));
+    const double past = (distance - hard) / zone;
+    return hard + zone * past / (1.0 + past);
 }
 
 /// The axis about which the middle joint bends, not of unit length.

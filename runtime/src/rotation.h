@@ -39,6 +39,11 @@ inline glm::dvec3 to_vector(const glm::dquat& q) {
     return v * (2.0 * trig::atan2(sine, u.w) / sine);
 }
 
+/// The rotation a share of the way from a to b, the short way.
+inline glm::dquat between(const glm::dquat& a, const glm::dquat& b, double share) {
+    return glm::normalize(a * from_vector(share * to_vector(glm::conjugate(a) * b)));
+}
+
 /// The angle between two rotations, 0 to pi. Good for small angles too.
 inline double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
