@@ -157,7 +157,9 @@ private:
         }
         const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
         problem_.tolerance = tolerance > 0.0f ? std::max(double{tolerance} / problem_.scale, 1e-9) : 1e-4;
-        problem_.iterations = options_.iterations != 0 ? options_.iterations : record.iterations;
+        constexpr std::uint16_t kMostIterations = 1000;  // whatever a file says
+        problem_.iterations =
+            options_.iterations != 0 ? options_.iterations : std::min(record.iterations, kMostIterations);
         gather_pole();
         wanted_ = problem_.target;
         const glm::dvec3 way = wanted_ - problem_.origin;

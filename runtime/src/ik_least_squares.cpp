@@ -219,7 +219,9 @@ void begin_anew(IkProblem& problem, std::uint32_t attempt, Dice& dice) {
 
 std::uint32_t solve_least_squares(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
-    const std::uint32_t restarts = problem.is_out_of_reach ? 0 : problem.options->restarts;
+    constexpr std::size_t kLong = 256;  // a rope that is stuck stays so, and each restart costs as much as the first
+    const bool is_hopeless = problem.is_out_of_reach || problem.links.size() > kLong;
+    const std::uint32_t restarts = is_hopeless ? 0 : problem.options->restarts;
     LeastSquares method(problem);
     std::uint32_t iterations = method.descend(most);
     if (problem.is_reached()) return iterations;

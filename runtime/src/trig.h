@@ -14,8 +14,10 @@ struct SinCos {
     double sin, cos;
 };
 
-/// \param angle  radians, at most 1e6 in size
+/// \param angle  radians; of angles beyond 1e6 and of what is no number, the result is some point of the circle
 inline SinCos sin_cos(double angle) {
+    constexpr double kLargest = 1e6;
+    if (!(std::abs(angle) <= kLargest)) angle = std::isfinite(angle) ? std::remainder(angle, 2.0 * kPi) : 0.0;
     // angle = turns * pi/2 + x, |x| <= pi/4, the product in two parts so that nothing is lost.
     constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves whole numbers
     const double turns = (angle * (2.0 / kPi) + kShift) - kShift;

@@ -32,6 +32,12 @@ std::uint64_t read_all(const Model& model) {
         sum += touch(view.name) + touch(view.extras);
         EXPECT_TRUE(view.parent == kNone || view.parent < joint);
     }
+    for (const Constraint& constraint : model.constraints()) EXPECT_LT(constraint.joint, model.joints().size());
+    for (const Chain& chain : model.chains()) {
+        sum += touch(chain.name) + touch(chain.extras);
+        EXPECT_LE(chain.start, chain.effector);
+        EXPECT_LE(chain.links, model.longest_chain());
+    }
     for (const Draw& draw : model.draws()) {
         const Pool& pool = model.pools()[draw.pool];
         EXPECT_TRUE(draw.material == kNone || draw.material < model.materials().size());
@@ -71,6 +77,21 @@ std::uint64_t read_all(const Model& model) {
     return sum;
 }
 
+/// Every chain with every solver: whatever the numbers are, this ends, and what comes out is a status.
+void reach_with_all(const Model& model, Pose& pose) {
+    for (const Chain& chain : model.chains()) {
+        for (unsigned solver = 0; solver < kSolvers; ++solver) {
+            ReachOptions options;
+            options.solver = static_cast<Solver>(solver);
+            options.iterations = 3;
+            options.restarts = 1;
+            const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
+            reach(&chain, target, pose, options);
+            reach(&chain, glm::vec3(0.1f, 1.2f, -0.3f), pose, options);
+        }
+    }
+}
+
 /// Poses and skins the model at every cycle's ends, in its middle, and at times that make no sense.
 void pose_all(const Model& model) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -79,6 +100,9 @@ void pose_all(const Model& model) {
     std::vector<glm::vec3> normals(model.vertex_count());
     std::vector<glm::vec4> tangents(model.vertex_count());
     const Vertices vertices{positions, normals, tangents};
+    EXPECT_TRUE(skin(model, pose, vertices));
+    constrain(pose);
+    reach_with_all(model, pose);
     EXPECT_TRUE(skin(model, pose, vertices));
     for (const Cycle& cycle : model.cycles()) {
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);

@@ -99,6 +99,15 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         is_good = skin(*model, pose, vertices) && is_good;
         pose.set_rest();
         is_good = !sample(nullptr, 0.0f, pose) && is_good;
+        constrain(pose);
+        for (const Solver solver : {Solver::pull, Solver::two_bone, Solver::ccd, Solver::fabrik, Solver::aim,
+                                    Solver::least_squares}) {
+            ReachOptions options;
+            options.solver = solver;
+            const ReachTarget target({0.1f, 0.2f, 0.3f}, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
+            is_good = reach(model->chains().data(), target, pose, options).status != ReachStatus::refused && is_good;
+        }
+        reach_all(pose);
         is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
     }
     EXPECT_EQ(allocations - before, 0u);
