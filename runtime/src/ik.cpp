@@ -181,7 +181,8 @@ private:
         } else if (chain_.pole != kNone) {
             problem_.pole = to_base(model_position(chain_.pole));
         } else if (direction != glm::dvec3(0.0)) {
-            problem_.pole = problem_.origin + direction;
+            constexpr double kFar = 1e3;  // chain lengths: a direction is a point far away
+            problem_.pole = problem_.origin + kFar * direction;
         } else {
             problem_.has_pole = false;
         }
