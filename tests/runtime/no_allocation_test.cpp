@@ -103,8 +103,8 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         pose.set_rest();
         is_good = !sample(nullptr, 0.0f, pose) && is_good;
         constrain(pose);
-        for (const Solver solver : {Solver::pull, Solver::two_bone, Solver::ccd, Solver::fabrik, Solver::aim,
-                                    Solver::least_squares}) {
+        for (const Solver solver :
+             {Solver::pull, Solver::two_bone, Solver::ccd, Solver::fabrik, Solver::aim, Solver::least_squares}) {
             ReachOptions options;
             options.solver = solver;
             const ReachTarget target({0.1f, 0.2f, 0.3f}, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
