@@ -3,7 +3,6 @@
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/document.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
@@ -61,27 +60,13 @@ std::string list_cycles(const Model& model) {
     return list.str();
 }
 
-/// The line of constraints and chains; empty if there are none.
-std::string describe_rig(Bytes bytes) {
+std::string list_chains(const Model& model) {
     constexpr std::size_t kShown = 20;
-    const Result<ChunkTree> tree = read_chunk_tree(bytes);
-    if (!tree) return {};
-    Faults faults;
-    const Document document = read_document(*tree, faults);
-    std::size_t limits = 0;
-    std::vector<std::string_view> chains;
-    for (const ObjectView& object : document.objects) {
-        limits += object.skeleton.limits.size();
-        for (const ChainView& chain : object.chains) chains.push_back(chain.name);
-    }
-    if (limits == 0 && chains.empty()) return {};
-    std::string line = "\n  rig        " + counted(limits, "constraint", "constraints");
-    if (chains.empty()) return line;
-    line += ", " + counted(chains.size(), "chain", "chains");
-    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i) {
-        line += (i == 0 ? ": " : ", ") + (chains[i].empty() ? '#' + std::to_string(i) : printable(chains[i]));
-    }
-    return chains.size() > kShown ? line + ", ..." : line;
+    const auto chains = model.chains();
+    std::string list;
+    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i)
+        list += (i == 0 ? ": " : ", ") + (chains[i].name.empty() ? '#' + std::to_string(i) : printable(chains[i].name));
+    return chains.size() > kShown ? list + ", ..." : list;
 }
 
 void print_summary(const Arguments& arguments, Bytes bytes) {
@@ -103,7 +88,11 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
 
     std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
     if (images != 0) std::cout << ", " << grouped(images) << " of them images";
-    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints") << describe_rig(bytes);
+    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
+    if (!model->constraints().empty() || !model->chains().empty())
+        std::cout << "\n  rig        " << counted(model->constraints().size(), "constraint", "constraints");
+    if (!model->chains().empty())
+        std::cout << ", " << counted(model->chains().size(), "chain", "chains") << list_chains(*model);
     std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
     if (most_influences != 0)

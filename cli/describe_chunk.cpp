@@ -2,6 +2,7 @@
 
 #include "brief.h"
 #include "problem.h"
+#include "record_at.h"
 
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
@@ -103,13 +104,6 @@ nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::ui
     return fields;
 }
 
-template <class R>
-R record_at(const ChunkTree& tree, std::uint32_t number) {
-    R record;
-    if (number != kNone) copy_at(tree.payload(number), 0, record);
-    return record;
-}
-
 std::string quoted(std::string_view text) {
     return '"' + brief(text) + '"';
 }
@@ -140,7 +134,19 @@ std::string polygons_text(const PolygonRecord& record) {
     return text;
 }
 
-/// Where the joint is, what moves with it, whether it is limited, and whether the author left data on it.
+/// A joint's constraints, one after another; empty if it has none.
+std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
+    std::string text;
+    if (pivot == kNone) return text;
+    for (const std::uint32_t child : tree.children(pivot)) {
+        if (!(tree[child].id == FourCC("LIMT"))) continue;
+        text += text.empty() ? "limits: " : " | ";
+        text += tree[child].codec() == 0 ? limit_text(record_at<LimitRecord>(tree, child)) : "encoded";
+    }
+    return text;
+}
+
+/// Where the joint is, what moves with it, what limits it, and whether the author left data on it.
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
@@ -161,7 +167,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
         if (polygons[topology] != 0)
             add_part(text, grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]));
     }
-    if (pivot != kNone && tree.find(pivot, FourCC("LIMT")) != kNone) add_part(text, "limited");
+    if (const std::string limits = limits_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
     if (has_extensions) add_part(text, "extensions");
     return text;

@@ -2,6 +2,7 @@
 
 #include "brief.h"
 #include "problem.h"
+#include "record_at.h"
 
 #include <bendy/format/ik_chain.h>
 #include <bendy/format/text.h>
@@ -100,13 +101,6 @@ template <std::size_t N>
 void add_numbers(std::string& text, std::string_view name, const std::array<float, N>& numbers,
                  const std::array<float, N>& usual, std::string_view unit = {}) {
     if (numbers != usual) add_part(text, std::string(name) + ' ' + brief(numbers) + std::string(unit));
-}
-
-template <class R>
-R record_at(const ChunkTree& tree, std::uint32_t number) {
-    R record;
-    if (number != kNone && !tree[number].is_container()) copy_at(tree.payload(number), 0, record);
-    return record;
 }
 
 /// What a number means: the name, or "joint 12" where it has none.

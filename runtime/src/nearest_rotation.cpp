@@ -321,8 +321,7 @@ void consider_twist(LimitModel model, const LimitShape& shape, const glm::dquat&
         best.consider(join(nearest_swing(model, shape, side), twist), R);
 }
 
-/// With the twist free, cos^2 of half the angle that is left after the best one: M from both parts that a twist can
-/// take.
+/// With the twist free, cos^2 of half the angle that is left after the best one.
 struct LeftOver {
     Swing w, x;  ///< dot(w, swing), dot(x, swing): of conj(swing) * R
     explicit LeftOver(const glm::dquat& R) : w(R.w, R.y, R.z), x(R.x, -R.z, R.y) {}

@@ -560,13 +560,15 @@ class InspectRig(Case):
         self.assertEqual(self.limit_line(limit(2, (float("nan"), 1)), good=False), "hinge nan to 1 deg")
         self.assertEqual(self.limit_line(Chunk("LIMT", b"\x02"), good=False), "hinge free")
 
-    def test_a_joint_says_that_it_is_limited(self):
+    def test_a_joint_says_what_limits_it(self):
         root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
         where = "HEAD/OBJE/SKIN"
         self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles')
-        root.find(where + "/PIVO").children.append(limit(0))
+        root.find(where + "/PIVO").children.append(limit(2, (0, 150)))
+        root.find(where + "/PIVO").children.append(limit(1, scope=1))
         root.find(where).children.append(Chunk("EXTN", b"{}"))
-        self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles, limited, extensions')
+        self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles, '
+                                                 'limits: hinge 0 to 150 deg | locked, IK only, extensions')
 
     def test_a_joint_without_a_place_starts_with_what_it_has(self):
         root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())

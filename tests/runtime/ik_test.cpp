@@ -364,7 +364,7 @@ TEST(Ik, InfluenceMixesTheSolutionIn) {
     EXPECT_LT(left, 1.0f);
 }
 
-TEST(Ik, StretchAndCompressReachWhatTheBonesDoNot) {
+TEST(Ik, StretchReachesWhatTheBonesDoNot) {
     test::ModelSpec spec = rope(2);
     spec.chains[0].stretch = 0.5f;
     const Owned model(build_file(spec));
@@ -374,6 +374,21 @@ TEST(Ik, StretchAndCompressReachWhatTheBonesDoNot) {
     pose.set_rest();
     EXPECT_EQ(reach(model->chain("0"), glm::vec3(0.0f, 4.0f, 0.0f), pose).status, ReachStatus::out_of_reach);
     EXPECT_NEAR(position_of(pose, 2).y, 3.0f, 1e-3f);
+}
+
+TEST(Ik, CompressReachesWhatIsTooNear) {
+    test::ModelSpec spec = rope(2);
+    spec.joints[2].rest.translation = {0.0f, 0.25f, 0.0f};  // bones of 1 and 0.25: nothing nearer than 0.75
+    const glm::vec3 target(0.0f, 0.5f, 0.0f);
+    const Owned rigid(build_file(spec));
+    Pose pose(*rigid);
+    EXPECT_EQ(reach(rigid->chain("0"), target, pose).status, ReachStatus::not_reached);
+    EXPECT_NEAR(position_of(pose, 2).y, 0.75f, 1e-3f);
+    spec.chains[0].compress = 0.5f;
+    const Owned soft(build_file(spec));
+    Pose other(*soft);
+    EXPECT_EQ(reach(soft->chain("0"), target, other).status, ReachStatus::reached);
+    EXPECT_LE(glm::length(position_of(other, 2) - target), 1e-3f);
 }
 
 TEST(Ik, ChainsBelowMovedTurnedAndScaledJointsReachToo) {

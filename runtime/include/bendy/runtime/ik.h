@@ -32,7 +32,7 @@ struct ReachOptions {
     float gain = 1.0f;        ///< pull: radians per chain length of distance
     float step_limit = 0.2f;  ///< pull: radians per joint and call
     std::uint32_t restarts = 8;     ///< least squares: other beginnings that it tries when it is stuck
-    std::optional<glm::vec3> pole;  ///< point in model space to bend towards; default: the chain's pole joint or vector
+    std::optional<glm::vec3> pole;  ///< two-bone, aim: point in model space; default: the chain's pole joint or vector
     bool obey_constraints = true;
 };
 
@@ -43,6 +43,7 @@ enum class ReachStatus : std::uint8_t {
     refused        ///< no chain, or numbers that are not finite: the pose is as it was
 };
 
+/// Of the whole solution, also where the influence mixes in less.
 struct ReachResult {
     ReachStatus status = ReachStatus::refused;
     float distance = 0.0f;  ///< metres left between tip and target
