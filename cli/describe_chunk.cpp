@@ -141,7 +141,7 @@ std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
     for (const std::uint32_t child : tree.children(pivot)) {
         if (!(tree[child].id == FourCC("LIMT"))) continue;
         text += text.empty() ? "limits: " : " | ";
-        text += tree[child].codec() == 0 ? limit_text(record_at<LimitRecord>(tree, child)) : "encoded";
+        text += tree.encoding_fault(child) ? "encoded" : limit_text(record_at<LimitRecord>(tree, child));
     }
     return text;
 }
@@ -176,7 +176,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
 std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
     const std::uint32_t table = tree.find(number, FourCC("TRAK"));
-    const std::uint64_t tracks = table == kNone ? 0 : tree[table].size / sizeof(TrackRecord);
+    const std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
     std::string text = brief(info.start) + " to " + brief(info.end) + " s, " + grouped(tracks) + " tracks";
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
@@ -227,8 +227,9 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("TARG"))
         return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
     if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
-    if (chunk.id == FourCC("TRAK")) return grouped(chunk.size / sizeof(TrackRecord)) + " tracks";
-    if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV")) return grouped(chunk.size / sizeof(float)) + " f32";
+    if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
+    if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))
+        return grouped(tree.payload(number).size() / sizeof(float)) + " f32";
     if (chunk.id == FourCC("MATE"))
         return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
     if (chunk.id == FourCC("IMAG")) {
@@ -236,6 +237,16 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
     }
     return {};
+}
+
+std::string codec_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
+                                                           "indices", "indices, zstd", "cycle"};
+    const unsigned codec = tree[number].codec();
+    if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
+    std::string text = "encoded: " + std::string(kNames[codec]);
+    if (!tree.encoding_fault(number)) text += ", " + grouped(tree.payload(number).size()) + " bytes decoded";
+    return text;
 }
 
 }  // namespace
@@ -251,11 +262,9 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const Ri
         const std::uint32_t name = tree.find(number, FourCC("NAME"));
         if (name != kNone) add(quoted(as_text(tree.payload(name))), " ");
     }
-    if (tree[number].codec() == 0) {
-        add(content_text(tree, number, rigs), "  ");
-    } else {
-        add("encoded with codec " + std::to_string(tree[number].codec()), " ");
-    }
+    const bool is_readable = !tree.encoding_fault(number);
+    if (is_readable) add(content_text(tree, number, rigs), "  ");
+    if (tree[number].codec() != 0) add(codec_text(tree, number), "  ");
     if (chunk_meaning(tree[number].id) == "unknown")
         add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
     return text;
@@ -263,7 +272,7 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const Ri
 
 nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
     const Chunk& chunk = tree[number];
-    if (chunk.is_container() || chunk.codec() != 0) return nlohmann::ordered_json::object();
+    if (chunk.is_container() || tree.encoding_fault(number)) return nlohmann::ordered_json::object();
     const Bytes payload = tree.payload(number);
     if (is_text(chunk.id)) return {{"text", as_text(payload)}};
     const std::string_view record = record_of(chunk.id);

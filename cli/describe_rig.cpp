@@ -187,7 +187,7 @@ std::string RigIndex::chain_text(std::uint32_t chunk) const {
                                                             "FABRIK",     "aim",  "least squares"};
     const Object* object = object_of(chunk);
     const std::uint32_t info = (*tree_)[chunk].is_container() ? tree_->find(chunk, FourCC("KINF")) : kNone;
-    if (object == nullptr || info == kNone || (*tree_)[info].codec() != 0) return {};
+    if (object == nullptr || info == kNone || tree_->encoding_fault(info)) return {};
     const auto record = record_at<ChainRecord>(*tree_, info);
     const auto place = std::lower_bound(object->chains.begin(), object->chains.end(), chunk);
     std::string text = links_text(*object, static_cast<std::uint32_t>(place - object->chains.begin()), record);

@@ -4,6 +4,7 @@
 #include "problem.h"
 
 #include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
@@ -125,8 +126,9 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
 void run(const Arguments& arguments) {
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
-    const Result<ChunkTree> tree = read_chunk_tree(file->bytes());
+    Result<ChunkTree> tree = read_chunk_tree(file->bytes());
     if (!tree) fail(arguments.file, tree.error(), file->bytes());
+    decode_leaves(*tree);
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
     if (root == kNone) {
         fail(arguments.file,

@@ -23,7 +23,10 @@ std::string chunks_as_json(const std::string& file, const ChunkTree& tree, std::
             {"sum", sum.data()},
             {"container", chunk.is_container()}};
         if (chunk.is_required()) entry["required"] = true;
-        if (chunk.codec() != 0) entry["codec"] = chunk.codec();
+        if (chunk.codec() != 0) {
+            entry["codec"] = chunk.codec();
+            entry["decoded"] = tree.payload(number).size();
+        }
         if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
         chunks.push_back(std::move(entry));
     }

@@ -3,6 +3,7 @@
 
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
@@ -22,10 +23,11 @@ void run(const Arguments& arguments) {
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Bytes bytes = file->bytes();
-    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
     Faults faults;
     check_sums(*tree, faults);
+    decode_leaves(*tree);
     const Document document = read_document(*tree, faults);
     if (faults.empty()) check_values(*tree, document, faults);
     if (!faults.empty()) fail(arguments.file, faults.list().front(), bytes);

@@ -19,6 +19,7 @@ need /usr/include/tiny_gltf.h libtinygltf-dev
 need /usr/include/nlohmann/json.hpp nlohmann-json3-dev
 need /usr/include/CLI/App.hpp libcli11-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
+need /usr/include/zstd.h libzstd-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev

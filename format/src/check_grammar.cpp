@@ -68,12 +68,15 @@ void check_children(const ChunkTree& tree, std::uint32_t container, Faults& faul
 
 }  // namespace
 
+bool is_known(FourCC id) {
+    return find_rule(id) != kRuleCount;
+}
+
 void check_grammar(const ChunkTree& tree, Faults& faults) {
     const auto chunks = tree.chunks();
     for (std::uint32_t number = 0; number < chunks.size();) {
         const Chunk& chunk = chunks[number];
-        const bool is_known = find_rule(chunk.id) != kRuleCount;
-        if (!is_known) {
+        if (!is_known(chunk.id)) {
             number = chunk.end;  // its parent has said what there is to say of it
             continue;
         }

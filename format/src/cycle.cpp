@@ -13,16 +13,17 @@ namespace {
 std::span<const float> read_floats(const ChunkTree& tree, std::uint32_t cycle, FourCC id, Faults& faults) {
     const std::uint32_t number = tree.find(cycle, id);
     if (number == kNone || tree[number].is_container()) return {};
-    const Chunk& chunk = tree[number];
-    if (chunk.codec() != 0) {
-        faults.add({ErrorCode::kUnsupportedCodec, chunk.offset, chunk.codec()});
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
         return {};
     }
-    if (chunk.size % sizeof(float) != 0) {
-        faults.add({ErrorCode::kRecordSize, chunk.offset, chunk.size, chunk.size / sizeof(float) * sizeof(float)});
+    const Bytes payload = tree.payload(number);
+    const std::uint64_t count = payload.size() / sizeof(float);
+    if (payload.size() % sizeof(float) != 0) {
+        faults.add({ErrorCode::kRecordSize, tree[number].offset, payload.size(), count * sizeof(float)});
         return {};
     }
-    return view_at<float>(tree.payload(number), 0, chunk.size / sizeof(float));
+    return view_at<float>(payload, 0, count);
 }
 
 std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<const PoolView> pools) {
@@ -132,8 +133,8 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     if (table == kNone || tree[table].is_container()) return cycle;
     const std::uint64_t offset = tree[table].offset;
     const Bytes payload = tree.payload(table);
-    if (tree[table].codec() != 0) {
-        faults.add({ErrorCode::kUnsupportedCodec, offset, tree[table].codec()});
+    if (const auto fault = tree.encoding_fault(table)) {
+        faults.add(*fault);
         return cycle;
     }
     const std::uint64_t count = payload.size() / sizeof(TrackRecord);

@@ -57,8 +57,8 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
             image.media = static_cast<MediaType>(record->media);
             image.bytes = tree.payload(number).subspan(sizeof(ImageRecord));
         } else if (child.id == FourCC("LINK")) {
-            if (child.codec() != 0) {
-                faults.add({ErrorCode::kUnsupportedCodec, child.offset, child.codec()});
+            if (const auto fault = tree.encoding_fault(number)) {
+                faults.add(*fault);
                 continue;
             }
             image.uri = as_text(tree.payload(number));

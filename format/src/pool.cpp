@@ -75,7 +75,8 @@ public:
         const std::uint64_t size = std::uint64_t{record->elements} * record->components * component_size(type);
         const Bytes data = tree_.payload(number).subspan(sizeof(StreamRecord));
         if (data.size() != size)
-            return fault({ErrorCode::kRecordSize, chunk.offset, chunk.size, size + sizeof(StreamRecord)});
+            return fault(
+                {ErrorCode::kRecordSize, chunk.offset, tree_.payload(number).size(), size + sizeof(StreamRecord)});
         return StreamView{type,  record->normalised != 0, record->components, record->elements, record->set, data,
                           number};
     }
@@ -124,11 +125,11 @@ public:
         const std::uint64_t matrices_at =
             sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
         const std::uint64_t size = matrices_at + std::uint64_t{record->entries} * sizeof(glm::mat4);
-        if (size != chunk.size) {
-            faults_.add({ErrorCode::kRecordSize, chunk.offset, chunk.size, size});
+        const Bytes payload = tree_.payload(number);
+        if (size != payload.size()) {
+            faults_.add({ErrorCode::kRecordSize, chunk.offset, payload.size(), size});
             return std::nullopt;
         }
-        const Bytes payload = tree_.payload(number);
         const std::uint64_t joints_end = sizeof(PaletteRecord) + std::uint64_t{record->entries} * sizeof(std::uint32_t);
         for (const std::byte gap : payload.subspan(joints_end, matrices_at - joints_end)) {
             if (gap == std::byte{0}) continue;

@@ -40,8 +40,8 @@ std::string_view read_text(const ChunkTree& tree, std::uint32_t container, FourC
     if (number == kNone) return {};
     const Chunk& chunk = tree[number];
     if (chunk.is_container()) return {};  // check_grammar says so
-    if (chunk.codec() != 0) {
-        faults.add({ErrorCode::kUnsupportedCodec, chunk.offset, chunk.codec()});
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
         return {};
     }
     const std::string_view text = as_text(tree.payload(number));

@@ -1,6 +1,7 @@
 #include <bendy/runtime/model.h>
 
 #include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
 
 #include <algorithm>
 #include <numeric>
@@ -122,17 +123,21 @@ std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
 }
 
 Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& options) {
-    const Result<ChunkTree> tree = read_chunk_tree(bytes);
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) return tree.error();
     Faults faults;
     if (options.check_sums) check_sums(*tree, faults);
     auto data = std::make_unique<Data>();
-    if (faults.empty()) data->document = read_document(*tree, faults);
+    if (faults.empty()) {
+        decode_leaves(*tree);
+        data->document = read_document(*tree, faults);
+    }
     if (!faults.empty()) return faults.list().front();
     if (options.object >= data->document.objects.size()) {
         return Error{ErrorCode::kChunkMissing, 0, FourCC("OBJE").value};
     }
     data->file = std::move(file);
+    data->decoded = std::move(*tree).take_decoded();
     data->object = std::move(data->document.objects[options.object]);
     data->document.objects.clear();
 

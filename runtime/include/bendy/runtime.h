@@ -15,6 +15,7 @@
 #include <bendy/runtime/ik.h>
 #include <bendy/runtime/inbetween.h>
 #include <bendy/runtime/local_to_model.h>
+#include <bendy/runtime/lod.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/sample.h>

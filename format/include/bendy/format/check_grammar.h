@@ -9,4 +9,7 @@ namespace bendy {
 /// be, as often as it may; an unknown one is skipped with all inside it, unless it is marked required.
 void check_grammar(const ChunkTree& tree, Faults& faults);
 
+/// Whether this version has a page for the id.
+bool is_known(FourCC id);
+
 }  // namespace bendy

@@ -20,7 +20,7 @@ enum ChunkFlag : std::uint16_t {
     kContainerFlag = 1u << 0,  ///< the payload is chunks and nothing else
     kRequiredFlag = 1u << 1,   ///< a reader that does not know this id must refuse the file
     kReservedFlags = 0x00fcu,  ///< must be zero
-    kCodecMask = 0xff00u,      ///< encoding of a leaf's payload: 0 raw, others to come
+    kCodecMask = 0xff00u,      ///< encoding of a leaf's payload: see codec.h
 };
 
 /// A chunk's header and its place in the tree, as the reader found them.

@@ -2,16 +2,32 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk.h>
+#include <bendy/format/codec.h>
 #include <bendy/format/limits.h>
 #include <bendy/format/result.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace bendy {
+
+/// Where decode_leaves has put an encoded leaf's payload, or why it could not.
+struct DecodedLeaf {
+    std::uint32_t number = 0;
+    std::uint64_t at = 0;  ///< in DecodedLeaves::bytes
+    std::uint64_t size = 0;
+    std::optional<Error> fault;
+};
+
+struct DecodedLeaves {
+    std::vector<DecodedLeaf> leaves;  ///< by number
+    AlignedBytes bytes;               ///< all of them, each on a 16-byte boundary
+};
 
 /// All chunks of a file, in the order in which they stand: a parent before its children, so chunk n's first child, if
 /// it has one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
@@ -57,10 +73,28 @@ public:
     [[nodiscard]] std::span<const Chunk> chunks() const { return chunks_; }
     [[nodiscard]] const Chunk& operator[](std::uint32_t number) const { return chunks_[number]; }
 
-    [[nodiscard]] Bytes payload(std::uint32_t number) const {
+    /// The payload as the file has it.
+    [[nodiscard]] Bytes stored(std::uint32_t number) const {
         const Chunk& chunk = chunks_[number];
         return bytes_.subspan(chunk.payload_offset(), chunk.size);
     }
+    /// What the payload means: decoded, if decode_leaves has done so.
+    [[nodiscard]] Bytes payload(std::uint32_t number) const {
+        const DecodedLeaf* leaf = find_decoded(number);
+        return leaf == nullptr ? stored(number) : decoded_.bytes.bytes().subspan(leaf->at, leaf->size);
+    }
+    /// Why `payload` does not give what the leaf means, if it does not.
+    [[nodiscard]] std::optional<Error> encoding_fault(std::uint32_t number) const {
+        const Chunk& chunk = chunks_[number];
+        if (chunk.codec() == 0) return std::nullopt;
+        const DecodedLeaf* leaf = find_decoded(number);
+        if (leaf == nullptr) return Error{ErrorCode::kUnsupportedCodec, chunk.offset, chunk.codec()};
+        return leaf->fault;
+    }
+    void set_decoded(DecodedLeaves decoded) { decoded_ = std::move(decoded); }
+    /// The decoded bytes, for an owner of views into them that outlives the tree.
+    [[nodiscard]] AlignedBytes take_decoded() && { return std::move(decoded_.bytes); }
+
     [[nodiscard]] ChildRange children(std::uint32_t number) const {
         const std::uint32_t last = chunks_[number].end;
         return {{chunks_.data(), chunks_[number].is_container() ? number + 1 : last}, {chunks_.data(), last}};
@@ -74,8 +108,16 @@ public:
     }
 
 private:
+    [[nodiscard]] const DecodedLeaf* find_decoded(std::uint32_t number) const {
+        if (chunks_[number].codec() == 0) return nullptr;
+        const auto less = [](const DecodedLeaf& leaf, std::uint32_t wanted) { return leaf.number < wanted; };
+        const auto found = std::lower_bound(decoded_.leaves.begin(), decoded_.leaves.end(), number, less);
+        return found == decoded_.leaves.end() || found->number != number ? nullptr : &*found;
+    }
+
     Bytes bytes_;
     std::vector<Chunk> chunks_;
+    DecodedLeaves decoded_;
 };
 
 /// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting

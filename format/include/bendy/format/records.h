@@ -252,12 +252,12 @@ inline constexpr std::uint64_t kShortest = sizeof(R);
 
 /// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their
 /// defaults; or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than
-/// the form that it must have; UNSUPPORTED_CODEC if it is encoded.
+/// the form that it must have; the codec's fault if it is encoded and has not been decoded.
 template <class R>
 Result<R> read_record(const ChunkTree& tree, std::uint32_t chunk) {
     const Bytes payload = tree.payload(chunk);
     const std::uint64_t offset = tree[chunk].offset;
-    if (tree[chunk].codec() != 0) return Error{ErrorCode::kUnsupportedCodec, offset, tree[chunk].codec()};
+    if (const auto fault = tree.encoding_fault(chunk)) return *fault;
     if (payload.size() < kShortest<R>) return Error{ErrorCode::kRecordTooShort, offset, payload.size(), kShortest<R>};
     if (payload.size() > kShortest<R> && payload.size() < sizeof(R)) {
         return Error{ErrorCode::kRecordTooShort, offset, payload.size(), sizeof(R)};

@@ -116,6 +116,7 @@ private:
     };
     struct Data {
         MappedFile file;
+        AlignedBytes decoded;  // what the file has encoded; the document's views lie in either
         Document document;
         ObjectView object;
         std::vector<Joint> joints;
