@@ -173,7 +173,7 @@ TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
     at(root, "HEAD/TEXT/LINK").payload = {std::byte{0xc0}, std::byte{0x80}};
     EXPECT_EQ(faults_in(root), Lines{"NOT_UTF8 HEAD/TEXT/LINK"});
     root = sample();
-    at(root, "HEAD/TEXT/LINK").flags = 0x0100;
+    at(root, "HEAD/TEXT/LINK").flags = 0xff00;
     EXPECT_EQ(faults_in(root), Lines{"UNSUPPORTED_CODEC HEAD/TEXT/LINK"});
 }
 

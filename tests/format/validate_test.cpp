@@ -61,6 +61,13 @@ constexpr std::uint64_t kFlagsField = 14;
 constexpr std::size_t kNumbers = sizeof(StreamRecord);
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
+/// A leaf under zstd with nothing after its header.
+void put_encoded(Node& leaf, const CodecHeader& header) {
+    leaf.flags = 0x0100;
+    const Bytes bytes = bytes_of(header);
+    leaf.payload.assign(bytes.begin(), bytes.end());
+}
+
 const std::vector<Provocation> kProvocations{
     patched(ErrorCode::kNotABendyFile, "HEAX", "HEAD", 3, 'X'),
     {ErrorCode::kTruncated, "HEAD",
@@ -106,8 +113,16 @@ const std::vector<Provocation> kProvocations{
     edited(ErrorCode::kRequiredChunkUnknown, "HEAD/OBJE/ZZZZ",
            [](Node& root) { at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag)); }),
     edited(ErrorCode::kUnsupportedCodec, "HEAD/OBJE/VECT/NORM",
-           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0x0100; }),
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0xff00; }),
 
+    edited(ErrorCode::kCodecData, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) {
+               put_encoded(at(root, "HEAD/OBJE/VECT/NORM"), CodecHeader{36 + 16, 0, 0, 0});
+           }),
+    edited(ErrorCode::kCodecRatio, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) {
+               put_encoded(at(root, "HEAD/OBJE/VECT/NORM"), CodecHeader{1'000'000, 0, 0, 0});
+           }),
     edited(ErrorCode::kChunkMissing, "HEAD/OBJE/SKIN/SKIN[1]",
            [](Node& root) { remove(at(root, "HEAD/OBJE/SKIN/SKIN[1]"), "PIVO"); }),
     edited(ErrorCode::kChunkRepeated, "HEAD/OBJE/NAME[1]",
