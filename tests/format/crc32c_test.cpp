@@ -1,5 +1,7 @@
 #include <bendy/format/crc32c.h>
 
+#include "crc32c_kernels.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -68,6 +70,28 @@ TEST(Crc32c, GoesOnFromAnEarlierSum) {
     for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
         ASSERT_EQ(crc32c(whole.subspan(cut), crc32c(whole.first(cut))), plain_crc32c(whole)) << "cut at " << cut;
     }
+}
+
+TEST(Crc32c, EveryKernelGivesThePlainSum) {
+    std::vector<std::uint8_t> numbers(20'000);
+    std::uint32_t state = 7;
+    for (std::uint8_t& number : numbers) {
+        state = state * 1664525u + 1013904223u;
+        number = static_cast<std::uint8_t>(state >> 24);
+    }
+    const Bytes bytes = std::as_bytes(std::span(numbers));
+    std::size_t tried = 0;
+    for (const Crc32cKernel& kernel : crc32c_kernels()) {
+        if (!kernel.is_supported()) continue;
+        ++tried;
+        for (std::size_t length = 0; length < bytes.size(); length += length < 100 ? 1 : 211) {
+            const Bytes part = bytes.subspan(length % 13 % (bytes.size() - length), length);
+            const std::size_t cut = length / 3;
+            ASSERT_EQ(kernel.sum(part, 0), plain_crc32c(part)) << kernel.name << ' ' << length;
+            ASSERT_EQ(kernel.sum(part.subspan(cut), kernel.sum(part.first(cut), 0)), plain_crc32c(part)) << kernel.name;
+        }
+    }
+    EXPECT_GE(tried, 1u);
 }
 
 }  // namespace

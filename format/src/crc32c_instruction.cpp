@@ -1,0 +1,119 @@
+#include "crc32c_kernels.h"
+
+#include <array>
+#include <cstddef>
+
+#if defined(__x86_64__)
+#include <nmmintrin.h>
+#define BENDY_CRC32C __attribute__((target("sse4.2")))
+#elif defined(__aarch64__) && defined(__linux__)
+#include <arm_acle.h>
+#include <sys/auxv.h>
+#define BENDY_CRC32C __attribute__((target("+crc")))
+#endif
+
+namespace bendy {
+
+#ifdef BENDY_CRC32C
+namespace {
+
+// The instruction takes three cycles and a new one can start in each, so three stretches are summed side by side and
+// put together: what a sum becomes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al., "Fast
+// CRC Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.)
+constexpr std::size_t kLane = 1024;  // bytes
+
+using Columns = std::array<std::uint32_t, 32>;  // what each bit of a sum becomes
+
+constexpr std::uint32_t apply(const Columns& columns, std::uint32_t sum) {
+    std::uint32_t result = 0;
+    for (std::size_t bit = 0; bit < 32; ++bit) {
+        if ((sum >> bit & 1u) != 0) result ^= columns[bit];
+    }
+    return result;
+}
+
+constexpr Columns twice(const Columns& columns) {
+    Columns result{};
+    for (std::size_t bit = 0; bit < 32; ++bit) result[bit] = apply(columns, columns[bit]);
+    return result;
+}
+
+/// Over kLane zero bytes, a table for each byte of the sum.
+constexpr std::array<std::array<std::uint32_t, 256>, 4> make_lane_tables() {
+    Columns columns{};  // over one zero bit
+    columns[0] = 0x82f63b78u;
+    for (std::size_t bit = 1; bit < 32; ++bit) columns[bit] = std::uint32_t{1} << (bit - 1);
+    for (std::size_t bits = 1; bits < kLane * 8; bits *= 2) columns = twice(columns);
+    std::array<std::array<std::uint32_t, 256>, 4> tables{};
+    for (std::uint32_t place = 0; place < 4; ++place) {
+        for (std::uint32_t byte = 0; byte < 256; ++byte) tables[place][byte] = apply(columns, byte << (8 * place));
+    }
+    return tables;
+}
+
+constexpr auto kOverLane = make_lane_tables();
+
+std::uint32_t over_lane(std::uint32_t sum) {
+    return kOverLane[0][sum & 0xffu] ^ kOverLane[1][sum >> 8 & 0xffu] ^ kOverLane[2][sum >> 16 & 0xffu] ^
+           kOverLane[3][sum >> 24];
+}
+
+BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, Bytes bytes, std::size_t at) {
+    std::uint64_t word = 0;
+    copy_at(bytes, at, word);
+#if defined(__x86_64__)
+    return static_cast<std::uint32_t>(_mm_crc32_u64(sum, word));
+#else
+    return __crc32cd(sum, word);
+#endif
+}
+
+BENDY_CRC32C inline std::uint32_t add_byte(std::uint32_t sum, std::byte byte) {
+#if defined(__x86_64__)
+    return _mm_crc32_u8(sum, std::to_integer<std::uint8_t>(byte));
+#else
+    return __crc32cb(sum, std::to_integer<std::uint8_t>(byte));
+#endif
+}
+
+}  // namespace
+
+bool has_crc32c_instruction() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("sse4.2") != 0;
+#else
+    return (getauxval(AT_HWCAP) & HWCAP_CRC32) != 0;
+#endif
+}
+
+BENDY_CRC32C std::uint32_t crc32c_instruction(Bytes bytes, std::uint32_t before) {
+    constexpr std::size_t kWord = sizeof(std::uint64_t);
+    std::uint32_t sum = ~before;
+    for (; bytes.size() >= 3 * kLane; bytes = bytes.subspan(3 * kLane)) {
+        std::uint32_t second = 0;
+        std::uint32_t third = 0;
+        for (std::size_t at = 0; at < kLane; at += kWord) {
+            sum = add_word(sum, bytes, at);
+            second = add_word(second, bytes, at + kLane);
+            third = add_word(third, bytes, at + 2 * kLane);
+        }
+        sum = over_lane(over_lane(sum) ^ second) ^ third;
+    }
+    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) sum = add_word(sum, bytes, 0);
+    for (const std::byte byte : bytes) sum = add_byte(sum, byte);
+    return ~sum;
+}
+
+#else
+
+bool has_crc32c_instruction() {
+    return false;
+}
+
+std::uint32_t crc32c_instruction(Bytes bytes, std::uint32_t before) {
+    return crc32c_tables(bytes, before);
+}
+
+#endif
+
+}  // namespace bendy
