@@ -130,12 +130,12 @@ void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Byt
                    describe_with_place(faults.list().front(), bytes));
 }
 
-void write_page(const Arguments& arguments, const InspectedFile& file) {
+/// \returns its size, bytes
+std::size_t write_page(const Arguments& arguments, const InspectedFile& file) {
     const std::string page = inspect_page(file);
     if (const auto written = write_file(arguments.html, as_byte_span(page)); !written)
         fail(arguments.html, describe(written.error()));
-    std::cout << printable(arguments.html.string()) << ": " << grouped(page.size()) << " bytes, " << file.faults.count()
-              << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    return page.size();
 }
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
@@ -156,7 +156,9 @@ void run_html(const Arguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
-    write_page(arguments, file);
+    const std::size_t size = write_page(arguments, file);
+    std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
+              << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
