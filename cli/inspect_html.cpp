@@ -95,9 +95,8 @@ Json warnings_json(const InspectedFile& file) {
 }
 
 /// The chunks as columns, in file order; ids and encodings by number.
-Json chunks_json(const ChunkTree& tree) {
+Json chunks_json(const ChunkTree& tree, const RigIndex& rigs) {
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(tree.chunks().size(), kMostChunks));
-    const RigIndex rigs(tree);
     std::map<std::uint32_t, std::size_t> known;
     Json ids = Json::array();
     Json meanings = Json::array();
@@ -164,7 +163,7 @@ Json page_data(const InspectedFile& file) {
     data["version"] = version == kNone ? std::string() : describe_chunk(tree, version, rigs);
     data["warnings"] = warnings_json(file);
     data["facts"] = facts_json(file.document);
-    data["chunks"] = chunks_json(tree);
+    data["chunks"] = chunks_json(tree, rigs);
     CurveSampler curves(file.document.objects);
     Json objects = Json::array();
     for (const ObjectView& object : file.document.objects) {

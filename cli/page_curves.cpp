@@ -87,7 +87,8 @@ std::size_t CurveSampler::number_of(std::vector<float> times) {
 
 Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const ObjectView& object) {
     const std::vector<float> times = times_of(track, cycle, points_);
-    const std::uint64_t numbers = std::uint64_t{track.components} * times.size();
+    constexpr std::uint64_t kTrackItself = 16;  // what a track takes on the page beside its numbers
+    const std::uint64_t numbers = std::uint64_t{track.components} * times.size() + kTrackItself;
     if (numbers > budget_) {
         ++left_out_;
         return nullptr;

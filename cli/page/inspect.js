@@ -25,7 +25,7 @@ function draw(tag, attributes = {}, ...children) {
   return node;
 }
 const grouped = n => n.toLocaleString('en-US');
-const short = n => n === null ? 'not finite' : String(+n.toPrecision(4));
+const short = n => n === null ? 'not finite' : Math.abs(n) < 5e-7 ? '0' : String(+n.toPrecision(4));
 const shorts = list => list.map(short).join('  ');
 const plural = (n, word) => `${grouped(n)} ${word}${n === 1 ? '' : 's'}`;
 function bytesText(n) {
@@ -94,8 +94,8 @@ function outline(host, nodes, view) {
     if (holds) node.setAttribute('aria-expanded', unfolded ? 'true' : 'false');
     const cells = view.cells(n);
     cells.main.prepend(make('span', { class: 'fold', 'aria-hidden': 'true' }, holds ? (unfolded ? '\u25be' : '\u25b8') : ''));
-    cells.main.style.paddingLeft = `${Math.min(depth[n], 30) * 1.1}rem`;
-    if (depth[n] > 30) cells.main.prepend(`[${depth[n]}] `);
+    cells.main.style.paddingLeft = `${Math.min(depth[n], 14) * 0.9}rem`;
+    if (depth[n] > 14) cells.main.prepend(`[${depth[n]}] `);
     node.append(...cells.all);
     return node;
   }
@@ -298,7 +298,7 @@ function turnText(q) {
   const sine = Math.hypot(q[0], q[1], q[2]);
   if (sine < 1e-6) return '0\u00b0';
   const degrees = 2 * Math.atan2(sine, Math.abs(q[3])) * 180 / Math.PI, sign = q[3] < 0 ? -1 : 1;
-  return `${short(degrees)}\u00b0 about ${shorts([0, 1, 2].map(i => +(sign * q[i] / sine).toFixed(3)))}`;
+  return `${short(degrees)}\u00b0 about ${shorts([0, 1, 2].map(i => +(sign * q[i] / sine).toFixed(2)))}`;
 }
 
 const camera = { yaw: 0.55, pitch: 0.25, zoom: 1 };
@@ -314,8 +314,8 @@ function drawBones() {
   const places = skeleton.joints.place.map(p => p.includes(null) ? null : p);
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const p of places) if (p) for (let i = 0; i < 3; ++i) { low[i] = Math.min(low[i], p[i]); high[i] = Math.max(high[i], p[i]); }
-  const middle = low.map((v, i) => (v + high[i]) / 2), size = Math.hypot(...low.map((v, i) => high[i] - v)) || 1;
-  const scale = Math.min(w, h) * 0.92 / size * camera.zoom;
+  const middle = low.map((v, i) => (v + high[i]) / 2), [dx, dy, dz] = low.map((v, i) => high[i] - v);
+  const wide = Math.hypot(dx, dz), scale = 0.88 * Math.min(w / (wide || 1e-6), h / (Math.hypot(dy, wide / 2) || 1e-6)) * camera.zoom;
   const [cy, sy, cp, sp] = [Math.cos(camera.yaw), Math.sin(camera.yaw), Math.cos(camera.pitch), Math.sin(camera.pitch)];
   const turned = ([x, y, z]) => { const side = cy * x - sy * z, depth = sy * x + cy * z; return [side, cp * y - sp * depth]; };
   const project = p => { const [x, y] = turned(p.map((v, i) => v - middle[i])); return [w / 2 + scale * x, h / 2 - scale * y]; };
@@ -400,15 +400,15 @@ function skeletonSection(object) {
   pickedJoint = hovered = -1;
   pickedChain = null;
   const { joints, chains } = object, tree = shape(joints.parent), scaled = s => s.some(v => v !== 1);
-  const num = text => make('span', { class: 'num wide' }, text);
+  const num = (text, slim) => make('span', { class: `num wide ${slim || ''}` }, text);
   revealJoint = outline($('joints'), tree, {
     label: 'joints',
-    head: () => [make('span', { class: 'main' }, 'joint'), num('translation, m'), num('rotation'), num('scale'), 'constraints'],
+    head: () => [make('span', { class: 'main' }, 'joint'), num('translation, m'), num('rotation'), num('scale', 'slim'), 'constraints'],
     cells: n => {
       const main = make('span', { class: 'main' }, make('span', { class: 'quiet' }, `${n} `), jointName(n));
       const turn = num(turnText(joints.r[n]));
       turn.title = `quaternion ${shorts(joints.r[n])}`;
-      return { main, all: [main, num(shorts(joints.t[n])), turn, num(scaled(joints.s[n]) ? shorts(joints.s[n]) : '1'), make('span', { class: 'text' }, joints.limits[n])] };
+      return { main, all: [main, num(shorts(joints.t[n])), turn, num(scaled(joints.s[n]) ? shorts(joints.s[n]) : '1', 'slim'), make('span', { class: 'text' }, joints.limits[n])] };
     },
     text: n => `${jointName(n)} ${joints.limits[n]}`,
     open: () => tree.count <= 400,
@@ -416,7 +416,13 @@ function skeletonSection(object) {
   });
   $('chains').hidden = !chains.total;
   $('chains').lastElementChild.replaceChildren(...chains.list.map((chain, i) => make('li', {},
-    make('button', { class: 'link', onclick: () => { pickedChain = pickedChain === chain.links ? null : chain.links; drawBones(); } }, quoted(chain.name, `chain ${i}`)),
+    make('button', { class: 'link', 'aria-pressed': 'false', onclick: e => {
+      const on = pickedChain !== chain.links;
+      for (const button of $('chains').querySelectorAll('button')) button.setAttribute('aria-pressed', 'false');
+      e.target.setAttribute('aria-pressed', on);
+      pickedChain = on ? chain.links : null;
+      drawBones();
+    } }, quoted(chain.name, `chain ${i}`)),
     make('div', { class: 'quiet' }, chain.text))));
   const limited = joints.limits.filter(text => text).length;
   $('bonelegend').replaceChildren(make('span', { class: 'key joint' }, make('i'), 'joint'), limited ? make('span', { class: 'key anim' }, make('i'), 'joint with constraints') : '',
@@ -439,6 +445,15 @@ function unleaped(values) {
   }
   return out;
 }
+/** The rotation vectors of unleaped quaternions: degrees about x, y and z. */
+function inDegrees(values) {
+  const out = [[], [], []];
+  values[0].forEach((_, k) => {
+    const q = values.map(list => list[k]), sine = Math.hypot(q[0], q[1], q[2]), angle = 2 * Math.atan2(sine, q[3]) * 180 / Math.PI;
+    out.forEach((list, c) => list.push(q.includes(null) ? null : sine > 0 ? angle * q[c] / sine : 0));
+  });
+  return out;
+}
 function ticks(low, high, most) {
   const raw = (high - low) / most || 1, power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map(m => m * power).find(s => s >= raw) || raw, list = [];
@@ -448,7 +463,8 @@ function ticks(low, high, most) {
 function legendLine(c) { return draw('svg', { viewBox: '0 0 28 10' }, draw('line', { class: `curve c${c % 4}`, x1: 0, x2: 28, y1: 5, y2: 5 })); }
 
 function chart(cycle, track) {
-  const times = data.times[track.times], values = track.path === 1 ? unleaped(track.values) : track.values;
+  const turns = track.path === 1, degrees = turns && $('degrees').checked;
+  const times = data.times[track.times], raw = turns ? unleaped(track.values) : track.values, values = degrees ? inDegrees(raw) : raw;
   const names = track.path === 3 ? values.map((_, c) => quoted((track.names || [])[c], `target ${c}`)) : ['x', 'y', 'z', 'w'];
   const finite = values.flat().filter(v => v !== null);
   let low = Math.min(...finite, Infinity), high = Math.max(...finite, -Infinity);
@@ -504,8 +520,8 @@ function chart(cycle, track) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
     if (step) { e.preventDefault(); read(at + step); }
   });
-  const unit = track.path === 0 ? ', m' : track.path === 1 ? ', quaternion' : '';
-  const more = track.components > values.length ? `, the first ${values.length} of ${track.components}` : '';
+  const unit = track.path === 0 ? ', m' : degrees ? ', degrees about x, y, z together' : turns ? ', quaternion' : '';
+  const more = track.components > raw.length ? `, the first ${raw.length} of ${track.components}` : '';
   const figure = make('figure', {}, make('h3', {}, `${pathNames[track.path]}${unit}`, make('span', { class: 'quiet' }, ` \u00b7 ${plural(track.keys, 'key')}, ${interpolations[track.interpolation]}${more}`)), svg,
     make('figcaption', { class: 'quiet' }, ...values.map((_, c) => make('span', { class: 'key' }, legendLine(c), names[c])), info));
   new ResizeObserver(layout).observe(svg);
@@ -536,7 +552,7 @@ function cycleSection(object) {
     charts();
   }
   $('cycle').onchange = choose;
-  $('target').onchange = charts;
+  $('target').onchange = $('degrees').onchange = charts;
   choose();
   const { points, thinned, leftOut } = data.curves;
   $('curvenote').textContent = 'Sampled through the runtime at the keys and, where curves bend, between them; the sign of quaternions is chosen so that they do not leap.'
