@@ -239,7 +239,9 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     return {};
 }
 
-std::string codec_text(const ChunkTree& tree, std::uint32_t number) {
+}  // namespace
+
+std::string encoding_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
                                                            "indices", "indices, zstd", "cycle"};
     const unsigned codec = tree[number].codec();
@@ -248,8 +250,6 @@ std::string codec_text(const ChunkTree& tree, std::uint32_t number) {
     if (!tree.encoding_fault(number)) text += ", " + grouped(tree.payload(number).size()) + " bytes decoded";
     return text;
 }
-
-}  // namespace
 
 std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     std::string text;
@@ -264,7 +264,7 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const Ri
     }
     const bool is_readable = !tree.encoding_fault(number);
     if (is_readable) add(content_text(tree, number, rigs), "  ");
-    if (tree[number].codec() != 0) add(codec_text(tree, number), "  ");
+    if (tree[number].codec() != 0) add(encoding_text(tree, number), "  ");
     if (chunk_meaning(tree[number].id) == "unknown")
         add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
     return text;

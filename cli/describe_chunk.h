@@ -15,6 +15,9 @@ namespace bendy::cli {
 /// its records hold. \param rigs made of the same tree
 std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs);
 
+/// How a chunk with a codec is encoded: "encoded: zstd, 1,024 bytes decoded".
+std::string encoding_text(const ChunkTree& tree, std::uint32_t number);
+
 /// The fields of a chunk's record by name, as records.def has them; text chunks give {"text": ...}. Empty for chunks
 /// without a record.
 nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number);

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "describe_chunk.h"
+#include "inspect_html.h"
 #include "inspect_json.h"
 #include "problem.h"
 
@@ -24,6 +25,7 @@ struct Arguments {
     bool json = false;
     bool hex = false;
     bool all = false;
+    std::filesystem::path html;
 };
 
 /// Chunks whose content the line of their parent already tells.
@@ -123,7 +125,48 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
     }
 }
 
+void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+    warn(file, "the file has faults, `bendy validate` lists them; the first: " +
+                   describe_with_place(faults.list().front(), bytes));
+}
+
+/// \returns its size, bytes
+std::size_t write_page(const Arguments& arguments, const InspectedFile& file) {
+    const std::string page = inspect_page(file);
+    if (const auto written = write_file(arguments.html, as_byte_span(page)); !written)
+        fail(arguments.html, describe(written.error()));
+    return page.size();
+}
+
+/// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
+void run_html(const Arguments& arguments) {
+    const Result<MappedFile> mapped = MappedFile::open(arguments.file);
+    if (!mapped) fail(arguments.file, mapped.error(), {});
+    InspectedFile file;
+    file.name = arguments.file.filename().string();
+    file.bytes = mapped->bytes();
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes);
+    if (!tree) {
+        file.faults.add(tree.error());
+        write_page(arguments, file);
+        fail(arguments.file, tree.error(), file.bytes);
+    }
+    check_sums(*tree, file.faults);
+    decode_leaves(*tree);
+    file.tree = &*tree;
+    file.document = read_document(*tree, file.faults);
+    check_values(*tree, file.document, file.faults);
+    const std::size_t size = write_page(arguments, file);
+    std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
+              << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
+}
+
 void run(const Arguments& arguments) {
+    if (!arguments.html.empty()) {
+        run_html(arguments);
+        return;
+    }
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     Result<ChunkTree> tree = read_chunk_tree(file->bytes());
@@ -150,10 +193,7 @@ void run(const Arguments& arguments) {
     Faults faults;
     check_sums(*tree, faults);
     if (faults.empty()) read_document(*tree, faults);
-    if (!faults.empty()) {
-        warn(arguments.file, "the file has faults, `bendy validate` lists them; the first: " +
-                                 describe_with_place(faults.list().front(), file->bytes()));
-    }
+    if (!faults.empty()) warn_of_faults(arguments.file, faults, file->bytes());
 }
 
 }  // namespace
@@ -163,11 +203,23 @@ void add_inspect(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
-    command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
+    CLI::Option* chunk =
+        command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
     CLI::Option* json = command->add_flag("--json", arguments->json, "print JSON, with every record's fields");
-    command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
-    command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
-    command->footer("Example: bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]");
+    CLI::Option* hex = command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
+    CLI::Option* all =
+        command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
+    command
+        ->add_option("--html", arguments->html,
+                     "write OUT.html instead: one page for a browser with the chunks, skeleton, cycles, textures, "
+                     "materials and faults; it loads nothing, and images of more than 32 MiB in all are left out")
+        ->excludes(json)
+        ->excludes(hex)
+        ->excludes(chunk)
+        ->excludes(all);
+    command->footer(
+        "Example: bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]\n"
+        "         bendy inspect fox.bendy --html fox.html");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -29,6 +29,7 @@ if [ "${1:-build}" = test ]; then
     need git git
     need python3 python3
     need node nodejs
+    need chromium chromium
 fi
 [ ${#missing[@]} -gt 0 ] || exit 0
 

@@ -1,0 +1,152 @@
+#include "page_curves.h"
+
+#include "brief.h"
+#include "page_number.h"
+
+#include <bendy/runtime/sample.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace bendy::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kMostNumbers = 400'000;  // of all tracks together
+constexpr std::size_t kMostPoints = 240;         // of a track
+constexpr std::size_t kFewestPoints = 16;
+constexpr std::size_t kMostCurves = 24;  // of a track: weights of inbetweening targets
+constexpr std::size_t kMostCycles = 1'000;
+
+/// The time of a key, seconds.
+float key_time(const TrackView& track, const CycleView& cycle, std::size_t key) {
+    if (!track.times.empty()) return track.times[key];
+    return cycle.frame_rate > 0.0f ? cycle.start + static_cast<float>(key) / cycle.frame_rate : cycle.start;
+}
+
+/// Where a track is sampled: at its keys, between them too where it is not straight there; if these are too many, at
+/// even distances.
+std::vector<float> times_of(const TrackView& track, const CycleView& cycle, std::size_t most) {
+    constexpr std::size_t kMostBetween = 8;
+    const bool is_straight = track.interpolation == Interpolation::step ||
+                             (track.interpolation == Interpolation::linear && track.path != TrackPath::rotation);
+    const std::size_t intervals = track.keys - std::size_t{1};
+    std::vector<float> times;
+    const float first = key_time(track, cycle, 0);
+    const float last = key_time(track, cycle, intervals);
+    if (cycle.start < first) times.push_back(cycle.start);
+    if (intervals + 1 > most) {
+        const auto steps = static_cast<float>(most - 1);
+        for (std::size_t k = 0; k < most; ++k) times.push_back(first + (last - first) * static_cast<float>(k) / steps);
+    } else {
+        const std::size_t parts =
+            is_straight || intervals == 0 ? 1 : std::clamp<std::size_t>((most - 1) / intervals, 1, kMostBetween);
+        for (std::size_t key = 0; key < intervals; ++key) {
+            const float left = key_time(track, cycle, key);
+            const float right = key_time(track, cycle, key + 1);
+            for (std::size_t part = 0; part < parts; ++part)
+                times.push_back(left + (right - left) * static_cast<float>(part) / static_cast<float>(parts));
+        }
+        times.push_back(last);
+    }
+    if (cycle.end > last) times.push_back(cycle.end);
+    return times;
+}
+
+Json target_names(const PoolView& pool) {
+    Json names = Json::array();
+    for (const TargetView& target : pool.targets) {
+        if (names.size() == kMostCurves) break;
+        names.push_back(brief(target.name));
+    }
+    return names;
+}
+
+}  // namespace
+
+CurveSampler::CurveSampler(std::span<const ObjectView> objects) : budget_(kMostNumbers) {
+    std::uint64_t components = 0;
+    for (const ObjectView& object : objects) {
+        for (const CycleView& cycle : object.cycles) {
+            for (const TrackView& track : cycle.tracks) components += track.components;
+        }
+    }
+    points_ = static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(kMostNumbers / std::max<std::uint64_t>(components, 1), kFewestPoints, kMostPoints));
+}
+
+std::size_t CurveSampler::number_of(std::vector<float> times) {
+    // NaN has no place in an order.
+    std::replace_if(
+        times.begin(), times.end(), [](float time) { return !std::isfinite(time); }, 0.0f);
+    const auto [found, is_new] = numbers_.try_emplace(std::move(times), lists_.size());
+    if (is_new) lists_.push_back(found->first);
+    return found->second;
+}
+
+Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const ObjectView& object) {
+    const std::vector<float> times = times_of(track, cycle, points_);
+    constexpr std::uint64_t kTrackItself = 16;  // what a track takes on the page beside its numbers
+    const std::uint64_t numbers = std::uint64_t{track.components} * times.size() + kTrackItself;
+    if (numbers > budget_) {
+        ++left_out_;
+        return nullptr;
+    }
+    budget_ -= numbers;
+    if (track.keys > points_) ++thinned_;
+    const std::size_t shown = std::min<std::size_t>(track.components, kMostCurves);
+    std::vector<Json> curves(shown, Json::array());
+    std::vector<float> value(track.components);
+    for (const float time : times) {
+        sample_track(track, cycle, time, value);
+        for (std::size_t c = 0; c < shown; ++c) curves[c].push_back(page_number(value[c]));
+    }
+    Json json{{"path", static_cast<unsigned>(track.path)},
+              {"target", track.target},
+              {"interpolation", static_cast<unsigned>(track.interpolation)},
+              {"keys", track.keys},
+              {"components", track.components},
+              {"times", number_of(times)},
+              {"values", std::move(curves)}};
+    if (track.path == TrackPath::weights && track.target < object.pools.size()) {
+        json["pool"] = brief(object.pools[track.target].name);
+        json["names"] = target_names(object.pools[track.target]);
+    }
+    return json;
+}
+
+Json CurveSampler::cycles(const ObjectView& object) {
+    Json list = Json::array();
+    for (const CycleView& cycle : object.cycles) {
+        if (list.size() == kMostCycles) {
+            left_out_ += cycle.tracks.size();
+            continue;
+        }
+        Json tracks = Json::array();
+        for (const TrackView& track : cycle.tracks) {
+            if (Json one = sampled(track, cycle, object); !one.is_null()) tracks.push_back(std::move(one));
+        }
+        list.push_back({{"name", brief(cycle.name)},
+                        {"chunk", cycle.chunk},
+                        {"start", page_number(cycle.start)},
+                        {"end", page_number(cycle.end)},
+                        {"rate", page_number(cycle.frame_rate)},
+                        {"loop", cycle.loop},
+                        {"total", cycle.tracks.size()},
+                        {"tracks", std::move(tracks)}});
+    }
+    return {{"total", object.cycles.size()}, {"list", std::move(list)}};
+}
+
+Json CurveSampler::times() const {
+    Json lists = Json::array();
+    for (const std::vector<float>& list : lists_) {
+        Json numbers = Json::array();
+        for (const float time : list) numbers.push_back(page_number(time));
+        lists.push_back(std::move(numbers));
+    }
+    return lists;
+}
+
+}  // namespace bendy::cli
