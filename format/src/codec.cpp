@@ -1,6 +1,7 @@
 #include <bendy/format/codec.h>
 
-#include <zstd.h>
+#include "mesh_codecs.h"
+#include "zstd_frame.h"
 
 #include <algorithm>
 #include <new>
@@ -9,7 +10,6 @@ namespace bendy {
 namespace {
 
 constexpr std::align_val_t kAlignment{16};
-constexpr int kZstdLevel = 19;
 
 /// Bytes of numbers of `stride` bytes, plane by plane: all first bytes, then all second ones; what is left over at the
 /// end stays as it is.
@@ -29,22 +29,6 @@ void from_planes(Bytes planes, std::size_t stride, std::span<std::byte> numbers)
     }
     std::copy(planes.begin() + static_cast<std::ptrdiff_t>(count * stride), planes.end(),
               numbers.begin() + static_cast<std::ptrdiff_t>(count * stride));
-}
-
-/// Appends the bytes under zstd.
-bool put_zstd(Bytes bytes, std::vector<std::byte>& out) {
-    const std::size_t at = out.size();
-    out.resize(at + ZSTD_compressBound(bytes.size()));
-    const std::size_t size = ZSTD_compress(out.data() + at, out.size() - at, bytes.data(), bytes.size(), kZstdLevel);
-    if (ZSTD_isError(size) != 0) return false;
-    out.resize(at + size);
-    return true;
-}
-
-/// True if the bytes are one zstd frame of exactly out.size() bytes.
-bool take_zstd(Bytes bytes, std::span<std::byte> out) {
-    const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
-    return ZSTD_isError(size) == 0 && size == out.size();
 }
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
@@ -90,6 +74,12 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
     switch (codec) {
         case Codec::zstd:
             return decode_zstd(header, body, out);
+        case Codec::vertices:
+        case Codec::vertices_zstd:
+            return decode_rows(header, codec == Codec::vertices_zstd, body, out);
+        case Codec::indices:
+        case Codec::indices_zstd:
+            return decode_triangles(header, codec == Codec::indices_zstd, body, out);
         default:
             return false;
     }
@@ -104,6 +94,14 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
     switch (codec) {
         case Codec::zstd:
             is_done = encode_zstd(payload, stride, out);
+            break;
+        case Codec::vertices:
+        case Codec::vertices_zstd:
+            is_done = encode_rows(header, codec == Codec::vertices_zstd, payload, out);
+            break;
+        case Codec::indices:
+        case Codec::indices_zstd:
+            is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
             break;
         default:
             break;

@@ -67,4 +67,8 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out);
 std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload, std::uint16_t head,
                                                      std::uint16_t stride);
 
+/// The same triangles in the same order, each one's corners turned so that the index codecs give them back to the bit.
+/// Nothing if the list is no list of triangles, or the codec cannot take it.
+std::optional<std::vector<std::uint32_t>> canonical_triangles(std::span<const std::uint32_t> indices);
+
 }  // namespace bendy

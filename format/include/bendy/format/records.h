@@ -182,6 +182,8 @@ struct ImageRecord {
 
 enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
 inline constexpr unsigned kComponentTypes = 6;
+enum class Numbers : std::uint8_t { plain, normalised, boxed };
+inline constexpr unsigned kNumbers = 3;
 enum class Topology : std::uint8_t { triangles, lines, points };
 inline constexpr unsigned kTopologies = 3;
 enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };
