@@ -113,7 +113,8 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
     const auto record = record_at<StreamRecord>(tree, number);
     std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
     text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
-    if (record.normalised != 0) text += " normalised";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
     if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
         text += ", set " + std::to_string(record.set);
     return text;

@@ -5,6 +5,7 @@
 #include <bendy/format/text.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -115,6 +116,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     const std::size_t faults_before = faults.count();
     check_grammar(tree, faults);
     document.version = read_version(tree, faults);
+    document.bound = read_child_record<BoundRecord>(tree, 0, FourCC("BNDS"), faults);
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
     document.extensions = read_text(tree, 0, FourCC("EXTN"), faults);
 
@@ -165,6 +167,11 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     std::uint64_t pools = 0;
     std::uint64_t vertices = 0;
     std::uint64_t cycles = 0;
+    if (document.bound) {
+        const BoundRecord& bound = *document.bound;
+        check_finite(std::array{bound.max_error, bound.measured_error, bound.height}, offset_of(tree, 0, FourCC("BNDS")),
+                     faults);
+    }
     for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
     for (const ObjectView& object : document.objects) {
         check_skeleton_values(tree, object.skeleton, faults);

@@ -32,6 +32,12 @@ struct VersionRecord {
     std::array<std::uint8_t, 32> generator{};
 };
 
+struct BoundRecord {
+    float max_error = 0.0f;
+    float measured_error = 0.0f;
+    float height = 0.0f;
+};
+
 struct SamplerRecord {
     std::uint8_t mag_filter = 0;
     std::uint8_t min_filter = 0;
@@ -131,6 +137,19 @@ struct PolygonRecord {
     std::uint8_t topology = 0;
     std::array<std::uint8_t, 3> reserved{};
 };
+
+struct JointsRecord {
+    std::uint32_t joints = 0;
+    std::uint32_t polygons = 0;
+    std::array<std::uint32_t, 2> reserved{};
+};
+
+/// JNTS: a range of polygons, and the joint to which it belongs.
+struct JointPolygons {
+    std::uint32_t joint = 0;
+    PolygonRecord polygons;
+};
+static_assert(sizeof(JointPolygons) == 24);
 
 struct PoolRecord {
     std::uint32_t vertices = 0;
