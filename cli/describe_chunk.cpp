@@ -151,8 +151,8 @@ std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (pivot != kNone)
-        text.append("at ").append(brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation));
+    const std::uint32_t rest = pivot == kNone ? kNone : tree.find(pivot, FourCC("REST"));
+    if (rest != kNone) text.append("at ").append(brief(record_at<RestRecord>(tree, rest).translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     bool has_extras = false;
     bool has_extensions = false;
@@ -204,6 +204,12 @@ std::string version_text(const VersionRecord& version) {
     return text;
 }
 
+std::string bound_text(const BoundRecord& bound) {
+    constexpr float kMillimetres = 1e3f;
+    return "error at most " + brief(bound.max_error * kMillimetres) + " mm, met " +
+           brief(bound.measured_error * kMillimetres) + " mm, of a height of " + brief(bound.height) + " m";
+}
+
 /// What a record says, without the chunk's name.
 std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     const Chunk& chunk = tree[number];
@@ -211,7 +217,17 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
     if (record_of(chunk.id) == "StreamRecord") return stream_text(tree, number);
     if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
+    if (chunk.id == FourCC("BNDS")) return bound_text(record_at<BoundRecord>(tree, number));
     if (chunk.id == FourCC("SKIN")) return joint_text(tree, number);
+    if (chunk.id == FourCC("JNTS")) {
+        const auto table = record_at<JointsRecord>(tree, number);
+        return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
+    }
+    if (chunk.id == FourCC("JNAM")) {
+        std::string names(as_text(tree.payload(number)));
+        std::replace(names.begin(), names.end(), '\0', ' ');
+        return quoted(names);
+    }
     if (chunk.id == FourCC("REST")) {
         const auto rest = record_at<RestRecord>(tree, number);
         return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
