@@ -30,7 +30,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const ConvertOptions& o
     result.exact = count_bytes(build_chunks(exact, kGenerator, unheard));
 
     Scene scene = exact;
-    const CompactGeometry geometry = compact_geometry(scene, result.max_error * kGeometryShare, options.progress);
+    const double share = exact.cycles.empty() ? 1.0 : kGeometryShare;
+    const CompactGeometry geometry = compact_geometry(scene, result.max_error * share, options.progress);
     // Cycles are still written as they are. The measurement of whole cycles belongs here, too: this one takes the error
     // of positions, weights and targets, in poses of the exact cycles.
     const SkinError measured = measure_skin(exact, scene, geometry);

@@ -39,7 +39,7 @@ struct StreamForm {
 };
 using StreamRule = std::span<const StreamForm>;
 
-constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16), 3, 3, boxed}};
+constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16, u32), 3, 3, boxed}};
 constexpr StreamForm kShifts[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, i8, u16, i16), 3, 3, boxed}};
 constexpr StreamForm kNormals[] = {{any_of(f32), 3, 3, plain}, {any_of(i8, i16), 2, 2, normalised}};
 constexpr StreamForm kTangents[] = {{any_of(f32), 4, 4, plain}, {any_of(i8, i16), 3, 3, normalised}};
@@ -51,7 +51,8 @@ constexpr StreamForm kColour[] = {{any_of(f32), 3, 4, plain},
                                   {any_of(u8, u16), 3, 4, boxed}};
 constexpr StreamForm kBones[] = {{any_of(u8, u16), 1, kMaxInfluences, plain}};
 constexpr StreamForm kWeights[] = {{any_of(f32), 1, kMaxInfluences, plain},
-                                   {any_of(u8, u16), 1, kMaxInfluences, normalised}};
+                                   {any_of(u8, u16), 1, kMaxInfluences, normalised},
+                                   {any_of(u8, u16), 1, kMaxInfluences, boxed}};
 constexpr StreamForm kIndices[] = {{any_of(u16, u32), 1, 1, plain}};
 constexpr StreamForm kAnything[] = {{any_of(u8, i8, u16, i16, u32, f32), 1, 0xffff, plain},
                                     {any_of(u8, i8, u16, i16), 1, 0xffff, normalised}};
@@ -216,9 +217,9 @@ void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>&
     if (!stream) return;
     const std::uint64_t offset = tree[stream->chunk].offset;
     if (stream->type == f32) check_finite(stream->as<float>(), offset, faults);
-    constexpr float kMostSteps = 65536.0f;
+    const float most_steps = stream->type == u32 ? 4294967296.0f : 65536.0f;
     for (const StreamBox& box : stream->boxes)  // the largest number must be finite, too
-        check_finite(std::array{box.minimum, box.step, box.minimum + kMostSteps * box.step}, offset, faults);
+        check_finite(std::array{box.minimum, box.step, box.minimum + most_steps * box.step}, offset, faults);
 }
 
 /// What an integer stands for.

@@ -208,13 +208,13 @@ using enum Numbers;
 const Form kFloats{{f32}, {3}, plain};
 const Form kShifts{{u8, i8, u16, i16}, {3}, boxed};
 const std::vector<Kind> kKinds{
-    {kPool + "/POSI", {kFloats, {{u8, u16}, {3}, boxed}}, 4},
+    {kPool + "/POSI", {kFloats, {{u8, u16, u32}, {3}, boxed}}, 4},
     {kPool + "/NORM", {kFloats, {{i8, i16}, {2}, normalised}}, 4},
     {kPool + "/TANG", {{{f32}, {4}, plain}, {{i8, i16}, {3}, normalised}}, 4},
     {kPool + "/TEXC", {{{f32}, {2}, plain}, {{u8, u16}, {2}, normalised}, {{u8, u16}, {2}, boxed}}, 4},
     {kPool + "/COLR", {{{f32}, {3, 4}, plain}, {{u8, u16}, {3, 4}, normalised}, {{u8, u16}, {3, 4}, boxed}}, 4},
     {kPool + "/BONE", {{{u8, u16}, {2}, plain}}, 4},                               // other widths do not fit the weights
-    {kPool + "/WGHT", {{{f32}, {2}, plain}, {{u8, u16}, {2}, normalised}}, 4},     // and the other way round
+    {kPool + "/WGHT", {{{f32}, {2}, plain}, {{u8, u16}, {2}, normalised}, {{u8, u16}, {2}, boxed}}, 4},  // and the other way round
     {kPool + "/INDX", {{{u16, u32}, {1}, plain}}, 6},
     {kPool + "/TARG/POSI", {kFloats, kShifts}, 4},
     {kPool + "/TARG/NORM", {kFloats, kShifts}, 4},

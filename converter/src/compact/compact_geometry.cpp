@@ -21,7 +21,7 @@ namespace {
 
 constexpr unsigned kDirectionBits = 8;
 constexpr double kCoordSteps = 4096.0;  // over the larger side of a set's range
-constexpr double kWeightShare = 0.5;    // of what a mesh's points may move, at most
+constexpr double kWeightShare = 0.4;      // of what a mesh's points may move, at most
 constexpr double kBetweenSamples = 1.25;  // poses between the sampled ones may be a little worse
 
 using Poses = std::vector<std::vector<glm::dmat4>>;
@@ -128,28 +128,42 @@ double effect_of(const Mesh& mesh, std::span<const std::uint32_t> weights, doubl
     return worst * kBetweenSamples;
 }
 
-/// Weights as u8 or u16 if that moves nothing further than `most_error`; returns by how much it does, in metres.
+/// Weights in as few whole numbers as move nothing further than `most_error`; returns by how much they do, in metres.
 double compact_weights(Mesh& mesh, CompactMesh& compact, double most_error, const Poses& matrices) {
+    constexpr std::uint32_t kFewest = 0xff;
+    constexpr std::uint32_t kMost = 0xffff;
+    constexpr double kMore = 1.2;  // levels for the next attempt
     const std::size_t width = mesh.influences;
     std::vector<std::uint32_t> integers(mesh.weights.size());
-    for (const bool is_u8 : {true, false}) {
-        const std::uint32_t largest = is_u8 ? 0xff : 0xffff;
+    double levels = kFewest;
+    for (;;) {
+        const auto largest = static_cast<std::uint32_t>(std::min<double>(std::ceil(levels), kMost));
         for (std::size_t first = 0; first + width <= integers.size(); first += width) {
             quantise_weights(std::span(mesh.weights).subspan(first, width), largest,
                              std::span(integers).subspan(first, width));
         }
         const double effect = effect_of(mesh, integers, largest, matrices);
-        if (!(effect <= most_error)) continue;
+        if (!(effect <= most_error)) {
+            if (largest == kMost) return 0.0;  // as they are
+            const double needed = most_error > 0.0 ? levels * effect / most_error : double{kMost};
+            levels = largest == kFewest ? std::max(needed, levels * kMore) : levels * kMore;
+            if (!std::isfinite(levels)) levels = kMost;
+            continue;
+        }
         for (std::size_t at = 0; at < integers.size(); ++at)
             mesh.weights[at] = static_cast<float>(integers[at]) / static_cast<float>(largest);
         sort_influences(mesh);  // some may have become 0
+        integers.resize(mesh.weights.size());
         for (std::size_t at = 0; at < mesh.weights.size(); ++at)
             integers[at] = static_cast<std::uint32_t>(std::lround(mesh.weights[at] * static_cast<float>(largest)));
-        integers.resize(mesh.weights.size());
-        compact.weights = store_weights(integers, mesh.influences, is_u8);
+        compact.weights = store_weights(integers, mesh.influences, largest);
+        const StreamView view = compact.weights->view();
+        for (std::size_t at = 0; at < mesh.weights.size(); ++at) {
+            mesh.weights[at] = view.number(static_cast<std::uint32_t>(at / mesh.influences),
+                                           static_cast<std::uint32_t>(at % mesh.influences));
+        }
         return effect;
     }
-    return 0.0;
 }
 
 // --- other streams
@@ -218,7 +232,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
     const double positions = left * (has_targets ? 0.5 : 1.0) / budget.stretch;
     const double shifts = left * 0.5 / budget.stretch / budget.targets;
     if (!mesh.positions.empty())
-        compact.positions = quantise_boxed({&mesh.positions[0].x, mesh.positions.size() * 3}, 3, positions);
+        compact.positions = quantise_boxed({&mesh.positions[0].x, mesh.positions.size() * 3}, 3, positions, true);
     if (!mesh.normals.empty()) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
     if (!mesh.tangents.empty()) compact.tangents = quantise_tangents(mesh.tangents, kDirectionBits);
     take_back(compact.positions, mesh.positions);

@@ -25,6 +25,8 @@ void put_integer(StoredStream& stream, std::int64_t value) {
         case ComponentType::u8:
         case ComponentType::i8:
             return put<std::uint8_t>(stream, value);
+        case ComponentType::u32:
+            return put<std::uint32_t>(stream, value);
         default:
             return put<std::uint16_t>(stream, value);
     }
@@ -151,7 +153,9 @@ StoredStream directions(const DirectionQuantiser& quantise, std::uint32_t compon
 
 }  // namespace
 
-std::optional<StoredStream> quantise_boxed(std::span<const float> values, std::uint32_t components, double most_error) {
+std::optional<StoredStream> quantise_boxed(std::span<const float> values, std::uint32_t components, double most_error,
+                                           bool allow_wide) {
+    const std::int64_t most_steps = allow_wide ? 0xffffff : 0xffff;
     const float step = step_of(most_error, components);
     StoredStream stream;
     stream.components = components;
@@ -161,11 +165,11 @@ std::optional<StoredStream> quantise_boxed(std::span<const float> values, std::u
         const bool is_flat = range.low == range.high;
         if (!is_flat && !(step > 0.0f)) return std::nullopt;
         stream.boxes.push_back({range.low, is_flat ? 0.0f : step});
-        if ((double{range.high} - range.low) / step > 65536.0) return std::nullopt;
+        if (!is_flat && (double{range.high} - range.low) / step > static_cast<double>(most_steps)) return std::nullopt;
         most = std::max(most, steps_to(range.high, stream.boxes.back()));
     }
-    if (values.empty() || most > 0xffff) return std::nullopt;
-    stream.type = most <= 0xff ? ComponentType::u8 : ComponentType::u16;
+    if (values.empty() || most > most_steps) return std::nullopt;
+    stream.type = most <= 0xff ? ComponentType::u8 : (most <= 0xffff ? ComponentType::u16 : ComponentType::u32);
     for (std::size_t at = 0; at < values.size(); ++at)
         put_integer(stream, steps_to(values[at], stream.boxes[at % components]));
     if (!keeps(stream, values, most_error)) return std::nullopt;
@@ -236,11 +240,15 @@ void quantise_weights(std::span<const float> weights, std::uint32_t levels, std:
     for (std::size_t k = 0; total < levels && !left.empty(); k = (k + 1) % left.size(), ++total) ++out[left[k].second];
 }
 
-StoredStream store_weights(std::span<const std::uint32_t> weights, std::uint32_t influences, bool is_u8) {
+StoredStream store_weights(std::span<const std::uint32_t> weights, std::uint32_t influences, std::uint32_t levels) {
     StoredStream stream;
-    stream.type = is_u8 ? ComponentType::u8 : ComponentType::u16;
-    stream.numbers = Numbers::normalised;
+    stream.type = levels <= 0xff ? ComponentType::u8 : ComponentType::u16;
     stream.components = influences;
+    if (levels == 0xff || levels == 0xffff) {
+        stream.numbers = Numbers::normalised;
+    } else {
+        stream.boxes.assign(influences, {0.0f, 1.0f / static_cast<float>(levels)});
+    }
     for (const std::uint32_t weight : weights) put_integer(stream, weight);
     return stream;
 }
