@@ -226,7 +226,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("JNAM")) {
         std::string names(as_text(tree.payload(number)));
         std::replace(names.begin(), names.end(), '\0', ' ');
-        return quoted(names);
+        return quoted(std::string_view(names));
     }
     if (chunk.id == FourCC("REST")) {
         const auto rest = record_at<RestRecord>(tree, number);
@@ -258,7 +258,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
 
 std::string codec_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
-                                                           "indices", "indices, zstd", "cycle"};
+                                                           "indices", "indices, zstd", "cycle", "sums"};
     const unsigned codec = tree[number].codec();
     if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
     std::string text = "encoded: " + std::string(kNames[codec]);

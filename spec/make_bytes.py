@@ -289,7 +289,7 @@ def stream(chunk_id, kind, elements, normalised=0, number=0):
 
 def palette(entries):
     joints = [joint for joint, _ in entries]
-    pieces = [u32(len(entries), 'entries %d' % len(entries)), u32([0, 0, 0], 'reserved'),
+    pieces = [u32(len(entries), 'entries %d' % len(entries)), u32(0, 'derived 0'), u32([0, 0], 'reserved'),
               u32(joints, 'joints ' + ' '.join(map(str, joints)))]
     if len(entries) * 4 % 16:
         pieces.append(raw(bytes(-len(entries) * 4 % 16), 'zeros up to 16 bytes'))

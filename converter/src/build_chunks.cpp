@@ -4,6 +4,7 @@
 #include "compact/leaf_writer.h"
 #include "passes/assign_polygons.h"
 #include "passes/narrow.h"
+#include "rest_record.h"
 
 #include <bendy/format/records.h>
 
@@ -65,9 +66,11 @@ void put_stored(LeafWriter& out, FourCC id, const StoredStream& stream, std::spa
     const Bytes boxes = std::as_bytes(std::span(stream.boxes));
     const std::array<std::byte, kChunkAlignment> zeros{};
     const Bytes gap = Bytes(zeros).first(padded(boxes.size()) - boxes.size());
-    const auto head = static_cast<std::uint16_t>(sizeof record + boxes.size() + gap.size());
+    LeafShape shape =
+        stream_shape(sizeof record + boxes.size() + gap.size(), component_size(stream.type), stream.components, false);
+    shape.sums = id == FourCC("WGHT") && stream.type == ComponentType::u16;
     out.leaf(id, std::array{bytes_of(record), boxes, gap, Bytes(elements.empty() ? stream.bytes : picked)},
-             stream_shape(head, component_size(stream.type), stream.components, false));
+             shape);
 }
 
 /// A stream of float vectors, as they are.
@@ -161,15 +164,6 @@ void put_material(LeafWriter& out, const Material& material) {
 }
 
 // --- joints
-
-RestRecord to_record(const Transform& rest) {
-    RestRecord record;
-    record.rotation = to_array<4>(rest.rotation);
-    record.translation = to_array<3>(rest.translation);
-    record.scale = to_array<3>(rest.scale);
-    record.shear = to_array<3>(rest.shear);
-    return record;
-}
 
 void put_rest(LeafWriter& out, const Transform& rest) {
     const RestRecord record = to_record(rest);
@@ -325,14 +319,16 @@ void put_target(LeafWriter& out, const Target& target, const CompactTarget& comp
     out.end();
 }
 
-void put_palette(LeafWriter& out, const Palette& palette) {
+/// `base`: the matrices follow from it and the rest pose, so they are left out.
+void put_palette(LeafWriter& out, const Palette& palette, const std::optional<glm::mat4>& base) {
     PaletteRecord record;
+    record.derived = base ? 1 : 0;
     record.entries = static_cast<std::uint32_t>(palette.joints.size());
     const auto joints = std::as_bytes(std::span(palette.joints));
     const std::array<std::byte, kChunkAlignment> zeros{};
     const auto gap = std::span(zeros).first(padded(joints.size()) - joints.size());
-    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap),
-                                        Bytes(std::as_bytes(std::span(palette.inverse_bind)))},
+    const Bytes matrices = base ? bytes_of(*base) : Bytes(std::as_bytes(std::span(palette.inverse_bind)));
+    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap), matrices},
              LeafShape{0, 0, sizeof(float), false});
 }
 
@@ -364,7 +360,7 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     put_text(out, FourCC("NAME"), mesh.name);
     out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
-    if (mesh.influences != 0) put_palette(out, mesh.palette);
+    if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
     put_either<glm::vec3>(out, FourCC("POSI"), compact.positions, mesh.positions);
     put_either<glm::vec3>(out, FourCC("NORM"), compact.normals, mesh.normals);
     put_either<glm::vec4>(out, FourCC("TANG"), compact.tangents, mesh.tangents);

@@ -1,6 +1,7 @@
 #include <bendy/format/codec.h>
 
 #include "mesh_codecs.h"
+#include "planes.h"
 #include "zstd_frame.h"
 
 #include <algorithm>
@@ -10,26 +11,6 @@ namespace bendy {
 namespace {
 
 constexpr std::align_val_t kAlignment{16};
-
-/// Bytes of numbers of `stride` bytes, plane by plane: all first bytes, then all second ones; what is left over at the
-/// end stays as it is.
-void to_planes(Bytes numbers, std::size_t stride, std::span<std::byte> planes) {
-    const std::size_t count = numbers.size() / stride;
-    for (std::size_t n = 0; n < count; ++n) {
-        for (std::size_t b = 0; b < stride; ++b) planes[b * count + n] = numbers[n * stride + b];
-    }
-    std::copy(numbers.begin() + static_cast<std::ptrdiff_t>(count * stride), numbers.end(),
-              planes.begin() + static_cast<std::ptrdiff_t>(count * stride));
-}
-
-void from_planes(Bytes planes, std::size_t stride, std::span<std::byte> numbers) {
-    const std::size_t count = numbers.size() / stride;
-    for (std::size_t b = 0; b < stride; ++b) {
-        for (std::size_t n = 0; n < count; ++n) numbers[n * stride + b] = planes[b * count + n];
-    }
-    std::copy(planes.begin() + static_cast<std::ptrdiff_t>(count * stride), planes.end(),
-              numbers.begin() + static_cast<std::ptrdiff_t>(count * stride));
-}
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
     if (header.stride <= 1) return take_zstd(body, out);
@@ -77,6 +58,8 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
         case Codec::vertices:
         case Codec::vertices_zstd:
             return decode_rows(header, codec == Codec::vertices_zstd, body, out);
+        case Codec::sums:
+            return decode_sums(header, body, out);
         case Codec::indices:
         case Codec::indices_zstd:
             return decode_triangles(header, codec == Codec::indices_zstd, body, out);
@@ -98,6 +81,9 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
         case Codec::vertices:
         case Codec::vertices_zstd:
             is_done = encode_rows(header, codec == Codec::vertices_zstd, payload, out);
+            break;
+        case Codec::sums:
+            is_done = encode_sums(header, payload, out);
             break;
         case Codec::indices:
         case Codec::indices_zstd:

@@ -163,9 +163,11 @@ public:
             return std::nullopt;
         }
         check_reserved(record->reserved, chunk.offset, faults_);
+        if (!check_enum(record->derived, 2, chunk.offset, faults_)) return std::nullopt;
+        const std::uint32_t matrices = record->derived == 0 ? record->entries : 1;
         const std::uint64_t matrices_at =
             sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
-        const std::uint64_t size = matrices_at + std::uint64_t{record->entries} * sizeof(glm::mat4);
+        const std::uint64_t size = matrices_at + std::uint64_t{matrices} * sizeof(glm::mat4);
         const Bytes payload = tree_.payload(number);
         if (size != payload.size()) {
             faults_.add({ErrorCode::kRecordSize, chunk.offset, payload.size(), size});
@@ -174,7 +176,11 @@ public:
         const std::uint64_t joints_end = sizeof(PaletteRecord) + std::uint64_t{record->entries} * sizeof(std::uint32_t);
         check_gap(payload.subspan(joints_end, matrices_at - joints_end), chunk.offset);
         PaletteView palette{view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record->entries),
-                            view_at<glm::mat4>(payload, matrices_at, record->entries)};
+                            view_at<glm::mat4>(payload, matrices_at, matrices)};
+        if (record->derived != 0) {
+            palette.base = palette.inverse_bind.data();
+            palette.inverse_bind = {};
+        }
         for (const std::uint32_t joint : palette.joints) {
             if (joint < joints) continue;
             faults_.add({ErrorCode::kJointRange, chunk.offset, joint, joints});

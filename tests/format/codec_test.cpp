@@ -69,6 +69,20 @@ TEST(Codec, RowsOfAnyWidthComeBack) {
     }
 }
 
+TEST(Codec, SumsComeBack) {
+    for (const std::size_t stride : {2u, 4u, 8u, 256u}) {
+        for (const std::size_t count : {0u, 1u, 3u, 300u}) {
+            for (const std::uint16_t head : {std::uint16_t{0}, std::uint16_t{16}, std::uint16_t{48}}) {
+                const Buffer payload = rows(head, stride, count);
+                const auto encoded = encode_payload(Codec::sums, payload, head, static_cast<std::uint16_t>(stride));
+                ASSERT_TRUE(encoded);
+                EXPECT_EQ(decoded(Codec::sums, *encoded), payload) << stride << ' ' << count;
+            }
+        }
+    }
+    EXPECT_FALSE(encode_payload(Codec::sums, Buffer(9), 0, 3));
+}
+
 TEST(Codec, TrianglesComeBackOnceTheyAreCanonical) {
     for (const Codec codec : {Codec::indices, Codec::indices_zstd}) {
         for (const std::uint32_t side : {1u, 2u, 5u, 12u}) {
@@ -131,6 +145,7 @@ TEST(Codec, DamageIsFoundOrHarmless) {
         cases.push_back({codec, *encode_payload(codec, triangles<std::uint16_t>(16, list), 16, 2)});
         cases.push_back({codec, *encode_payload(codec, triangles<std::uint32_t>(16, list), 16, 4)});
     }
+    cases.push_back({Codec::sums, *encode_payload(Codec::sums, rows(16, 8, 70), 16, 8)});
     cases.push_back({Codec::zstd, *encode_payload(Codec::zstd, rows(0, 6, 70), 0, 6)});
     const auto attempt = [](Codec codec, const Buffer& bytes) {
         CodecHeader header;

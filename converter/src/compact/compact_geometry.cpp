@@ -5,6 +5,9 @@
 #include "compact/quantise.h"
 #include "compact/sample_poses.h"
 #include "passes/narrow.h"
+#include "rest_record.h"
+
+#include <bendy/format/bind_palette.h>
 
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/vector_double2.hpp>
@@ -21,6 +24,7 @@ namespace {
 
 constexpr unsigned kDirectionBits = 8;
 constexpr double kCoordSteps = 4096.0;  // over the larger side of a set's range
+constexpr double kPaletteShare = 0.1;
 constexpr double kWeightShare = 0.4;      // of what a mesh's points may move, at most
 constexpr double kBetweenSamples = 1.25;  // poses between the sampled ones may be a little worse
 
@@ -166,6 +170,60 @@ double compact_weights(Mesh& mesh, CompactMesh& compact, double most_error, cons
     }
 }
 
+// --- inverse bind matrices
+
+std::vector<glm::dmat4> rests_of(const Scene& scene) {
+    std::vector<RestRecord> rests;
+    std::vector<std::uint32_t> parents;
+    for (const Joint& joint : scene.joints) {
+        rests.push_back(to_record(joint.rest));
+        parents.push_back(joint.parent);
+    }
+    return rest_matrices(rests, parents);
+}
+
+/// Metres: by how much other inverse bind matrices move points of the skin in the sampled poses.
+double effect_of(const Mesh& mesh, std::span<const glm::mat4> binds, const Poses& poses) {
+    double worst = 0.0;
+    std::vector<glm::dmat4> changes;
+    for (const auto& pose : poses) {
+        changes.clear();
+        for (std::size_t entry = 0; entry < binds.size(); ++entry) {
+            changes.push_back(pose[mesh.palette.joints[entry]] *
+                              (glm::dmat4(binds[entry]) - glm::dmat4(mesh.palette.inverse_bind[entry])));
+        }
+        for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+            const glm::dvec4 position(glm::dvec3(mesh.positions[vertex]), 1.0);
+            glm::dvec3 moved(0.0);
+            for (std::size_t k = 0; k < mesh.influences; ++k) {
+                const std::size_t at = vertex * mesh.influences + k;
+                moved += double{mesh.weights[at]} * glm::dvec3(changes[mesh.bones[at]] * position);
+            }
+            const double distance = std::sqrt(moved.x * moved.x + moved.y * moved.y + moved.z * moved.z);
+            if (!(distance <= worst)) worst = std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
+        }
+    }
+    return worst * kBetweenSamples;
+}
+
+/// Leaves the matrices to the rest pose if that moves nothing further than `most_error`; returns by how much it does.
+double derive_palette(Mesh& mesh, CompactMesh& compact, double most_error, std::span<const glm::dmat4> rests,
+                      const Poses& poses) {
+    const Palette& palette = mesh.palette;
+    if (palette.joints.empty()) return 0.0;
+    for (const glm::mat4& base :
+         {glm::mat4(1.0f), glm::mat4(rests[palette.joints[0]] * glm::dmat4(palette.inverse_bind[0]))}) {
+        std::vector<glm::mat4> derived;
+        for (const std::uint32_t joint : palette.joints) derived.push_back(derive_inverse_bind(rests[joint], base));
+        const double effect = effect_of(mesh, derived, poses);
+        if (!(effect <= most_error)) continue;
+        mesh.palette.inverse_bind = std::move(derived);
+        compact.bind_base = base;
+        return effect;
+    }
+    return 0.0;
+}
+
 // --- other streams
 
 /// The integers' own numbers take the place of the source's.
@@ -219,12 +277,15 @@ struct Budget {
     double model = 0.0;    ///< metres, positions and weights and targets together
     double stretch = 1.0;  ///< from the mesh's space to model space
     double targets = 1.0;  ///< sum of the weights with which targets act
+    std::span<const glm::dmat4> rests;
+    const Poses& poses;
 };
 
 void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const Poses& matrices, double texels) {
     double left = budget.model;
     if (mesh.influences != 0) {
         sort_influences(mesh);
+        left -= derive_palette(mesh, compact, kPaletteShare * left, budget.rests, budget.poses);
         left -= compact_weights(mesh, compact, kWeightShare * left, matrices);
     }
     const bool has_targets =
@@ -296,12 +357,13 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
     CompactGeometry geometry;
     geometry.error = most_error;
     const Poses poses = sample_poses(scene);
+    const std::vector<glm::dmat4> rests = rests_of(scene);
     const double texels = texels_per_unit(scene);
     for (std::uint32_t number = 0; number < scene.meshes.size(); ++number) {
         Mesh& mesh = scene.meshes[number];
         CompactMesh& compact = geometry.meshes.emplace_back();
         const Poses matrices = skin_matrices(mesh, poses);
-        const Budget budget{most_error, stretch_of(matrices), target_weight_of(scene, number)};
+        const Budget budget{most_error, stretch_of(matrices), target_weight_of(scene, number), rests, poses};
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
         compact_mesh(mesh, compact, budget, matrices, texels);

@@ -23,6 +23,7 @@ EncodedLeaf encode_leaf(Bytes payload, const LeafShape& shape) {
         offer(Codec::vertices, shape.head, shape.row);
         offer(Codec::vertices_zstd, shape.head, shape.row);
         offer(Codec::zstd, 0, shape.row);
+        if (shape.sums) offer(Codec::sums, shape.head, shape.row);
     }
     if (shape.number > 1 && shape.number != shape.row) offer(Codec::zstd, 0, shape.number);
     offer(Codec::zstd, 0, 0);

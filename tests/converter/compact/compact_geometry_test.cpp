@@ -96,6 +96,7 @@ TEST(CompactGeometry, ThePosedSkinKeepsTheBoundAtEveryScale) {
                 Report report;
                 const auto source = build_chunks(exact, "test", report);
                 EXPECT_LT(bytes.size(), source.size());
+                EXPECT_EQ(geometry.meshes[0].bind_base.has_value(), influences != 0);
                 EXPECT_LE(measure_skin(exact, scene, geometry).metres, bound);
                 for (const float time : {0.0f, 0.37f, 1.0f}) {
                     const auto a = skinned(source, time);

@@ -22,8 +22,9 @@ enum class Codec : std::uint8_t {
     indices = 4,        ///< triangle list: meshoptimizer's index codec
     indices_zstd = 5,   ///< the same under zstd
     cycle = 6,          ///< packed cycle: see packed_cycle.h
+    sums = 7,           ///< rows of u16 that sum to the same number, by planes under zstd
 };
-inline constexpr unsigned kCodecs = 7;
+inline constexpr unsigned kCodecs = 8;
 
 /// What every encoded payload starts with.
 struct CodecHeader {

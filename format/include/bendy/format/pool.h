@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -64,6 +65,8 @@ glm::vec3 decode_octahedral(float x, float y);
 struct PaletteView {
     std::span<const std::uint32_t> joints;
     std::span<const glm::mat4> inverse_bind;  ///< as many, column-major
+    const glm::mat4* base = nullptr;          ///< if they follow from the rest pose: see derive_inverse_bind
+    std::shared_ptr<const std::vector<glm::mat4>> derived = {};  ///< then they are here
 };
 
 /// TARG: an inbetweening target. A stream that is absent is not displaced.
@@ -99,7 +102,7 @@ struct PoolView {
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
 };
 
-/// Reads a VECT chunk and checks all that memory safety hangs on: types, counts, sizes, and every index against the
+/// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on: types, counts, sizes, and every index against the
 /// `joints` of the object, the palette and the pool itself. Faults go to `faults`; a part with a fault is left out.
 PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
 

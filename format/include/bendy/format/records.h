@@ -189,7 +189,8 @@ struct StreamRecord {
 
 struct PaletteRecord {
     std::uint32_t entries = 0;
-    std::array<std::uint32_t, 3> reserved{};
+    std::uint32_t derived = 0;
+    std::array<std::uint32_t, 2> reserved{};
 };
 
 struct ImageRecord {
