@@ -6,6 +6,8 @@
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -26,6 +28,8 @@ struct Arguments {
     std::string images = "embed";
     std::filesystem::path rig;
     bool auto_rig = false;
+    bool compact = false;
+    std::string max_error;
     bool quiet = false;
 };
 
@@ -67,6 +71,38 @@ std::string list_chains(const Model& model) {
     for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i)
         list += (i == 0 ? ": " : ", ") + (chains[i].name.empty() ? '#' + std::to_string(i) : printable(chains[i].name));
     return chains.size() > kShown ? list + ", ..." : list;
+}
+
+/// Bytes by kind before and after, and the worst error.
+void print_compact(const converter::CompactReport& report) {
+    std::uint64_t before = 0;
+    std::uint64_t after = 0;
+    const auto print_line = [](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
+        std::cout << "  " << std::left << std::setw(10) << kind << std::right << std::setw(14) << grouped(exact)
+                  << std::setw(14) << grouped(compact) << '\n';
+    };
+    std::cout << "  bytes              exact       compact\n";
+    for (std::size_t k = 0; k < report.compact.size(); ++k) {
+        before += report.exact[k].bytes;
+        after += report.compact[k].bytes;
+        if (report.exact[k].bytes + report.compact[k].bytes != 0)
+            print_line(report.compact[k].kind, report.exact[k].bytes, report.compact[k].bytes);
+    }
+    print_line("total", before, after);
+    constexpr double kMillimetres = 1e3;
+    std::cout << std::setprecision(3) << "  error      at most " << report.max_error * kMillimetres << " mm; worst met "
+              << report.measured_error * kMillimetres << " mm";
+    if (!report.place.empty()) std::cout << ": " << printable(report.place);
+    std::cout << '\n';
+}
+
+/// A bar on the terminal, for work that takes a while.
+void show_progress(double share) {
+    constexpr int kWidth = 40;
+    const int done = static_cast<int>(share * kWidth);
+    std::string bar(kWidth, '.');
+    for (int k = 0; k < done; ++k) bar[static_cast<std::size_t>(k)] = '#';
+    std::cerr << "\r[" << bar << ']' << (share >= 1.0 ? "\n" : "") << std::flush;
 }
 
 void print_summary(const Arguments& arguments, Bytes bytes) {
@@ -118,6 +154,9 @@ void run(Arguments arguments) {
     options.gltf.embed_images = arguments.images == "embed";
     if (!arguments.rig.empty()) options.rig = arguments.rig;
     options.auto_rig = arguments.auto_rig;
+    if (arguments.compact) options.compact = converter::ErrorBound();
+    if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
+    if (isatty(STDERR_FILENO) != 0 && !arguments.quiet) options.progress = show_progress;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
@@ -133,6 +172,7 @@ void run(Arguments arguments) {
     print_warnings(arguments.input, report);
     print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, *bytes);
+    if (!arguments.quiet && report.compact) print_compact(*report.compact);
 }
 
 }  // namespace
@@ -152,9 +192,19 @@ void add_convert(CLI::App& program) {
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
+    command->add_flag("--compact", arguments->compact,
+                      "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise");
+    command
+        ->add_option("--max-error", arguments->max_error,
+                     "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
+                     "character's height (0.005%); implies --compact")
+        ->check([](const std::string& text) {
+            const auto bound = converter::parse_error_bound(text);
+            return bound ? std::string() : bound.error();
+        });
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
-        "Everything is kept exactly; what the format cannot hold is named in a warning.\n"
+        "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
         "Example: bendy convert fox.glb -o build/fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }

@@ -113,7 +113,8 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
     const auto record = record_at<StreamRecord>(tree, number);
     std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
     text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
-    if (record.normalised != 0) text += " normalised";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
     if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
         text += ", set " + std::to_string(record.set);
     return text;
@@ -150,8 +151,8 @@ std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
 std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (pivot != kNone)
-        text.append("at ").append(brief(record_at<RestRecord>(tree, tree.find(pivot, FourCC("REST"))).translation));
+    const std::uint32_t rest = pivot == kNone ? kNone : tree.find(pivot, FourCC("REST"));
+    if (rest != kNone) text.append("at ").append(brief(record_at<RestRecord>(tree, rest).translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     bool has_extras = false;
     bool has_extensions = false;
@@ -203,6 +204,12 @@ std::string version_text(const VersionRecord& version) {
     return text;
 }
 
+std::string bound_text(const BoundRecord& bound) {
+    constexpr float kMillimetres = 1e3f;
+    return "error at most " + brief(bound.max_error * kMillimetres) + " mm, met " +
+           brief(bound.measured_error * kMillimetres) + " mm, of a height of " + brief(bound.height) + " m";
+}
+
 /// What a record says, without the chunk's name.
 std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     const Chunk& chunk = tree[number];
@@ -210,7 +217,17 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
     if (record_of(chunk.id) == "StreamRecord") return stream_text(tree, number);
     if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
+    if (chunk.id == FourCC("BNDS")) return bound_text(record_at<BoundRecord>(tree, number));
     if (chunk.id == FourCC("SKIN")) return joint_text(tree, number);
+    if (chunk.id == FourCC("JNTS")) {
+        const auto table = record_at<JointsRecord>(tree, number);
+        return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
+    }
+    if (chunk.id == FourCC("JNAM")) {
+        std::string names(as_text(tree.payload(number)));
+        std::replace(names.begin(), names.end(), '\0', ' ');
+        return quoted(std::string_view(names));
+    }
     if (chunk.id == FourCC("REST")) {
         const auto rest = record_at<RestRecord>(tree, number);
         return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
@@ -243,7 +260,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
 
 std::string encoding_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
-                                                           "indices", "indices, zstd", "cycle"};
+                                                           "indices", "indices, zstd", "cycle", "sums"};
     const unsigned codec = tree[number].codec();
     if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
     std::string text = "encoded: " + std::string(kNames[codec]);

@@ -215,6 +215,13 @@ def rest(translation, rotation=(0, 0, 0, 1), scale=(1, 1, 1), shear=(0, 0, 0)):
                 f32(scale, 'scale ' + words(scale)), f32(shear, 'shear ' + words(shear)))
 
 
+def joint_rest(joint, translation):
+    """A row of JNTS."""
+    return [f32([0, 0, 0, 1], 'joint %d: rotation 0 0 0 1' % joint),
+            f32(translation, '  translation %g %g %g' % tuple(translation)), f32([1, 1, 1], '  scale 1 1 1'),
+            f32([0, 0, 0], '  shear 0 0 0')]
+
+
 def limit(model, frame, rotation, scope=0, flags=0, order=0, soft_zone=0, translation=((-INFINITE, INFINITE),) * 3,
           stiffness=(0, 0, 0), preferred=(0, 0, 0)):
     """`rotation` and `translation` are (minimum, maximum) of X, Y, Z; rotation in degrees, None free."""
@@ -282,7 +289,7 @@ def stream(chunk_id, kind, elements, normalised=0, number=0):
 
 def palette(entries):
     joints = [joint for joint, _ in entries]
-    pieces = [u32(len(entries), 'entries %d' % len(entries)), u32([0, 0, 0], 'reserved'),
+    pieces = [u32(len(entries), 'entries %d' % len(entries)), u32(0, 'derived 0'), u32([0, 0], 'reserved'),
               u32(joints, 'joints ' + ' '.join(map(str, joints)))]
     if len(entries) * 4 % 16:
         pieces.append(raw(bytes(-len(entries) * 4 % 16), 'zeros up to 16 bytes'))
@@ -354,6 +361,7 @@ def make_every_chunk():
     return box(
         'HEAD',
         version(objects=1, joints=2, pools=1, vertices=3, cycles=1, materials=2, textures=3, generator='make_bytes'),
+        leaf('BNDS', f32(0.0005, 'max_error 0.0005'), f32(0.0004, 'measured_error 0.0004'), f32(2, 'height 2')),
         box('TEXT', name('cloth'), sampler(2, 6, 0, 1), leaf('LINK', text('cloth.png')), extras('{"from":"scan"}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('SAME', u32(2, 'texture 2'), u32(0, 'image 0'))),
         box('MATE', name('red cloth'), surface([1, 0.5, 0.5, 1], 0),
@@ -367,6 +375,9 @@ def make_every_chunk():
                     box('PIVO', rest([0, 1, 0]),
                         limit(3, [0.5, 0.5, 0.5, 0.5], [(-30, 30), (-40, 40), (-20, 60)])),
                     box('MATE', surface([0, 0, 1, 1])), polygons(0, LOCAL | 0, 0, 3))),
+            leaf('JNTS', u32(2, 'joints 2'), u32(0, 'polygons 0'), u32([0, 0], 'reserved'),
+                 *joint_rest(0, [0, 0, 0]), *joint_rest(1, [0, 1, 0])),
+            leaf('JNAM', raw(b'root\0', '"root"'), raw(b'tip\0', '"tip"')),
             box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
             box('VECT', name('body'), pool_info(3, 0), extras('{"unit":"m"}'),
                 palette([(0, identity), (1, one_down)]),

@@ -1,9 +1,11 @@
 #include <bendy/converter/build_chunks.h>
 
+#include "compact/compact_geometry.h"
+#include "compact/leaf_writer.h"
 #include "passes/assign_polygons.h"
 #include "passes/narrow.h"
+#include "rest_record.h"
 
-#include <bendy/format/chunk_writer.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>
@@ -24,11 +26,18 @@ std::array<float, N> to_array(const Vector& v) {
     return a;
 }
 
-void put_text(ChunkWriter& out, FourCC id, const std::string& text) {
+void put_text(LeafWriter& out, FourCC id, const std::string& text) {
     if (!text.empty()) out.text_leaf(id, text);
 }
 
-void put_stream(ChunkWriter& out, FourCC id, const StoredNumbers& numbers, std::uint32_t components,
+LeafShape stream_shape(std::size_t head, std::size_t number, std::size_t components, bool is_triangles) {
+    const std::size_t row = number * components;
+    const bool fits = row <= 256;
+    return {static_cast<std::uint16_t>(head), static_cast<std::uint16_t>(fits ? row : 0),
+            static_cast<std::uint16_t>(number), is_triangles};
+}
+
+void put_stream(LeafWriter& out, FourCC id, const StoredNumbers& numbers, std::uint32_t components,
                 std::uint32_t elements, std::uint32_t set = 0) {
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(numbers.type);
@@ -36,18 +45,44 @@ void put_stream(ChunkWriter& out, FourCC id, const StoredNumbers& numbers, std::
     record.components = static_cast<std::uint16_t>(components);
     record.elements = elements;
     record.set = set;
-    out.leaf(id, std::array{bytes_of(record), Bytes(numbers.bytes)});
+    out.leaf(id, std::array{bytes_of(record), Bytes(numbers.bytes)},
+             stream_shape(sizeof record, component_size(numbers.type), components, id == FourCC("INDX")));
+}
+
+/// A stream of integers that stand for the mesh's numbers. `elements` picks some; empty: all.
+void put_stored(LeafWriter& out, FourCC id, const StoredStream& stream, std::span<const std::uint32_t> elements = {},
+                std::uint32_t set = 0) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(stream.type);
+    record.normalised = static_cast<std::uint8_t>(stream.numbers);
+    record.components = static_cast<std::uint16_t>(stream.components);
+    record.elements = static_cast<std::uint32_t>(elements.empty() ? stream.bytes.size() / stream.row() : elements.size());
+    record.set = set;
+    std::vector<std::byte> picked;
+    for (const std::uint32_t element : elements) {
+        const auto first = stream.bytes.begin() + static_cast<std::ptrdiff_t>(element * stream.row());
+        picked.insert(picked.end(), first, first + static_cast<std::ptrdiff_t>(stream.row()));
+    }
+    const Bytes boxes = std::as_bytes(std::span(stream.boxes));
+    const std::array<std::byte, kChunkAlignment> zeros{};
+    const Bytes gap = Bytes(zeros).first(padded(boxes.size()) - boxes.size());
+    LeafShape shape =
+        stream_shape(sizeof record + boxes.size() + gap.size(), component_size(stream.type), stream.components, false);
+    shape.sums = id == FourCC("WGHT") && stream.type == ComponentType::u16;
+    out.leaf(id, std::array{bytes_of(record), boxes, gap, Bytes(elements.empty() ? stream.bytes : picked)},
+             shape);
 }
 
 /// A stream of float vectors, as they are.
 template <class Vector>
-void put_vectors(ChunkWriter& out, FourCC id, std::span<const Vector> vectors) {
+void put_vectors(LeafWriter& out, FourCC id, std::span<const Vector> vectors) {
     if (vectors.empty()) return;
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(ComponentType::f32);
     record.components = static_cast<std::uint16_t>(Vector::length());
     record.elements = static_cast<std::uint32_t>(vectors.size());
-    out.leaf(id, std::array{bytes_of(record), std::as_bytes(vectors)});
+    out.leaf(id, std::array{bytes_of(record), std::as_bytes(vectors)},
+             stream_shape(sizeof record, sizeof(float), record.components, false));
 }
 
 // --- textures and materials
@@ -64,7 +99,7 @@ MediaType media_of(const Image& image) {
     return MediaType::other;
 }
 
-void put_textures(ChunkWriter& out, const Scene& scene) {
+void put_textures(LeafWriter& out, const Scene& scene) {
     std::map<std::uint32_t, SameRecord> written;  // where an image stands already
     for (std::uint32_t number = 0; number < scene.textures.size(); ++number) {
         const Texture& texture = scene.textures[number];
@@ -86,7 +121,7 @@ void put_textures(ChunkWriter& out, const Scene& scene) {
             } else {
                 ImageRecord record;
                 record.media = static_cast<std::uint8_t>(media_of(image));
-                out.leaf(FourCC("IMAG"), std::array{bytes_of(record), Bytes(image.bytes)});
+                out.raw_leaf(FourCC("IMAG"), std::array{bytes_of(record), Bytes(image.bytes)});
             }
         }
         out.end();
@@ -103,7 +138,7 @@ TextureUseRecord to_record(const TextureUse& use) {
     return record;
 }
 
-void put_material(ChunkWriter& out, const Material& material) {
+void put_material(LeafWriter& out, const Material& material) {
     SurfaceRecord surface;
     surface.base_colour = to_array<4>(material.base_colour);
     surface.emissive = to_array<3>(material.emissive);
@@ -130,12 +165,8 @@ void put_material(ChunkWriter& out, const Material& material) {
 
 // --- joints
 
-void put_rest(ChunkWriter& out, const Transform& rest) {
-    RestRecord record;
-    record.rotation = to_array<4>(rest.rotation);
-    record.translation = to_array<3>(rest.translation);
-    record.scale = to_array<3>(rest.scale);
-    record.shear = to_array<3>(rest.shear);
+void put_rest(LeafWriter& out, const Transform& rest) {
+    const RestRecord record = to_record(rest);
     const bool has_shear = rest.shear != glm::vec3(0.0f);
     out.leaf(FourCC("REST"), bytes_of(record).first(has_shear ? sizeof record : kShortest<RestRecord>));
 }
@@ -151,9 +182,10 @@ PullsByJoint sort_pulls(const Scene& scene) {
     return by_joint;
 }
 
-void put_pivot(ChunkWriter& out, const Joint& joint, std::span<const PullRecord> pulls) {
+void put_pivot(LeafWriter& out, const Joint& joint, std::span<const PullRecord> pulls, bool has_table) {
+    if (has_table && joint.limits.empty() && pulls.empty()) return;
     out.begin(FourCC("PIVO"));
-    put_rest(out, joint.rest);
+    if (!has_table) put_rest(out, joint.rest);
     for (const LimitRecord& limit : joint.limits) out.leaf(FourCC("LIMT"), bytes_of(limit));
     for (const PullRecord& pull : pulls) out.leaf(FourCC("PULL"), bytes_of(pull));
     out.end();
@@ -177,7 +209,32 @@ PolygonsByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygo
     return by_joint;
 }
 
-void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+/// JNTS and JNAM: what SKIN chunks would say of every joint.
+void put_joint_table(LeafWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+    std::vector<RestRecord> rests;
+    std::vector<JointPolygons> ranges;
+    std::string names;
+    bool is_named = false;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        rests.push_back(to_record(scene.joints[joint].rest));
+        for (const PolygonRecord& record : polygons[joint]) ranges.push_back({joint, record});
+        names.append(scene.joints[joint].name).push_back('\0');
+        is_named = is_named || !scene.joints[joint].name.empty();
+    }
+    JointsRecord record;
+    record.joints = static_cast<std::uint32_t>(rests.size());
+    record.polygons = static_cast<std::uint32_t>(ranges.size());
+    out.leaf(FourCC("JNTS"),
+             std::array{bytes_of(record), std::as_bytes(std::span(rests)), std::as_bytes(std::span(ranges))},
+             LeafShape{0, 0, sizeof(float), false});
+    if (is_named) out.text_leaf(FourCC("JNAM"), names);
+}
+
+void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+    // A zero inside a name would end it too early in the table.
+    const bool has_table = out.is_compact() && std::none_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) {
+        return j.name.find('\0') != std::string::npos;
+    });
     const PullsByJoint pulls = sort_pulls(scene);
     std::vector<std::uint32_t> open;
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
@@ -189,16 +246,19 @@ void put_joints(ChunkWriter& out, const Scene& scene, const PolygonsByJoint& pol
         assert(joint.parent == kNone || !open.empty());  // pre-order: the parent is open
         out.begin(FourCC("SKIN"));
         open.push_back(number);
-        put_text(out, FourCC("NAME"), joint.name);
-        put_pivot(out, joint, pulls[number]);
-        for (const PolygonRecord& record : polygons[number]) out.leaf(FourCC("POLY"), bytes_of(record));
+        if (!has_table) put_text(out, FourCC("NAME"), joint.name);
+        put_pivot(out, joint, pulls[number], has_table);
+        if (!has_table) {
+            for (const PolygonRecord& record : polygons[number]) out.leaf(FourCC("POLY"), bytes_of(record));
+        }
         put_text(out, FourCC("EXTR"), joint.extras);
         put_text(out, FourCC("EXTN"), joint.extensions);
     }
     for (; !open.empty(); open.pop_back()) out.end();
+    if (has_table && !scene.joints.empty()) put_joint_table(out, scene, polygons);
 }
 
-void put_chain(ChunkWriter& out, const Chain& chain) {
+void put_chain(LeafWriter& out, const Chain& chain) {
     out.begin(FourCC("IKCH"));
     put_text(out, FourCC("NAME"), chain.name);
     out.leaf(FourCC("KINF"), bytes_of(chain.record));
@@ -224,7 +284,7 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& stream, std::span<cons
 }
 
 /// Stores the touched vertices only, where that is smaller.
-void put_target(ChunkWriter& out, const Target& target, std::uint32_t vertices) {
+void put_target(LeafWriter& out, const Target& target, const CompactTarget& compact, std::uint32_t vertices) {
     std::vector<std::uint32_t> touched;
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         if (is_touched(target, vertex)) touched.push_back(vertex);
@@ -243,43 +303,69 @@ void put_target(ChunkWriter& out, const Target& target, std::uint32_t vertices) 
     if (present != 0 && !touched.empty()) {
         const bool is_sparse = sparse < dense;
         if (is_sparse) put_stream(out, FourCC("INDX"), indices, 1, static_cast<std::uint32_t>(touched.size()));
-        const auto put = [&](FourCC id, const std::vector<glm::vec3>& stream) {
+        const auto put = [&](FourCC id, const std::vector<glm::vec3>& stream,
+                             const std::optional<StoredStream>& stored) {
+            if (stored) {
+                put_stored(out, id, *stored, is_sparse ? std::span<const std::uint32_t>(touched) : std::span<const std::uint32_t>());
+                return;
+            }
             const std::vector<glm::vec3> picked = is_sparse ? pick(stream, touched) : std::vector<glm::vec3>();
             put_vectors(out, id, std::span<const glm::vec3>(is_sparse ? picked : stream));
         };
-        put(FourCC("POSI"), target.positions);
-        put(FourCC("NORM"), target.normals);
-        put(FourCC("TANG"), target.tangents);
+        put(FourCC("POSI"), target.positions, compact.positions);
+        put(FourCC("NORM"), target.normals, compact.normals);
+        put(FourCC("TANG"), target.tangents, compact.tangents);
     }
     out.end();
 }
 
-void put_palette(ChunkWriter& out, const Palette& palette) {
+/// `base`: the matrices follow from it and the rest pose, so they are left out.
+void put_palette(LeafWriter& out, const Palette& palette, const std::optional<glm::mat4>& base) {
     PaletteRecord record;
+    record.derived = base ? 1 : 0;
     record.entries = static_cast<std::uint32_t>(palette.joints.size());
     const auto joints = std::as_bytes(std::span(palette.joints));
     const std::array<std::byte, kChunkAlignment> zeros{};
     const auto gap = std::span(zeros).first(padded(joints.size()) - joints.size());
-    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap),
-                                        Bytes(std::as_bytes(std::span(palette.inverse_bind)))});
+    const Bytes matrices = base ? bytes_of(*base) : Bytes(std::as_bytes(std::span(palette.inverse_bind)));
+    out.leaf(FourCC("PALT"), std::array{bytes_of(record), Bytes(joints), Bytes(gap), matrices},
+             LeafShape{0, 0, sizeof(float), false});
 }
 
-void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices) {
+template <class Vector>
+void put_either(LeafWriter& out, FourCC id, const std::optional<StoredStream>& stored,
+                const std::vector<Vector>& vectors) {
+    if (stored) {
+        put_stored(out, id, *stored);
+    } else {
+        put_vectors(out, id, std::span<const Vector>(vectors));
+    }
+}
+
+void put_sets(LeafWriter& out, FourCC id, std::span<const Stream> streams,
+              std::span<const std::optional<StoredStream>> stored, std::uint32_t vertices) {
+    for (std::size_t k = 0; k < streams.size(); ++k) {
+        const Stream& stream = streams[k];
+        if (k < stored.size() && stored[k]) {
+            put_stored(out, id, *stored[k], {}, stream.set);
+        } else {
+            put_stream(out, id, narrow_fractions(stream.values), stream.components, vertices, stream.set);
+        }
+    }
+}
+
+void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact) {
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     out.begin(FourCC("VECT"));
     put_text(out, FourCC("NAME"), mesh.name);
     out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
-    if (mesh.influences != 0) put_palette(out, mesh.palette);
-    put_vectors(out, FourCC("POSI"), std::span<const glm::vec3>(mesh.positions));
-    put_vectors(out, FourCC("NORM"), std::span<const glm::vec3>(mesh.normals));
-    put_vectors(out, FourCC("TANG"), std::span<const glm::vec4>(mesh.tangents));
-    for (const Stream& stream : mesh.texture_coords) {
-        put_stream(out, FourCC("TEXC"), narrow_fractions(stream.values), stream.components, vertices, stream.set);
-    }
-    for (const Stream& stream : mesh.colours) {
-        put_stream(out, FourCC("COLR"), narrow_fractions(stream.values), stream.components, vertices, stream.set);
-    }
+    if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
+    put_either<glm::vec3>(out, FourCC("POSI"), compact.positions, mesh.positions);
+    put_either<glm::vec3>(out, FourCC("NORM"), compact.normals, mesh.normals);
+    put_either<glm::vec4>(out, FourCC("TANG"), compact.tangents, mesh.tangents);
+    put_sets(out, FourCC("TEXC"), mesh.texture_coords, compact.texture_coords, vertices);
+    put_sets(out, FourCC("COLR"), mesh.colours, compact.colours, vertices);
     for (const Stream& stream : mesh.attributes) {
         out.begin(FourCC("USER"));
         put_text(out, FourCC("NAME"), stream.name);
@@ -291,13 +377,18 @@ void put_pool(ChunkWriter& out, const Mesh& mesh, std::span<const std::uint32_t>
     if (mesh.influences != 0) {
         put_stream(out, FourCC("BONE"), narrow_indices(mesh.bones, mesh.palette.joints.size(), true), mesh.influences,
                    vertices);
-        put_stream(out, FourCC("WGHT"), narrow_fractions(mesh.weights), mesh.influences, vertices);
+        if (compact.weights) {
+            put_stored(out, FourCC("WGHT"), *compact.weights);
+        } else {
+            put_stream(out, FourCC("WGHT"), narrow_fractions(mesh.weights), mesh.influences, vertices);
+        }
     }
     if (!indices.empty()) {
         put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1,
                    static_cast<std::uint32_t>(indices.size()));
     }
-    for (const Target& target : mesh.targets) put_target(out, target, vertices);
+    for (std::size_t k = 0; k < mesh.targets.size(); ++k)
+        put_target(out, mesh.targets[k], k < compact.targets.size() ? compact.targets[k] : CompactTarget(), vertices);
     out.end();
 }
 
@@ -328,7 +419,7 @@ private:
     std::vector<float> floats_;
 };
 
-void put_cycle(ChunkWriter& out, const Cycle& cycle) {
+void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
     FloatPool times;
@@ -352,9 +443,10 @@ void put_cycle(ChunkWriter& out, const Cycle& cycle) {
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
     if (!tracks.empty()) {
-        out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)));
-        out.leaf(FourCC("TIME"), times.bytes());
-        out.leaf(FourCC("KEYV"), values.bytes());
+        constexpr LeafShape kFloats{0, 0, sizeof(float), false};
+        out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)), kFloats);
+        out.leaf(FourCC("TIME"), times.bytes(), kFloats);
+        out.leaf(FourCC("KEYV"), values.bytes(), kFloats);
     }
     out.end();
 }
@@ -397,7 +489,8 @@ void warn_of_unused_images(const Scene& scene, Report& report) {
 
 }  // namespace
 
-std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report) {
+std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report,
+                                    const BuildOptions& options) {
     warn_of_unused_images(scene, report);
     std::vector<AssignedPolygons> polygons;
     polygons.reserve(scene.meshes.size());
@@ -405,9 +498,10 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
 
     const bool embeds =
         std::any_of(scene.images.begin(), scene.images.end(), [](const Image& image) { return !image.bytes.empty(); });
-    ChunkWriter out;
+    LeafWriter out(options.compact);
     out.begin(FourCC("HEAD"));
-    out.leaf(FourCC("VERS"), bytes_of(make_version(scene, generator)));
+    out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
+    if (options.bound) out.leaf(FourCC("BNDS"), bytes_of(*options.bound));
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
     if (!embeds) put_textures(out, scene);
@@ -417,8 +511,11 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     put_text(out, FourCC("EXTR"), scene.extras);
     put_joints(out, scene, sort_by_joint(scene, polygons));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
-    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool)
-        put_pool(out, scene.meshes[pool], polygons[pool].indices);
+    const CompactMesh exact;
+    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) {
+        const bool is_compact = options.geometry != nullptr;
+        put_pool(out, scene.meshes[pool], polygons[pool].indices, is_compact ? options.geometry->meshes[pool] : exact);
+    }
     for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
     out.end();
     if (embeds) put_textures(out, scene);

@@ -1,6 +1,8 @@
 #include <bendy/format/codec.h>
 
-#include <zstd.h>
+#include "mesh_codecs.h"
+#include "planes.h"
+#include "zstd_frame.h"
 
 #include <algorithm>
 #include <new>
@@ -9,43 +11,6 @@ namespace bendy {
 namespace {
 
 constexpr std::align_val_t kAlignment{16};
-constexpr int kZstdLevel = 19;
-
-/// Bytes of numbers of `stride` bytes, plane by plane: all first bytes, then all second ones; what is left over at the
-/// end stays as it is.
-void to_planes(Bytes numbers, std::size_t stride, std::span<std::byte> planes) {
-    const std::size_t count = numbers.size() / stride;
-    for (std::size_t n = 0; n < count; ++n) {
-        for (std::size_t b = 0; b < stride; ++b) planes[b * count + n] = numbers[n * stride + b];
-    }
-    std::copy(numbers.begin() + static_cast<std::ptrdiff_t>(count * stride), numbers.end(),
-              planes.begin() + static_cast<std::ptrdiff_t>(count * stride));
-}
-
-void from_planes(Bytes planes, std::size_t stride, std::span<std::byte> numbers) {
-    const std::size_t count = numbers.size() / stride;
-    for (std::size_t b = 0; b < stride; ++b) {
-        for (std::size_t n = 0; n < count; ++n) numbers[n * stride + b] = planes[b * count + n];
-    }
-    std::copy(planes.begin() + static_cast<std::ptrdiff_t>(count * stride), planes.end(),
-              numbers.begin() + static_cast<std::ptrdiff_t>(count * stride));
-}
-
-/// Appends the bytes under zstd.
-bool put_zstd(Bytes bytes, std::vector<std::byte>& out) {
-    const std::size_t at = out.size();
-    out.resize(at + ZSTD_compressBound(bytes.size()));
-    const std::size_t size = ZSTD_compress(out.data() + at, out.size() - at, bytes.data(), bytes.size(), kZstdLevel);
-    if (ZSTD_isError(size) != 0) return false;
-    out.resize(at + size);
-    return true;
-}
-
-/// True if the bytes are one zstd frame of exactly out.size() bytes.
-bool take_zstd(Bytes bytes, std::span<std::byte> out) {
-    const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
-    return ZSTD_isError(size) == 0 && size == out.size();
-}
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
     if (header.stride <= 1) return take_zstd(body, out);
@@ -90,6 +55,14 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
     switch (codec) {
         case Codec::zstd:
             return decode_zstd(header, body, out);
+        case Codec::vertices:
+        case Codec::vertices_zstd:
+            return decode_rows(header, codec == Codec::vertices_zstd, body, out);
+        case Codec::sums:
+            return decode_sums(header, body, out);
+        case Codec::indices:
+        case Codec::indices_zstd:
+            return decode_triangles(header, codec == Codec::indices_zstd, body, out);
         default:
             return false;
     }
@@ -104,6 +77,17 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
     switch (codec) {
         case Codec::zstd:
             is_done = encode_zstd(payload, stride, out);
+            break;
+        case Codec::vertices:
+        case Codec::vertices_zstd:
+            is_done = encode_rows(header, codec == Codec::vertices_zstd, payload, out);
+            break;
+        case Codec::sums:
+            is_done = encode_sums(header, payload, out);
+            break;
+        case Codec::indices:
+        case Codec::indices_zstd:
+            is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
             break;
         default:
             break;

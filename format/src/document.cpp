@@ -1,10 +1,14 @@
 #include <bendy/format/document.h>
 
+#include <bendy/format/bind_palette.h>
 #include <bendy/format/check_grammar.h>
+#include <bendy/format/codec.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -25,6 +29,38 @@ std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults)
     if (!is_utf8(as_text(std::as_bytes(std::span(generator.begin(), end))))) faults.add({ErrorCode::kNotUtf8, offset});
     check_reserved(std::span(end, generator.end()), offset, faults);
     return version;
+}
+
+/// Fills the palettes whose matrices follow from the rest pose. All of them together may take no more memory than encoded
+/// leaves may.
+void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) {
+    std::vector<glm::dmat4> rests;
+    const std::uint64_t most = tree.bytes().size() * kMaxCodecRatio / sizeof(glm::mat4);
+    std::uint64_t entries = 0;
+    for (PoolView& pool : object.pools) {
+        PaletteView& palette = pool.palette;
+        if (palette.base == nullptr) continue;
+        entries += palette.joints.size();
+        if (entries > most) {
+            faults.add({ErrorCode::kCodecRatio, tree[pool.chunk].offset, entries, most});
+            return;
+        }
+        if (rests.empty()) {
+            std::vector<RestRecord> records;
+            std::vector<std::uint32_t> parents;
+            for (const JointView& joint : object.skeleton.joints) {
+                records.push_back(joint.rest);
+                parents.push_back(joint.parent);
+            }
+            rests = rest_matrices(records, parents);
+        }
+        auto derived = std::make_shared<std::vector<glm::mat4>>();
+        derived->reserve(palette.joints.size());
+        for (const std::uint32_t joint : palette.joints)
+            derived->push_back(derive_inverse_bind(rests[joint], *palette.base));
+        palette.inverse_bind = *derived;
+        palette.derived = std::move(derived);
+    }
 }
 
 /// Holds the polygon ranges of the joints against pools and materials, and turns local material numbers into the
@@ -115,6 +151,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     const std::size_t faults_before = faults.count();
     check_grammar(tree, faults);
     document.version = read_version(tree, faults);
+    document.bound = read_child_record<BoundRecord>(tree, 0, FourCC("BNDS"), faults);
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
     document.extensions = read_text(tree, 0, FourCC("EXTN"), faults);
 
@@ -144,6 +181,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
             if (tree[child].id == FourCC("VECT") && tree[child].is_container())
                 object.pools.push_back(read_pool(tree, child, joints, faults));
         }
+        derive_palettes(tree, object, faults);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {
                 object.cycles.push_back(read_cycle(tree, child, joints, object.pools, faults));
@@ -165,6 +203,11 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     std::uint64_t pools = 0;
     std::uint64_t vertices = 0;
     std::uint64_t cycles = 0;
+    if (document.bound) {
+        const BoundRecord& bound = *document.bound;
+        check_finite(std::array{bound.max_error, bound.measured_error, bound.height}, offset_of(tree, 0, FourCC("BNDS")),
+                     faults);
+    }
     for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
     for (const ObjectView& object : document.objects) {
         check_skeleton_values(tree, object.skeleton, faults);

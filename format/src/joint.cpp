@@ -4,7 +4,9 @@
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 namespace bendy {
 namespace {
@@ -40,10 +42,21 @@ void read_pivot(const ChunkTree& tree, std::uint32_t skin, SkeletonView& skeleto
     const std::uint32_t pivot = tree.find(skin, FourCC("PIVO"));
     if (pivot == kNone || !tree[pivot].is_container()) return;
     const auto joint = static_cast<std::uint32_t>(skeleton.joints.size() - 1);
-    skeleton.joints.back().rest =
-        read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults).value_or(RestRecord{});
+    const auto rest = read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults);
+    if (rest) skeleton.joints.back().rest = *rest;
     read_limits(tree, pivot, joint, skeleton.limits, faults);
     read_pulls(tree, pivot, joint, skeleton.pulls, faults);
+}
+
+void add_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, const PolygonRecord& record,
+                  std::vector<PolygonView>& polygons, Faults& faults) {
+    const std::uint64_t offset = tree[chunk].offset;
+    check_reserved(record.reserved, offset, faults);
+    if (!check_enum(record.topology, kTopologies, offset, faults)) return;
+    const auto topology = static_cast<Topology>(record.topology);
+    if (record.count % corners(topology) != 0)
+        faults.add({ErrorCode::kPolygonCut, offset, record.count, corners(topology)});
+    polygons.push_back({chunk, joint, record.pool, record.material, topology, record.first, record.count});
 }
 
 void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, std::vector<PolygonView>& polygons,
@@ -53,13 +66,75 @@ void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
         faults.add(record.error());
         return;
     }
+    add_polygons(tree, chunk, joint, *record, polygons, faults);
+}
+
+/// What JNTS says of all joints; a REST of a joint's own goes before it.
+void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& skeleton, Faults& faults) {
     const std::uint64_t offset = tree[chunk].offset;
+    const Result<JointsRecord> record = read_record<JointsRecord>(tree, chunk);
+    if (!record) {
+        faults.add(record.error());
+        return;
+    }
     check_reserved(record->reserved, offset, faults);
-    if (!check_enum(record->topology, kTopologies, offset, faults)) return;
-    const auto topology = static_cast<Topology>(record->topology);
-    if (record->count % corners(topology) != 0)
-        faults.add({ErrorCode::kPolygonCut, offset, record->count, corners(topology)});
-    polygons.push_back({chunk, joint, record->pool, record->material, topology, record->first, record->count});
+    const Bytes payload = tree.payload(chunk);
+    const std::uint64_t polygons_at = sizeof(JointsRecord) + std::uint64_t{record->joints} * sizeof(RestRecord);
+    const std::uint64_t size = polygons_at + std::uint64_t{record->polygons} * sizeof(JointPolygons);
+    if (payload.size() != size) {
+        faults.add({ErrorCode::kRecordSize, offset, payload.size(), size});
+        return;
+    }
+    if (record->joints != skeleton.joints.size()) {
+        faults.add({ErrorCode::kCountMismatch, offset, record->joints, skeleton.joints.size()});
+        return;
+    }
+    for (std::uint32_t joint = 0; joint < record->joints; ++joint) {
+        JointView& view = skeleton.joints[joint];
+        const std::uint32_t pivot = tree.find(view.chunk, FourCC("PIVO"));
+        if (pivot != kNone && tree.find(pivot, FourCC("REST")) != kNone) continue;
+        copy_at(payload, sizeof(JointsRecord) + std::uint64_t{joint} * sizeof(RestRecord), view.rest);
+    }
+    for (std::uint32_t k = 0; k < record->polygons; ++k) {
+        JointPolygons range;
+        copy_at(payload, polygons_at + std::uint64_t{k} * sizeof range, range);
+        if (range.joint >= record->joints) {
+            faults.add({ErrorCode::kJointRange, offset, range.joint, record->joints});
+            return;
+        }
+        add_polygons(tree, chunk, range.joint, range.polygons, skeleton.polygons, faults);
+    }
+    std::stable_sort(skeleton.polygons.begin(), skeleton.polygons.end(),
+                     [](const PolygonView& a, const PolygonView& b) { return a.joint < b.joint; });
+}
+
+/// Without JNTS, every joint must say its rest transform itself.
+void want_rests(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults) {
+    for (const JointView& joint : skeleton.joints) {
+        const std::uint32_t pivot = tree.find(joint.chunk, FourCC("PIVO"));
+        if (pivot == kNone) {
+            faults.add({ErrorCode::kChunkMissing, tree[joint.chunk].offset, FourCC("PIVO").value});
+        } else if (tree[pivot].is_container() && tree.find(pivot, FourCC("REST")) == kNone) {
+            faults.add({ErrorCode::kChunkMissing, tree[pivot].offset, FourCC("REST").value});
+        }
+    }
+}
+
+/// JNAM: as many names as joints, a zero behind each; a NAME of a joint's own goes before it.
+void read_joint_names(const ChunkTree& tree, std::uint32_t object, SkeletonView& skeleton, Faults& faults) {
+    const std::uint32_t chunk = tree.find(object, FourCC("JNAM"));
+    if (chunk == kNone || tree[chunk].is_container()) return;
+    std::string_view text = read_text(tree, object, FourCC("JNAM"), faults);
+    std::size_t named = 0;
+    for (; !text.empty(); ++named) {
+        const std::size_t end = text.find('\0');
+        if (end == std::string_view::npos) break;
+        if (named < skeleton.joints.size() && skeleton.joints[named].name.empty())
+            skeleton.joints[named].name = text.substr(0, end);
+        text.remove_prefix(end + 1);
+    }
+    if (named != skeleton.joints.size() || !text.empty())
+        faults.add({ErrorCode::kCountMismatch, tree[chunk].offset, named, skeleton.joints.size()});
 }
 
 }  // namespace
@@ -105,6 +180,13 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
     if (skeleton.joints.size() > kMaxJoints) {
         faults.add({ErrorCode::kTooManyJoints, tree[object].offset, skeleton.joints.size(), kMaxJoints});
     }
+    const std::uint32_t table = tree.find(object, FourCC("JNTS"));
+    if (table == kNone) {
+        want_rests(tree, skeleton, faults);
+    } else if (!tree[table].is_container()) {
+        read_joint_table(tree, table, skeleton, faults);
+    }
+    read_joint_names(tree, object, skeleton, faults);
     return skeleton;
 }
 

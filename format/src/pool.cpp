@@ -4,8 +4,11 @@
 #include <bendy/format/text.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <initializer_list>
+#include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace bendy {
@@ -18,32 +21,58 @@ T load(Bytes data, std::uint64_t at) {
     return value;
 }
 
-/// The types and element widths that a kind of stream may have.
-struct StreamRule {
-    std::initializer_list<ComponentType> types;
+using enum ComponentType;
+using enum Numbers;
+
+/// A set of types.
+template <class... Types>
+constexpr unsigned any_of(Types... types) {
+    return ((1u << static_cast<unsigned>(types)) | ...);
+}
+
+/// Types, element widths and the meaning of integers that a kind of stream may have together.
+struct StreamForm {
+    unsigned types;
     std::uint32_t fewest_components;
     std::uint32_t most_components;
+    Numbers numbers;
 };
+using StreamRule = std::span<const StreamForm>;
 
-const StreamRule kVec3{{ComponentType::f32}, 3, 3};
-const StreamRule kVec4{{ComponentType::f32}, 4, 4};
-const StreamRule kCoords{{ComponentType::f32, ComponentType::u8, ComponentType::u16}, 2, 2};
-const StreamRule kColour{{ComponentType::f32, ComponentType::u8, ComponentType::u16}, 3, 4};
-const StreamRule kBones{{ComponentType::u8, ComponentType::u16}, 1, kMaxInfluences};
-const StreamRule kWeights{{ComponentType::f32, ComponentType::u8, ComponentType::u16}, 1, kMaxInfluences};
-const StreamRule kIndices{{ComponentType::u16, ComponentType::u32}, 1, 1};
-const StreamRule kAnything{{ComponentType::u8, ComponentType::i8, ComponentType::u16, ComponentType::i16,
-                            ComponentType::u32, ComponentType::f32},
-                           1,
-                           0xffff};
+constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16, u32), 3, 3, boxed}};
+constexpr StreamForm kShifts[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, i8, u16, i16), 3, 3, boxed}};
+constexpr StreamForm kNormals[] = {{any_of(f32), 3, 3, plain}, {any_of(i8, i16), 2, 2, normalised}};
+constexpr StreamForm kTangents[] = {{any_of(f32), 4, 4, plain}, {any_of(i8, i16), 3, 3, normalised}};
+constexpr StreamForm kCoords[] = {{any_of(f32), 2, 2, plain},
+                                  {any_of(u8, u16), 2, 2, normalised},
+                                  {any_of(u8, u16), 2, 2, boxed}};
+constexpr StreamForm kColour[] = {{any_of(f32), 3, 4, plain},
+                                  {any_of(u8, u16), 3, 4, normalised},
+                                  {any_of(u8, u16), 3, 4, boxed}};
+constexpr StreamForm kBones[] = {{any_of(u8, u16), 1, kMaxInfluences, plain}};
+constexpr StreamForm kWeights[] = {{any_of(f32), 1, kMaxInfluences, plain},
+                                   {any_of(u8, u16), 1, kMaxInfluences, normalised},
+                                   {any_of(u8, u16), 1, kMaxInfluences, boxed}};
+constexpr StreamForm kIndices[] = {{any_of(u16, u32), 1, 1, plain}};
+constexpr StreamForm kAnything[] = {{any_of(u8, i8, u16, i16, u32, f32), 1, 0xffff, plain},
+                                    {any_of(u8, i8, u16, i16), 1, 0xffff, normalised}};
 
-/// Integer streams that stand for numbers are normalised; bones and indices are not; floats cannot be.
-bool normalisation_fits(const StreamRecord& record, const StreamRule& rule) {
-    const auto type = static_cast<ComponentType>(record.component_type);
-    const bool may_be =
-        type != ComponentType::f32 && type != ComponentType::u32 && &rule != &kBones && &rule != &kIndices;
-    const bool must_be = may_be && &rule != &kAnything;
-    return record.normalised == 1 ? may_be : !must_be;
+bool takes(StreamRule rule, const StreamRecord& record) {
+    return std::any_of(rule.begin(), rule.end(), [&](const StreamForm& form) {
+        return (form.types >> record.component_type & 1u) != 0 && record.components >= form.fewest_components &&
+               record.components <= form.most_components &&
+               record.normalised == static_cast<std::uint8_t>(form.numbers);
+    });
+}
+
+bool is_one_of(StreamRule rule, StreamRule a, StreamRule b) {
+    return rule.data() == a.data() || rule.data() == b.data();
+}
+
+/// Bytes between a StreamRecord and the integers.
+std::uint64_t box_size(const StreamRecord& record) {
+    const bool is_boxed = record.normalised == static_cast<std::uint8_t>(boxed);
+    return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
 class PoolReader {
@@ -51,38 +80,50 @@ public:
     PoolReader(const ChunkTree& tree, Faults& faults) : tree_(tree), faults_(faults) {}
 
     /// The stream in leaf `number`; nothing, and a fault, if it is not as `rule` and the counts have it.
-    std::optional<StreamView> stream(std::uint32_t number, const StreamRule& rule,
+    std::optional<StreamView> stream(std::uint32_t number, StreamRule rule,
                                      std::optional<std::uint32_t> elements) {
         const Chunk& chunk = tree_[number];
         if (chunk.is_container()) return std::nullopt;
         const Result<StreamRecord> record = read_record<StreamRecord>(tree_, number);
         if (!record) return fault(record.error());
         if (!check_enum(record->component_type, kComponentTypes, chunk.offset, faults_)) return std::nullopt;
-        if (!check_enum(record->normalised, 2, chunk.offset, faults_)) return std::nullopt;
+        if (!check_enum(record->normalised, kNumbers, chunk.offset, faults_)) return std::nullopt;
         check_reserved(std::array{record->reserved}, chunk.offset, faults_);
         const auto type = static_cast<ComponentType>(record->component_type);
-        if (std::find(rule.types.begin(), rule.types.end(), type) == rule.types.end() ||
-            record->components < rule.fewest_components || record->components > rule.most_components ||
-            !normalisation_fits(*record, rule)) {
-            return fault({ErrorCode::kStreamType, chunk.offset});
-        }
-        if (record->set != 0 && &rule != &kCoords && &rule != &kColour)
+        if (!takes(rule, *record)) return fault({ErrorCode::kStreamType, chunk.offset});
+        if (record->set != 0 && !is_one_of(rule, kCoords, kColour))
             return fault({ErrorCode::kStreamSet, chunk.offset, record->set});
         if (elements && record->elements != *elements) {
             return fault({ErrorCode::kStreamCount, chunk.offset, record->elements, *elements});
         }
         // 2^32 elements of 2^16 components of 2^2 bytes: no overflow in 64 bits.
         const std::uint64_t size = std::uint64_t{record->elements} * record->components * component_size(type);
-        const Bytes data = tree_.payload(number).subspan(sizeof(StreamRecord));
-        if (data.size() != size)
-            return fault(
-                {ErrorCode::kRecordSize, chunk.offset, tree_.payload(number).size(), size + sizeof(StreamRecord)});
-        return StreamView{type,  record->normalised != 0, record->components, record->elements, record->set, data,
-                          number};
+        const std::uint64_t before = sizeof(StreamRecord) + box_size(*record);
+        const Bytes payload = tree_.payload(number);
+        if (payload.size() != before + size)
+            return fault({ErrorCode::kRecordSize, chunk.offset, payload.size(), before + size});
+        StreamView view{type,        record->normalised == static_cast<std::uint8_t>(normalised),
+                        record->components, record->elements,
+                        record->set, payload.subspan(before),
+                        number};
+        if (before != sizeof(StreamRecord)) {
+            view.boxes = view_at<StreamBox>(payload, sizeof(StreamRecord), record->components);
+            check_gap(payload.subspan(sizeof(StreamRecord) + view.boxes.size_bytes(),
+                                      before - sizeof(StreamRecord) - view.boxes.size_bytes()),
+                      chunk.offset);
+        }
+        view.is_octahedral = view.normalised && is_one_of(rule, kNormals, kTangents);
+        return view;
+    }
+
+    /// Padding inside a payload must be zero.
+    void check_gap(Bytes gap, std::uint64_t offset) {
+        const auto used = std::find_if(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; });
+        if (used != gap.end()) faults_.add({ErrorCode::kReservedField, offset, std::to_integer<std::uint64_t>(*used)});
     }
 
     /// The one stream with this id among a container's children, if it is there.
-    std::optional<StreamView> find(std::uint32_t container, FourCC id, const StreamRule& rule,
+    std::optional<StreamView> find(std::uint32_t container, FourCC id, StreamRule rule,
                                    std::optional<std::uint32_t> elements) {
         const std::uint32_t number = tree_.find(container, id);
         return number == kNone ? std::nullopt : stream(number, rule, elements);
@@ -122,22 +163,24 @@ public:
             return std::nullopt;
         }
         check_reserved(record->reserved, chunk.offset, faults_);
+        if (!check_enum(record->derived, 2, chunk.offset, faults_)) return std::nullopt;
+        const std::uint32_t matrices = record->derived == 0 ? record->entries : 1;
         const std::uint64_t matrices_at =
             sizeof(PaletteRecord) + padded(std::uint64_t{record->entries} * sizeof(std::uint32_t));
-        const std::uint64_t size = matrices_at + std::uint64_t{record->entries} * sizeof(glm::mat4);
+        const std::uint64_t size = matrices_at + std::uint64_t{matrices} * sizeof(glm::mat4);
         const Bytes payload = tree_.payload(number);
         if (size != payload.size()) {
             faults_.add({ErrorCode::kRecordSize, chunk.offset, payload.size(), size});
             return std::nullopt;
         }
         const std::uint64_t joints_end = sizeof(PaletteRecord) + std::uint64_t{record->entries} * sizeof(std::uint32_t);
-        for (const std::byte gap : payload.subspan(joints_end, matrices_at - joints_end)) {
-            if (gap == std::byte{0}) continue;
-            faults_.add({ErrorCode::kReservedField, chunk.offset, std::to_integer<std::uint64_t>(gap)});
-            break;
-        }
+        check_gap(payload.subspan(joints_end, matrices_at - joints_end), chunk.offset);
         PaletteView palette{view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record->entries),
-                            view_at<glm::mat4>(payload, matrices_at, record->entries)};
+                            view_at<glm::mat4>(payload, matrices_at, matrices)};
+        if (record->derived != 0) {
+            palette.base = palette.inverse_bind.data();
+            palette.inverse_bind = {};
+        }
         for (const std::uint32_t joint : palette.joints) {
             if (joint < joints) continue;
             faults_.add({ErrorCode::kJointRange, chunk.offset, joint, joints});
@@ -165,9 +208,9 @@ public:
                 break;
             }
         }
-        target.positions = find(number, FourCC("POSI"), kVec3, touched);
-        target.normals = find(number, FourCC("NORM"), kVec3, touched);
-        target.tangents = find(number, FourCC("TANG"), kVec3, touched);
+        target.positions = find(number, FourCC("POSI"), kShifts, touched);
+        target.normals = find(number, FourCC("NORM"), kShifts, touched);
+        target.tangents = find(number, FourCC("TANG"), kShifts, touched);
         return target;
     }
 
@@ -177,34 +220,122 @@ private:
 };
 
 void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>& stream, Faults& faults) {
-    if (stream && stream->type == ComponentType::f32)
-        check_finite(stream->as<float>(), tree[stream->chunk].offset, faults);
+    if (!stream) return;
+    const std::uint64_t offset = tree[stream->chunk].offset;
+    if (stream->type == f32) check_finite(stream->as<float>(), offset, faults);
+    const float most_steps = stream->type == u32 ? 4294967296.0f : 65536.0f;
+    for (const StreamBox& box : stream->boxes)  // the largest number must be finite, too
+        check_finite(std::array{box.minimum, box.step, box.minimum + most_steps * box.step}, offset, faults);
+}
+
+/// What an integer stands for.
+template <class T>
+float scaled(T value, const StreamView& stream, std::uint32_t component) {
+    const auto number = static_cast<float>(value);
+    if (!stream.boxes.empty()) return stream.boxes[component].minimum + stream.boxes[component].step * number;
+    if constexpr (sizeof(T) < 4) {
+        constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
+        if (stream.normalised) return std::max(number / kLargest, -1.0f);
+    }
+    return number;
+}
+
+/// Calls visit(load), load(at) being one of the stream's numbers as it lies.
+template <class Visit>
+auto with_type(const StreamView& stream, const Visit& visit) {
+    switch (stream.type) {
+        case u8:
+            return visit([&](std::uint64_t at) { return load<std::uint8_t>(stream.data, at); });
+        case i8:
+            return visit([&](std::uint64_t at) { return load<std::int8_t>(stream.data, at); });
+        case u16:
+            return visit([&](std::uint64_t at) { return load<std::uint16_t>(stream.data, at); });
+        case i16:
+            return visit([&](std::uint64_t at) { return load<std::int16_t>(stream.data, at); });
+        case u32:
+            return visit([&](std::uint64_t at) { return load<std::uint32_t>(stream.data, at); });
+        case f32:
+            break;
+    }
+    return visit([&](std::uint64_t at) { return load<float>(stream.data, at); });
+}
+
+/// The direction at the start of an element; both numbers the type's smallest: no direction, zero.
+template <class Load>
+glm::vec3 direction_at(const StreamView& stream, const Load& load, std::uint64_t at) {
+    using T = decltype(load(at));
+    const T x = load(at);
+    const T y = load(at + 1);
+    if constexpr (std::is_signed_v<T> && sizeof(T) < 4) {
+        constexpr T kNone = std::numeric_limits<T>::min();
+        if (x == kNone && y == kNone) return glm::vec3(0.0f);
+    }
+    return decode_octahedral(scaled(x, stream, 0), scaled(y, stream, 1));
+}
+
+template <class Vector, class Load>
+Vector vector_at(const StreamView& stream, const Load& load, std::uint64_t element) {
+    const std::uint64_t at = element * stream.components;
+    Vector vector;
+    if (stream.is_octahedral) {
+        const glm::vec3 direction = direction_at(stream, load, at);
+        for (int c = 0; c < 3; ++c) vector[c] = direction[c];
+        if constexpr (Vector::length() == 4) vector[3] = scaled(load(at + 2), stream, 2);
+        return vector;
+    }
+    for (int c = 0; c < Vector::length(); ++c)
+        vector[c] = scaled(load(at + static_cast<unsigned>(c)), stream, static_cast<std::uint32_t>(c));
+    return vector;
+}
+
+template <class Vector>
+void decode_vectors(const StreamView& stream, std::span<Vector> out) {
+    assert(out.size() <= stream.elements);
+    if (stream.type == f32) {
+        const auto source = view_at<Vector>(stream.data, 0, out.size());
+        std::copy(source.begin(), source.end(), out.begin());
+        return;
+    }
+    with_type(stream, [&](const auto& load) {
+        for (std::size_t element = 0; element < out.size(); ++element)
+            out[element] = vector_at<Vector>(stream, load, element);
+    });
 }
 
 }  // namespace
 
+glm::vec3 decode_octahedral(float x, float y) {
+    glm::vec3 v(x, y, 1.0f - std::abs(x) - std::abs(y));
+    if (v.z < 0.0f) {
+        v.x = (1.0f - std::abs(y)) * (x < 0.0f ? -1.0f : 1.0f);
+        v.y = (1.0f - std::abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
+    }
+    const float length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return {v.x / length, v.y / length, v.z / length};  // |x| + |y| + |z| is 1 or more: no division by zero
+}
+
+glm::vec3 StreamView::vec3(std::uint32_t element) const {
+    assert(element < elements && components >= (is_octahedral ? 2u : 3u));
+    return with_type(*this, [&](const auto& load) { return vector_at<glm::vec3>(*this, load, element); });
+}
+
+glm::vec4 StreamView::vec4(std::uint32_t element) const {
+    assert(element < elements && components >= (is_octahedral ? 3u : 4u));
+    return with_type(*this, [&](const auto& load) { return vector_at<glm::vec4>(*this, load, element); });
+}
+
+void StreamView::decode(std::span<glm::vec3> out) const {
+    decode_vectors(*this, out);
+}
+
+void StreamView::decode(std::span<glm::vec4> out) const {
+    decode_vectors(*this, out);
+}
+
 float StreamView::number(std::uint32_t element, std::uint32_t component) const {
     assert(element < elements && component < components);
     const std::uint64_t at = std::uint64_t{element} * components + component;
-    const auto scaled = [this](auto value, float largest) {
-        const auto number = static_cast<float>(value);
-        return normalised ? std::max(number / largest, -1.0f) : number;
-    };
-    switch (type) {
-        case ComponentType::u8:
-            return scaled(load<std::uint8_t>(data, at), 255.0f);
-        case ComponentType::i8:
-            return scaled(load<std::int8_t>(data, at), 127.0f);
-        case ComponentType::u16:
-            return scaled(load<std::uint16_t>(data, at), 65535.0f);
-        case ComponentType::i16:
-            return scaled(load<std::int16_t>(data, at), 32767.0f);
-        case ComponentType::u32:
-            return static_cast<float>(load<std::uint32_t>(data, at));
-        case ComponentType::f32:
-            return load<float>(data, at);
-    }
-    return 0.0f;
+    return with_type(*this, [&](const auto& load) { return scaled(load(at), *this, component); });
 }
 
 std::uint32_t StreamView::index(std::uint32_t element, std::uint32_t component) const {
@@ -257,14 +388,14 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     reader.check_sets(pool.texture_coords);
     reader.check_sets(pool.colours);
 
-    const auto positions = reader.find(chunk, FourCC("POSI"), kVec3, pool.vertices);
+    const auto positions = reader.find(chunk, FourCC("POSI"), kPositions, pool.vertices);
     if (positions) {
         pool.positions = *positions;
     } else if (pool.vertices != 0 && tree.find(chunk, FourCC("POSI")) == kNone) {
         faults.add({ErrorCode::kChunkMissing, offset, FourCC("POSI").value});
     }
-    pool.normals = reader.find(chunk, FourCC("NORM"), kVec3, pool.vertices);
-    pool.tangents = reader.find(chunk, FourCC("TANG"), kVec4, pool.vertices);
+    pool.normals = reader.find(chunk, FourCC("NORM"), kNormals, pool.vertices);
+    pool.tangents = reader.find(chunk, FourCC("TANG"), kTangents, pool.vertices);
 
     pool.bones = reader.find(chunk, FourCC("BONE"), kBones, pool.vertices);
     pool.weights = reader.find(chunk, FourCC("WGHT"), kWeights, pool.vertices);

@@ -6,7 +6,7 @@
 namespace bendy {
 namespace {
 
-/// Copies a stream's vectors, or zeros if the pool has none.
+/// Decodes a stream's vectors, or zeros if the pool has none.
 template <class Vector>
 void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::span<Vector> out) {
     if (out.empty()) return;
@@ -14,19 +14,23 @@ void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::
         std::fill_n(out.begin(), vertices, Vector(0.0f));
         return;
     }
-    const auto source = view_at<Vector>(stream->data, 0, vertices);
-    std::copy(source.begin(), source.end(), out.begin());
+    stream->decode(out.first(vertices));
 }
 
 template <class Vector>
 void displace(const TargetView& target, const std::optional<StreamView>& stream, float weight, std::span<Vector> out) {
     if (!stream || out.empty()) return;
-    const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
-    for (std::uint32_t entry = 0; entry < displacements.size(); ++entry) {
+    const auto add = [&](std::uint32_t entry, const glm::vec3& displacement) {
         Vector& vector = out[target.vertices ? target.vertices->index(entry, 0) : entry];
-        vector.x += weight * displacements[entry].x;
-        vector.y += weight * displacements[entry].y;
-        vector.z += weight * displacements[entry].z;
+        vector.x += weight * displacement.x;
+        vector.y += weight * displacement.y;
+        vector.z += weight * displacement.z;
+    };
+    if (stream->type == ComponentType::f32) {
+        const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
+        for (std::uint32_t entry = 0; entry < displacements.size(); ++entry) add(entry, displacements[entry]);
+    } else {
+        for (std::uint32_t entry = 0; entry < stream->elements; ++entry) add(entry, stream->vec3(entry));
     }
 }
 

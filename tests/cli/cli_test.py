@@ -253,6 +253,22 @@ class Convert(Case):
         self.done("convert", SOURCE / "examples" / "tentacle.glb", "--output", "long.bendy")
         self.assertEqual((self.folder / "long.bendy").read_bytes(), (self.folder / "deeper" / "any.name").read_bytes())
 
+    def test_convert_compact(self):
+        source = SOURCE / "examples" / "mannequin.glb"
+        exact = self.done("convert", source, "-o", "exact.bendy")
+        text = self.done("convert", source, "-o", "small.bendy", "--compact").decode()
+        self.assertRegex(text, r"total +[\d,]+ +[\d,]+\n")
+        self.assertRegex(text, r"error +at most [\d.e-]+ mm; worst met [\d.e-]+ mm")
+        self.assertNotIn(b"at most", exact)
+        sizes = {name: (self.folder / f"{name}.bendy").stat().st_size for name in ("exact", "small")}
+        self.assertLess(sizes["small"], sizes["exact"] / 2)
+        self.done("validate", "small.bendy")
+        self.assertIn(b"error at most", self.done("inspect", "small.bendy"))
+        self.done("convert", source, "-o", "coarse.bendy", "--max-error", "1cm")
+        self.assertLess((self.folder / "coarse.bendy").stat().st_size, sizes["small"])
+        for bound, words in (("0.1", "no unit"), ("1in", "no unit of"), ("-1mm", "not above zero"), ("much", "no error bound")):
+            self.assertIn(words, self.misused("convert", source, "--max-error", bound))
+
     def test_the_summary_says_what_is_in_the_file(self):
         text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
         for words in ("m.bendy", "65 joints", "4,504 vertices", "Idle", "Walk", "Blink", "Smile", "5 materials",

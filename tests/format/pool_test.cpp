@@ -190,41 +190,55 @@ TEST(Pool, RefusesACarryingJointThatIsNotThere) {
               Lines{"JOINT_RANGE HEAD/OBJE/VECT[1]/VINF"});
 }
 
-/// A kind of stream, and what it may be.
-struct Kind {
-    std::string path;
+/// What a kind of stream may be.
+struct Form {
     std::vector<ComponentType> types;
     std::vector<std::uint16_t> widths;
-    bool integers_are_numbers;  ///< and must be normalised
+    Numbers numbers;
+};
+struct Kind {
+    std::string path;
+    std::vector<Form> forms;
     std::uint32_t elements;
 };
 
 using enum ComponentType;
+using enum Numbers;
 
+const Form kFloats{{f32}, {3}, plain};
+const Form kShifts{{u8, i8, u16, i16}, {3}, boxed};
 const std::vector<Kind> kKinds{
-    {kPool + "/POSI", {f32}, {3}, true, 4},
-    {kPool + "/NORM", {f32}, {3}, true, 4},
-    {kPool + "/TANG", {f32}, {4}, true, 4},
-    {kPool + "/TEXC", {f32, u8, u16}, {2}, true, 4},
-    {kPool + "/COLR", {f32, u8, u16}, {3, 4}, true, 4},
-    {kPool + "/BONE", {u8, u16}, {2}, false, 4},      // other widths do not fit the weights
-    {kPool + "/WGHT", {f32, u8, u16}, {2}, true, 4},  // and the other way round
-    {kPool + "/INDX", {u16, u32}, {1}, false, 6},
-    {kPool + "/TARG/POSI", {f32}, {3}, true, 4},
-    {kPool + "/TARG/NORM", {f32}, {3}, true, 4},
-    {kPool + "/TARG[1]/TANG", {f32}, {3}, true, 2},
-    {kPool + "/TARG[1]/INDX", {u16, u32}, {1}, false, 2},
+    {kPool + "/POSI", {kFloats, {{u8, u16, u32}, {3}, boxed}}, 4},
+    {kPool + "/NORM", {kFloats, {{i8, i16}, {2}, normalised}}, 4},
+    {kPool + "/TANG", {{{f32}, {4}, plain}, {{i8, i16}, {3}, normalised}}, 4},
+    {kPool + "/TEXC", {{{f32}, {2}, plain}, {{u8, u16}, {2}, normalised}, {{u8, u16}, {2}, boxed}}, 4},
+    {kPool + "/COLR", {{{f32}, {3, 4}, plain}, {{u8, u16}, {3, 4}, normalised}, {{u8, u16}, {3, 4}, boxed}}, 4},
+    {kPool + "/BONE", {{{u8, u16}, {2}, plain}}, 4},                               // other widths do not fit the weights
+    {kPool + "/WGHT", {{{f32}, {2}, plain}, {{u8, u16}, {2}, normalised}, {{u8, u16}, {2}, boxed}}, 4},  // and the other way round
+    {kPool + "/INDX", {{{u16, u32}, {1}, plain}}, 6},
+    {kPool + "/TARG/POSI", {kFloats, kShifts}, 4},
+    {kPool + "/TARG/NORM", {kFloats, kShifts}, 4},
+    {kPool + "/TARG[1]/TANG", {kFloats, kShifts}, 2},
+    {kPool + "/TARG[1]/INDX", {{{u16, u32}, {1}, plain}}, 2},
 };
 
+bool takes(const Kind& kind, ComponentType type, std::uint16_t width, Numbers numbers) {
+    return std::any_of(kind.forms.begin(), kind.forms.end(), [&](const Form& form) {
+        return std::find(form.types.begin(), form.types.end(), type) != form.types.end() &&
+               std::find(form.widths.begin(), form.widths.end(), width) != form.widths.end() && form.numbers == numbers;
+    });
+}
+
 /// A payload of zeros.
-Buffer zeros(ComponentType type, bool normalised, std::uint16_t components, std::uint32_t elements) {
+Buffer zeros(ComponentType type, Numbers numbers, std::uint16_t components, std::uint32_t elements) {
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(type);
-    record.normalised = normalised ? 1 : 0;
+    record.normalised = static_cast<std::uint8_t>(numbers);
     record.components = components;
     record.elements = elements;
     const Bytes head = bytes_of(record);
     Buffer payload(head.begin(), head.end());
+    if (numbers == boxed) payload.resize(payload.size() + padded(components * sizeof(StreamBox)));
     payload.resize(payload.size() + std::size_t{component_size(type)} * components * elements);
     return payload;
 }
@@ -248,11 +262,9 @@ TEST(Pool, TakesExactlyTheStreamTypesOfItsKinds) {
         for (const ComponentType type : {u8, i8, u16, i16, u32, f32}) {
             for (const std::uint16_t width : {std::uint16_t{0}, std::uint16_t{1}, std::uint16_t{2}, std::uint16_t{3},
                                               std::uint16_t{4}, std::uint16_t{5}}) {
-                for (const bool normalised : {false, true}) {
-                    const bool good = std::find(kind.types.begin(), kind.types.end(), type) != kind.types.end() &&
-                                      std::find(kind.widths.begin(), kind.widths.end(), width) != kind.widths.end() &&
-                                      normalised == (kind.integers_are_numbers && type != f32);
-                    const Lines faults = shape_faults(kind.path, zeros(type, normalised, width, kind.elements));
+                for (const Numbers numbers : {plain, normalised, boxed}) {
+                    const bool good = takes(kind, type, width, numbers);
+                    const Lines faults = shape_faults(kind.path, zeros(type, numbers, width, kind.elements));
                     const std::string what =
                         kind.path + " type " + std::to_string(static_cast<int>(type)) + " x " + std::to_string(width);
                     const bool of_order = faults == Lines{"TARGET_ORDER " + kind.path};  // zeros do not ascend
@@ -271,11 +283,13 @@ TEST(Pool, TakesExactlyTheStreamTypesOfItsKinds) {
 
 TEST(Pool, TakesAnyTypeForTheAuthorsAttributes) {
     for (const ComponentType type : {u8, i8, u16, i16, u32, f32}) {
-        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, true, 1, 4)).empty(), type != u32 && type != f32);
+        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, normalised, 1, 4)).empty(), type != u32 && type != f32);
+        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, boxed, 1, 4)),
+                  Lines{"STREAM_TYPE HEAD/OBJE/VECT/USER/VALS"});
         for (const std::uint16_t width : {std::uint16_t{1}, std::uint16_t{16}, std::uint16_t{65535}}) {
-            EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, false, width, 4)), Lines{});
+            EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, plain, width, 4)), Lines{});
         }
-        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, false, 0, 4)),
+        EXPECT_EQ(faults_with(kPool + "/USER/VALS", zeros(type, plain, 0, 4)),
                   Lines{"STREAM_TYPE HEAD/OBJE/VECT/USER/VALS"});
     }
 }
@@ -283,14 +297,15 @@ TEST(Pool, TakesAnyTypeForTheAuthorsAttributes) {
 TEST(Pool, WantsAsManyElementsAsVertices) {
     for (const Kind& kind : kKinds) {
         if (kind.path == kPool + "/INDX" || kind.path == kPool + "/TARG[1]/INDX") continue;
-        const ComponentType type = kind.types[0];
-        const bool normalised = kind.integers_are_numbers && type != f32;
-        for (const std::uint32_t elements : {0u, kind.elements - 1, kind.elements + 1}) {
-            const Lines faults = shape_faults(kind.path, zeros(type, normalised, kind.widths[0], elements));
-            EXPECT_EQ(faults, Lines{"STREAM_COUNT " + kind.path}) << kind.path << ' ' << elements;
+        for (const Form& form : kind.forms) {
+            for (const std::uint32_t elements : {0u, kind.elements - 1, kind.elements + 1}) {
+                const Lines faults =
+                    shape_faults(kind.path, zeros(form.types[0], form.numbers, form.widths[0], elements));
+                EXPECT_EQ(faults, Lines{"STREAM_COUNT " + kind.path}) << kind.path << ' ' << elements;
+            }
         }
     }
-    EXPECT_EQ(shape_faults(kPool + "/USER/VALS", zeros(f32, false, 1, 5)),
+    EXPECT_EQ(shape_faults(kPool + "/USER/VALS", zeros(f32, plain, 1, 5)),
               Lines{"STREAM_COUNT HEAD/OBJE/VECT/USER/VALS"});
 }
 
@@ -319,7 +334,7 @@ TEST(Pool, RefusesUnknownTypesSwitchesAndReservedFields) {
             return shape_faults(root);
         };
         EXPECT_EQ(faults([](auto& record) { record.component_type = 6; }), Lines{"ENUM_RANGE " + kind.path});
-        EXPECT_EQ(faults([](auto& record) { record.normalised = 2; }), Lines{"ENUM_RANGE " + kind.path});
+        EXPECT_EQ(faults([](auto& record) { record.normalised = 3; }), Lines{"ENUM_RANGE " + kind.path});
         EXPECT_EQ(faults([](auto& record) { record.reserved = 1; }), Lines{"RESERVED_FIELD " + kind.path});
     }
 }
@@ -501,6 +516,58 @@ TEST(Pool, TakesIntegerWeightsThatSumToTheirWhole) {
               Lines{});
     EXPECT_EQ(faults_with(kPool + "/WGHT", stream_payload<std::uint8_t>(2, {255, 0, 254, 0, 128, 127, 0, 255}, true)),
               Lines{"WEIGHT_SUM HEAD/OBJE/VECT/WGHT"});
+}
+
+TEST(Pool, BoxesAreHeldAgainstThePayload) {
+    const std::string path = kPool + "/POSI";
+    Buffer good = zeros(u16, boxed, 3, 4);
+    ASSERT_EQ(good.size(), 16u + 32u + 24u);
+    EXPECT_EQ(shape_faults(path, good), Lines{});
+    EXPECT_EQ(shape_faults(path, Buffer(good.begin(), good.end() - 1)), Lines{"RECORD_SIZE " + path});
+    EXPECT_EQ(shape_faults(path, Buffer(good.begin(), good.begin() + 20)), Lines{"RECORD_SIZE " + path});
+    good[16 + 24] = std::byte{1};  // between boxes and integers
+    EXPECT_EQ(shape_faults(path, good), Lines{"RESERVED_FIELD " + path});
+}
+
+TEST(Pool, BoxesAreFiniteNumbers) {
+    const std::string path = kPool + "/POSI";
+    for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), 1e38f}) {
+        Buffer payload = zeros(u16, boxed, 3, 4);
+        std::memcpy(payload.data() + 16 + 4, &bad, sizeof bad);  // the first step
+        EXPECT_EQ(faults_with(path, payload), Lines{"NOT_FINITE " + path}) << bad;
+    }
+}
+
+TEST(Pool, BoxedNumbersAreMinimumAndSteps) {
+    const std::vector<std::uint16_t> integers{0, 1, 65535, 2, 3, 4};
+    const std::vector<StreamBox> boxes{{-1.0f, 0.5f}, {10.0f, 0.0f}, {0.0f, 0.25f}};
+    StreamView view = view_of(integers, 3);
+    view.boxes = boxes;
+    EXPECT_EQ(view.vec3(0), glm::vec3(-1.0f, 10.0f, 0.25f * 65535.0f));
+    EXPECT_EQ(view.vec3(1), glm::vec3(0.0f, 10.0f, 1.0f));
+    EXPECT_EQ(view.number(1, 0), 0.0f);
+    std::vector<glm::vec3> all(2);
+    view.decode(std::span(all));
+    EXPECT_EQ(all, (std::vector<glm::vec3>{view.vec3(0), view.vec3(1)}));
+}
+
+TEST(Pool, DirectionsAreUnitVectorsOrZero) {
+    for (int x = -127; x <= 127; x += 3) {
+        for (int y = -127; y <= 127; y += 3) {
+            const std::vector<std::int8_t> integers{static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), -127};
+            StreamView view = view_of(integers, 3, true);
+            view.is_octahedral = true;
+            const glm::vec4 tangent = view.vec4(0);
+            EXPECT_NEAR(tangent.x * tangent.x + tangent.y * tangent.y + tangent.z * tangent.z, 1.0f, 1e-6f);
+            EXPECT_EQ(tangent.w, -1.0f);
+        }
+    }
+    const std::vector<std::int8_t> axes{0, 0, 127, 0, 0, -127, 127, 127, -128, -128, -128, 0};
+    StreamView view = view_of(axes, 2, true);
+    view.is_octahedral = true;
+    const std::vector<glm::vec3> expected{{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 0}};
+    for (std::uint32_t k = 0; k < expected.size(); ++k) EXPECT_EQ(view.vec3(k), expected[k]) << k;
+    EXPECT_EQ(view.vec3(5), glm::vec3(-1, 0, 0));  // only both together mean none
 }
 
 }  // namespace

@@ -115,14 +115,16 @@ def read_constants(check):
 
 
 def read_stream_rules(check):
-    """(parent, chunk) -> types, fewest, most"""
+    """(parent, chunk) -> forms: (types, fewest, most, numbers)"""
     code = ' '.join(strip_comments((check.source / 'format' / 'src' / 'pool.cpp').read_text(encoding='utf-8')).split())
     limits, _ = read_constants(check)
     rules = {}
-    for rule, types, fewest, most in re.findall(r'const StreamRule (k\w+)\{\{([^}]*)\}, (\w+), (\w+)\};', code):
-        numbers = [limits[n] if n in limits else int(n, 0) for n in (fewest, most)]
-        rules[rule] = (re.findall(r'ComponentType::(\w+)', types), numbers[0], numbers[1])
-    check.understood(rules, 'the StreamRule constants of pool.cpp')
+    for rule, body in re.findall(r'constexpr StreamForm (k\w+)\[\] = \{(\{.*?\})\};', code):
+        rules[rule] = []
+        for types, fewest, most, numbers in re.findall(r'\{any_of\(([^)]*)\), (\w+), (\w+), (\w+)\}', body):
+            width = [str(limits[n] if n in limits else int(n, 0)) for n in (fewest, most)]
+            rules[rule].append((' '.join(types.split(', ')), *width, numbers))
+    check.understood(rules, 'the StreamForm constants of pool.cpp')
     uses = {}
     for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), (k\w+)', code):
         parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
@@ -131,7 +133,7 @@ def read_stream_rules(check):
         uses['VECT', chunk] = rules[rule]
     for rule in re.findall(r'stream\(index_chunk, (k\w+)', code):
         uses['TARG', 'INDX'] = rules[rule]
-    check.understood(len(uses) >= 13, 'all uses of the StreamRule constants of pool.cpp')
+    check.understood(len(uses) >= 13, 'all uses of the StreamForm constants of pool.cpp')
     return uses
 
 
@@ -306,15 +308,15 @@ def check_streams(check):
     name = 'spec/streams.md'
     spec = {}
     for _, header, rows in tables(check.page('streams.md')):
-        if header[:4] == ['chunk', 'in', 'types', 'components']:
-            for chunk, parent, types, components, *_ in rows:
+        if header[:5] == ['chunk', 'in', 'types', 'components', 'numbers']:
+            for chunk, parent, types, components, numbers, *_ in rows:
                 fewest, _, most = components.partition('–')
-                spec[parent, re.sub(r'\[(\w+)\].*', r'\1', chunk)] = (set(types.split()), fewest, most or fewest)
-    code = {key: (set(types), str(fewest), str(most)) for key, (types, fewest, most) in read_stream_rules(check).items()}
+                forms = spec.setdefault((parent, re.sub(r'\[(\w+)\].*', r'\1', chunk)), [])
+                forms.append((types, fewest, most or fewest, numbers))
+    code = read_stream_rules(check)
     check.same_keys(name, 'stream', sorted(spec), sorted(code))
     for key in spec.keys() & code.keys():
-        for what, a, b in zip(('types', 'fewest components', 'most components'), spec[key], code[key]):
-            check.same(name, '%s of %s in %s' % (what, key[1], key[0]), a, b)
+        check.same(name, 'forms of %s in %s' % (key[1], key[0]), spec[key], code[key])
 
 
 def check_codes(check):

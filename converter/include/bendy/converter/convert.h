@@ -1,11 +1,13 @@
 #pragma once
 
+#include <bendy/converter/error_bound.h>
 #include <bendy/converter/import_gltf.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,6 +19,10 @@ struct ConvertOptions {
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
     bool auto_rig = false;
+    /// Encode for size: no point of the skin moves further than this. Nothing: exact.
+    std::optional<ErrorBound> compact;
+    /// Called now and then with the share of the work that is done, 0 to 1; may be empty.
+    std::function<void(double)> progress;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <bendy/converter/compact_report.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -35,6 +38,9 @@ public:
     /// Notes what was guessed and put into the result: one line, as `chain LeftArm: ...`.
     void propose(std::string line) { proposals_.push_back(std::move(line)); }
     [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
+
+    /// What was made smaller, at which error; nothing after an exact conversion.
+    std::optional<CompactReport> compact;
 
 private:
     std::vector<Warning> warnings_;

@@ -22,8 +22,9 @@ enum class Codec : std::uint8_t {
     indices = 4,        ///< triangle list: meshoptimizer's index codec
     indices_zstd = 5,   ///< the same under zstd
     cycle = 6,          ///< packed cycle: see packed_cycle.h
+    sums = 7,           ///< rows of u16 that sum to the same number, by planes under zstd
 };
-inline constexpr unsigned kCodecs = 7;
+inline constexpr unsigned kCodecs = 8;
 
 /// What every encoded payload starts with.
 struct CodecHeader {
@@ -66,5 +67,9 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out);
 /// list that is no list of triangles, rows that do not divide it), or if it would decode to more than kMaxCodecRatio.
 std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload, std::uint16_t head,
                                                      std::uint16_t stride);
+
+/// The same triangles in the same order, each one's corners turned so that the index codecs give them back to the bit.
+/// Nothing if the list is no list of triangles, or the codec cannot take it.
+std::optional<std::vector<std::uint32_t>> canonical_triangles(std::span<const std::uint32_t> indices);
 
 }  // namespace bendy

@@ -27,6 +27,7 @@ struct ObjectView {
 /// A whole file as typed views into its bytes.
 struct Document {
     std::optional<VersionRecord> version;  ///< absent only beside a fault
+    std::optional<BoundRecord> bound;      ///< of compact encodings; absent in an exact file
     std::vector<TextureView> textures;
     std::vector<MaterialView> materials;  ///< HEAD's MATE chunks, then those of the objects' joints
     std::uint32_t global_materials = 0;   ///< how many of them are HEAD's

@@ -4,8 +4,11 @@
 #include <bendy/format/records.h>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,6 +16,12 @@
 
 // VECT: a pool of vertices, one leaf chunk per stream.
 namespace bendy {
+
+/// The smallest number of a component, and what one step of its integers adds.
+struct StreamBox {
+    float minimum = 0.0f;
+    float step = 0.0f;
+};
 
 /// A stream's numbers in place: elements * components of them, without gaps.
 struct StreamView {
@@ -23,11 +32,23 @@ struct StreamView {
     std::uint32_t set = 0;    ///< texture coordinate or colour set
     Bytes data;               ///< elements * components * component_size(type) bytes
     std::uint32_t chunk = 0;  ///< the leaf that holds it
+    /// One per component where integers stand for minimum + step * integer; else empty.
+    std::span<const StreamBox> boxes = {};
+    /// The first two components are a direction on the octahedron, see decode_octahedral.
+    bool is_octahedral = false;
 
-    /// One number as glTF reads it: normalised integers become [0, 1] or, signed, [-1, 1]; others keep their value.
+    /// One number: normalised integers become [0, 1] or, signed, [-1, 1], as glTF reads them; boxed ones minimum + step
+    /// * integer, rounded after each operation; others keep their value.
     [[nodiscard]] float number(std::uint32_t element, std::uint32_t component) const;
     /// One unsigned integer of a stream of type u8, u16 or u32.
     [[nodiscard]] std::uint32_t index(std::uint32_t element, std::uint32_t component) const;
+    /// One element of positions, normals or displacements, decoded.
+    [[nodiscard]] glm::vec3 vec3(std::uint32_t element) const;
+    /// One tangent: xyz and the handedness.
+    [[nodiscard]] glm::vec4 vec4(std::uint32_t element) const;
+    /// Decodes the first out.size() elements; quicker than one by one. At most `elements`.
+    void decode(std::span<glm::vec3> out) const;
+    void decode(std::span<glm::vec4> out) const;
     /// All numbers in place, if the stream's type is T's (float for f32, ...); T is the caller's to get right.
     template <class T>
     [[nodiscard]] std::span<const T> as() const {
@@ -36,10 +57,16 @@ struct StreamView {
     [[nodiscard]] bool empty() const { return elements == 0 || components == 0; }
 };
 
+/// The unit vector at a point of the unfolded octahedron (Meyer et al., On Floating-Point Normal Vectors, 2010): x and y
+/// in [-1, 1]. Additions, multiplications, divisions and square roots alone, so the same on every machine.
+glm::vec3 decode_octahedral(float x, float y);
+
 /// Which joints a pool's bones mean, and their inverse bind matrices (pool space to joint space at bind time).
 struct PaletteView {
     std::span<const std::uint32_t> joints;
     std::span<const glm::mat4> inverse_bind;  ///< as many, column-major
+    const glm::mat4* base = nullptr;          ///< if they follow from the rest pose: see derive_inverse_bind
+    std::shared_ptr<const std::vector<glm::mat4>> derived = {};  ///< then they are here
 };
 
 /// TARG: an inbetweening target. A stream that is absent is not displaced.
@@ -47,7 +74,7 @@ struct TargetView {
     std::string_view name;
     float rest_weight = 0.0f;
     std::optional<StreamView> vertices;  ///< the touched vertices, ascending; absent: all of the pool, in order
-    std::optional<StreamView> positions, normals, tangents;  ///< f32 x 3 displacements, one per touched vertex
+    std::optional<StreamView> positions, normals, tangents;  ///< displacements: vec3, one per touched vertex
 };
 
 /// USER: an attribute of the author's.
@@ -61,9 +88,9 @@ struct PoolView {
     std::string_view name;
     std::uint32_t vertices = 0;
     std::uint32_t joint = kNone;         ///< the joint that carries the pool
-    StreamView positions;                ///< f32 x 3; empty only in a pool without vertices
-    std::optional<StreamView> normals;   ///< f32 x 3
-    std::optional<StreamView> tangents;  ///< f32 x 4
+    StreamView positions;                ///< vec3; empty only in a pool without vertices
+    std::optional<StreamView> normals;   ///< vec3
+    std::optional<StreamView> tangents;  ///< vec4
     std::vector<StreamView> texture_coords, colours;
     std::vector<AttributeView> attributes;
     std::optional<StreamView> bones, weights;  ///< both or neither; a pool without is rigid
@@ -75,7 +102,7 @@ struct PoolView {
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
 };
 
-/// Reads a VECT chunk and checks all that memory safety hangs on: types, counts, sizes, and every index against the
+/// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on: types, counts, sizes, and every index against the
 /// `joints` of the object, the palette and the pool itself. Faults go to `faults`; a part with a fault is left out.
 PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
 

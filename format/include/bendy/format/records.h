@@ -32,6 +32,12 @@ struct VersionRecord {
     std::array<std::uint8_t, 32> generator{};
 };
 
+struct BoundRecord {
+    float max_error = 0.0f;
+    float measured_error = 0.0f;
+    float height = 0.0f;
+};
+
 struct SamplerRecord {
     std::uint8_t mag_filter = 0;
     std::uint8_t min_filter = 0;
@@ -132,6 +138,19 @@ struct PolygonRecord {
     std::array<std::uint8_t, 3> reserved{};
 };
 
+struct JointsRecord {
+    std::uint32_t joints = 0;
+    std::uint32_t polygons = 0;
+    std::array<std::uint32_t, 2> reserved{};
+};
+
+/// JNTS: a range of polygons, and the joint to which it belongs.
+struct JointPolygons {
+    std::uint32_t joint = 0;
+    PolygonRecord polygons;
+};
+static_assert(sizeof(JointPolygons) == 24);
+
 struct PoolRecord {
     std::uint32_t vertices = 0;
     std::uint32_t joint = kNone;
@@ -170,7 +189,8 @@ struct StreamRecord {
 
 struct PaletteRecord {
     std::uint32_t entries = 0;
-    std::array<std::uint32_t, 3> reserved{};
+    std::uint32_t derived = 0;
+    std::array<std::uint32_t, 2> reserved{};
 };
 
 struct ImageRecord {
@@ -182,6 +202,8 @@ struct ImageRecord {
 
 enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
 inline constexpr unsigned kComponentTypes = 6;
+enum class Numbers : std::uint8_t { plain, normalised, boxed };
+inline constexpr unsigned kNumbers = 3;
 enum class Topology : std::uint8_t { triangles, lines, points };
 inline constexpr unsigned kTopologies = 3;
 enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };

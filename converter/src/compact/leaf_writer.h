@@ -1,0 +1,53 @@
+#pragma once
+
+#include "compact/encode_leaf.h"
+
+#include <bendy/format/chunk_writer.h>
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+
+/// A ChunkWriter that can give each leaf the encoding that makes it smallest.
+class LeafWriter {
+public:
+    explicit LeafWriter(bool is_compact) : is_compact_(is_compact) {}
+
+    [[nodiscard]] bool is_compact() const { return is_compact_; }
+    void begin(FourCC id) { chunks_.begin(id); }
+    void end() { chunks_.end(); }
+
+    /// A leaf as it is: what must be readable by itself, and what is compressed already.
+    void raw_leaf(FourCC id, std::span<const Bytes> pieces) { chunks_.leaf(id, pieces); }
+
+    void leaf(FourCC id, std::span<const Bytes> pieces, const LeafShape& shape = {}) {
+        if (!is_compact_) {
+            chunks_.leaf(id, pieces);
+            return;
+        }
+        std::vector<std::byte> payload;
+        for (const Bytes piece : pieces) payload.insert(payload.end(), piece.begin(), piece.end());
+        const EncodedLeaf encoded = encode_leaf(payload, shape);
+        const bool is_raw = encoded.codec == Codec::raw;
+        chunks_.leaf(id, is_raw ? Bytes(payload) : Bytes(encoded.bytes), codec_flags(encoded.codec));
+    }
+    void leaf(FourCC id, Bytes payload, const LeafShape& shape = {}) { leaf(id, std::span(&payload, 1), shape); }
+    void text_leaf(FourCC id, std::string_view text) { leaf(id, as_byte_span(text)); }
+
+    std::vector<std::byte> finish() && { return std::move(chunks_).finish(); }
+
+private:
+    /// A header's flags with the codec in their upper byte.
+    static std::uint16_t codec_flags(Codec codec) {
+        return static_cast<std::uint16_t>(static_cast<unsigned>(codec) << 8U);
+    }
+
+    ChunkWriter chunks_;
+    bool is_compact_;
+};
+
+}  // namespace bendy::converter

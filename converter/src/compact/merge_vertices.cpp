@@ -1,0 +1,134 @@
+#include "compact/merge_vertices.h"
+
+#include "passes/assign_polygons.h"
+
+#include <bendy/format/codec.h>
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <span>
+
+namespace bendy::converter {
+namespace {
+
+constexpr std::uint32_t kUnused = ~0u;
+
+/// Calls visit(elements) for every per-vertex vector of a mesh and its integers: visit(vector, entries per vertex).
+template <class Visit>
+void for_each_stream(Mesh& mesh, CompactMesh& compact, const Visit& visit) {
+    visit(mesh.positions, 1);
+    visit(mesh.normals, 1);
+    visit(mesh.tangents, 1);
+    for (auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
+        for (Stream& stream : *streams) visit(stream.values, stream.components);
+    }
+    visit(mesh.bones, mesh.influences);
+    visit(mesh.weights, mesh.influences);
+    for (Target& target : mesh.targets) {
+        visit(target.positions, 1);
+        visit(target.normals, 1);
+        visit(target.tangents, 1);
+    }
+    const auto stored = [&](std::optional<StoredStream>& stream) {
+        if (stream) visit(stream->bytes, stream->row());
+    };
+    for (auto* stream : {&compact.positions, &compact.normals, &compact.tangents, &compact.weights}) stored(*stream);
+    for (auto& stream : compact.texture_coords) stored(stream);
+    for (auto& stream : compact.colours) stored(stream);
+    for (CompactTarget& target : compact.targets) {
+        for (auto* stream : {&target.positions, &target.normals, &target.tangents}) stored(*stream);
+    }
+}
+
+/// Vertex v goes to place_of[v]; of several that go to one place the first is taken. 
+void move_vertices(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> place_of, std::size_t count) {
+    for_each_stream(mesh, compact, [&](auto& values, std::size_t width) {
+        if (values.empty()) return;
+        std::remove_reference_t<decltype(values)> moved(count * width);
+        for (std::size_t vertex = place_of.size(); vertex-- > 0;) {
+            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(vertex * width), width,
+                        moved.begin() + static_cast<std::ptrdiff_t>(place_of[vertex] * width));
+        }
+        values = std::move(moved);
+    });
+    for (std::uint32_t& vertex : compact.vertex_of) vertex = place_of[vertex];
+    for (Part& part : mesh.parts) {
+        for (std::uint32_t& index : part.indices) index = place_of[index];
+    }
+}
+
+}  // namespace
+
+void merge_vertices(Mesh& mesh, CompactMesh& compact) {
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<std::vector<std::byte>> columns;  // all that makes a vertex, row by row
+    std::vector<std::size_t> widths;
+    for_each_stream(mesh, compact, [&](const auto& values, std::size_t width) {
+        if (values.empty() || width == 0) return;
+        const auto bytes = std::as_bytes(std::span(values));
+        columns.emplace_back(bytes.begin(), bytes.end());
+        widths.push_back(width * sizeof(values[0]));
+    });
+    std::vector<std::uint32_t> order(vertices);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const int sign =
+                std::memcmp(columns[c].data() + a * widths[c], columns[c].data() + b * widths[c], widths[c]);
+            if (sign != 0) return sign;
+        }
+        return 0;
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const int sign = compare(a, b);
+        return sign != 0 ? sign < 0 : a < b;
+    });
+    std::vector<std::uint32_t> first_of(vertices);  // the first vertex that is like it
+    for (std::size_t k = 0; k < vertices; ++k) {
+        const bool is_alike = k != 0 && compare(order[k - 1], order[k]) == 0;
+        first_of[order[k]] = is_alike ? first_of[order[k - 1]] : order[k];
+    }
+    std::vector<std::uint32_t> place_of(vertices);
+    std::uint32_t count = 0;
+    for (std::size_t vertex = 0; vertex < vertices; ++vertex)
+        place_of[vertex] = first_of[vertex] == vertex ? count++ : place_of[first_of[vertex]];
+    if (count != vertices) move_vertices(mesh, compact, place_of, count);
+}
+
+void order_for_codecs(Mesh& mesh, CompactMesh& compact) {
+    const std::size_t vertices = mesh.positions.size();
+    AssignedPolygons assigned = assign_polygons(mesh);
+    for (const PolygonRange& range : assigned.ranges) {
+        if (range.topology != Topology::triangles) continue;
+        const auto part = std::span(assigned.indices).subspan(range.first, range.count);
+        const std::vector<std::uint32_t> before(part.begin(), part.end());
+        meshopt_optimizeVertexCacheStrip(part.data(), before.data(), before.size(), vertices);
+    }
+    // Vertices as they are used first; what nothing uses is kept, at the end.
+    std::vector<std::uint32_t> place_of(vertices, kUnused);
+    std::uint32_t next = 0;
+    for (const std::uint32_t vertex : assigned.indices) {
+        if (place_of[vertex] == kUnused) place_of[vertex] = next++;
+    }
+    for (std::uint32_t& place : place_of) {
+        if (place == kUnused) place = next++;
+    }
+    mesh.parts.clear();
+    move_vertices(mesh, compact, place_of, vertices);
+    for (std::uint32_t& index : assigned.indices) index = place_of[index];
+    const bool all_triangles = std::all_of(assigned.ranges.begin(), assigned.ranges.end(), [](const PolygonRange& r) {
+        return r.topology == Topology::triangles;
+    });
+    if (all_triangles) {
+        if (auto canonical = canonical_triangles(assigned.indices)) assigned.indices = std::move(*canonical);
+    }
+    for (const PolygonRange& range : assigned.ranges) {
+        const auto indices = std::span(assigned.indices).subspan(range.first, range.count);
+        mesh.parts.push_back({range.topology, range.material, {indices.begin(), indices.end()}});
+    }
+}
+
+}  // namespace bendy::converter

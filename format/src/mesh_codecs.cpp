@@ -1,0 +1,197 @@
+#include "mesh_codecs.h"
+
+#include "planes.h"
+#include "zstd_frame.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace bendy {
+namespace {
+
+constexpr std::size_t kMostRowBytes = 256;
+constexpr int kVertexVersion = 0;
+constexpr int kIndexVersion = 1;
+
+/// The library takes rows of whole 32-bit words.
+std::size_t padded_row(std::size_t stride) {
+    return (stride + 3) & ~std::size_t{3};
+}
+
+/// Calls decode(bytes) with the library's bytes: the body, or what zstd makes of it, which is held against `most` before
+/// it is allocated.
+template <class Decode>
+bool with_unpacked(bool is_zstd, Bytes body, std::uint64_t most, const Decode& decode) {
+    if (!is_zstd) return decode(body);
+    const auto size = zstd_size(body);
+    if (!size || *size > most) return false;
+    AlignedBytes unpacked(*size);
+    return take_zstd(body, unpacked.span()) && decode(unpacked.bytes());
+}
+
+/// Appends the library's bytes, under zstd if it is asked for.
+bool put_packed(bool is_zstd, std::span<const unsigned char> packed, std::vector<std::byte>& out) {
+    const Bytes bytes = std::as_bytes(packed);
+    if (is_zstd) return put_zstd(bytes, out);
+    out.insert(out.end(), bytes.begin(), bytes.end());
+    return true;
+}
+
+/// The payload's head goes as it is; false if it is not there.
+bool take_head(const CodecHeader& header, Bytes& body, std::span<std::byte>& out) {
+    if (header.head > out.size() || header.head > body.size()) return false;
+    std::copy_n(body.begin(), header.head, out.begin());
+    body = body.subspan(header.head);
+    out = out.subspan(header.head);
+    return true;
+}
+
+/// A number of rows or triangles: none if the bytes are no whole number of them.
+std::optional<std::size_t> count_of(std::size_t size, std::size_t step) {
+    if (step == 0 || size % step != 0) return std::nullopt;
+    return size / step;
+}
+
+const unsigned char* raw(Bytes bytes) {
+    return reinterpret_cast<const unsigned char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
+}
+
+/// Adds a row's other u16 to its first, or takes them away, modulo 65536.
+void change_first(std::span<std::byte> row, bool add) {
+    std::uint16_t first = 0;
+    copy_at(row, 0, first);
+    for (std::size_t at = sizeof first; at < row.size(); at += sizeof first) {
+        std::uint16_t other = 0;
+        copy_at(row, at, other);
+        first = static_cast<std::uint16_t>(add ? first + other : first - other);
+    }
+    std::memcpy(row.data(), &first, sizeof first);
+}
+
+std::optional<std::vector<unsigned char>> pack_triangles(std::span<const std::uint32_t> indices) {
+    const std::size_t vertices = indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
+    std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices));
+    meshopt_encodeIndexVersion(kIndexVersion);
+    const std::size_t size = meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size());
+    if (size == 0) return std::nullopt;
+    packed.resize(size);
+    return packed;
+}
+
+template <class T>
+std::vector<std::uint32_t> widened(Bytes bytes) {
+    const auto narrow = view_at<T>(bytes, 0, bytes.size() / sizeof(T));
+    return {narrow.begin(), narrow.end()};
+}
+
+}  // namespace
+
+bool decode_rows(const CodecHeader& header, bool is_zstd, Bytes body, std::span<std::byte> out) {
+    if (!take_head(header, body, out) || header.stride > kMostRowBytes) return false;
+    const auto rows = count_of(out.size(), header.stride);
+    if (!rows) return false;
+    const std::size_t wide = padded_row(header.stride);
+    const auto decode = [&](Bytes packed) {
+        if (wide == header.stride)
+            return meshopt_decodeVertexBuffer(out.data(), *rows, wide, raw(packed), packed.size()) == 0;
+        AlignedBytes padded(*rows * wide);
+        if (meshopt_decodeVertexBuffer(padded.span().data(), *rows, wide, raw(packed), packed.size()) != 0) return false;
+        for (std::size_t row = 0; row < *rows; ++row)
+            std::memcpy(out.data() + row * header.stride, padded.bytes().data() + row * wide, header.stride);
+        return true;
+    };
+    return with_unpacked(is_zstd, body, meshopt_encodeVertexBufferBound(*rows, wide), decode);
+}
+
+bool encode_rows(const CodecHeader& header, bool is_zstd, Bytes payload, std::vector<std::byte>& out) {
+    if (header.head > payload.size() || header.stride > kMostRowBytes) return false;
+    out.insert(out.end(), payload.begin(), payload.begin() + header.head);
+    const Bytes rest = payload.subspan(header.head);
+    const auto rows = count_of(rest.size(), header.stride);
+    if (!rows) return false;
+    const std::size_t wide = padded_row(header.stride);
+    std::vector<std::byte> padded(*rows * wide);
+    for (std::size_t row = 0; row < *rows; ++row)
+        std::memcpy(padded.data() + row * wide, rest.data() + row * header.stride, header.stride);
+    std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(*rows, wide));
+    meshopt_encodeVertexVersion(kVertexVersion);
+    const std::size_t size = meshopt_encodeVertexBuffer(packed.data(), packed.size(), padded.data(), *rows, wide);
+    if (size == 0) return false;
+    return put_packed(is_zstd, std::span(packed).first(size), out);
+}
+
+bool decode_sums(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
+    if (!take_head(header, body, out) || header.stride % 2 != 0) return false;
+    const auto rows = count_of(out.size(), header.stride);
+    if (!rows) return false;
+    AlignedBytes planes(out.size());
+    if (!take_zstd(body, planes.span())) return false;
+    from_planes(planes.bytes(), header.stride, out);
+    for (std::size_t row = 0; row < *rows; ++row) change_first(out.subspan(row * header.stride, header.stride), false);
+    return true;
+}
+
+bool encode_sums(const CodecHeader& header, Bytes payload, std::vector<std::byte>& out) {
+    if (header.head > payload.size() || header.stride % 2 != 0) return false;
+    out.insert(out.end(), payload.begin(), payload.begin() + header.head);
+    std::vector<std::byte> numbers(payload.begin() + header.head, payload.end());
+    const auto rows = count_of(numbers.size(), header.stride);
+    if (!rows) return false;
+    for (std::size_t row = 0; row < *rows; ++row)
+        change_first(std::span(numbers).subspan(row * header.stride, header.stride), true);
+    std::vector<std::byte> planes(numbers.size());
+    to_planes(numbers, header.stride, planes);
+    return put_zstd(planes, out);
+}
+
+bool decode_triangles(const CodecHeader& header, bool is_zstd, Bytes body, std::span<std::byte> out) {
+    if (!take_head(header, body, out) || (header.stride != 2 && header.stride != 4)) return false;
+    const auto triangles = count_of(out.size(), std::size_t{3} * header.stride);
+    if (!triangles) return false;
+    const std::size_t count = *triangles * 3;
+    const auto decode = [&](Bytes packed) {
+        AlignedBytes indices(out.size());
+        if (meshopt_decodeIndexBuffer(indices.span().data(), count, header.stride, raw(packed), packed.size()) != 0)
+            return false;
+        std::copy(indices.bytes().begin(), indices.bytes().end(), out.begin());
+        return true;
+    };
+    constexpr std::size_t kMostVertices = std::size_t{1} << 32U;
+    return with_unpacked(is_zstd, body, meshopt_encodeIndexBufferBound(count, kMostVertices), decode);
+}
+
+bool encode_triangles(const CodecHeader& header, bool is_zstd, Bytes payload, std::vector<std::byte>& out) {
+    if (header.head > payload.size() || (header.stride != 2 && header.stride != 4)) return false;
+    const Bytes list = payload.subspan(header.head);
+    if (!count_of(list.size(), std::size_t{3} * header.stride)) return false;
+    const std::vector<std::byte> aligned(list.begin(), list.end());
+    const auto packed = pack_triangles(header.stride == 2 ? widened<std::uint16_t>(aligned)
+                                                          : widened<std::uint32_t>(aligned));
+    if (!packed) return false;
+    AlignedBytes decoded(list.size());
+    const int failed = meshopt_decodeIndexBuffer(decoded.span().data(), list.size() / header.stride, header.stride,
+                                                 packed->data(), packed->size());
+    if (failed != 0 || !std::equal(list.begin(), list.end(), decoded.bytes().begin())) return false;
+    out.insert(out.end(), payload.begin(), payload.begin() + header.head);
+    return put_packed(is_zstd, *packed, out);
+}
+
+std::optional<std::vector<std::uint32_t>> canonical_triangles(std::span<const std::uint32_t> indices) {
+    constexpr int kMostTurns = 8;
+    if (indices.size() % 3 != 0) return std::nullopt;
+    std::vector<std::uint32_t> list(indices.begin(), indices.end());
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        const auto packed = pack_triangles(list);
+        std::vector<std::uint32_t> decoded(list.size());
+        if (!packed || meshopt_decodeIndexBuffer(decoded.data(), decoded.size(), sizeof(std::uint32_t), packed->data(),
+                                                 packed->size()) != 0)
+            return std::nullopt;
+        if (decoded == list) return list;
+        list = std::move(decoded);
+    }
+    return std::nullopt;
+}
+
+}  // namespace bendy

@@ -1,0 +1,133 @@
+#include <bendy/format/bind_palette.h>
+#include <bendy/format/document.h>
+
+#include "edit_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+
+namespace bendy {
+namespace {
+
+using namespace test;
+
+/// The sample, whose four joints say nothing themselves but in JNTS and JNAM.
+Node with_table(std::uint32_t joints = 4, std::uint32_t ranges = 0, std::string_view names = {"a\0b\0\0d\0", 7}) {
+    Node root = sample();
+    Node& object = at(root, "HEAD/OBJE");
+    for (const char* path : {"HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN[1]"}) {
+        remove(at(root, std::string(path) + "/PIVO"), "REST");
+    }
+    JointsRecord record;
+    record.joints = joints;
+    record.polygons = ranges;
+    Node table = make_leaf(FourCC("JNTS"), bytes_of(record));
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        RestRecord rest;
+        rest.rotation = {0, 0, 0, 1};
+        rest.translation = {static_cast<float>(joint), 0, 0};
+        rest.scale = {1, 1, 1};
+        const Bytes bytes = bytes_of(rest);
+        table.payload.insert(table.payload.end(), bytes.begin(), bytes.end());
+    }
+    table.payload.resize(table.payload.size() + ranges * sizeof(JointPolygons));
+    object.children.push_back(table);
+    object.children.push_back(make_leaf(FourCC("JNAM"), as_byte_span(names)));
+    return root;
+}
+
+TEST(JointTable, SaysWhatTheJointsDoNot) {
+    Node root = with_table();
+    remove(at(root, "HEAD/OBJE/SKIN/SKIN"), "NAME");
+    remove(at(root, "HEAD/OBJE/SKIN/SKIN/SKIN"), "PIVO");
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});
+    const auto& joints = loaded.document.objects[0].skeleton.joints;
+    EXPECT_EQ(joints[0].name, "hip") << "its own name goes before";
+    EXPECT_EQ(joints[1].name, "b");
+    EXPECT_EQ(joints[3].rest.translation[0], 3.0f);
+}
+
+TEST(JointTable, ARestOfItsOwnGoesBefore) {
+    Node root = with_table();
+    RestRecord rest;
+    rest.rotation = {0, 0, 0, 1};
+    rest.translation = {9, 9, 9};
+    rest.scale = {1, 1, 1};
+    at(root, "HEAD/OBJE/SKIN/SKIN/PIVO").children.push_back(make_leaf(FourCC("REST"), bytes_of(rest)));
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});
+    EXPECT_EQ(loaded.document.objects[0].skeleton.joints[1].rest.translation[0], 9.0f);
+}
+
+TEST(JointTable, WithoutItEveryJointNeedsItsRest) {
+    Node root = with_table();
+    remove(at(root, "HEAD/OBJE"), "JNTS");
+    EXPECT_EQ(faults_in(root).size(), 4u);
+    EXPECT_EQ(faults_in(root)[0], "CHUNK_MISSING HEAD/OBJE/SKIN/PIVO");
+    root = sample();
+    remove(at(root, "HEAD/OBJE/SKIN/SKIN/SKIN"), "PIVO");
+    EXPECT_EQ(faults_in(root), Lines{"CHUNK_MISSING HEAD/OBJE/SKIN/SKIN/SKIN"});
+}
+
+TEST(JointTable, IsHeldAgainstTheSkeleton) {
+    EXPECT_EQ(faults_in(with_table(3))[0], "COUNT_MISMATCH HEAD/OBJE/JNTS");
+    EXPECT_EQ(faults_in(with_table(5))[0], "COUNT_MISMATCH HEAD/OBJE/JNTS");
+    Node root = with_table();
+    at(root, "HEAD/OBJE/JNTS").payload.pop_back();
+    EXPECT_EQ(faults_in(root)[0], "RECORD_SIZE HEAD/OBJE/JNTS");
+    root = with_table();
+    set(at(root, "HEAD/OBJE/JNTS"), offsetof(JointsRecord, polygons), 0xffffffffu);
+    EXPECT_EQ(faults_in(root)[0], "RECORD_SIZE HEAD/OBJE/JNTS");
+    root = with_table(4, 1);
+    const std::size_t range = sizeof(JointsRecord) + 4 * sizeof(RestRecord);
+    set(at(root, "HEAD/OBJE/JNTS"), range, 4u);
+    EXPECT_EQ(faults_in(root)[0], "JOINT_RANGE HEAD/OBJE/JNTS");
+    set(at(root, "HEAD/OBJE/JNTS"), range, 1u);
+    set(at(root, "HEAD/OBJE/JNTS"), range + 4, 2u);  // pool
+    EXPECT_EQ(faults_in(root)[0], "POOL_RANGE HEAD/OBJE/JNTS");
+}
+
+TEST(JointTable, AsManyNamesAsJoints) {
+    using namespace std::string_view_literals;
+    for (const std::string_view names : {""sv, "a\0b\0c\0"sv, "a\0b\0c\0d"sv, "a\0b\0c\0d\0e\0"sv})
+        EXPECT_EQ(faults_in(with_table(4, 0, names)), Lines{"COUNT_MISMATCH HEAD/OBJE/JNAM"});
+    EXPECT_EQ(faults_in(with_table(4, 0, "a\0\xff\0c\0d\0"sv))[0], "NOT_UTF8 HEAD/OBJE/JNAM");
+}
+
+TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
+    Node root = sample();
+    Node& palette = at(root, "HEAD/OBJE/VECT/PALT");
+    const std::size_t matrices = sizeof(PaletteRecord) + 16;
+    palette.payload.resize(matrices + sizeof(glm::mat4));
+    set(palette, offsetof(PaletteRecord, derived), 1u);
+    glm::mat4 base(1.0f);
+    base[3] = {1, 2, 3, 1};
+    set(palette, matrices, base);
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});
+    const ObjectView& object = loaded.document.objects[0];
+    const PaletteView& view = object.pools[0].palette;
+    ASSERT_EQ(view.inverse_bind.size(), view.joints.size());
+    std::vector<RestRecord> rests;
+    std::vector<std::uint32_t> parents;
+    for (const JointView& joint : object.skeleton.joints) {
+        rests.push_back(joint.rest);
+        parents.push_back(joint.parent);
+    }
+    const auto rest = rest_matrices(rests, parents);
+    for (std::size_t entry = 0; entry < view.joints.size(); ++entry) {
+        const glm::dmat4 product = rest[view.joints[entry]] * glm::dmat4(view.inverse_bind[entry]);
+        for (int c = 0; c < 4; ++c) {
+            for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], base[c][r], 1e-5) << entry;
+        }
+    }
+    set(palette, offsetof(PaletteRecord, derived), 2u);
+    EXPECT_EQ(faults_in(root)[0], "ENUM_RANGE HEAD/OBJE/VECT/PALT");
+}
+
+}  // namespace
+}  // namespace bendy
