@@ -17,6 +17,8 @@ struct ConvertOptions {
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
     bool auto_rig = false;
+    /// Compute the sequence in which vertices are collapsed (LODD), and order the vertices by it.
+    bool lod = false;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named
