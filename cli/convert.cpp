@@ -26,6 +26,7 @@ struct Arguments {
     std::string images = "embed";
     std::filesystem::path rig;
     bool auto_rig = false;
+    bool lod = false;
     bool quiet = false;
 };
 
@@ -97,6 +98,12 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
     if (most_influences != 0)
         std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
+    if (model->collapse() != nullptr) {
+        Lod lod(*model);
+        lod.set_share(0.0f);
+        std::cout << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
+                  << grouped(lod.triangles());
+    }
     if (model->target_count() != 0) {
         std::cout << "\n  targets    " << grouped(model->target_count());
         const char* separator = ": ";
@@ -118,6 +125,7 @@ void run(Arguments arguments) {
     options.gltf.embed_images = arguments.images == "embed";
     if (!arguments.rig.empty()) options.rig = arguments.rig;
     options.auto_rig = arguments.auto_rig;
+    options.lod = arguments.lod;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
@@ -152,6 +160,9 @@ void add_convert(CLI::App& program) {
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
+    command->add_flag("--lod", arguments->lod,
+                      "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its "
+                      "order");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly; what the format cannot hold is named in a warning.\n"
