@@ -23,8 +23,12 @@ constexpr std::uint32_t kMostCorners = 100;
 constexpr std::size_t kMeasured = 4;
 /// A triangle may turn so far at rest: the cosine.
 constexpr float kLeastCosine = 0.2f;
+/// Squared distances in other shapes than the rest pose count for so much: the skin is mostly seen near it.
+constexpr float kPosedFactor = 0.2f;
+/// What looks wrong where a vertex leaves its side of a seam counts for so much more.
+constexpr double kSeamFactor = 16.0;
 constexpr float kBorderFactor = 2.0f;   // of the squared distance from a border or seam
-constexpr float kQuadricFactor = 0.1f;  // of the mean squared distance from the planes, beside the largest distance
+constexpr float kQuadricFactor = 2.0f;  // of the mean squared distance from the planes, beside the largest distance
 constexpr float kLengthFactor = 1e-7f;  // of the squared length of the edge: decides on flat ground
 
 /// The shapes at a common scale, each round the origin.
@@ -197,7 +201,7 @@ private:
         const std::size_t shapes = scaled_.places.size();
         float worst = kBorderFactor * rims_[point].mean_error(place(0, target));
         for (std::size_t s = 0; s < shapes; ++s)
-            worst = std::max(worst, quadrics_[point * shapes + s].mean_error(place(s, target)));
+            worst = std::max(worst, (s == 0 ? 1.0f : kPosedFactor) * quadrics_[point * shapes + s].mean_error(place(s, target)));
         const glm::vec3 way = place(0, target) - place(0, point);
         return worst + kLengthFactor * glm::dot(way, way);
     }
@@ -258,33 +262,61 @@ private:
         return triangle.points[0] == point || triangle.points[1] == point || triangle.points[2] == point;
     }
 
-    /// Where each vertex of the point goes, in moves_; false if one would leave its side of a seam, or a material its
-    /// border.
+    float apart(std::uint32_t a, std::uint32_t b) const {
+        float sum = 0.0f;
+        for (std::uint32_t k = 0; k < appearance_.components; ++k) {
+            const float difference = appearance_.of(a)[k] - appearance_.of(b)[k];
+            sum += difference * difference;
+        }
+        return sum;
+    }
+
+    /// Where each vertex of the point goes, in moves_: along its side of a seam, or where it has none on this edge to
+    /// what looks most like it. False if a material would leave its border.
     bool find_moves(std::uint32_t target) {
         moves_.clear();
-        std::uint32_t materials[2] = {kNone, kNone};
+        crosses_seam_ = false;
+        std::array<std::uint32_t, 2> materials{kNone, kNone};
         std::size_t sides = 0;
         for (const std::uint32_t corner : fan_) {
             const Surface::Triangle& triangle = surface_.triangles[corner / 3];
             for (std::size_t k = 0; k < 3; ++k) {
                 if (triangle.points[k] != target) continue;
-                const Move move{triangle.vertices[corner % 3], triangle.vertices[k]};
-                const auto known =
-                    std::find_if(moves_.begin(), moves_.end(), [&](const Move& m) { return m.from == move.from; });
-                if (known != moves_.end() && known->to != move.to) return false;
-                if (known == moves_.end()) moves_.push_back(move);
                 if (sides < 2) materials[sides++] = triangle.material;
+                add_move({surface_.alike[triangle.vertices[corner % 3]], surface_.alike[triangle.vertices[k]]});
             }
         }
         if (sides == 0 || (is_border_ && sides != 1)) return false;
-        return std::all_of(fan_.begin(), fan_.end(), [&](std::uint32_t corner) {
+        for (const std::uint32_t corner : fan_) {
             const Surface::Triangle& triangle = surface_.triangles[corner / 3];
-            const bool has_material =
-                triangle.material == materials[0] || (sides == 2 && triangle.material == materials[1]);
-            return has_material && std::any_of(moves_.begin(), moves_.end(), [&](const Move& move) {
-                       return move.from == triangle.vertices[corner % 3];
-                   });
-        });
+            if (triangle.material != materials[0] && (sides != 2 || triangle.material != materials[1])) return false;
+            const std::uint32_t from = surface_.alike[triangle.vertices[corner % 3]];
+            if (std::any_of(moves_.begin(), moves_.end(), [&](const Move& move) { return move.from == from; })) continue;
+            crosses_seam_ = true;
+            moves_.push_back({from, most_alike(from, target)});
+        }
+        return true;
+    }
+
+    void add_move(const Move& move) {
+        const auto known = std::find_if(moves_.begin(), moves_.end(), [&](const Move& m) { return m.from == move.from; });
+        if (known == moves_.end()) {
+            moves_.push_back(move);
+        } else if (known->to != move.to) {
+            crosses_seam_ = true;  // a seam ends here
+            if (apart(move.from, move.to) < apart(move.from, known->to)) known->to = move.to;
+        }
+    }
+
+    /// Of the vertices at the target that triangles have.
+    std::uint32_t most_alike(std::uint32_t vertex, std::uint32_t target) const {
+        std::uint32_t best = kNone;
+        for (const std::uint32_t corner : target_fan_) {
+            const std::uint32_t other = surface_.alike[surface_.triangles[corner / 3].vertices[corner % 3]];
+            if (best == kNone || apart(vertex, other) < apart(vertex, best)) best = other;
+        }
+        static_cast<void>(target);
+        return best;
     }
 
     /// Whether the surface stays what it is: the two points have no neighbours in common but those of their triangles,
@@ -323,7 +355,7 @@ private:
 
     std::uint32_t moved(std::uint32_t vertex) const {
         for (const Move& move : moves_) {
-            if (move.from == vertex) return move.to;
+            if (move.from == surface_.alike[vertex]) return move.to;
         }
         return vertex;
     }
@@ -399,10 +431,10 @@ private:
         for (std::size_t s = 1; s < scaled_.places.size(); ++s) {
             const glm::vec3& p = samples_.places[s][sample];
             float least = closest_on(s, left_[guess].second, p).distance_squared;
-            for (std::size_t k = 0; k < left_.size() && least > known; ++k) {
+            for (std::size_t k = 0; k < left_.size() && kPosedFactor * least > known; ++k) {
                 if (k != guess) least = std::min(least, closest_on(s, left_[k].second, p).distance_squared);
             }
-            known = std::max(known, least);
+            known = std::max(known, kPosedFactor * least);
         }
         return known;
     }
@@ -424,6 +456,7 @@ private:
             }
         }
         if (count != 0) appearance /= static_cast<double>(count);
+        if (crosses_seam_) appearance *= kSeamFactor;
         return {largest + static_cast<float>(appearance) + kQuadricFactor * guess, largest};
     }
 
@@ -452,7 +485,7 @@ private:
 
     /// Of a fan that is found.
     bool prepare(std::uint32_t point, std::uint32_t target) {
-        return find_moves(target) && keeps_topology(point, target) && find_left(point, target);
+        return keeps_topology(point, target) && find_moves(target) && find_left(point, target);
     }
 
     // --- doing
@@ -564,6 +597,7 @@ private:
     std::vector<std::uint32_t> fan_, target_fan_;  // corners
     std::vector<Neighbour> neighbours_;
     bool is_border_ = false;
+    bool crosses_seam_ = false;
     std::vector<Choice> choices_;
     std::vector<Move> moves_;
     std::vector<std::pair<std::uint32_t, Surface::Triangle>> left_;

@@ -74,6 +74,46 @@ void list_vertices(Surface& surface) {
     surface.is_locked.assign(points, false);
 }
 
+/// Streams that make a seam where they differ.
+class Streams {
+public:
+    explicit Streams(const Mesh& mesh) {
+        if (!mesh.normals.empty()) list_.push_back({&mesh.normals.front().x, 3});
+        if (!mesh.tangents.empty()) list_.push_back({&mesh.tangents.front().x, 4});
+        for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
+            for (const Stream& stream : *streams) {
+                if (!stream.values.empty()) list_.push_back({stream.values.data(), stream.components});
+            }
+        }
+    }
+    [[nodiscard]] bool are_same(std::uint32_t a, std::uint32_t b) const {
+        return std::all_of(list_.begin(), list_.end(), [&](const auto& stream) {
+            const float* values = stream.first;
+            const std::size_t n = stream.second;
+            return std::equal(values + a * n, values + (a + 1) * n, values + b * n);
+        });
+    }
+
+private:
+    std::vector<std::pair<const float*, std::size_t>> list_;
+};
+
+/// Vertices of a point that differ in nothing are as good as one. Past kMostPlaces different ones none are sought.
+void find_alike(const Mesh& mesh, Surface& surface) {
+    const Streams streams(mesh);
+    surface.alike.resize(surface.point_of.size());
+    std::vector<std::uint32_t> different;
+    for (std::uint32_t point = 0; point < surface.points(); ++point) {
+        different.clear();
+        for (const std::uint32_t vertex : surface.vertices_of(point)) {
+            const auto same = std::find_if(different.begin(), different.end(),
+                                           [&](std::uint32_t other) { return streams.are_same(other, vertex); });
+            surface.alike[vertex] = same == different.end() ? vertex : *same;
+            if (same == different.end() && different.size() < kMostPlaces) different.push_back(vertex);
+        }
+    }
+}
+
 void add_part(Surface& surface, const Part& part) {
     for (const std::uint32_t vertex : part.indices) surface.is_used[vertex] = true;
     if (part.topology != Topology::triangles) {
@@ -125,6 +165,7 @@ Surface make_surface(const Mesh& mesh, std::span<const Shape> shapes) {
     surface.point_of = weld(mesh, shapes);
     surface.is_used.assign(mesh.positions.size(), false);
     list_vertices(surface);
+    find_alike(mesh, surface);
     for (const Part& part : mesh.parts) add_part(surface, part);
     link_corners(surface);
     return surface;

@@ -25,6 +25,7 @@ struct Surface {
     std::vector<std::uint32_t> point_of;       ///< of each vertex
     std::vector<std::uint32_t> first_vertex;   ///< of each point, in `vertices`; one more than points
     std::vector<std::uint32_t> vertices;       ///< by point
+    std::vector<std::uint32_t> alike;          ///< per vertex: the first at its point that differs from it in nothing
     std::vector<bool> is_used;                 ///< per vertex: anything is drawn of it
     std::vector<bool> is_locked;               ///< per point: stays where it is
     std::vector<std::uint32_t> first_corner;   ///< per point: a list of its corners, 3 * triangle + 0 to 2; kNone: end
