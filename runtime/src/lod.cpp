@@ -91,7 +91,7 @@ void Lod::set_share(float share) {
         const double wanted = std::max(share, 0.0f) * static_cast<double>(all_triangles_);
         double low = 0.0;
         double high = collapse->levels + 1.0;
-        constexpr int kSteps = 48;  // finer than any number of vertices
+        constexpr int kSteps = 40;  // finer than any number of vertices
         for (int step = 0; step < kSteps; ++step) {
             const double middle = 0.5 * (low + high);
             (static_cast<double>(triangles_at(middle)) > wanted ? low : high) = middle;

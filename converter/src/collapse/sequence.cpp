@@ -20,7 +20,9 @@ constexpr float kImpossible = std::numeric_limits<float>::infinity();
 /// Corners at a point that moves, or is moved to: keeps the work at each step bounded.
 constexpr std::uint32_t kMostCorners = 100;
 /// Of the edges at a point, so many are measured: those that the quadrics like best.
-constexpr std::size_t kMeasured = 4;
+constexpr std::size_t kMeasured = 3;
+/// Above so many samples round a point every other one is dropped, but for the worst: keeps the work near linear.
+constexpr std::size_t kMostHeld = 160;
 /// A triangle may turn so far at rest: the cosine.
 constexpr float kLeastCosine = 0.2f;
 /// Squared distances in other shapes than the rest pose count for so much: the skin is mostly seen near it.
@@ -441,7 +443,8 @@ private:
 
     /// What moving the point to the target costs, by fan_ and left_; stops where it is above `limit`.
     Costs measure(std::uint32_t point, std::uint32_t target, float limit) const {
-        const float guess = estimate(point, target);
+        const float guess = kQuadricFactor * estimate(point, target);
+        if (guess > limit) return {};
         float largest = kBorderFactor * rims_[point].mean_error(place(0, target));
         double appearance = 0.0;
         std::size_t count = 0;
@@ -450,14 +453,14 @@ private:
                 ClosestPoint closest;
                 const std::size_t triangle = nearest(sample, closest);
                 largest = posed_distance(sample, triangle, std::max(largest, closest.distance_squared));
-                if (largest > limit) return {};
+                if (largest + guess > limit) return {};
                 appearance += appearance_error(sample, left_[triangle].second, closest.weights);
                 ++count;
             }
         }
         if (count != 0) appearance /= static_cast<double>(count);
         if (crosses_seam_) appearance *= kSeamFactor;
-        return {largest + static_cast<float>(appearance) + kQuadricFactor * guess, largest};
+        return {largest + static_cast<float>(appearance) + guess, largest};
     }
 
     /// The best target of a point, in target_, and what it costs, in costs_; false if it cannot go anywhere.
@@ -505,7 +508,7 @@ private:
         ++time_;
         error_ = std::max(error_, std::sqrt(costs.distance_squared) * scaled_.extent);
         add_moves(point, target);
-        hold_samples();
+        hold_samples(costs.distance_squared);
         move_triangles(target);
         is_gone_[point] = true;
         const std::size_t shapes = scaled_.places.size();
@@ -536,8 +539,8 @@ private:
         }
     }
 
-    /// Gives the samples of the fan to the triangles of left_ that are nearest.
-    void hold_samples() {
+    /// Gives the samples of the fan to the triangles of left_ that are nearest. `largest`: their squared distance.
+    void hold_samples(float largest) {
         held_.clear();
         for (const std::uint32_t corner : fan_) {
             for (std::uint32_t sample = std::exchange(samples_.first[corner / 3], kNone); sample != kNone;
@@ -545,10 +548,12 @@ private:
                 held_.push_back(sample);
             }
         }
-        for (const std::uint32_t sample : held_) {
+        const float far = 0.25f * largest;
+        for (std::size_t k = 0; k < held_.size(); ++k) {
             ClosestPoint closest;
-            const std::size_t triangle = nearest(sample, closest);
-            samples_.hold(left_[triangle].first, sample);
+            const std::size_t triangle = nearest(held_[k], closest);
+            if (held_.size() > kMostHeld && k % 2 == 1 && closest.distance_squared < far) continue;
+            samples_.hold(left_[triangle].first, held_[k]);
         }
     }
 
