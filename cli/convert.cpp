@@ -30,6 +30,7 @@ struct Arguments {
     bool auto_rig = false;
     bool compact = false;
     std::string max_error;
+    bool lod = false;
     bool quiet = false;
 };
 
@@ -133,6 +134,12 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
               << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
     if (most_influences != 0)
         std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
+    if (model->collapse() != nullptr) {
+        Lod lod(*model);
+        lod.set_share(0.0f);
+        std::cout << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
+                  << grouped(lod.triangles());
+    }
     if (model->target_count() != 0) {
         std::cout << "\n  targets    " << grouped(model->target_count());
         const char* separator = ": ";
@@ -157,6 +164,7 @@ void run(Arguments arguments) {
     if (arguments.compact) options.compact = converter::ErrorBound();
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
     if (isatty(STDERR_FILENO) != 0 && !arguments.quiet) options.progress = show_progress;
+    options.lod = arguments.lod;
     converter::Report report;
     const auto bytes = converter::convert(arguments.input, options, report);
     if (!bytes) {
@@ -202,6 +210,9 @@ void add_convert(CLI::App& program) {
             const auto bound = converter::parse_error_bound(text);
             return bound ? std::string() : bound.error();
         });
+    command->add_flag("--lod", arguments->lod,
+                      "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its "
+                      "order");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"

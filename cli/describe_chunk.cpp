@@ -184,6 +184,29 @@ std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     return text;
 }
 
+/// The error of the last level, and how few vertices are left of each pool.
+std::string collapse_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto record = record_at<CollapseRecord>(tree, number);
+    const Bytes payload = tree.payload(number);
+    std::string text = grouped(record.pools) + (record.pools == 1 ? " pool, " : " pools, ") + grouped(record.levels) +
+                       (record.levels == 1 ? " level" : " levels");
+    constexpr std::uint32_t kShown = 6;
+    for (std::uint32_t k = 0; k < std::min(record.pools, kShown); ++k) {
+        const std::uint64_t at = sizeof(CollapseRecord) + k * sizeof(PoolCollapseRecord);
+        if (payload.size() < at + sizeof(PoolCollapseRecord)) break;
+        PoolCollapseRecord pool;
+        copy_at(payload, at, pool);
+        text += (k == 0 ? ": pool " : ", pool ") + std::to_string(pool.pool) + " down to " + grouped(pool.base);
+    }
+    if (record.pools > kShown) text += ", ...";
+    const std::uint64_t row = (std::uint64_t{1} + record.pools) * sizeof(std::uint32_t);
+    const std::uint64_t rows = sizeof(CollapseRecord) + std::uint64_t{record.pools} * sizeof(PoolCollapseRecord);
+    if (record.levels == 0 || rows > payload.size() || record.levels > (payload.size() - rows) / row) return text;
+    float error = 0.0f;
+    copy_at(payload, rows + (record.levels - 1) * row, error);
+    return text + "; error at most " + brief(error) + " m";
+}
+
 std::string material_text(const SurfaceRecord& surface) {
     std::string text = "base " + brief(surface.base_colour) + ", metallic " + brief(surface.metallic) + ", roughness " +
                        brief(surface.roughness);
@@ -243,6 +266,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
     if (chunk.id == FourCC("TARG"))
         return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+    if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
     if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
     if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
     if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))

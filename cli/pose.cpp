@@ -26,6 +26,7 @@ struct Arguments {
     float time = 0.0f;
     bool constrain = false;
     ReachRequest reach;
+    float lod = 1.0f;  // share of the triangles
     std::filesystem::path output;
 };
 
@@ -56,15 +57,15 @@ bool is_mirrored(const Model& model, const Pose& pose, std::uint32_t pool) {
     return joint != kNone && glm::determinant(glm::mat3(pose.model_space()[joint])) < 0.0f;
 }
 
-void add_elements(const Model& model, const Pose& pose, std::vector<PosedMesh>& meshes) {
-    for (const Draw& draw : model.draws()) {
+void add_elements(const Model& model, const Pose& pose, const Lod& lod, std::vector<PosedMesh>& meshes) {
+    for (const Draw& draw : lod.draws()) {
         PosedMesh& mesh = meshes[draw.pool];
-        const Pool& pool = model.pools()[draw.pool];
         std::vector<std::uint32_t>& list = draw.topology == Topology::triangles ? mesh.triangles
                                            : draw.topology == Topology::lines   ? mesh.lines
                                                                                 : mesh.points;
         const std::size_t start = list.size();
-        for (std::uint32_t k = 0; k < draw.count; ++k) list.push_back(pool.indices->index(draw.first + k, 0));
+        const auto indices = lod.indices(draw.pool).subspan(draw.first, draw.count);
+        list.insert(list.end(), indices.begin(), indices.end());
         if (draw.topology != Topology::triangles || !is_mirrored(model, pose, draw.pool)) continue;
         for (std::size_t at = start; at + 3 <= list.size(); at += 3) std::swap(list[at + 1], list[at + 2]);
     }
@@ -83,6 +84,10 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
     if (arguments.constrain) constrain(pose);
     reach_targets(arguments.reach, arguments.file, pose);
     local_to_model(pose);
+    Lod lod(model);
+    lod.set_share(arguments.lod);
+    if (arguments.lod < 1.0f && model.collapse() == nullptr)
+        warn(arguments.file, "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
     }
@@ -90,15 +95,15 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
         const Pool& pool = model.pools()[number];
         PosedMesh& mesh = object.meshes.emplace_back();
         mesh.name = pool.name;
-        mesh.positions.resize(pool.vertices);
-        if (pool.normals) mesh.normals.resize(pool.vertices);
-        skin(model, number, pose, {mesh.positions, mesh.normals, {}});
+        mesh.positions.resize(lod.vertices(number));
+        if (pool.normals) mesh.normals.resize(lod.vertices(number));
+        skin(model, number, pose, lod, {mesh.positions, mesh.normals, {}});
         const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) {
             return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         });
         if (!all_finite) fail(arguments.file, "the pose is out of a float's range in pool " + std::to_string(number));
     }
-    add_elements(model, pose, object.meshes);
+    add_elements(model, pose, lod, object.meshes);
     return object;
 }
 
@@ -144,6 +149,9 @@ void add_pose(CLI::App& program) {
         ->needs(reach);
     command->add_flag("--ignore-limits", arguments->reach.ignore_limits, "reach without the joints' constraints")
         ->needs(reach);
+    command->add_option("--lod", arguments->lod,
+                        "level of detail: about this share of the triangles, 0 to 1, and only their vertices")
+        ->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
     command->footer(
@@ -152,6 +160,8 @@ void add_pose(CLI::App& program) {
     command->callback([arguments, clip] {
         arguments->has_clip = clip->count() != 0;
         if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");
+        if (!(arguments->lod >= 0.0f && arguments->lod <= 1.0f))
+            throw CLI::ValidationError("--lod", "must be a number from 0 to 1");
         run(*arguments);
     });
 }

@@ -300,6 +300,30 @@ def palette(entries):
     return leaf('PALT', *pieces)
 
 
+def collapse(pools, levels):
+    """pools: (number, base, targets, joined bits); levels: (error, vertices alive of each pool)"""
+    pieces = [u32(len(pools), 'pools %d' % len(pools)), u32(len(levels), 'levels %d' % len(levels)),
+              u32([0, 0], 'reserved')]
+
+    def pad(size):
+        if size % 16:
+            pieces.append(raw(bytes(-size % 16), 'zeros up to 16 bytes'))
+
+    for number, base, _, _ in pools:
+        pieces += [u32(number, 'pool %d' % number), u32(base, 'base %d' % base), u8(2, 'target_type 2 (u16)'),
+                   u8([0] * 7, 'reserved')]
+    for index, (error, *alive) in enumerate(levels):
+        pieces += [f32(error, 'level %d: error %g' % (index, error)),
+                   u32(alive, 'level %d: alive %s' % (index, ' '.join(map(str, alive))))]
+    pad(sum(4 + 4 * len(alive) for _, *alive in levels))
+    for number, base, targets, joined in pools:
+        pieces.append(u16(targets, 'targets of vertices %d and on: %s' % (base, ' '.join(map(str, targets)))))
+        pad(2 * len(targets))
+        pieces.append(u8(joined, 'joined bits of vertices %d and on' % base))
+        pad(len(joined))
+    return leaf('LODD', *pieces)
+
+
 def cycle_info(start, end, rate, loop):
     return leaf('CINF', f32(start, 'start %g' % start), f32(end, 'end %g' % end), f32(rate, 'frame_rate %g' % rate),
                 u8(loop, 'loop %d' % loop), u8([0, 0, 0], 'reserved'))
@@ -395,6 +419,7 @@ def make_every_chunk():
                     stream('NORM', 'f32', [[0, 0, 0]] * 2),
                     stream('TANG', 'f32', [[0, 0, 0]] * 2)),
                 stream('INDX', 'u16', [[0], [1], [2]])),
+            collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
                 leaf('TRAK', *tracks), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values))),
         extras('{"author":"us"}'),

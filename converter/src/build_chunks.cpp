@@ -392,6 +392,52 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     out.end();
 }
 
+// --- the collapse sequence
+
+/// An array of LODD, up to the next 16-byte boundary.
+void append_padded(std::vector<std::byte>& bytes, Bytes array) {
+    bytes.insert(bytes.end(), array.begin(), array.end());
+    bytes.resize(padded(bytes.size()));
+}
+
+void put_collapse(LeafWriter& out, const Scene& scene) {
+    std::vector<std::uint32_t> meshes;
+    for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        if (!scene.meshes[mesh].collapse.empty()) meshes.push_back(mesh);
+    }
+    if (meshes.empty()) return;
+    std::vector<std::byte> payload;
+    CollapseRecord record;
+    record.pools = static_cast<std::uint32_t>(meshes.size());
+    record.levels = static_cast<std::uint32_t>(scene.levels.size());
+    append_padded(payload, bytes_of(record));
+    for (const std::uint32_t number : meshes) {
+        const Mesh& mesh = scene.meshes[number];
+        PoolCollapseRecord pool;
+        pool.pool = number;
+        pool.base = mesh.base;
+        pool.target_type = static_cast<std::uint8_t>(narrow_indices({}, mesh.collapse.size(), false).type);
+        append_padded(payload, bytes_of(pool));
+    }
+    std::vector<std::uint32_t> rows;
+    for (const LodLevel& level : scene.levels) {
+        rows.push_back(std::bit_cast<std::uint32_t>(level.error));
+        for (const std::uint32_t number : meshes) rows.push_back(level.alive[number]);
+    }
+    append_padded(payload, std::as_bytes(std::span(rows)));
+    for (const std::uint32_t number : meshes) {
+        const Mesh& mesh = scene.meshes[number];
+        append_padded(payload,
+                      narrow_indices(std::span(mesh.collapse).subspan(mesh.base), mesh.collapse.size(), false).bytes);
+        std::vector<std::byte> bits((mesh.collapse.size() - mesh.base + 7) / 8);
+        for (std::size_t k = 0; k < mesh.collapse.size() - mesh.base; ++k) {
+            if (mesh.joined[mesh.base + k] != 0) bits[k / 8] |= std::byte{1} << (k % 8);
+        }
+        append_padded(payload, bits);
+    }
+    out.leaf(FourCC("LODD"), payload);
+}
+
 // --- cycles
 
 /// Orders float arrays by their bits: 0 and -0 differ.
@@ -516,6 +562,7 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
         const bool is_compact = options.geometry != nullptr;
         put_pool(out, scene.meshes[pool], polygons[pool].indices, is_compact ? options.geometry->meshes[pool] : exact);
     }
+    put_collapse(out, scene);
     for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
     out.end();
     if (embeds) put_textures(out, scene);

@@ -4,6 +4,7 @@
 #include "compact/measure_skin.h"
 #include "failure.h"
 #include "passes/attach_rigs.h"
+#include "passes/collapse_vertices.h"
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -59,6 +60,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         auto scene = import_gltf(file, options.gltf, report);
         if (!scene) return scene.error();
         attach_rigs(*scene, rig, options.auto_rig, report);
+        if (options.lod) collapse_vertices(*scene);
         std::vector<std::byte> bytes = options.compact ? build_compact(*scene, options, report)
                                                        : build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.

@@ -187,6 +187,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
                 object.cycles.push_back(read_cycle(tree, child, joints, object.pools, faults));
             }
         }
+        object.collapse = read_collapse(tree, number, object.pools, faults);
         const auto first_local = static_cast<std::uint32_t>(document.materials.size());
         for (const std::uint32_t local : object.skeleton.local_materials) {
             document.materials.push_back(read_material(tree, local, textures, faults));

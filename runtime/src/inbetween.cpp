@@ -1,6 +1,7 @@
 #include <bendy/runtime/inbetween.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 namespace bendy {
@@ -18,38 +19,43 @@ void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::
 }
 
 template <class Vector>
-void displace(const TargetView& target, const std::optional<StreamView>& stream, float weight, std::span<Vector> out) {
+void displace(const TargetView& target, const std::optional<StreamView>& stream, float weight, std::uint32_t vertices,
+              std::span<Vector> out) {
     if (!stream || out.empty()) return;
-    const auto add = [&](std::uint32_t entry, const glm::vec3& displacement) {
-        Vector& vector = out[target.vertices ? target.vertices->index(entry, 0) : entry];
+    const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
+    const bool is_plain = stream->type == ComponentType::f32;
+    for (std::uint32_t entry = 0; entry < stream->elements; ++entry) {
+        const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
+        if (vertex >= vertices) return;  // they ascend
+        const glm::vec3 displacement = is_plain ? displacements[entry] : stream->vec3(entry);
+        Vector& vector = out[vertex];
         vector.x += weight * displacement.x;
         vector.y += weight * displacement.y;
         vector.z += weight * displacement.z;
-    };
-    if (stream->type == ComponentType::f32) {
-        const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
-        for (std::uint32_t entry = 0; entry < displacements.size(); ++entry) add(entry, displacements[entry]);
-    } else {
-        for (std::uint32_t entry = 0; entry < stream->elements; ++entry) add(entry, stream->vec3(entry));
     }
 }
 
 }  // namespace
 
 bool inbetween(const Pool& pool, std::span<const float> weights, const Vertices& out) {
-    const auto too_short = [&](const auto& span) { return !span.empty() && span.size() < pool.vertices; };
+    return inbetween(pool, weights, pool.vertices, out);
+}
+
+bool inbetween(const Pool& pool, std::span<const float> weights, std::uint32_t vertices, const Vertices& out) {
+    assert(vertices <= pool.vertices);
+    const auto too_short = [&](const auto& span) { return !span.empty() && span.size() < vertices; };
     if (too_short(out.positions) || too_short(out.normals) || too_short(out.tangents)) return false;
     if (weights.size() < pool.targets.size()) return false;
 
-    fill<glm::vec3>(pool.positions, pool.vertices, out.positions);
-    fill<glm::vec3>(pool.normals, pool.vertices, out.normals);
-    fill<glm::vec4>(pool.tangents, pool.vertices, out.tangents);
+    fill<glm::vec3>(pool.positions, vertices, out.positions);
+    fill<glm::vec3>(pool.normals, vertices, out.normals);
+    fill<glm::vec4>(pool.tangents, vertices, out.tangents);
     for (std::size_t k = 0; k < pool.targets.size(); ++k) {
         if (weights[k] == 0.0f) continue;
         const TargetView& target = pool.targets[k];
-        displace(target, target.positions, weights[k], out.positions);
-        if (pool.normals) displace(target, target.normals, weights[k], out.normals);
-        if (pool.tangents) displace(target, target.tangents, weights[k], out.tangents);
+        displace(target, target.positions, weights[k], vertices, out.positions);
+        if (pool.normals) displace(target, target.normals, weights[k], vertices, out.normals);
+        if (pool.tangents) displace(target, target.tangents, weights[k], vertices, out.tangents);
     }
     return true;
 }

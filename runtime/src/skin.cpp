@@ -54,15 +54,27 @@ glm::mat4 blend(const Pool& pool, std::span<const glm::mat4> palette, std::uint3
 
 }  // namespace
 
-bool skin(const Model& model, std::uint32_t pool_number, Pose& pose, const Vertices& out) {
+/// The work on a pose's scratch memory.
+class Skinning {
+public:
+    /// The first `vertices` of a pool.
+    static bool skin_pool(const Model& model, std::uint32_t pool_number, Pose& pose, std::uint32_t vertices,
+                          const Vertices& out);
+    /// Of all pools, each at its place; vertices_of(pool): how many of its first.
+    template <class Count>
+    static bool skin_all(const Model& model, Pose& pose, const Count& vertices_of, const Vertices& out);
+};
+
+bool Skinning::skin_pool(const Model& model, std::uint32_t pool_number, Pose& pose, std::uint32_t vertices,
+                         const Vertices& out) {
     assert(&model == &pose.model() && pool_number < model.pools().size());
     const Pool& pool = model.pools()[pool_number];
     const auto weights = std::span(pose.target_weights_).subspan(model.first_target(pool_number), pool.targets.size());
-    if (!inbetween(pool, weights, out)) return false;
+    if (!inbetween(pool, weights, vertices, out)) return false;
     if (pose.is_stale()) local_to_model(pose);
 
     if (pool.is_rigid()) {
-        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+        for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
             const std::uint32_t joint = model.rigid_mover(pool_number, vertex);
             if (joint != kNone) transform_vertex(pose.model_space_[joint], vertex, out);
         }
@@ -75,13 +87,14 @@ bool skin(const Model& model, std::uint32_t pool_number, Pose& pose, const Verti
             pose.exact_model_space_[pool.palette.joints[entry]] * glm::dmat4(pool.palette.inverse_bind[entry]);
         palette[entry] = glm::mat4(matrix);
     }
-    for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+    for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         transform_vertex(blend(pool, palette, vertex), vertex, out);
     }
     return true;
 }
 
-bool skin(const Model& model, Pose& pose, const Vertices& out) {
+template <class Count>
+bool Skinning::skin_all(const Model& model, Pose& pose, const Count& vertices_of, const Vertices& out) {
     const auto fits = [&](const auto& span) { return span.empty() || span.size() >= model.vertex_count(); };
     if (!fits(out.positions) || !fits(out.normals) || !fits(out.tangents)) return false;
     const auto part = [](const auto& span, std::uint64_t first, std::uint64_t count) {
@@ -89,12 +102,31 @@ bool skin(const Model& model, Pose& pose, const Vertices& out) {
     };
     for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) {
         const std::uint64_t first = model.first_vertex(pool);
-        const std::uint64_t count = model.pools()[pool].vertices;
+        const std::uint32_t count = vertices_of(pool);
         if (count == 0) continue;
-        skin(model, pool, pose,
-             {part(out.positions, first, count), part(out.normals, first, count), part(out.tangents, first, count)});
+        skin_pool(model, pool, pose, count,
+                  {part(out.positions, first, count), part(out.normals, first, count),
+                   part(out.tangents, first, count)});
     }
     return true;
+}
+
+bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out) {
+    return Skinning::skin_pool(model, pool, pose, model.pools()[pool].vertices, out);
+}
+
+bool skin(const Model& model, Pose& pose, const Vertices& out) {
+    return Skinning::skin_all(
+        model, pose, [&](std::uint32_t pool) { return model.pools()[pool].vertices; }, out);
+}
+
+bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out) {
+    return Skinning::skin_pool(model, pool, pose, lod.vertices(pool), out);
+}
+
+bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out) {
+    return Skinning::skin_all(
+        model, pose, [&](std::uint32_t pool) { return lod.vertices(pool); }, out);
 }
 
 }  // namespace bendy

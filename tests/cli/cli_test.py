@@ -826,6 +826,41 @@ class PoseCommand(Case):
         self.assertEqual(self.done("pose", path, *arguments), (self.folder / "out.obj").read_bytes())
         return document
 
+    def test_levels_of_detail(self):
+        path = self.shared / "levels.bendy"
+        summary = self.done("convert", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path).decode()
+        self.assertRegex(summary, r"detail +from [\d,]+ triangles down to [\d,]+\n")
+        self.assertEqual(self.done("validate", path), b"")
+        self.assertRegex(self.done("inspect", path).decode(), r"LODD .*pools?, .*down to .*error at most")
+        whole = self.pose(path, "--clip", "Walk", "--time", "0.25")
+        exact = self.pose(self.convert(), "--clip", "Walk", "--time", "0.25")
+
+        def places(document):
+            return [sorted((tuple(mesh["positions"][3 * i:3 * i + 3]) for i in mesh["indices"]))
+                    for mesh in document["meshes"]]
+
+        self.assertEqual(places(whole), places(exact))
+        triangles = sum(len(mesh["indices"]) // 3 for mesh in whole["meshes"])
+        for share in ("0.5", "0.25"):
+            some = self.pose(path, "--clip", "Walk", "--time", "0.25", "--lod", share)
+            count = sum(len(mesh["indices"]) // 3 for mesh in some["meshes"])
+            self.assertLessEqual(count, float(share) * triangles)
+            self.assertGreater(count, 0.8 * float(share) * triangles)
+            for few, many in zip(some["meshes"], whole["meshes"]):
+                self.assertEqual(few["positions"], many["positions"][:len(few["positions"])])
+            self.assertLess(sum(len(mesh["positions"]) for mesh in some["meshes"]),
+                            sum(len(mesh["positions"]) for mesh in whole["meshes"]))
+
+    def test_levels_of_detail_must_be_shares(self):
+        for share in ("-0.1", "1.5", "nan", "inf", "much"):
+            self.assertIn("--lod", self.misused("pose", self.convert(), "--lod=" + share))
+
+    def test_a_file_without_levels_is_written_whole_with_a_warning(self):
+        result = self.bendy("pose", self.convert(), "--lod", "0.5")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"no levels of detail", result.stderr)
+        self.assertEqual(result.stdout, self.done("pose", self.convert()))
+
     def test_json_has_the_layout_that_is_promised(self):
         for arguments, clip, time in (([], None, 0), (["--clip", "Walk", "--time", "0.25"], "Walk", 0.25),
                                       (["--clip", "1"], "Walk", 0)):

@@ -216,10 +216,10 @@ TEST(CheckGrammar, TakesKnownChunksThatAreMarkedRequired) {
 TEST(CheckGrammar, TakesReservedChunksWhateverTheyHold) {
     Node root = sample();
     const Bytes anything = as_byte_span("\xff\xfe anything");
-    at(root, "HEAD/OBJE")
+    at(root, "HEAD/OBJE/CYCL")
         .children.push_back(
-            make_container(FourCC("LODD"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
-    at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("LODD"), anything, 0x0100));
+            make_container(FourCC("MARK"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
+    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything, 0x0100));
     at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything));
     EXPECT_EQ(faults_in(root), Lines{});
 }
@@ -230,13 +230,13 @@ TEST(CheckGrammar, RefusesAReservedChunkThatIsRequired) {
     EXPECT_EQ(faults_in(root), Lines{"REQUIRED_CHUNK_UNKNOWN HEAD/OBJE/CYCL/MARK"});
 }
 
-TEST(CheckGrammar, ReservesNothingButLevelsOfDetailAndMarkers) {
+TEST(CheckGrammar, ReservesNothingButMarkers) {
     std::set<std::string> reserved;
 #define BENDY_CHUNK(id, shape, parents, times, what) \
     if (std::string_view(what).ends_with("(reserved)")) reserved.insert(#id);
 #include <bendy/format/chunk_ids.def>
 #undef BENDY_CHUNK
-    EXPECT_EQ(reserved, (std::set<std::string>{"LODD", "MARK"}));
+    EXPECT_EQ(reserved, (std::set<std::string>{"MARK"}));
 }
 
 TEST(CheckGrammar, RefusesConstraintsAndChainsInTheWrongPlaceOrShape) {

@@ -12,6 +12,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // A small file that holds at least one of every chunk that is not reserved, and is good in every respect:
@@ -32,6 +33,7 @@
 //       IKCH[1]  chain 1: tail alone
 //       VECT     pool 0: skinned by joints 0 and 1, four vertices, a dense and a sparse target
 //       VECT[1]  pool 1: rigid, six vertices
+//       LODD     pool 0: vertex 3 collapses to vertex 1; two levels
 //       CYCL     translation linear, rotation cubic, scale step, weights linear, rotation in fixed frames
 //      EXTN
 //      EXTR
@@ -248,6 +250,37 @@ inline void put_rigid_pool(ChunkWriter& writer) {
     writer.end();
 }
 
+/// An array of LODD, and zeros up to 16 bytes.
+template <class T>
+void append_padded(Buffer& payload, const std::vector<T>& numbers) {
+    const Bytes bytes = bytes_of_all(numbers);
+    payload.insert(payload.end(), bytes.begin(), bytes.end());
+    payload.resize(padded(payload.size()));
+}
+
+/// LODD of one pool: levels as {error, alive}.
+template <class Target>
+Buffer collapse_payload(std::uint32_t pool, std::uint32_t base, const std::vector<Target>& targets,
+                        const std::vector<std::pair<float, std::uint32_t>>& levels = {},
+                        const std::vector<std::uint8_t>& joined = {}) {
+    CollapseRecord record;
+    record.pools = 1;
+    record.levels = static_cast<std::uint32_t>(levels.size());
+    PoolCollapseRecord part;
+    part.pool = pool;
+    part.base = base;
+    part.target_type = static_cast<std::uint8_t>(component_type_of<Target>());
+    Buffer payload;
+    append_padded(payload, std::vector{record});
+    append_padded(payload, std::vector{part});
+    append_padded(payload, levels);
+    append_padded(payload, targets);
+    std::vector<std::uint8_t> bits = joined;
+    bits.resize((targets.size() + 7) / 8);
+    append_padded(payload, bits);
+    return payload;
+}
+
 /// One line of a TRAK table.
 inline TrackRecord track(std::uint32_t target, TrackPath path, Interpolation interpolation, std::uint16_t components,
                          std::uint32_t keys, std::uint32_t first_time, std::uint64_t first_value) {
@@ -355,6 +388,7 @@ inline Buffer sample_file() {
     put_chains(writer);
     put_skinned_pool(writer);
     put_rigid_pool(writer);
+    writer.leaf(FourCC("LODD"), collapse_payload<std::uint16_t>(0, 3, {1}, {{0.0f, 4}, {0.5f, 3}}));
     put_cycle(writer);
     writer.end();
     writer.text_leaf(FourCC("EXTN"), "{\"KHR_z\":{}}");

@@ -61,6 +61,7 @@ struct ModelSpec {
     std::vector<JointSpec> joints;  ///< pre-order
     std::vector<PoolSpec> pools;
     std::vector<ChainRecord> chains{};  ///< named by their numbers
+    std::vector<Node> more{};           ///< LODD
 };
 
 template <class Vector>
@@ -136,6 +137,7 @@ inline Buffer build_file(const ModelSpec& spec) {
         writer.end();
     }
     for (const PoolSpec& pool : spec.pools) put(writer, pool_node(pool));
+    for (const Node& node : spec.more) put(writer, node);
     writer.end();
     writer.end();
     return std::move(writer).finish();

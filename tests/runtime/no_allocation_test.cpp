@@ -89,6 +89,8 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     const Vertices vertices{positions, normals, tangents};
     const Cycle* run = model->cycle("run");
 
+    Lod lod(*model);
+
     const std::uint64_t before = allocations;
     bool is_good = true;
     for (int frame = -2; frame < 20; ++frame) {
@@ -97,6 +99,8 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         is_good = skin(*model, pose, vertices) && is_good;
         is_good = skin(*model, 0, pose, vertices) && is_good;
         is_good = inbetween(model->pools()[0], pose.target_weights(), vertices) && is_good;
+        lod.set_share(0.05f * static_cast<float>(frame));
+        is_good = skin(*model, pose, lod, vertices) && is_good;
         pose.change_local()[0].translation.x += 1.0f;
         pose.change_target_weights()[0] = 0.5f;
         is_good = skin(*model, pose, vertices) && is_good;

@@ -320,8 +320,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
 }  // namespace
 
 bool is_order_fixed(const Mesh& mesh) {
-    static_cast<void>(mesh);  // nothing fixes it yet; a sequence of collapses will
-    return false;
+    return !mesh.collapse.empty();
 }
 
 double height_at_rest(const Scene& scene) {

@@ -23,6 +23,8 @@ struct ConvertOptions {
     std::optional<ErrorBound> compact;
     /// Called now and then with the share of the work that is done, 0 to 1; may be empty.
     std::function<void(double)> progress;
+    /// Compute the sequence in which vertices are collapsed (LODD), and order the vertices by it.
+    bool lod = false;
 };
 
 /// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named

@@ -99,7 +99,18 @@ struct Mesh {
     Palette palette;
     std::vector<Target> targets;
     std::vector<Part> parts;
+    /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
+    /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
+    std::vector<std::uint32_t> collapse;
+    std::vector<std::uint8_t> joined;  ///< as many: 1 where a vertex goes together with the one before it
+    std::uint32_t base = 0;            ///< the first so many never collapse
     std::string extras;
+};
+
+/// How far the meshes' collapse sequences go for an error.
+struct LodLevel {
+    float error = 0.0f;                ///< metres, of any point of the surface, in the shapes that were looked at
+    std::vector<std::uint32_t> alive;  ///< vertices that are left, one number per mesh
 };
 
 struct Track {
@@ -168,6 +179,7 @@ struct Scene {
     std::vector<Joint> joints;  ///< pre-order: parents first, siblings in the source's order
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
+    std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence
     std::vector<Cycle> cycles;  ///< the source's order and number
     std::vector<Material> materials;
     std::vector<Image> images;

@@ -3,6 +3,7 @@
 #include <bendy/format/cycle.h>
 #include <bendy/format/ik_chain.h>
 #include <bendy/format/joint.h>
+#include <bendy/format/lod.h>
 #include <bendy/format/material.h>
 #include <bendy/format/pool.h>
 
@@ -20,6 +21,7 @@ struct ObjectView {
     SkeletonView skeleton;
     std::vector<ChainView> chains;
     std::vector<PoolView> pools;
+    std::optional<CollapseView> collapse;  ///< LODD
     std::vector<CycleView> cycles;
     std::string_view extras;
 };

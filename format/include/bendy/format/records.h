@@ -193,6 +193,19 @@ struct PaletteRecord {
     std::array<std::uint32_t, 2> reserved{};
 };
 
+struct PoolCollapseRecord {
+    std::uint32_t pool = 0;
+    std::uint32_t base = 0;
+    std::uint8_t target_type = 0;
+    std::array<std::uint8_t, 7> reserved{};
+};
+
+struct CollapseRecord {
+    std::uint32_t pools = 0;
+    std::uint32_t levels = 0;
+    std::array<std::uint32_t, 2> reserved{};
+};
+
 struct ImageRecord {
     std::uint8_t media = 0;
     std::array<std::uint8_t, 15> reserved{};

@@ -26,15 +26,35 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> indices(std::uint32_t pool) const { return pools_[pool].indices; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
 
+    /// How far, in metres, the surface may be from the full one at this level, by the file; 0 at full detail and for a
+    /// file that does not say.
+    [[nodiscard]] float error() const { return error_; }
+
 private:
     struct PoolLevel {
         std::uint32_t vertices = 0;
-        std::vector<std::uint32_t> indices;
+        std::vector<std::uint32_t> indices;  // at this level
+        std::vector<std::uint32_t> all;      // at full detail
+        std::vector<std::uint32_t> deaths;   // of each triangle drawn: there while more vertices than that are alive
+        std::vector<std::uint32_t> counts;   // triangles alive at base vertices, base + 1, ...
+        std::vector<std::uint32_t> now;      // for each vertex the one that stands for it
+        const PoolCollapseView* collapse = nullptr;
     };
+
+    void prepare(std::uint32_t pool);
+    [[nodiscard]] std::uint32_t vertices_at(std::uint32_t pool, double level) const;
+    [[nodiscard]] std::uint64_t triangles_at(double level) const;
+    void make_list(std::uint32_t pool);
+
     const Model* model_;
     std::vector<PoolLevel> pools_;
     std::vector<Draw> draws_;
+    std::vector<std::uint32_t> first_draw_;  // of each pool, in draws_; one more than pools
+    std::vector<std::uint32_t> place_;  // of each pool in the file's table of levels, or kNone
+    std::uint64_t all_triangles_ = 0;
+    std::uint64_t fixed_triangles_ = 0;  // of pools without a sequence
     std::uint64_t triangles_ = 0;
+    float error_ = 0.0f;
 };
 
 }  // namespace bendy

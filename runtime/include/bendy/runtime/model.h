@@ -73,6 +73,10 @@ public:
     [[nodiscard]] std::span<const Material> materials() const { return data_->document.materials; }
     [[nodiscard]] std::span<const Texture> textures() const { return data_->document.textures; }
     [[nodiscard]] std::span<const Draw> draws() const { return data_->draws; }
+    /// The sequence in which vertices are collapsed; null if the file has none. Lod plays it.
+    [[nodiscard]] const CollapseView* collapse() const {
+        return data_->object.collapse ? &*data_->object.collapse : nullptr;
+    }
     /// Each joint's own polygons: for hits, severed limbs, culling.
     [[nodiscard]] std::span<const PolygonView> polygons() const { return data_->object.skeleton.polygons; }
 

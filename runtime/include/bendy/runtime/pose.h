@@ -37,7 +37,7 @@ public:
 private:
     friend void local_to_model(Pose& pose);
     friend class Reach;
-    friend bool skin(const Model& model, std::uint32_t pool, Pose& pose, const struct Vertices& out);
+    friend class Skinning;
 
     const Model* model_;
     std::vector<JointTransform> local_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/runtime/lod.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/vertices.h>
 
@@ -15,5 +16,10 @@ bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& ou
 
 /// The same for all pools, pool after pool (Model::first_vertex); spans hold Model::vertex_count() or are empty.
 bool skin(const Model& model, Pose& pose, const Vertices& out);
+
+/// The same for the vertices that are alive at a level of detail, in the same places: of each pool the first
+/// Lod::vertices, the others are left as they are. Costs as much less as there are fewer of them.
+bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out);
+bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out);
 
 }  // namespace bendy

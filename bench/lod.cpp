@@ -1,0 +1,320 @@
+// bench_lod: how far simplified characters are from the full ones, beside meshoptimizer's simplifier at the same counts.
+//
+//     bendy_bench_lod FILE.glb...
+//
+// Two-sided Hausdorff distance, from samples: every vertex and 20,000 points spread by area, on either surface. At rest
+// and in three poses of the cycles.
+
+#include "collapse/closest_point.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/runtime.h>
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace {
+
+using bendy::converter::closest_point;
+using Indices = std::vector<std::uint32_t>;
+
+constexpr std::size_t kSamples = 20'000;
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Triangles in boxes in boxes: the distance of a point from the nearest one.
+class Surface {
+public:
+    Surface(std::span<const glm::vec3> places, const Indices& indices) : places_(places), indices_(indices) {
+        order_.resize(indices.size() / 3);
+        std::iota(order_.begin(), order_.end(), 0u);
+        if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+    }
+
+    [[nodiscard]] float distance_squared(const glm::vec3& p, float best) const {
+        return nodes_.empty() ? best : search(0, p, best);
+    }
+
+    /// Every used vertex, and points spread by area.
+    [[nodiscard]] std::vector<glm::vec3> samples() const {
+        std::vector<glm::vec3> list;
+        std::vector<bool> is_used(places_.size());
+        for (const std::uint32_t vertex : indices_) {
+            if (!is_used[vertex]) list.push_back(places_[vertex]);
+            is_used[vertex] = true;
+        }
+        double whole = 0.0;
+        for (std::uint32_t t = 0; t < order_.size(); ++t) whole += area(t);
+        double owed = 0.0;
+        float u = 0.5f;
+        float v = 0.5f;
+        for (std::uint32_t t = 0; t < order_.size(); ++t) {
+            for (owed += kSamples * area(t) / whole; owed >= 1.0; owed -= 1.0) {
+                u = std::fmod(u + 0.7548776662f, 1.0f);
+                v = std::fmod(v + 0.5698402909f, 1.0f);
+                const float x = u + v > 1.0f ? 1.0f - u : u;
+                const float y = u + v > 1.0f ? 1.0f - v : v;
+                list.push_back((1.0f - x - y) * corner(t, 0) + x * corner(t, 1) + y * corner(t, 2));
+            }
+        }
+        return list;
+    }
+
+private:
+    struct Node {
+        glm::vec3 low, high;
+        std::uint32_t first, count;  // of a leaf
+        std::uint32_t left = 0, right = 0;
+    };
+
+    [[nodiscard]] const glm::vec3& corner(std::uint32_t t, std::uint32_t k) const {
+        return places_[indices_[std::size_t{t} * 3 + k]];
+    }
+    [[nodiscard]] double area(std::uint32_t t) const {
+        return 0.5 * glm::length(glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
+    }
+    [[nodiscard]] glm::vec3 centre(std::uint32_t t) const { return corner(t, 0) + corner(t, 1) + corner(t, 2); }
+
+    std::uint32_t build(std::uint32_t first, std::uint32_t count) {
+        const auto number = static_cast<std::uint32_t>(nodes_.size());
+        Node node{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest()), first,
+                  count};
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                node.low = glm::min(node.low, corner(order_[i], k));
+                node.high = glm::max(node.high, corner(order_[i], k));
+            }
+        }
+        nodes_.push_back(node);
+        if (count <= 4) return number;
+        const glm::vec3 size = node.high - node.low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const auto begin = order_.begin() + first;
+        std::nth_element(begin, begin + count / 2, begin + count,
+                         [&](std::uint32_t a, std::uint32_t b) { return centre(a)[axis] < centre(b)[axis]; });
+        const std::uint32_t left = build(first, count / 2);
+        const std::uint32_t right = build(first + count / 2, count - count / 2);
+        nodes_[number].count = 0;
+        nodes_[number].left = left;
+        nodes_[number].right = right;
+        return number;
+    }
+
+    [[nodiscard]] float box_distance(const Node& node, const glm::vec3& p) const {
+        const glm::vec3 out = glm::max(glm::max(node.low - p, p - node.high), glm::vec3(0.0f));
+        return glm::dot(out, out);
+    }
+
+    float search(std::uint32_t number, const glm::vec3& p, float best) const {
+        const Node& node = nodes_[number];
+        if (node.count != 0) {
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+                const std::uint32_t t = order_[i];
+                best = std::min(best, closest_point(p, corner(t, 0), corner(t, 1), corner(t, 2)).distance_squared);
+            }
+            return best;
+        }
+        const float left = box_distance(nodes_[node.left], p);
+        const float right = box_distance(nodes_[node.right], p);
+        const bool left_first = left <= right;
+        if (std::min(left, right) < best) best = search(left_first ? node.left : node.right, p, best);
+        if (std::max(left, right) < best) best = search(left_first ? node.right : node.left, p, best);
+        return best;
+    }
+
+    std::span<const glm::vec3> places_;
+    const Indices& indices_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+float one_sided(const Surface& from, const Surface& to) {
+    float worst = 0.0f;
+    for (const glm::vec3& p : from.samples())
+        worst = std::max(worst, to.distance_squared(p, std::numeric_limits<float>::max()));
+    return std::sqrt(worst);
+}
+
+float hausdorff(std::span<const glm::vec3> places, const Indices& a, const Indices& b) {
+    const Surface first(places, a);
+    const Surface second(places, b);
+    return std::max(one_sided(first, second), one_sided(second, first));
+}
+
+/// The triangles at a level, as indices into all pools' vertices together.
+Indices triangles_of(const bendy::Model& model, const bendy::Lod& lod) {
+    Indices list;
+    for (const bendy::Draw& draw : lod.draws()) {
+        if (draw.topology != bendy::Topology::triangles) continue;
+        for (std::uint32_t k = 0; k < draw.count; ++k) {
+            list.push_back(lod.indices(draw.pool)[draw.first + k] +
+                           static_cast<std::uint32_t>(model.first_vertex(draw.pool)));
+        }
+    }
+    return list;
+}
+
+/// What meshoptimizer is asked to look at: vertices alike in everything are one; or, where that hinders it, in place.
+Indices weld(const bendy::Pool& pool, const Indices& indices, std::span<const glm::vec3> places, bool by_place) {
+    std::vector<float> numbers;
+    std::size_t width = 3;
+    for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+        const std::size_t before = numbers.size();
+        numbers.insert(numbers.end(), {places[v].x, places[v].y, places[v].z});
+        const auto add = [&](const bendy::StreamView& stream) {
+            for (std::uint32_t k = 0; k < stream.components; ++k) numbers.push_back(stream.number(v, k));
+        };
+        if (!by_place) {
+            if (pool.normals) add(*pool.normals);
+            for (const auto& stream : pool.texture_coords) add(stream);
+            for (const auto& stream : pool.colours) add(stream);
+        }
+        width = numbers.size() - before;
+    }
+    std::vector<std::uint32_t> remap(pool.vertices);
+    const std::size_t unique = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), numbers.data(),
+                                                           pool.vertices, width * sizeof(float));
+    std::vector<std::uint32_t> first(unique, bendy::kNone);
+    for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+        if (remap[v] != bendy::kNone && first[remap[v]] == bendy::kNone) first[remap[v]] = v;
+    }
+    Indices welded;
+    for (const std::uint32_t v : indices) welded.push_back(first[remap[v]]);
+    return welded;
+}
+
+/// meshoptimizer's, each pool by itself down to `share` of its triangles.
+Indices simplify(const bendy::Model& model, const bendy::Lod& full, std::span<const glm::vec3> rest, float share) {
+    Indices list;
+    for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) {
+        Indices indices;
+        for (const bendy::Draw& draw : full.draws()) {
+            if (draw.topology != bendy::Topology::triangles || draw.pool != pool) continue;
+            const auto part = full.indices(pool).subspan(draw.first, draw.count);
+            indices.insert(indices.end(), part.begin(), part.end());
+        }
+        if (indices.empty()) continue;
+        const auto goal = static_cast<std::size_t>(share * static_cast<float>(indices.size() / 3)) * 3;
+        const auto places = rest.subspan(model.first_vertex(pool), model.pools()[pool].vertices);
+        Indices out;
+        for (const bool by_place : {false, true}) {
+            const Indices welded = weld(model.pools()[pool], indices, places, by_place);
+            Indices attempt(indices.size());
+            attempt.resize(meshopt_simplify(attempt.data(), welded.data(), welded.size(), &places.front().x,
+                                            places.size(), sizeof(glm::vec3), goal, 1e6f, 0, nullptr));
+            if (by_place && attempt.size() >= out.size()) break;
+            out = std::move(attempt);
+            if (out.size() <= goal + goal / 10) break;
+        }
+        for (const std::uint32_t vertex : out)
+            list.push_back(vertex + static_cast<std::uint32_t>(model.first_vertex(pool)));
+    }
+    return list;
+}
+
+std::vector<std::vector<glm::vec3>> make_poses(const bendy::Model& model) {
+    std::vector<std::vector<glm::vec3>> shapes;
+    bendy::Pose pose(model);
+    const auto add = [&] {
+        std::vector<glm::vec3> places(model.vertex_count());
+        bendy::skin(model, pose, {places, {}, {}});
+        shapes.push_back(std::move(places));
+    };
+    add();
+    const auto cycles = model.cycles();
+    for (std::size_t k = 0; k < 3 && !cycles.empty(); ++k) {
+        const bendy::Cycle& cycle = cycles[k * (cycles.size() - 1) / 2];
+        const float share = 0.25f * static_cast<float>(k + 1);
+        pose.set_rest();
+        bendy::sample(&cycle, cycle.start + share * (cycle.end - cycle.start), pose);
+        add();
+    }
+    return shapes;
+}
+
+float extent_of(std::span<const glm::vec3> places) {
+    glm::vec3 low = places.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& p : places) low = glm::min(low, p), high = glm::max(high, p);
+    return glm::length(high - low);
+}
+
+double switching_time(bendy::Lod& lod) {
+    constexpr int kTimes = 10;
+    double worst = 0.0;  // of the levels; of each the best time, so that other programs do not count
+    for (int level = 1; level < 9; ++level) {
+        double best = 1e9;
+        for (int i = 0; i < kTimes; ++i) {
+            lod.set_share(1.0f);
+            const double start = seconds();
+            lod.set_share(static_cast<float>(level) / 9.0f);
+            best = std::min(best, seconds() - start);
+        }
+        worst = std::max(worst, best);
+    }
+    return worst;
+}
+
+void measure(const char* path) {
+    bendy::converter::ConvertOptions options;
+    options.lod = true;
+    bendy::converter::Report report;
+    const std::clock_t start = std::clock();
+    const auto bytes = bendy::converter::convert(path, options, report);
+    const double taken = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    if (!bytes) {
+        std::fprintf(stderr, "%s: %s\n", path, bytes.error().message.c_str());
+        return;
+    }
+    const auto model = bendy::Model::from_memory(*bytes);
+    if (!model || model->vertex_count() == 0) return;
+    bendy::Lod lod(*model);
+    const std::vector<std::vector<glm::vec3>> shapes = make_poses(*model);
+    const float extent = extent_of(shapes[0]);
+    const Indices full = triangles_of(*model, lod);
+    if (full.empty()) return;
+    lod.set_share(0.0f);
+    const std::uint64_t fewest = lod.triangles();
+    const std::string name = std::filesystem::path(path).stem().string();
+    std::printf("| %s | %zu | %.2f s of processor, at least %llu, switch %.3f ms per 100,000 | | | | | |\n", name.c_str(),
+                full.size() / 3, taken, static_cast<unsigned long long>(fewest),
+                1e3 * switching_time(lod) * 1e5 / static_cast<double>(full.size() / 3));
+    for (const float share : {0.5f, 0.25f, 0.1f}) {
+        lod.set_share(1.0f);
+        const Indices theirs = simplify(*model, lod, shapes[0], share);
+        lod.set_share(static_cast<float>(theirs.size()) / static_cast<float>(full.size()));
+        const Indices ours = triangles_of(*model, lod);
+        std::printf("| | %.0f %% | %zu / %zu |", 100.0 * share, ours.size() / 3, theirs.size() / 3);
+        for (const auto& places : shapes) {
+            const float a = hausdorff(places, full, ours);
+            const float b = hausdorff(places, full, theirs);
+            std::printf(" %.2f / %.2f %% = %.2f |", 100.0 * a / extent, 100.0 * b / extent, a / b);
+        }
+        std::printf("\n");
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::printf("| model | triangles | ours / theirs | at rest | pose 1 | pose 2 | pose 3 |\n|---|---|---|---|---|---|---|\n");
+    for (int i = 1; i < argc; ++i) measure(argv[i]);
+    return argc > 1 ? 0 : 2;
+}

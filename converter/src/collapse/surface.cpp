@@ -1,0 +1,193 @@
+#include "collapse/surface.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+/// Half of a thousandth of a percent of the shape's extent counts as the same place.
+constexpr float kSamePlace = 5e-6f;
+/// Of vertices at one rest position that lie apart in other shapes, so many places are told apart.
+constexpr std::size_t kMostPlaces = 8;
+
+float extent_of(const Shape& shape) {
+    if (shape.empty()) return 0.0f;
+    glm::vec3 low = shape.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& p : shape) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::length(high - low);
+}
+
+/// Numbers each place; vertices at one place get one number, by their order.
+std::vector<std::uint32_t> weld(const Mesh& mesh, std::span<const Shape> shapes) {
+    std::vector<float> tolerances;
+    for (const Shape& shape : shapes) tolerances.push_back(kSamePlace * extent_of(shape));
+    const auto lies_at = [&](std::uint32_t a, std::uint32_t b) {
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            if (!(glm::distance(shapes[s][a], shapes[s][b]) <= tolerances[s])) return false;
+        }
+        return true;
+    };
+    const auto key = [&](std::uint32_t v) {
+        const glm::vec3 p = mesh.positions[v] + 0.0f;  // -0 becomes 0
+        return std::tuple(p.x, p.y, p.z);
+    };
+    std::vector<std::uint32_t> order(mesh.positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<std::uint32_t> leader(order.size());
+    std::vector<std::uint32_t> places;  // at the present rest position
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t vertex = order[i];
+        if (i == 0 || key(order[i - 1]) != key(vertex)) places.clear();
+        const auto same =
+            std::find_if(places.begin(), places.end(), [&](std::uint32_t other) { return lies_at(other, vertex); });
+        leader[vertex] = same == places.end() ? vertex : *same;
+        if (same == places.end() && places.size() < kMostPlaces) places.push_back(vertex);
+    }
+    std::vector<std::uint32_t> numbers(order.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t vertex = 0; vertex < numbers.size(); ++vertex)
+        numbers[vertex] = leader[vertex] == vertex ? count++ : numbers[leader[vertex]];
+    return numbers;
+}
+
+void list_vertices(Surface& surface) {
+    const std::uint32_t points =
+        surface.point_of.empty() ? 0 : *std::max_element(surface.point_of.begin(), surface.point_of.end()) + 1;
+    surface.first_vertex.assign(points + std::size_t{1}, 0);
+    for (const std::uint32_t point : surface.point_of) ++surface.first_vertex[point + std::size_t{1}];
+    std::partial_sum(surface.first_vertex.begin(), surface.first_vertex.end(), surface.first_vertex.begin());
+    std::vector<std::uint32_t> at(surface.first_vertex.begin(), surface.first_vertex.end() - 1);
+    surface.vertices.resize(surface.point_of.size());
+    for (std::uint32_t vertex = 0; vertex < surface.point_of.size(); ++vertex)
+        surface.vertices[at[surface.point_of[vertex]]++] = vertex;
+    surface.is_locked.assign(points, false);
+}
+
+/// Streams that make a seam where they differ.
+class Streams {
+public:
+    explicit Streams(const Mesh& mesh) {
+        if (!mesh.normals.empty()) list_.push_back({&mesh.normals.front().x, 3});
+        if (!mesh.tangents.empty()) list_.push_back({&mesh.tangents.front().x, 4});
+        for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
+            for (const Stream& stream : *streams) {
+                if (!stream.values.empty()) list_.push_back({stream.values.data(), stream.components});
+            }
+        }
+    }
+    [[nodiscard]] bool are_same(std::uint32_t a, std::uint32_t b) const {
+        return std::all_of(list_.begin(), list_.end(), [&](const auto& stream) {
+            const float* values = stream.first;
+            const std::size_t n = stream.second;
+            return std::equal(values + a * n, values + (a + 1) * n, values + b * n);
+        });
+    }
+
+private:
+    std::vector<std::pair<const float*, std::size_t>> list_;
+};
+
+/// Vertices of a point that differ in nothing are as good as one. Past kMostPlaces different ones none are sought.
+void find_alike(const Mesh& mesh, Surface& surface) {
+    const Streams streams(mesh);
+    surface.alike.resize(surface.point_of.size());
+    std::vector<std::uint32_t> different;
+    for (std::uint32_t point = 0; point < surface.points(); ++point) {
+        different.clear();
+        for (const std::uint32_t vertex : surface.vertices_of(point)) {
+            const auto same = std::find_if(different.begin(), different.end(),
+                                           [&](std::uint32_t other) { return streams.are_same(other, vertex); });
+            surface.alike[vertex] = same == different.end() ? vertex : *same;
+            if (same == different.end() && different.size() < kMostPlaces) different.push_back(vertex);
+        }
+    }
+}
+
+void add_part(Surface& surface, const Part& part) {
+    for (const std::uint32_t vertex : part.indices) surface.is_used[vertex] = true;
+    if (part.topology != Topology::triangles) {
+        for (const std::uint32_t vertex : part.indices) surface.is_locked[surface.point_of[vertex]] = true;
+        return;
+    }
+    for (std::size_t at = 0; at + 3 <= part.indices.size(); at += 3) {
+        Surface::Triangle triangle;
+        triangle.material = part.material;
+        for (std::size_t k = 0; k < 3; ++k) {
+            triangle.vertices[k] = part.indices[at + k];
+            triangle.points[k] = surface.point_of[part.indices[at + k]];
+        }
+        const auto& p = triangle.points;
+        if (p[0] != p[1] && p[1] != p[2] && p[2] != p[0]) surface.triangles.push_back(triangle);
+    }
+}
+
+void link_corners(Surface& surface) {
+    surface.first_corner.assign(surface.points(), kNone);
+    surface.next_corner.assign(surface.triangles.size() * 3, kNone);
+    for (auto corner = static_cast<std::uint32_t>(surface.next_corner.size()); corner-- > 0;) {
+        std::uint32_t& first = surface.first_corner[surface.triangles[corner / 3].points[corner % 3]];
+        surface.next_corner[corner] = std::exchange(first, corner);
+    }
+    for (std::uint32_t point = 0; point < surface.points(); ++point) {
+        if (surface.first_corner[point] == kNone) surface.is_locked[point] = true;
+    }
+}
+
+}  // namespace
+
+void Surface::find_corners(std::uint32_t point, std::vector<std::uint32_t>& corners) {
+    corners.clear();
+    std::uint32_t* link = &first_corner[point];
+    while (*link != kNone) {
+        const std::uint32_t corner = *link;
+        if (triangles[corner / 3].is_alive) {
+            corners.push_back(corner);
+            link = &next_corner[corner];
+        } else {
+            *link = next_corner[corner];
+        }
+    }
+}
+
+Surface make_surface(const Mesh& mesh, std::span<const Shape> shapes) {
+    Surface surface;
+    surface.point_of = weld(mesh, shapes);
+    surface.is_used.assign(mesh.positions.size(), false);
+    list_vertices(surface);
+    find_alike(mesh, surface);
+    for (const Part& part : mesh.parts) add_part(surface, part);
+    link_corners(surface);
+    return surface;
+}
+
+std::vector<bool> find_borders(const Surface& surface) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    edges.reserve(surface.triangles.size() * 3);
+    for (const Surface::Triangle& triangle : surface.triangles) {
+        for (std::size_t k = 0; k < 3; ++k)
+            edges.push_back(std::minmax(triangle.points[k], triangle.points[(k + 1) % 3]));
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<bool> is_border(surface.points());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const bool is_single =
+            (i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]);
+        if (!is_single) continue;
+        is_border[edges[i].first] = true;
+        is_border[edges[i].second] = true;
+    }
+    return is_border;
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,261 @@
+#include <bendy/runtime/lod.h>
+#include <bendy/runtime/skin.h>
+
+#include "build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace bendy::test {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+JointSpec plain_joint(std::vector<PolygonRecord> polygons) {
+    JointSpec joint;
+    joint.polygons = std::move(polygons);
+    return joint;
+}
+
+/// A pool of random triangles with a random sequence; not pretty, but everything that may come.
+struct RandomPool {
+    RandomPool(std::uint32_t seed, std::uint32_t vertices, std::uint32_t base, std::uint32_t triangles)
+        : base(base), vertices(vertices) {
+        std::mt19937 random(seed);
+        for (std::uint32_t v = base; v < vertices; ++v) targets.push_back(random() % v);
+        for (std::uint32_t k = 0; k < triangles * 3; ++k) indices.push_back(random() % vertices);
+    }
+
+    [[nodiscard]] PoolSpec spec() const {
+        PoolSpec pool;
+        pool.joint = 0;
+        for (std::uint32_t v = 0; v < vertices; ++v) pool.positions.emplace_back(v, 2 * v, 3 * v);
+        pool.indices = indices;
+        return pool;
+    }
+    /// Where a vertex goes, one step after another.
+    [[nodiscard]] std::uint32_t at(std::uint32_t vertex, std::uint32_t alive) const {
+        while (vertex >= alive) vertex = targets[vertex - base];
+        return vertex;
+    }
+    /// The triangles from index `first` on that are left.
+    [[nodiscard]] std::vector<Triangle> expected(std::size_t first, std::size_t count, std::uint32_t alive) const {
+        std::vector<Triangle> list;
+        for (std::size_t k = first; k < first + count; k += 3) {
+            const Triangle t{at(indices[k], alive), at(indices[k + 1], alive), at(indices[k + 2], alive)};
+            const bool is_flat = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+            if (!is_flat || alive == vertices) list.push_back(t);
+        }
+        return list;
+    }
+
+    std::uint32_t base, vertices;
+    std::vector<std::uint32_t> targets, indices;
+};
+
+std::vector<Triangle> drawn(const Lod& lod, const Draw& draw) {
+    std::vector<Triangle> list;
+    const auto indices = lod.indices(draw.pool).subspan(draw.first, draw.count);
+    for (std::size_t k = 0; k + 3 <= indices.size(); k += 3) list.push_back({indices[k], indices[k + 1], indices[k + 2]});
+    return list;
+}
+
+TEST(Lod, EveryLevelIsWhatAPlainWalkGives) {
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+        const RandomPool pool(seed, 60, 4 + seed, 90);
+        const Owned model(build_file({{plain_joint({polygons(0, 0, 120), polygons(0, 123, 147)})},
+                                      {pool.spec()},
+                                      {},
+                                      {make_leaf(FourCC("LODD"),
+                                                 collapse_payload<std::uint16_t>(
+                                                     0, pool.base,
+                                                     {pool.targets.begin(), pool.targets.end()}))}}));
+        Lod lod(*model);
+        std::set<std::uint32_t> seen;
+        for (int step = 200; step >= 0; --step) {
+            const float share = static_cast<float>(step) / 200.0f;
+            lod.set_share(share);
+            const std::uint32_t alive = lod.vertices(0);
+            seen.insert(alive);
+            ASSERT_EQ(lod.draws().size(), 2u);
+            EXPECT_EQ(drawn(lod, lod.draws()[0]), pool.expected(0, 120, alive));
+            EXPECT_EQ(drawn(lod, lod.draws()[1]), pool.expected(123, 147, alive));
+            EXPECT_EQ(lod.triangles(), lod.draws()[0].count / 3 + lod.draws()[1].count / 3);
+            for (const std::uint32_t index : lod.indices(0)) ASSERT_LT(index, alive);
+            EXPECT_EQ(lod.indices(0).size(), lod.triangles() * 3);
+            if (alive > pool.base) {
+                EXPECT_LE(lod.triangles(), static_cast<std::uint64_t>(share * 89.0f + 0.001f));
+            }
+        }
+        EXPECT_TRUE(seen.contains(60));
+        EXPECT_TRUE(seen.contains(pool.base));
+        EXPECT_GT(seen.size(), 20u);
+    }
+}
+
+/// A square of two triangles and a spare vertex, on which 3 and 4 collapse.
+ModelSpec square(std::vector<std::uint16_t> targets, std::vector<std::uint8_t> joined = {}) {
+    PoolSpec pool;
+    pool.joint = 0;
+    pool.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 0.5f, 0}};
+    pool.indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 1, 2};
+    const auto base = static_cast<std::uint32_t>(5 - targets.size());
+    return {{plain_joint({polygons(0, 0, 12), polygons(0, 12, 2, kNone, Topology::lines),
+                          polygons(0, 14, 1, kNone, Topology::points)})},
+            {pool},
+            {},
+            {make_leaf(FourCC("LODD"), collapse_payload<std::uint16_t>(0, base, targets, {}, joined))}};
+}
+
+TEST(Lod, TheSpecificationsExample) {
+    const Owned model(build_file(square({2, 1})));
+    Lod lod(*model);
+    EXPECT_EQ(lod.triangles(), 4u);
+    lod.set_share(0.5f);
+    EXPECT_EQ(lod.vertices(0), 4u);
+    EXPECT_EQ(drawn(lod, lod.draws()[0]), (std::vector<Triangle>{{2, 3, 1}, {3, 0, 1}}));
+    lod.set_share(0.3f);
+    EXPECT_EQ(lod.vertices(0), 3u);
+    EXPECT_EQ(drawn(lod, lod.draws()[0]), (std::vector<Triangle>{{2, 0, 1}}));
+}
+
+TEST(Lod, LinesAndPointsStayAndAreNotCounted) {
+    const Owned model(build_file(square({2, 1})));
+    Lod lod(*model);
+    for (const float share : {1.0f, 0.5f, 0.0f}) {
+        lod.set_share(share);
+        ASSERT_EQ(lod.draws().size(), 3u);
+        const auto line = lod.indices(0).subspan(lod.draws()[1].first, lod.draws()[1].count);
+        EXPECT_EQ(std::vector<std::uint32_t>(line.begin(), line.end()), (std::vector<std::uint32_t>{0, 1}));
+        EXPECT_EQ(lod.draws()[2].count, 1u);
+        EXPECT_EQ(lod.indices(0)[lod.draws()[2].first], 2u);
+    }
+    EXPECT_EQ(lod.triangles(), 1u);
+}
+
+TEST(Lod, VerticesThatGoTogetherAreNotParted) {
+    const Owned model(build_file(square({2, 1}, {0b10})));
+    Lod lod(*model);
+    for (int step = 0; step <= 20; ++step) {
+        lod.set_share(static_cast<float>(step) / 20.0f);
+        EXPECT_NE(lod.vertices(0), 4u);
+    }
+}
+
+TEST(Lod, StrangeSharesAreFullDetailOrTheLeast) {
+    const Owned model(build_file(square({2, 1})));
+    Lod lod(*model);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const float share : {std::numeric_limits<float>::quiet_NaN(), 1.0f, 2.0f, kInfinity}) {
+        lod.set_share(0.0f);
+        lod.set_share(share);
+        EXPECT_EQ(lod.vertices(0), 5u) << share;
+        EXPECT_EQ(lod.triangles(), 4u) << share;
+    }
+    for (const float share : {0.0f, -1.0f, -kInfinity}) {
+        lod.set_share(share);
+        EXPECT_EQ(lod.vertices(0), 3u) << share;
+    }
+}
+
+TEST(Lod, AModelWithoutASequenceHasOneLevel) {
+    ModelSpec spec = square({2, 1});
+    spec.more.clear();
+    const Owned model(build_file(spec));
+    EXPECT_EQ(model->collapse(), nullptr);
+    Lod lod(*model);
+    lod.set_share(0.0f);
+    EXPECT_EQ(lod.vertices(0), 5u);
+    EXPECT_EQ(lod.triangles(), 4u);
+    EXPECT_EQ(lod.indices(0).size(), 15u);
+    EXPECT_EQ(lod.error(), 0.0f);
+}
+
+TEST(Lod, TheTableSpreadsDetailOverPools) {
+    const RandomPool first(1, 40, 4, 100);
+    const RandomPool second(2, 40, 4, 100);
+    CollapseRecord record;
+    record.pools = 2;
+    record.levels = 3;
+    std::vector<PoolCollapseRecord> pools(2);
+    for (std::uint32_t k = 0; k < 2; ++k) pools[k] = {k, 4, 2, {}};
+    struct Row {
+        float error;
+        std::uint32_t alive[2];
+    };
+    Buffer payload;
+    append_padded(payload, std::vector{record});
+    append_padded(payload, pools);
+    append_padded(payload, std::vector<Row>{{0.0f, {40, 40}}, {0.25f, {4, 40}}, {0.5f, {4, 4}}});
+    for (const RandomPool* pool : {&first, &second}) {
+        append_padded(payload, std::vector<std::uint16_t>(pool->targets.begin(), pool->targets.end()));
+        append_padded(payload, std::vector<std::uint8_t>(5, 0));
+    }
+    const Owned model(build_file({{plain_joint({polygons(0, 0, 300), polygons(1, 0, 300)})},
+                                  {first.spec(), second.spec()},
+                                  {},
+                                  {make_leaf(FourCC("LODD"), payload)}}));
+    Lod lod(*model);
+    for (int step = 100; step >= 0; --step) {
+        lod.set_share(static_cast<float>(step) / 100.0f);
+        // The first goes all the way before the second begins.
+        EXPECT_TRUE(lod.vertices(0) == 4 || lod.vertices(1) == 40) << step;
+        EXPECT_EQ(lod.error(), lod.vertices(1) < 40 ? 0.5f : lod.vertices(0) < 40 ? 0.25f : lod.error()) << step;
+    }
+    EXPECT_EQ(lod.vertices(1), 4u);
+}
+
+TEST(Lod, LongChainsOfTargetsTakeNoLonger) {
+    constexpr std::uint32_t kVertices = 200'000;
+    PoolSpec pool;
+    pool.joint = 0;
+    pool.positions.resize(kVertices);
+    std::vector<std::uint32_t> targets;
+    for (std::uint32_t v = 1; v < kVertices; ++v) targets.push_back(v - 1);
+    for (std::uint32_t k = 0; k < kVertices; ++k)
+        pool.indices.insert(pool.indices.end(), {kVertices - 1, kVertices / 2, k % 7});
+    const Owned model(build_file({{plain_joint({polygons(0, 0, kVertices * 3)})},
+                                  {pool},
+                                  {},
+                                  {make_leaf(FourCC("LODD"), collapse_payload<std::uint32_t>(0, 1, targets))}}));
+    Lod lod(*model);
+    lod.set_share(0.5f);
+    EXPECT_LE(lod.triangles(), kVertices / 2);
+    lod.set_share(0.0f);
+    EXPECT_EQ(lod.triangles(), 0u);
+}
+
+TEST(Lod, SkinsOnlyTheLivingVertices) {
+    ModelSpec spec = square({2, 1});
+    spec.joints[0].rest = moved(10, 0, 0);
+    const std::vector<glm::vec3> up(5, glm::vec3(0, 0, 1));
+    Node target = make_container(FourCC("TARG"), {make_leaf(FourCC("TINF"), bytes_of(TargetRecord{0.5f})),
+                                                  make_leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, {1, 2, 4})),
+                                                  vector_stream(FourCC("POSI"), std::vector<glm::vec3>(3, {0, 0, 2}))});
+    spec.pools[0].more = {target};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    std::vector<glm::vec3> all(5);
+    ASSERT_TRUE(skin(*model, pose, {all, {}, {}}));
+    Lod lod(*model);
+    for (const float share : {1.0f, 0.5f, 0.0f}) {
+        lod.set_share(share);
+        const glm::vec3 untouched(77.0f);
+        std::vector<glm::vec3> some(5, untouched);
+        ASSERT_TRUE(skin(*model, pose, lod, {some, {}, {}}));
+        for (std::uint32_t v = 0; v < 5; ++v) EXPECT_EQ(some[v], v < lod.vertices(0) ? all[v] : untouched) << v;
+        std::vector<glm::vec3> exact(lod.vertices(0));
+        EXPECT_TRUE(skin(*model, 0, pose, lod, {exact, {}, {}}));
+        exact.pop_back();
+        EXPECT_FALSE(skin(*model, 0, pose, lod, {exact, {}, {}}));
+    }
+}
+
+}  // namespace
+}  // namespace bendy::test
