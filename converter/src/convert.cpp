@@ -5,6 +5,7 @@
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
@@ -15,6 +16,21 @@ namespace {
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 
+/// The scene of a source of any kind, with its rig.
+Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
+                                         const std::optional<Rig>& rig, Report& report) {
+    const bool is_bendy = is_bendy_file(file);
+    if (is_bendy && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
+    auto scene = is_bendy ? import_bendy(file, report) : import_gltf(file, options.gltf, report);
+    if (!scene) return scene;
+    if (is_bendy) {
+        change_rig(*scene, rig, options.auto_rig, report);
+    } else {
+        attach_rigs(*scene, rig, options.auto_rig, report);
+    }
+    return scene;
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
@@ -22,16 +38,15 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     std::optional<Rig> rig;
     try {
         if (options.rig) rig = read_rig(*options.rig, report);
-        auto scene = import_gltf(file, options.gltf, report);
+        const auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
-        attach_rigs(*scene, rig, options.auto_rig, report);
         std::vector<std::byte> bytes = build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())
             return ImportError{{}, "cannot be held: " + describe_with_place(faults.list().front(), bytes)};
         return bytes;
-    } catch (const Failure& failure) {  // only of the rig: import_gltf throws nothing
+    } catch (const Failure& failure) {  // only of the rig: importers throw nothing
         return ImportError{failure.error.place, failure.error.message, options.rig.value_or(file)};
     } catch (const std::bad_alloc&) {
         return ImportError{{}, "there is not enough memory"};
