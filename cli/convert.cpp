@@ -140,13 +140,15 @@ void run(Arguments arguments) {
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("convert", "Convert a glTF 2.0 character (.gltf, .glb), or a bendy file, to a bendy file");
+    CLI::App* command = program.add_subcommand(
+        "convert", "Convert a glTF 2.0 character (.gltf, .glb), or a bendy file, to a bendy file");
     command->add_option("IN", arguments->input, "a .gltf, .glb or bendy file, told apart by content")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
     command->add_option("--scene", arguments->scene,
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
-        ->add_option("--images", arguments->images, "of glTF files; embed: copy image files into the output; link: keep them as URIs")
+        ->add_option("--images", arguments->images,
+                     "of glTF files; embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,

@@ -113,7 +113,8 @@ void evaluate_track(const Track& track, double seconds, Numbers& value) {
     value.resize(n);
 
     const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds);
-    const std::size_t left = after == track.times.begin() ? 0 : static_cast<std::size_t>(after - track.times.begin()) - 1;
+    const std::size_t left =
+        after == track.times.begin() ? 0 : static_cast<std::size_t>(after - track.times.begin()) - 1;
     const bool holds = after == track.times.begin() || after == track.times.end() || track.times[left] == seconds;
     if (holds || track.interpolation == Interpolation::step) {
         for (std::size_t c = 0; c < n; ++c) value[c] = at(left, middle, c);
@@ -129,9 +130,9 @@ void evaluate_track(const Track& track, double seconds, Numbers& value) {
         return;
     }
     if (track.path == TrackPath::rotation) {
-        const Quaternion result = slerp({at(left, 0, 0), at(left, 0, 1), at(left, 0, 2), at(left, 0, 3)},
-                                        {at(left + 1, 0, 0), at(left + 1, 0, 1), at(left + 1, 0, 2), at(left + 1, 0, 3)},
-                                        u);
+        const Quaternion result =
+            slerp({at(left, 0, 0), at(left, 0, 1), at(left, 0, 2), at(left, 0, 3)},
+                  {at(left + 1, 0, 0), at(left + 1, 0, 1), at(left + 1, 0, 2), at(left + 1, 0, 3)}, u);
         std::copy(result.begin(), result.end(), value.begin());
         return;
     }

@@ -159,8 +159,8 @@ double stretch_of(const glm::dmat3& m) {
     return std::sqrt(largest);
 }
 
-/// A mesh in both scenes. With P and Q the bones' matrices, p and p' the places, w and w' the weights of the exact and of
-/// the decoded one, a vertex is displaced by
+/// A mesh in both scenes. With P and Q the bones' matrices, p and p' the places, w and w' the weights of the exact and
+/// of the decoded one, a vertex is displaced by
 ///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q p - c) + sum (w - w') c + sum w' Q (p - p')
 /// for any c; each of the four is bounded by what is known of the vertex and, once a pose, of the bones.
 class MeshPair {
@@ -180,8 +180,8 @@ public:
     }
 
     /// Raises `worst` to the worst vertex of a pose, if that is worse, and says so.
-    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose,
-                 std::uint32_t mesh, MeasuredError& worst) {
+    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
+                 MeasuredError& worst) {
         const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.target_weights[mesh]);
         const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.target_weights[mesh]);
         if (!moved_here && !moved_there && is_measured_) return false;
@@ -224,7 +224,8 @@ private:
     };
 
     [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
-        if (map_ != nullptr) return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
+        if (map_ != nullptr)
+            return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
         return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
     }
 
@@ -271,7 +272,8 @@ private:
         centre_ = glm::dvec3(0.0);
         const auto first = std::find_if(boxes_.begin(), boxes_.end(), [](const Box& box) { return !box.is_empty(); });
         if (first == boxes_.end()) return;
-        centre_ = decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())] * ((first->low + first->high) * 0.5);
+        centre_ =
+            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())] * ((first->low + first->high) * 0.5);
         for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
             if (boxes_[bone].is_empty()) continue;
             const Affine& p = exact_.matrices()[bone];

@@ -87,10 +87,13 @@ public:
         for (const TrackView& track : view.tracks) {
             budget_.take(track.keys + std::uint64_t{track.values.size()}, sizeof(float), place);
             fixed += track.times.empty() ? 1 : 0;
-            std::vector<float> times = track.times.empty()
-                                           ? frame_times(view, track.keys)
-                                           : std::vector<float>(track.times.begin(), track.times.end());
-            cycle.tracks.push_back({track.path, track.interpolation, track.target, track.components, std::move(times),
+            std::vector<float> times = track.times.empty() ? frame_times(view, track.keys)
+                                                           : std::vector<float>(track.times.begin(), track.times.end());
+            cycle.tracks.push_back({track.path,
+                                    track.interpolation,
+                                    track.target,
+                                    track.components,
+                                    std::move(times),
                                     {track.values.begin(), track.values.end()}});
         }
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);

@@ -163,8 +163,8 @@ private:
             for (std::uint32_t k = 0; k < range->count; ++k)
                 movers[pool_.indices->index(range->first + k, 0)] = range->joint;
         }
-        const bool is_one = std::all_of(movers.begin(), movers.end(),
-                                        [&](std::uint32_t mover) { return mover == movers.front(); });
+        const bool is_one =
+            std::all_of(movers.begin(), movers.end(), [&](std::uint32_t mover) { return mover == movers.front(); });
         if (is_one) {
             if (!movers.empty()) mesh_.joint = movers.front();
             return;
@@ -210,8 +210,7 @@ private:
 
 }  // namespace
 
-void import_pools(const ChunkTree& tree, const ObjectView& object, gltf::Budget& budget, Scene& scene,
-                  Report& report) {
+void import_pools(const ChunkTree& tree, const ObjectView& object, gltf::Budget& budget, Scene& scene, Report& report) {
     std::vector<std::vector<const PolygonView*>> polygons(object.pools.size());
     for (const PolygonView& range : object.skeleton.polygons) polygons[range.pool].push_back(&range);
     for (std::size_t pool = 0; pool < object.pools.size(); ++pool) {

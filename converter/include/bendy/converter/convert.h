@@ -19,8 +19,8 @@ struct ConvertOptions {
     bool auto_rig = false;
 };
 
-/// Converts a glTF file, or a bendy file (told by its content), to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named
-/// in `report`. Throws nothing.
+/// Converts a glTF file, or a bendy file (told by its content), to the bytes of a bendy file. The result passes
+/// bendy::validate; what it does not hold is named in `report`. Throws nothing.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 
