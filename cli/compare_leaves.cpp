@@ -25,7 +25,7 @@ constexpr std::uint64_t kStepsPerSample = 16;
 double number_at(const StreamView& stream, std::uint64_t at) {
     const auto element = static_cast<std::uint32_t>(at / stream.components);
     const auto component = static_cast<std::uint32_t>(at % stream.components);
-    return stream.type == ComponentType::u32 ? double{stream.index(element, component)}
+    return stream.type == ComponentType::u32 ? static_cast<double>(stream.index(element, component))
                                              : double{stream.number(element, component)};
 }
 
@@ -41,7 +41,8 @@ using Fields = std::vector<std::pair<std::string, Json>>;
 /// A record's fields, those of records inside it as "outer.inner".
 Fields fields_of(const ChunkTree& tree, std::uint32_t number) {
     Fields fields;
-    for (const auto& [name, value] : chunk_fields(tree, number).items()) {
+    const Json record = chunk_fields(tree, number);
+    for (const auto& [name, value] : record.items()) {
         if (!value.is_object()) {
             fields.emplace_back(name, value);
             continue;
@@ -185,7 +186,8 @@ void ContentComparer::compare_palettes(ChunkPair leaves) {
         difference.a_value = joints_a[first];
         difference.b_value = joints_b[first];
         for (std::uint64_t entry = 0; entry < shared; ++entry)
-            difference.largest = std::max(difference.largest, std::abs(double{joints_a[entry]} - joints_b[entry]));
+            difference.largest =
+                std::max(difference.largest, std::abs(static_cast<double>(joints_a[entry]) - joints_b[entry]));
         differences_.add(std::move(difference));
     }
     compare_spans(leaves, "inverse bind matrices", 16, matrices_of(a, joints_a.size()),
