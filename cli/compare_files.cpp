@@ -26,8 +26,10 @@ void add_streams(ReadFile& file, const PoolView& pool) {
     for (const StreamView& stream : pool.colours) add_stream(file, stream);
     for (const AttributeView& attribute : pool.attributes) add_stream(file, attribute.values);
     for (const TargetView& target : pool.targets) {
-        for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents})
+        for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents}) {
             add_stream(file, *stream);
+            if (*stream) file.targets[file.tree[(*stream)->chunk].parent] = &target;
+        }
     }
 }
 
@@ -54,8 +56,14 @@ void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Diffe
     }
 }
 
+/// Chunks that are done when the tracks of their cycle have been compared: every way in which tracks are stored.
 bool is_of_tracks(FourCC id) {
     return id == FourCC("TRAK") || id == FourCC("TIME") || id == FourCC("KEYV");
+}
+
+/// Chunks that are done when their target has been compared.
+bool is_of_target(FourCC id) {
+    return id == FourCC("INDX") || id == FourCC("POSI") || id == FourCC("NORM") || id == FourCC("TANG");
 }
 
 }  // namespace
@@ -68,6 +76,7 @@ std::unique_ptr<ReadFile> read_file(Bytes bytes) {
     file->document = read_document(file->tree, faults);
     file->streams.resize(file->tree.chunks().size());
     file->cycles.resize(file->tree.chunks().size());
+    file->targets.resize(file->tree.chunks().size());
     for (const ObjectView& object : file->document.objects) {
         for (const PoolView& pool : object.pools) add_streams(*file, pool);
         for (const CycleView& cycle : object.cycles) file->cycles[cycle.chunk] = &cycle;
@@ -100,12 +109,15 @@ Differences compare_files(const ReadFile& a, const ReadFile& b, std::optional<do
             continue;
         }
         const bool is_cycle = a.cycles[pair.a] != nullptr && b.cycles[pair.b] != nullptr;
+        const bool is_target = tolerance && a.targets[pair.a] != nullptr && b.targets[pair.b] != nullptr;
         if (is_cycle) content.compare_cycles(pair);
+        if (is_target) content.compare_targets(pair);
         const std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
         compare_order(a, children, differences);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             const FourCC id = child->a != kNone ? a.tree[child->a].id : b.tree[child->b].id;
-            if (!is_cycle || !is_of_tracks(id)) open.push_back(*child);
+            const bool is_done = (is_cycle && is_of_tracks(id)) || (is_target && is_of_target(id));
+            if (!is_done) open.push_back(*child);
         }
     }
     return differences;

@@ -52,6 +52,39 @@ Fields fields_of(const ChunkTree& tree, std::uint32_t number) {
     return fields;
 }
 
+/// What a field that a shorter record lacks stands for.
+bool is_nothing(const Json& value) {
+    if (value.is_array()) return std::all_of(value.begin(), value.end(), is_nothing);
+    return value.is_string() ? value.get_ref<const std::string&>().empty() : value.is_number() && value == 0;
+}
+
+const StreamView* pointer_to(const std::optional<StreamView>& stream) {
+    return stream ? &*stream : nullptr;
+}
+
+/// Walks over the touched vertices of a target.
+class Touched {
+public:
+    Touched(const StreamView* vertices, const StreamView* displacements)
+        : vertices_(vertices), displacements_(displacements) {}
+
+    /// kNone at the end.
+    [[nodiscard]] std::uint32_t vertex() const {
+        if (displacements_ == nullptr || entry_ >= displacements_->elements) return kNone;
+        return vertices_ == nullptr ? entry_ : vertices_->index(entry_, 0);
+    }
+    /// Zero where it stands behind `vertex`.
+    [[nodiscard]] double number(std::uint32_t of_vertex, std::uint32_t component) const {
+        return vertex() == of_vertex ? double{displacements_->number(entry_, component)} : 0.0;
+    }
+    void pass(std::uint32_t of_vertex) { entry_ += vertex() == of_vertex ? 1 : 0; }
+
+private:
+    const StreamView* vertices_;
+    const StreamView* displacements_;
+    std::uint32_t entry_ = 0;
+};
+
 using TrackKey = std::tuple<std::uint32_t, TrackPath>;
 using TracksByKey = std::map<TrackKey, std::pair<const TrackView*, const TrackView*>>;
 
@@ -205,16 +238,19 @@ void ContentComparer::compare_fields(ChunkPair leaves) {
     std::size_t there = 0;
     for (const auto& [name, value] : a) {
         if (there >= b.size() || b[there].first != name) {
-            add_value(leaves, name, value, nullptr);
+            if (!tolerance_ || !is_nothing(value)) add_value(leaves, name, value, nullptr);
             continue;
         }
         const Json& other = b[there++].second;
+        if (tolerance_ && name == "frame_rate") continue;  // how the tracks are stored; they are compared
         const bool is_same = value.is_array() && other.is_array() && value.size() == other.size()
                                  ? std::equal(value.begin(), value.end(), other.begin(), are_near)
                                  : are_near(value, other);
         if (!is_same) add_value(leaves, name, value, other);
     }
-    for (; there < b.size(); ++there) add_value(leaves, b[there].first, nullptr, b[there].second);
+    for (; there < b.size(); ++there) {
+        if (!tolerance_ || !is_nothing(b[there].second)) add_value(leaves, b[there].first, nullptr, b[there].second);
+    }
 }
 
 void ContentComparer::compare_bytes(ChunkPair leaves, Bytes a, Bytes b) {
@@ -233,6 +269,49 @@ void ContentComparer::compare_bytes(ChunkPair leaves, Bytes a, Bytes b) {
         difference.first_element = at;
     }
     if (difference.count != 0) differences_.add(std::move(difference));
+}
+
+void ContentComparer::compare_displacements(ChunkPair targets, const std::string& part, const StreamView* a_vertices,
+                                            const StreamView* a, const StreamView* b_vertices, const StreamView* b) {
+    constexpr std::uint32_t kComponents = 3;
+    Difference difference;
+    difference.kind = Difference::Kind::numbers;
+    difference.chunks = targets;
+    difference.part = part;
+    Touched here(a_vertices, a);
+    Touched there(b_vertices, b);
+    while (true) {
+        const std::uint32_t vertex = std::min(here.vertex(), there.vertex());
+        if (vertex == kNone) break;
+        for (std::uint32_t c = 0; c < kComponents; ++c) {
+            const double x = here.number(vertex, c);
+            const double y = there.number(vertex, c);
+            ++difference.of;
+            if (is_near(x, y)) continue;
+            if (difference.count++ == 0) {
+                difference.first_element = vertex;
+                difference.first_component = c;
+                difference.a_value = x;
+                difference.b_value = y;
+            }
+            difference.largest = std::max(difference.largest, std::abs(x - y));
+        }
+        here.pass(vertex);
+        there.pass(vertex);
+    }
+    if (difference.count != 0) differences_.add(std::move(difference));
+}
+
+void ContentComparer::compare_targets(ChunkPair targets) {
+    const TargetView& a = *a_.targets[targets.a];
+    const TargetView& b = *b_.targets[targets.b];
+    const auto compare = [&](const char* part, const std::optional<StreamView>& x, const std::optional<StreamView>& y) {
+        compare_displacements(targets, part, pointer_to(a.vertices), pointer_to(x), pointer_to(b.vertices),
+                              pointer_to(y));
+    };
+    compare("positions", a.positions, b.positions);
+    compare("normals", a.normals, b.normals);
+    compare("tangents", a.tangents, b.tangents);
 }
 
 void ContentComparer::compare_cycles(ChunkPair cycles) {

@@ -18,6 +18,7 @@ struct ReadFile {
     Document document;
     std::vector<const StreamView*> streams;  ///< by chunk number; null: no stream
     std::vector<const CycleView*> cycles;    ///< by chunk number; null: no cycle
+    std::vector<const TargetView*> targets;  ///< by chunk number; null: no target, or one that displaces nothing
 };
 
 /// Thrown where tracks share keys so that comparing them all would take for ever: no real file does.
@@ -37,12 +38,17 @@ public:
     /// Compares two CYCL chunks track by track, a track being known by what it animates. Their TRAK, TIME and KEYV are
     /// done with this.
     void compare_cycles(ChunkPair cycles);
+    /// Compares two TARG chunks vertex by vertex, whichever of them name the touched ones. Their INDX, POSI, NORM and
+    /// TANG are done with this. Needs a tolerance.
+    void compare_targets(ChunkPair targets);
 
 private:
     void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
     void compare_palettes(ChunkPair leaves);
     void compare_fields(ChunkPair leaves);
     void compare_bytes(ChunkPair leaves, Bytes a, Bytes b);
+    void compare_displacements(ChunkPair targets, const std::string& part, const StreamView* a_vertices,
+                               const StreamView* a, const StreamView* b_vertices, const StreamView* b);
     void compare_tracks(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
     void compare_samples(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
     template <class A, class B>
