@@ -148,13 +148,18 @@ struct Box {
     }
 };
 
+/// Makes `most` the larger of the two; what is no number is larger than any.
+void raise(double& most, double value) {
+    if (!(value <= most)) most = std::isnan(value) ? kInfinity : value;
+}
+
 /// At least the largest factor by which the matrix stretches a vector.
 double stretch_of(const glm::dmat3& m) {
     double largest = 0.0;  // of the sums of rows of its transpose times itself, whose eigenvalues are squared stretches
     for (int row = 0; row < 3; ++row) {
         double sum = 0.0;
         for (int column = 0; column < 3; ++column) sum += std::abs(glm::dot(m[row], m[column]));
-        largest = std::max(largest, sum);
+        raise(largest, sum);
     }
     return std::sqrt(largest);
 }
@@ -255,11 +260,11 @@ private:
                 }
             }
             d.weight_sum = std::abs(d.exact_total - d.decoded_total);
-            worst_case_.place = std::max(worst_case_.place, d.place);
-            worst_case_.weights = std::max(worst_case_.weights, d.weights);
-            worst_case_.weight_sum = std::max(worst_case_.weight_sum, d.weight_sum);
-            worst_case_.exact_total = std::max(worst_case_.exact_total, d.exact_total);
-            worst_case_.decoded_total = std::max(worst_case_.decoded_total, d.decoded_total);
+            raise(worst_case_.place, d.place);
+            raise(worst_case_.weights, d.weights);
+            raise(worst_case_.weight_sum, d.weight_sum);
+            raise(worst_case_.exact_total, d.exact_total);
+            raise(worst_case_.decoded_total, d.decoded_total);
         }
         bone_differences_.resize(boxes_.size());
     }
@@ -278,16 +283,16 @@ private:
             if (boxes_[bone].is_empty()) continue;
             const Affine& p = exact_.matrices()[bone];
             const Affine& q = decoded_.matrices()[bone];
-            stretch_ = std::max(stretch_, stretch_of(q.linear));
+            raise(stretch_, stretch_of(q.linear));
             double largest = 0.0;
             // Distances are convex: over a box they are largest at a corner.
             for (const glm::dvec3& corner : boxes_[bone].corners()) {
                 const glm::dvec3 there = q * corner;
-                largest = std::max(largest, glm::distance(p * corner, there));
-                spread_ = std::max(spread_, glm::distance(there, centre_));
+                raise(largest, glm::distance(p * corner, there));
+                raise(spread_, glm::distance(there, centre_));
             }
             bone_differences_[bone] = largest;
-            largest_difference_ = std::max(largest_difference_, largest);
+            raise(largest_difference_, largest);
         }
     }
 
@@ -300,7 +305,7 @@ private:
     [[nodiscard]] double bound_of(std::size_t vertex) const {
         double bone_difference = 0.0;
         for (const Influence& influence : exact_.influences(vertex))
-            bone_difference = std::max(bone_difference, bone_differences_[influence.entry]);
+            raise(bone_difference, bone_differences_[influence.entry]);
         return bound(differences_[vertex], bone_difference);
     }
 
