@@ -47,7 +47,8 @@ Fields fields_of(const ChunkTree& tree, std::uint32_t number) {
             fields.emplace_back(name, value);
             continue;
         }
-        for (const auto& [inner, inner_value] : value.items()) fields.emplace_back(name + '.' + inner, inner_value);
+        for (const auto& [inner, inner_value] : value.items())
+            fields.emplace_back(std::string(name).append(1, '.').append(inner), inner_value);
     }
     return fields;
 }

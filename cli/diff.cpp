@@ -38,13 +38,18 @@ std::string number_text(double number) {
     return {digits.data(), end};
 }
 
-std::string value_text(const Json& value) {
+std::string scalar_text(const Json& value) {
     if (value.is_null()) return "none";
     if (value.is_string()) return '"' + brief(value.get<std::string>()) + '"';
     if (value.is_number_float()) return number_text(value.get<double>());
-    if (!value.is_array()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A record's field: one value or a list of them.
+std::string value_text(const Json& value) {
+    if (!value.is_array()) return scalar_text(value);
     std::string text;
-    for (const Json& element : value) text += (text.empty() ? "" : " ") + value_text(element);
+    for (const Json& element : value) text += (text.empty() ? "" : " ") + scalar_text(element);
     return text;
 }
 

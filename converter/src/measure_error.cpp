@@ -148,9 +148,15 @@ struct Box {
     }
 };
 
-/// Makes `most` the larger of the two; what is no number is larger than any.
+/// What is no number is larger than any.
+double or_infinite(double value) {
+    if (std::isnan(value)) return kInfinity;
+    return value;
+}
+
+/// Makes `most` the larger of the two.
 void raise(double& most, double value) {
-    if (!(value <= most)) most = std::isnan(value) ? kInfinity : value;
+    if (!(value <= most)) most = or_infinite(value);
 }
 
 /// At least the largest factor by which the matrix stretches a vector.
@@ -203,7 +209,7 @@ public:
             if (has_bounds_ && !(is_displaced && touched_[vertex]) && bound_of(vertex) <= worst.metres) continue;
             const double error = glm::distance(exact_.place(vertex), decoded_.place(there));
             if (error <= worst.metres) continue;
-            worst.metres = std::isfinite(error) ? error : kInfinity;
+            worst.metres = or_infinite(error);
             worst.mesh = mesh;
             worst.vertex = static_cast<std::uint32_t>(vertex);
             has_risen = true;
@@ -350,7 +356,7 @@ std::vector<double> sample_times(const Cycle& exact, const Cycle& decoded) {
     const double length = times.back() - start;
     const double steps = std::min(std::ceil(length * kSamplesPerSecond), kMostSamples);
     const double step = steps < kMostSamples ? 1.0 / kSamplesPerSecond : length / steps;
-    for (double k = 1.0; k < steps; k += 1.0) times.push_back(start + k * step);
+    for (unsigned k = 1; k < steps; ++k) times.push_back(start + k * step);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
@@ -397,7 +403,7 @@ private:
             const double error =
                 glm::distance(glm::dvec3(exact_pose_.joints[joint][3]), glm::dvec3(decoded_pose_.joints[joint][3]));
             if (error <= worst_.metres) continue;
-            worst_.metres = std::isfinite(error) ? error : kInfinity;
+            worst_.metres = or_infinite(error);
             worst_.mesh = worst_.vertex = kNone;
             worst_.joint = joint;
             has_risen = true;

@@ -1,8 +1,8 @@
 #include <bendy/converter/import_bendy.h>
 
-#include "bendy/left_out.h"
-#include "bendy/mesh.h"
-#include "bendy/source_facts.h"
+#include "bendy_file/left_out.h"
+#include "bendy_file/mesh.h"
+#include "bendy_file/source_facts.h"
 #include "failure.h"
 
 #include <bendy/format/check_sums.h>

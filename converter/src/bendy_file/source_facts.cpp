@@ -1,4 +1,4 @@
-#include "bendy/source_facts.h"
+#include "bendy_file/source_facts.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "bendy/mesh.h"
+#include "bendy_file/mesh.h"
 
 #include "passes/assign_polygons.h"
 

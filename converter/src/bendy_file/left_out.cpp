@@ -1,4 +1,4 @@
-#include "bendy/left_out.h"
+#include "bendy_file/left_out.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/records.h>
