@@ -219,9 +219,10 @@ void ContentComparer::compare_palettes(ChunkPair leaves) {
         difference.first_element = first;
         difference.a_value = joints_a[first];
         difference.b_value = joints_b[first];
-        for (std::uint64_t entry = 0; entry < shared; ++entry)
+        for (std::uint64_t entry = 0; entry < shared; ++entry) {
             difference.largest =
                 std::max(difference.largest, std::abs(static_cast<double>(joints_a[entry]) - joints_b[entry]));
+        }
         differences_.add(std::move(difference));
     }
     compare_spans(leaves, "inverse bind matrices", 16, matrices_of(a, joints_a.size()),
@@ -380,9 +381,10 @@ void ContentComparer::compare_samples(ChunkPair cycles, const std::string& name,
     const CycleView& cycle_b = *b_.cycles[cycles.b];
     std::vector<float> times;
     const auto add_times = [&](const TrackView& track, const CycleView& cycle) {
-        for (std::uint32_t key = 0; key < track.keys; ++key)
+        for (std::uint32_t key = 0; key < track.keys; ++key) {
             times.push_back(track.times.empty() ? static_cast<float>(cycle.start + key / double{cycle.frame_rate})
                                                 : track.times[key]);
+        }
     };
     add_times(a, cycle_a);
     add_times(b, cycle_b);
