@@ -112,12 +112,13 @@ Differences compare_files(const ReadFile& a, const ReadFile& b, std::optional<do
         const bool is_target = tolerance && a.targets[pair.a] != nullptr && b.targets[pair.b] != nullptr;
         if (is_cycle) content.compare_cycles(pair);
         if (is_target) content.compare_targets(pair);
-        const std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
+        std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
         compare_order(a, children, differences);
-        for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            const FourCC id = child->a != kNone ? a.tree[child->a].id : b.tree[child->b].id;
+        std::reverse(children.begin(), children.end());  // the last that is put on the pile is looked at first
+        for (const ChunkPair& child : children) {
+            const FourCC id = child.a != kNone ? a.tree[child.a].id : b.tree[child.b].id;
             const bool is_done = (is_cycle && is_of_tracks(id)) || (is_target && is_of_target(id));
-            if (!is_done) open.push_back(*child);
+            if (!is_done) open.push_back(child);
         }
     }
     return differences;

@@ -109,8 +109,8 @@ private:
             start = std::min(start, track.times.front());
             end = std::max(end, track.times.back());
         }
-        if (view.start != start || view.end != end)
-            report_.warn("cycle that is longer than its keys is written as long as they are", place);
+        if (view.start == start && view.end == end) return;
+        report_.warn("cycle that is longer than its keys is written as long as they are", place);
     }
 
     const ChunkTree& tree_;
@@ -167,9 +167,10 @@ void import_textures(const ChunkTree& tree, const Document& document, Scene& sce
             image.media_type = media_type(source.media);
             image.bytes.assign(source.bytes.begin(), source.bytes.end());
             image.uri = source.uri;
-            if (source.bytes.data() != nullptr && source.bytes.empty())
+            if (source.bytes.data() != nullptr && source.bytes.empty()) {
                 report.warn("image without bytes is written as an empty link",
                             chunk_path(tree.bytes(), tree[view.chunk].offset));
+            }
         }
     }
     for (std::size_t number = 0; number < document.textures.size(); ++number) {

@@ -136,9 +136,10 @@ private:
                 indices.push_back(pool_.indices->index(range->first + k, 0));
             used += range->count;
         }
-        if (pool_.indices && used != pool_.indices->elements)
+        if (pool_.indices && used != pool_.indices->elements) {
             report_.warn("indices of no polygon are left out", place(pool_.indices->chunk),
                          pool_.indices->elements - used);
+        }
     }
 
     void read_influences() {
