@@ -7,6 +7,7 @@
 namespace bendy::cli {
 
 void add_convert(CLI::App& program);
+void add_diff(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_pose(CLI::App& program);
 void add_rig(CLI::App& program);

@@ -27,6 +27,7 @@ struct Arguments {
     std::string scene;
     std::string images = "embed";
     std::filesystem::path rig;
+    bool exact = true;
     bool auto_rig = false;
     bool compact = false;
     std::string max_error;
@@ -187,17 +188,20 @@ void run(Arguments arguments) {
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("convert", "Convert a glTF 2.0 character (.gltf, .glb) to a bendy file");
-    command->add_option("IN", arguments->input, "a .gltf or .glb file")->required();
+    CLI::App* command = program.add_subcommand(
+        "convert", "Convert a glTF 2.0 character (.gltf, .glb), or a bendy file, to a bendy file");
+    command->add_option("IN", arguments->input, "a .gltf, .glb or bendy file, told apart by content")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
     command->add_option("--scene", arguments->scene,
-                        "the scene to take, by name or number; the file's default if not given");
+                        "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
-        ->add_option("--images", arguments->images, "embed: copy image files into the output; link: keep them as URIs")
+        ->add_option("--images", arguments->images,
+                     "of glTF files; embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
+    command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
     command->add_flag("--compact", arguments->compact,

@@ -36,13 +36,14 @@ int run(int argc, char** argv) {
     bendy::cli::add_validate(program);
     bendy::cli::add_pose(program);
     bendy::cli::add_rig(program);
+    bendy::cli::add_diff(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
         return program.exit(problem) == 0 ? kDone : kWrongCommandLine;
-    } catch (const bendy::cli::Failed&) {
+    } catch (const bendy::cli::Failed& failed) {
         std::cout.flush();
-        return kFailed;
+        return failed.status;
     }
     std::cout.flush();
     if (std::cout) return kDone;

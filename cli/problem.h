@@ -10,7 +10,9 @@
 namespace bendy::cli {
 
 /// Thrown when the input is bad or the work failed, after the reason has been printed.
-struct Failed {};
+struct Failed {
+    int status = 1;  ///< what the program exits with
+};
 
 /// Prints `bendy: error: FILE: what is wrong` to standard error and throws Failed.
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view what);

@@ -542,8 +542,10 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     polygons.reserve(scene.meshes.size());
     for (const Mesh& mesh : scene.meshes) polygons.push_back(assign_polygons(mesh));
 
-    const bool embeds =
-        std::any_of(scene.images.begin(), scene.images.end(), [](const Image& image) { return !image.bytes.empty(); });
+    const bool embeds = std::any_of(scene.textures.begin(), scene.textures.end(), [&](const Texture& texture) {
+        return std::any_of(texture.images.begin(), texture.images.end(),
+                           [&](std::uint32_t image) { return !scene.images[image].bytes.empty(); });
+    });
     LeafWriter out(options.compact);
     out.begin(FourCC("HEAD"));
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});

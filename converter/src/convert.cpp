@@ -8,6 +8,7 @@
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
@@ -50,6 +51,21 @@ std::vector<std::byte> build_compact(const Scene& exact, const ConvertOptions& o
     return bytes;
 }
 
+/// The scene of a source of any kind, with its rig.
+Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
+                                         const std::optional<Rig>& rig, Report& report) {
+    const bool is_bendy = is_bendy_file(file);
+    if (is_bendy && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
+    auto scene = is_bendy ? import_bendy(file, report) : import_gltf(file, options.gltf, report);
+    if (!scene) return scene;
+    if (is_bendy) {
+        change_rig(*scene, rig, options.auto_rig, report);
+    } else {
+        attach_rigs(*scene, rig, options.auto_rig, report);
+    }
+    return scene;
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
@@ -57,9 +73,8 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     std::optional<Rig> rig;
     try {
         if (options.rig) rig = read_rig(*options.rig, report);
-        auto scene = import_gltf(file, options.gltf, report);
+        auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
-        attach_rigs(*scene, rig, options.auto_rig, report);
         if (options.lod) collapse_vertices(*scene);
         std::vector<std::byte> bytes = options.compact ? build_compact(*scene, options, report)
                                                        : build_chunks(*scene, kGenerator, report);
@@ -68,7 +83,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         if (!faults.empty())
             return ImportError{{}, "cannot be held: " + describe_with_place(faults.list().front(), bytes)};
         return bytes;
-    } catch (const Failure& failure) {  // only of the rig: import_gltf throws nothing
+    } catch (const Failure& failure) {  // only of the rig: importers throw nothing
         return ImportError{failure.error.place, failure.error.message, options.rig.value_or(file)};
     } catch (const std::bad_alloc&) {
         return ImportError{{}, "there is not enough memory"};

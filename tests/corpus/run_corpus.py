@@ -3,7 +3,7 @@
 
     run_corpus.py --bendy PROGRAM --corpus FOLDER [--only ID] [--no-poses]
 
-A file that is to be accepted must convert, validate and match its reference within 1e-5 of the bounding-box diagonal, the
+A file that is to be accepted must convert, validate, give itself when it is converted again, and match its reference within 1e-5 of the bounding-box diagonal, the
 rest pose tracked; one that is to be refused must give one line of error, exit status 1 and no output; the others may do
 either. Nothing may crash, hang, or write a number that is not finite. Prints the figures; exit status 1 if a file fails.
 """
@@ -131,6 +131,10 @@ def try_file(run, corpus, entry, poses):
             inspected = run("inspect", output)
             if inspected.returncode != 0:
                 outcome.faults.append("inspect: " + inspected.stderr.decode("utf-8", "replace").strip())
+            again = folder / "again.bendy"
+            run("convert", output, "-o", again)
+            if not again.exists() or again.read_bytes() != output.read_bytes():
+                outcome.faults.append("converted again it is another file")
             if entry.get("ref") and poses:
                 compare_poses(outcome, run, corpus, output, folder)
         except subprocess.TimeoutExpired as expired:

@@ -254,7 +254,7 @@ double texels_per_unit(const Scene& scene) {
             scale = std::max({scale, std::abs(use->scale.x), std::abs(use->scale.y)});
         }
     }
-    return double{largest} * scale;
+    return static_cast<double>(largest) * scale;
 }
 
 /// Texture coordinates to a quarter of a texel, and to 12 bits of their range.

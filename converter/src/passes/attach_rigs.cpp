@@ -6,6 +6,9 @@
 #include "rig/attach_extras.h"
 #include "rig/attach_rig.h"
 
+#include <algorithm>
+#include <unordered_set>
+
 namespace bendy::converter {
 
 void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
@@ -16,6 +19,23 @@ void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_pro
     attach_extras(scene, index, claims, report);
     add_vrm_chains(scene, report);
     add_articulations(scene, claims.joints, report);
+    if (with_proposals) auto_rig(scene, claims.joints, report);
+}
+
+void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
+    const JointIndex index(scene);
+    Claims claims{std::vector<bool>(scene.joints.size()), {}};
+    if (rig_file) {
+        if (rig_file->complete) {
+            for (Joint& joint : scene.joints) joint.limits.clear();
+        }
+        std::unordered_set<std::string_view> renewed;
+        for (const RigChain& chain : rig_file->chains) renewed.insert(chain.name);
+        std::erase_if(scene.chains,
+                      [&](const Chain& chain) { return rig_file->complete || renewed.contains(chain.name); });
+        attach_rig(scene, *rig_file, index, claims, report);
+        if (rig_file->complete) return;
+    }
     if (with_proposals) auto_rig(scene, claims.joints, report);
 }
 

@@ -15,4 +15,8 @@ namespace bendy::converter {
 /// \param with_proposals  what is left gets constraints and chains by the joints' names
 void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report);
 
+/// The same for a scene that has its rig already: only the rig file goes before what is there, "complete" ones replace
+/// all of it; extras and extensions have spoken when the rig was made.
+void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report);
+
 }  // namespace bendy::converter

@@ -14,7 +14,7 @@
 namespace bendy::converter {
 
 struct ConvertOptions {
-    GltfOptions gltf;
+    GltfOptions gltf;  ///< for glTF sources; a scene chosen in a bendy file is an error
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
@@ -27,8 +27,8 @@ struct ConvertOptions {
     bool lod = false;
 };
 
-/// Converts a glTF file to the bytes of a bendy file. The result passes bendy::validate; what it does not hold is named
-/// in `report`. Throws nothing.
+/// Converts a glTF file, or a bendy file (told by its content), to the bytes of a bendy file. The result passes
+/// bendy::validate; what it does not hold is named in `report`. Throws nothing.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 

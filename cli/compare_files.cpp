@@ -1,0 +1,127 @@
+#include "compare_files.h"
+
+#include <bendy/format/decode_leaves.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace bendy::cli {
+namespace {
+
+void add_stream(ReadFile& file, const StreamView& stream) {
+    if (stream.chunk != 0) file.streams[stream.chunk] = &stream;
+}
+
+void add_stream(ReadFile& file, const std::optional<StreamView>& stream) {
+    if (stream) add_stream(file, *stream);
+}
+
+void add_streams(ReadFile& file, const PoolView& pool) {
+    add_stream(file, pool.positions);
+    for (const auto* stream : {&pool.normals, &pool.tangents, &pool.bones, &pool.weights, &pool.indices})
+        add_stream(file, *stream);
+    for (const StreamView& stream : pool.texture_coords) add_stream(file, stream);
+    for (const StreamView& stream : pool.colours) add_stream(file, stream);
+    for (const AttributeView& attribute : pool.attributes) add_stream(file, attribute.values);
+    for (const TargetView& target : pool.targets) {
+        for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents}) {
+            add_stream(file, *stream);
+            if (*stream) file.targets[file.tree[(*stream)->chunk].parent] = &target;
+        }
+    }
+}
+
+/// Chunks whose number among their siblings says something.
+bool is_numbered(FourCC id) {
+    constexpr std::array kNumbered{FourCC("TEXT"), FourCC("MATE"), FourCC("OBJE"), FourCC("SKIN"), FourCC("IKCH"),
+                                   FourCC("VECT"), FourCC("TARG"), FourCC("CYCL"), FourCC("IMAG"), FourCC("LINK")};
+    return std::find(kNumbered.begin(), kNumbered.end(), id) != kNumbered.end();
+}
+
+/// Pairs that stand before one of their id which they stood behind.
+void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Differences& differences) {
+    std::map<std::uint32_t, std::uint32_t> latest;  // in B, of each id
+    for (const ChunkPair& pair : pairs) {
+        if (pair.a == kNone || pair.b == kNone || !is_numbered(a.tree[pair.a].id)) continue;
+        std::uint32_t& last = latest.try_emplace(a.tree[pair.a].id.value, 0).first->second;
+        if (pair.b < last) {
+            Difference difference;
+            difference.kind = Difference::Kind::order;
+            difference.chunks = pair;
+            differences.add(std::move(difference));
+        }
+        last = std::max(last, pair.b);
+    }
+}
+
+/// Chunks that are done when the tracks of their cycle have been compared: every way in which tracks are stored.
+bool is_of_tracks(FourCC id) {
+    return id == FourCC("TRAK") || id == FourCC("TIME") || id == FourCC("KEYV");
+}
+
+/// Chunks that are done when their target has been compared.
+bool is_of_target(FourCC id) {
+    return id == FourCC("INDX") || id == FourCC("POSI") || id == FourCC("NORM") || id == FourCC("TANG");
+}
+
+}  // namespace
+
+std::unique_ptr<ReadFile> read_file(Bytes bytes) {
+    auto file = std::make_unique<ReadFile>();
+    file->tree = *read_chunk_tree(bytes);
+    decode_leaves(file->tree);
+    Faults faults;
+    file->document = read_document(file->tree, faults);
+    file->streams.resize(file->tree.chunks().size());
+    file->cycles.resize(file->tree.chunks().size());
+    file->targets.resize(file->tree.chunks().size());
+    for (const ObjectView& object : file->document.objects) {
+        for (const PoolView& pool : object.pools) add_streams(*file, pool);
+        for (const CycleView& cycle : object.cycles) file->cycles[cycle.chunk] = &cycle;
+    }
+    return file;
+}
+
+Differences compare_files(const ReadFile& a, const ReadFile& b, std::optional<double> tolerance) {
+    Differences differences;
+    ContentComparer content(a, b, tolerance, differences);
+    std::vector<ChunkPair> open{{0, 0}};
+    while (!open.empty()) {
+        const ChunkPair pair = open.back();
+        open.pop_back();
+        if (pair.a == kNone || pair.b == kNone) {
+            Difference difference;
+            difference.kind = pair.b == kNone ? Difference::Kind::only_in_a : Difference::Kind::only_in_b;
+            difference.chunks = pair;
+            differences.add(std::move(difference));
+            continue;
+        }
+        if (have_equal_sums(a.tree, pair.a, b.tree, pair.b)) continue;
+        if (!a.tree[pair.a].is_container() && !b.tree[pair.b].is_container()) {
+            content.compare_leaves(pair);
+            continue;
+        }
+        if (a.tree[pair.a].is_container() != b.tree[pair.b].is_container()) {  // of an id that is not known
+            open.push_back({kNone, pair.b});
+            open.push_back({pair.a, kNone});
+            continue;
+        }
+        const bool is_cycle = a.cycles[pair.a] != nullptr && b.cycles[pair.b] != nullptr;
+        const bool is_target = tolerance && a.targets[pair.a] != nullptr && b.targets[pair.b] != nullptr;
+        if (is_cycle) content.compare_cycles(pair);
+        if (is_target) content.compare_targets(pair);
+        std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
+        compare_order(a, children, differences);
+        std::reverse(children.begin(), children.end());  // the last that is put on the pile is looked at first
+        for (const ChunkPair& child : children) {
+            const FourCC id = child.a != kNone ? a.tree[child.a].id : b.tree[child.b].id;
+            const bool is_done = (is_cycle && is_of_tracks(id)) || (is_target && is_of_target(id));
+            if (!is_done) open.push_back(child);
+        }
+    }
+    return differences;
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,237 @@
+#include "brief.h"
+#include "commands.h"
+#include "compare_files.h"
+#include "problem.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/format/validate.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+
+namespace bendy::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = Difference::Kind;
+
+constexpr int kDiffers = 1;
+constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands return
+
+struct Arguments {
+    std::array<std::filesystem::path, 2> files;
+    double tolerance = 0.0;
+    bool has_tolerance = false;
+    bool json = false;
+};
+
+/// The shortest digits that are the number, as the float that it was in the file.
+std::string number_text(double number) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<float>(number)).ptr;
+    return {digits.data(), end};
+}
+
+std::string scalar_text(const Json& value) {
+    if (value.is_null()) return "none";
+    if (value.is_string()) return '"' + brief(value.get<std::string>()) + '"';
+    if (value.is_number_float()) return number_text(value.get<double>());
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A record's field: one value or a list of them.
+std::string value_text(const Json& value) {
+    if (!value.is_array()) return scalar_text(value);
+    std::string text;
+    for (const Json& element : value) text += (text.empty() ? "" : " ") + scalar_text(element);
+    return text;
+}
+
+/// "3 of 300 numbers differ, by up to 0.25; the first: element 4, component 1: 0 -> 0.25".
+std::string numbers_text(const Difference& difference) {
+    std::string text = grouped(difference.count) + " of " + grouped(difference.of) + " numbers differ, by up to " +
+                       number_text(difference.largest) + "; the first: element " +
+                       std::to_string(difference.first_element);
+    if (difference.first_component != 0) text += ", component " + std::to_string(difference.first_component);
+    return text + ": " + value_text(difference.a_value) + " -> " + value_text(difference.b_value);
+}
+
+std::string bytes_text(const Difference& difference) {
+    std::string text = grouped(difference.count) + " of " + grouped(difference.of) + " bytes differ, the first at " +
+                       std::to_string(difference.first_element);
+    if (difference.a_value != difference.b_value)
+        text += "; " + value_text(difference.a_value) + " bytes -> " + value_text(difference.b_value);
+    return text;
+}
+
+std::string what_text(const Difference& difference) {
+    std::string text = difference.part.empty() ? "" : difference.part + ": ";
+    switch (difference.kind) {
+        case Kind::only_in_a:
+            return text + "only in A";
+        case Kind::only_in_b:
+            return text + "only in B";
+        case Kind::order:
+            return text + "stands in another order";
+        case Kind::value:
+            return text + value_text(difference.a_value) + " -> " + value_text(difference.b_value);
+        case Kind::numbers:
+            return text + numbers_text(difference);
+        case Kind::bytes:
+            return text + bytes_text(difference);
+        case Kind::storage:
+            return text + "the same content, stored otherwise";
+    }
+    return text;
+}
+
+const char* kind_name(Kind kind) {
+    constexpr std::array kNames{"onlyInA", "onlyInB", "order", "value", "numbers", "bytes", "storage"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+/// The name of a chunk, or of the nearest around it that has one.
+std::string name_of(const ChunkTree& tree, std::uint32_t number) {
+    constexpr unsigned kMostSteps = 3;
+    for (unsigned step = 0; step < kMostSteps && number != 0; ++step) {
+        const std::uint32_t name = tree[number].is_container() ? tree.find(number, FourCC("NAME")) : kNone;
+        if (name != kNone) return std::string(as_text(tree.payload(name)));
+        number = tree[number].parent;
+    }
+    return {};
+}
+
+void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differences) {
+    for (const Difference& difference : differences.list()) {
+        const auto& [here, there] = difference.chunks;
+        const bool only_in_b = here == kNone;
+        const ReadFile& file = only_in_b ? b : a;
+        const std::uint32_t chunk = only_in_b ? there : here;
+        const std::string path = chunk_path(file.tree.bytes(), file.tree[chunk].offset);
+        const char mark = difference.kind == Kind::only_in_a ? '-' : difference.kind == Kind::only_in_b ? '+' : '!';
+        std::string line = std::string(1, mark) + ' ' + path;
+        if (const std::string name = name_of(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
+        if (here != kNone && there != kNone) {
+            const std::string other = chunk_path(b.tree.bytes(), b.tree[there].offset);
+            if (other != path) line += " (in B: " + other + ')';
+        }
+        std::cout << line << ": " << printable(what_text(difference)) << '\n';
+    }
+    if (differences.left_out() != 0) std::cout << grouped(differences.left_out()) << " more differences\n";
+}
+
+Json to_json(const Arguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
+    Json list = Json::array();
+    for (const Difference& difference : differences.list()) {
+        const auto& [here, there] = difference.chunks;
+        Json entry{{"kind", kind_name(difference.kind)}};
+        if (here != kNone) entry["pathInA"] = whole_chunk_path(a.tree.bytes(), a.tree[here].offset);
+        if (there != kNone) entry["pathInB"] = whole_chunk_path(b.tree.bytes(), b.tree[there].offset);
+        const std::string name = here != kNone ? name_of(a.tree, here) : name_of(b.tree, there);
+        if (!name.empty()) entry["name"] = name;
+        if (!difference.part.empty()) entry["part"] = difference.part;
+        if (difference.kind == Kind::value || difference.kind == Kind::numbers) {
+            entry["a"] = difference.a_value;
+            entry["b"] = difference.b_value;
+        }
+        if (difference.kind == Kind::bytes) {
+            entry["bytesInA"] = difference.a_value;
+            entry["bytesInB"] = difference.b_value;
+            entry["first"] = difference.first_element;
+        }
+        if (difference.kind == Kind::numbers) {
+            entry["largest"] = difference.largest;
+            entry["element"] = difference.first_element;
+            entry["component"] = difference.first_component;
+        }
+        if (difference.kind == Kind::numbers || difference.kind == Kind::bytes) {
+            entry["differing"] = difference.count;
+            entry["of"] = difference.of;
+        }
+        list.push_back(std::move(entry));
+    }
+    Json report{{"a", arguments.files[0].string()},
+                {"b", arguments.files[1].string()},
+                {"same", differences.count() == 0},
+                {"tolerance", arguments.has_tolerance ? Json(arguments.tolerance) : Json(nullptr)}};
+    report["differences"] = std::move(list);
+    report["differencesLeftOut"] = differences.left_out();
+    return report;
+}
+
+/// A damaged file is refused before anything is compared: its sums would say nothing.
+std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFile& file) {
+    const Faults faults = validate(file.bytes());
+    if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
+    return read_file(file.bytes());
+}
+
+bool are_same(const Arguments& arguments) {
+    std::array<MappedFile, 2> files;
+    std::array<std::unique_ptr<ReadFile>, 2> read;
+    for (std::size_t i = 0; i < 2; ++i) {
+        Result<MappedFile> mapped = MappedFile::open(arguments.files[i]);
+        if (!mapped) fail(arguments.files[i], mapped.error(), {});
+        files[i] = *std::move(mapped);
+        read[i] = open(arguments.files[i], files[i]);
+    }
+    const auto tolerance = arguments.has_tolerance ? std::optional(arguments.tolerance) : std::nullopt;
+    const Differences differences = compare_files(*read[0], *read[1], tolerance);
+    if (arguments.json) {
+        std::cout
+            << to_json(arguments, *read[0], *read[1], differences).dump(2, ' ', false, Json::error_handler_t::replace)
+            << '\n';
+    } else {
+        print_lines(*read[0], *read[1], differences);
+    }
+    return differences.count() == 0;
+}
+
+void run(const Arguments& arguments) {
+    bool same = false;
+    try {
+        same = are_same(arguments);
+        std::cout.flush();
+        if (!std::cout) fail("standard output", "cannot be written");
+    } catch (const Failed&) {
+        throw Failed{kTrouble};
+    } catch (const TooMuchToCompare&) {
+        std::cerr << "bendy: error: " << printable(arguments.files[0].string())
+                  << ": tracks share more keys than can be compared\n";
+        throw Failed{kTrouble};
+    } catch (const std::exception& problem) {
+        std::cerr << "bendy: error: " << problem.what() << '\n';
+        throw Failed{kTrouble};
+    }
+    if (!same) throw Failed{kDiffers};
+}
+
+}  // namespace
+
+void add_diff(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("diff", "Say in what two bendy files differ, chunk by chunk");
+    command->add_option("A", arguments->files[0], "a bendy file")->required();
+    command->add_option("B", arguments->files[1], "another")->required();
+    CLI::Option* tolerance = command->add_option("--tolerance", arguments->tolerance,
+                                                 "compare what is meant, however it is stored; numbers may be so far "
+                                                 "apart: floats, vertex streams, sampled cycles");
+    command->add_flag("--json", arguments->json, "print a JSON report");
+    command->footer(
+        "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"
+        "Example: bendy diff fox.bendy build/fox.bendy --tolerance 1e-4");
+    command->callback([arguments, tolerance] {
+        arguments->has_tolerance = tolerance->count() != 0;
+        if (!(std::isfinite(arguments->tolerance) && arguments->tolerance >= 0.0))
+            throw CLI::ValidationError("--tolerance", "must be a finite number, 0 or more");
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <bendy/format/pair_chunks.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy::cli {
+
+/// One thing in which two files differ.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
+struct Difference {
+    enum class Kind : std::uint8_t {
+        only_in_a,  ///< the chunk, or `part` of it
+        only_in_b,
+        order,    ///< paired chunks stand in another order among their siblings
+        value,    ///< `part` has a_value and b_value: a record's field, a text
+        numbers,  ///< `count` of `of` numbers of `part` differ
+        bytes,    ///< `count` of `of` bytes, of what this program cannot read
+        storage   ///< the same content, stored otherwise
+    };
+    Kind kind = Kind::value;
+    ChunkPair chunks;
+    std::string part;                         ///< a field, "track joint 3 rotation: values", or empty: the chunk itself
+    nlohmann::ordered_json a_value, b_value;  ///< of a value; of numbers and bytes: the first that differs
+    std::uint64_t count = 0;
+    std::uint64_t of = 0;
+    double largest = 0.0;             ///< distance of two numbers
+    std::uint64_t first_element = 0;  ///< for bytes: the first one's place
+    std::uint64_t first_component = 0;
+};
+
+/// Gathers differences; keeps the first thousand and counts the rest.
+class Differences {
+public:
+    static constexpr std::size_t kMost = 1'000;
+
+    void add(Difference difference) {
+        if (list_.size() < kMost) {
+            list_.push_back(std::move(difference));
+        } else {
+            ++left_out_;
+        }
+    }
+    [[nodiscard]] const std::vector<Difference>& list() const { return list_; }
+    [[nodiscard]] std::size_t left_out() const { return left_out_; }
+    [[nodiscard]] std::size_t count() const { return list_.size() + left_out_; }
+
+private:
+    std::vector<Difference> list_;
+    std::size_t left_out_ = 0;
+};
+
+}  // namespace bendy::cli

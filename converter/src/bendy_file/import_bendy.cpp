@@ -1,0 +1,258 @@
+#include <bendy/converter/import_bendy.h>
+
+#include "bendy_file/left_out.h"
+#include "bendy_file/mesh.h"
+#include "bendy_file/source_facts.h"
+#include "failure.h"
+
+#include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/format/file.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <new>
+
+namespace bendy::converter {
+namespace {
+
+template <int N, std::size_t Size>
+glm::vec<N, float> to_vec(const std::array<float, Size>& numbers) {
+    static_assert(N == static_cast<int>(Size));
+    glm::vec<N, float> vector(0.0f);
+    for (std::size_t i = 0; i < Size; ++i) vector[static_cast<int>(i)] = numbers[i];
+    return vector;
+}
+
+// --- joints
+
+void import_joints(const SkeletonView& skeleton, Scene& scene) {
+    for (const JointView& view : skeleton.joints) {
+        Joint& joint = scene.joints.emplace_back();
+        joint.name = view.name;
+        joint.parent = view.parent;
+        joint.rest.translation = to_vec<3>(view.rest.translation);
+        joint.rest.rotation = to_vec<4>(view.rest.rotation);
+        joint.rest.scale = to_vec<3>(view.rest.scale);
+        joint.rest.shear = to_vec<3>(view.rest.shear);
+        joint.extras = view.extras;
+        joint.extensions = view.extensions;
+    }
+    for (const LimitView& limit : skeleton.limits) scene.joints[limit.joint].limits.push_back(limit.record);
+}
+
+void import_chains(const ObjectView& object, Scene& scene) {
+    for (const ChainView& view : object.chains) {
+        Chain& chain = scene.chains.emplace_back();
+        chain.name = view.name;
+        chain.record = view.record;
+        chain.extras = view.extras;
+    }
+    for (const PullView& pull : object.skeleton.pulls)
+        scene.chains[pull.chain].weights.push_back({pull.joint, pull.weight});
+}
+
+// --- cycles
+
+/// Key k of fixed frames is at start + k / frame_rate; times stay ascending where a float cannot tell two frames apart.
+std::vector<float> frame_times(const CycleView& cycle, std::uint32_t keys) {
+    std::vector<float> times;
+    times.reserve(keys);
+    for (std::uint32_t key = 0; key < keys; ++key) {
+        const auto time = static_cast<float>(cycle.start + key / double{cycle.frame_rate});
+        const bool ascends = times.empty() || time > times.back();
+        times.push_back(ascends ? time : std::nextafter(times.back(), std::numeric_limits<float>::infinity()));
+    }
+    return times;
+}
+
+class CycleImporter {
+public:
+    CycleImporter(const ChunkTree& tree, gltf::Budget& budget, Report& report)
+        : tree_(tree), budget_(budget), report_(report) {}
+
+    Cycle import(const CycleView& view) {
+        const std::string place = chunk_path(tree_.bytes(), tree_[view.chunk].offset);
+        Cycle cycle;
+        cycle.name = view.name;
+        cycle.loop = view.loop;
+        cycle.extras = view.extras;
+        std::uint64_t fixed = 0;
+        for (const TrackView& track : view.tracks) {
+            budget_.take(track.keys + std::uint64_t{track.values.size()}, sizeof(float), place);
+            fixed += track.times.empty() ? 1 : 0;
+            std::vector<float> times = track.times.empty() ? frame_times(view, track.keys)
+                                                           : std::vector<float>(track.times.begin(), track.times.end());
+            cycle.tracks.push_back({track.path,
+                                    track.interpolation,
+                                    track.target,
+                                    track.components,
+                                    std::move(times),
+                                    {track.values.begin(), track.values.end()}});
+        }
+        if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
+        check_ends(view, cycle, place);
+        return cycle;
+    }
+
+private:
+    void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {
+        float start = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::max();
+        float end = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::lowest();
+        for (const Track& track : cycle.tracks) {
+            start = std::min(start, track.times.front());
+            end = std::max(end, track.times.back());
+        }
+        if (view.start == start && view.end == end) return;
+        report_.warn("cycle that is longer than its keys is written as long as they are", place);
+    }
+
+    const ChunkTree& tree_;
+    gltf::Budget& budget_;
+    Report& report_;
+};
+
+// --- materials and textures
+
+TextureUse to_use(const TextureUseRecord& record) {
+    return {record.texture, record.coords, to_vec<2>(record.offset), record.rotation, to_vec<2>(record.scale)};
+}
+
+void import_materials(const Document& document, Scene& scene) {
+    for (const MaterialView& view : document.materials) {
+        const SurfaceRecord& surface = view.surface;
+        Material& material = scene.materials.emplace_back();
+        material.name = view.name;
+        material.base_colour = to_vec<4>(surface.base_colour);
+        material.metallic = surface.metallic;
+        material.roughness = surface.roughness;
+        material.emissive = to_vec<3>(surface.emissive);
+        material.normal_scale = surface.normal_scale;
+        material.occlusion_strength = surface.occlusion_strength;
+        material.alpha_cutoff = surface.alpha_cutoff;
+        material.alpha_mode = static_cast<AlphaMode>(surface.alpha_mode);
+        material.double_sided = surface.double_sided != 0;
+        material.unlit = surface.unlit != 0;
+        material.base_colour_texture = to_use(surface.base_colour_texture);
+        material.metallic_roughness_texture = to_use(surface.metallic_roughness_texture);
+        material.normal_texture = to_use(surface.normal_texture);
+        material.occlusion_texture = to_use(surface.occlusion_texture);
+        material.emissive_texture = to_use(surface.emissive_texture);
+        material.extensions = view.extensions;
+        material.extras = view.extras;
+    }
+}
+
+std::string media_type(MediaType media) {
+    constexpr std::array<const char*, kMediaTypes> kNames{"",           "image/png",  "image/jpeg",
+                                                          "image/ktx2", "image/webp", "image/avif"};
+    return kNames[static_cast<std::size_t>(media)];
+}
+
+void import_textures(const ChunkTree& tree, const Document& document, Scene& scene, Report& report) {
+    // The image of each IMAG and LINK by texture and place; a SAME may refer to a later texture.
+    std::vector<std::vector<std::uint32_t>> image_of(document.textures.size());
+    for (std::size_t number = 0; number < document.textures.size(); ++number) {
+        const TextureView& view = document.textures[number];
+        for (const ImageView& source : view.images) {
+            image_of[number].push_back(static_cast<std::uint32_t>(scene.images.size()));
+            if (source.same) continue;
+            Image& image = scene.images.emplace_back();
+            image.media_type = media_type(source.media);
+            image.bytes.assign(source.bytes.begin(), source.bytes.end());
+            image.uri = source.uri;
+            if (source.bytes.data() != nullptr && source.bytes.empty()) {
+                report.warn("image without bytes is written as an empty link",
+                            chunk_path(tree.bytes(), tree[view.chunk].offset));
+            }
+        }
+    }
+    for (std::size_t number = 0; number < document.textures.size(); ++number) {
+        const TextureView& view = document.textures[number];
+        Texture& texture = scene.textures.emplace_back();
+        texture.name = view.name;
+        texture.extras = view.extras;
+        texture.mag_filter = static_cast<Filter>(view.sampler.mag_filter);
+        texture.min_filter = static_cast<Filter>(view.sampler.min_filter);
+        texture.wrap_s = static_cast<Wrap>(view.sampler.wrap_s);
+        texture.wrap_t = static_cast<Wrap>(view.sampler.wrap_t);
+        for (std::size_t place = 0; place < view.images.size(); ++place) {
+            const auto& same = view.images[place].same;
+            texture.images.push_back(same ? image_of[same->texture][same->image] : image_of[number][place]);
+        }
+    }
+}
+
+Scene import(Bytes bytes, Report& report) {
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) fail({}, describe_with_place(tree.error(), bytes));
+    Faults faults;
+    check_sums(*tree, faults);
+    decode_leaves(*tree);
+    const Document document = read_document(*tree, faults);
+    if (faults.empty()) check_values(*tree, document, faults);
+    if (!faults.empty()) fail({}, describe_with_place(faults.list().front(), bytes));
+    if (document.objects.empty()) fail({}, "there is no object in the file");
+
+    gltf::Budget budget;
+    budget.add_source(bytes.size());
+    const ObjectView& object = document.objects.front();
+    for (std::size_t other = 1; other < document.objects.size(); ++other) {
+        const ObjectView& left_out = document.objects[other];
+        report.warn("object left out, only the first is kept", chunk_path(bytes, (*tree)[left_out.chunk].offset));
+    }
+    if (document.materials.size() > document.global_materials)
+        report.warn("a joint's own material is written as the file's", {},
+                    document.materials.size() - document.global_materials);
+    warn_of_left_out(*tree, report);
+
+    Scene scene;
+    scene.name = object.name;
+    scene.extras = object.extras;
+    scene.extensions = document.extensions;
+    read_source_facts(document.extras, scene, report);
+    import_joints(object.skeleton, scene);
+    import_chains(object, scene);
+    import_textures(*tree, document, scene, report);
+    import_materials(document, scene);
+    import_pools(*tree, object, budget, scene, report);
+    CycleImporter cycles(*tree, budget, report);
+    for (const CycleView& cycle : object.cycles) scene.cycles.push_back(cycles.import(cycle));
+    return scene;
+}
+
+}  // namespace
+
+bool is_bendy_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return false;
+    std::array<char, 4> id{};
+    std::ifstream stream(file, std::ios::binary);
+    return stream.read(id.data(), id.size()) && std::string_view(id.data(), id.size()) == "HEAD";
+}
+
+Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report) {
+    try {
+        return import(bytes, report);
+    } catch (const Failure& failure) {
+        return failure.error;
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "there is not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, std::string("unexpected: ") + error.what()};
+    }
+}
+
+Result<Scene, ImportError> import_bendy(const std::filesystem::path& file, Report& report) {
+    const Result<MappedFile> mapped = MappedFile::open(file);
+    if (!mapped) return ImportError{{}, describe(mapped.error())};
+    return import_bendy(mapped->bytes(), report);
+}
+
+}  // namespace bendy::converter

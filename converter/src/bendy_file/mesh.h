@@ -1,0 +1,15 @@
+#pragma once
+
+#include "gltf/budget.h"
+
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+#include <bendy/format/document.h>
+
+namespace bendy::converter {
+
+/// Fills scene.meshes from an object's pools and its joints' polygons, one mesh a pool. The document passes
+/// check_values.
+void import_pools(const ChunkTree& tree, const ObjectView& object, gltf::Budget& budget, Scene& scene, Report& report);
+
+}  // namespace bendy::converter

@@ -1,0 +1,197 @@
+#include "evaluate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy::converter {
+namespace {
+
+using Numbers = std::vector<double>;
+using Quaternion = std::array<double, 4>;  // x y z w
+
+double length_of(const double* numbers, std::size_t count) {
+    double square = 0.0;
+    for (std::size_t c = 0; c < count; ++c) square += numbers[c] * numbers[c];
+    return std::sqrt(square);
+}
+
+void scale_to(double length, double* numbers, std::size_t count) {
+    const double present = length_of(numbers, count);
+    if (!(present > 0.0)) return;
+    for (std::size_t c = 0; c < count; ++c) numbers[c] *= length / present;
+}
+
+/// Great-arc interpolation without trigonometry: the arc is halved towards the place until it is so short that the
+/// chord's fraction is the arc's to 1e-14. Lengths next to 1 are interpolated too.
+Quaternion slerp(Quaternion a, Quaternion b, double u) {
+    const double length = (1.0 - u) * length_of(a.data(), 4) + u * length_of(b.data(), 4);
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) dot += a[c] * b[c];
+    if (dot < 0.0) {
+        for (double& number : b) number = -number;
+    }
+    scale_to(1.0, a.data(), 4);
+    scale_to(1.0, b.data(), 4);
+    constexpr int kHalvings = 16;
+    for (int step = 0; step < kHalvings; ++step) {
+        Quaternion middle{};
+        for (std::size_t c = 0; c < 4; ++c) middle[c] = a[c] + b[c];
+        scale_to(1.0, middle.data(), 4);
+        const bool in_first_half = u < 0.5;
+        (in_first_half ? b : a) = middle;
+        u = in_first_half ? 2.0 * u : 2.0 * u - 1.0;
+    }
+    Quaternion result{};
+    for (std::size_t c = 0; c < 4; ++c) result[c] = (1.0 - u) * a[c] + u * b[c];
+    scale_to(length, result.data(), 4);
+    return result;
+}
+
+/// glTF's cubic spline between two keys that are `seconds` apart; a key is in-tangent, value, out-tangent.
+double hermite(double value, double out_tangent, double in_tangent, double next, double u, double seconds) {
+    const double rest = 1.0 - u;
+    return rest * rest * (1.0 + 2.0 * u) * value + u * rest * rest * seconds * out_tangent +
+           u * u * (3.0 - 2.0 * u) * next - u * u * rest * seconds * in_tangent;
+}
+
+struct Local {
+    glm::dvec3 translation;
+    Quaternion rotation;
+    glm::dvec3 scale;
+};
+
+/// T * R * U, see Transform.
+glm::dmat4 to_matrix(const Local& local, const glm::dvec3& shear) {
+    const auto [x, y, z, w] = local.rotation;
+    const glm::dvec3 r0(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y));
+    const glm::dvec3 r1(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x));
+    const glm::dvec3 r2(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y));
+    return {glm::dvec4(local.scale.x * r0, 0.0), glm::dvec4(shear.x * r0 + local.scale.y * r1, 0.0),
+            glm::dvec4(shear.y * r0 + shear.z * r1 + local.scale.z * r2, 0.0), glm::dvec4(local.translation, 1.0)};
+}
+
+std::vector<Local> rest_locals(const Scene& scene) {
+    std::vector<Local> locals;
+    locals.reserve(scene.joints.size());
+    for (const Joint& joint : scene.joints) {
+        const glm::vec4& r = joint.rest.rotation;
+        locals.push_back({glm::dvec3(joint.rest.translation), {r.x, r.y, r.z, r.w}, glm::dvec3(joint.rest.scale)});
+    }
+    return locals;
+}
+
+void rest_weights(const Scene& scene, EvaluatedPose& pose) {
+    pose.target_weights.resize(scene.meshes.size());
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        Numbers& weights = pose.target_weights[mesh];
+        weights.clear();
+        for (const Target& target : scene.meshes[mesh].targets) weights.push_back(target.rest_weight);
+    }
+}
+
+void to_model_space(const Scene& scene, const std::vector<Local>& locals, EvaluatedPose& pose) {
+    pose.joints.resize(scene.joints.size());
+    for (std::size_t joint = 0; joint < locals.size(); ++joint) {
+        const glm::dmat4 local = to_matrix(locals[joint], glm::dvec3(scene.joints[joint].rest.shear));
+        const std::uint32_t parent = scene.joints[joint].parent;
+        pose.joints[joint] = parent == kNone ? local : pose.joints[parent] * local;
+    }
+}
+
+}  // namespace
+
+void evaluate_track(const Track& track, double seconds, Numbers& value) {
+    const std::size_t n = track.components;
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    const std::size_t per_key = cubic ? 3 * n : n;
+    const auto at = [&](std::size_t key, std::size_t part, std::size_t c) {
+        return double{track.values[key * per_key + part * n + c]};
+    };
+    const std::size_t middle = cubic ? 1 : 0;  // where a key's value stands among its parts
+    value.resize(n);
+
+    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds);
+    const std::size_t left =
+        after == track.times.begin() ? 0 : static_cast<std::size_t>(after - track.times.begin()) - 1;
+    const bool holds = after == track.times.begin() || after == track.times.end() || track.times[left] == seconds;
+    if (holds || track.interpolation == Interpolation::step) {
+        for (std::size_t c = 0; c < n; ++c) value[c] = at(left, middle, c);
+        if (cubic && track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
+        return;
+    }
+    const double length = double{track.times[left + 1]} - track.times[left];
+    const double u = (seconds - track.times[left]) / length;
+    if (cubic) {
+        for (std::size_t c = 0; c < n; ++c)
+            value[c] = hermite(at(left, 1, c), at(left, 2, c), at(left + 1, 0, c), at(left + 1, 1, c), u, length);
+        if (track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
+        return;
+    }
+    if (track.path == TrackPath::rotation) {
+        const Quaternion result =
+            slerp({at(left, 0, 0), at(left, 0, 1), at(left, 0, 2), at(left, 0, 3)},
+                  {at(left + 1, 0, 0), at(left + 1, 0, 1), at(left + 1, 0, 2), at(left + 1, 0, 3)}, u);
+        std::copy(result.begin(), result.end(), value.begin());
+        return;
+    }
+    for (std::size_t c = 0; c < n; ++c) value[c] = (1.0 - u) * at(left, 0, c) + u * at(left + 1, 0, c);
+}
+
+void evaluate_rest(const Scene& scene, EvaluatedPose& pose) {
+    rest_weights(scene, pose);
+    to_model_space(scene, rest_locals(scene), pose);
+}
+
+void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedPose& pose) {
+    rest_weights(scene, pose);
+    std::vector<Local> locals = rest_locals(scene);
+    Numbers value;
+    for (const Track& track : cycle.tracks) {
+        evaluate_track(track, seconds, value);
+        switch (track.path) {
+            case TrackPath::translation:
+                locals[track.target].translation = {value[0], value[1], value[2]};
+                break;
+            case TrackPath::rotation:
+                locals[track.target].rotation = {value[0], value[1], value[2], value[3]};
+                break;
+            case TrackPath::scale:
+                locals[track.target].scale = {value[0], value[1], value[2]};
+                break;
+            case TrackPath::weights:
+                pose.target_weights[track.target] = value;
+                break;
+        }
+    }
+    to_model_space(scene, locals, pose);
+}
+
+std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& target_weights,
+                                          const std::vector<glm::dmat4>& joints) {
+    std::vector<glm::dvec3> vertices(mesh.positions.begin(), mesh.positions.end());
+    for (std::size_t number = 0; number < mesh.targets.size(); ++number) {
+        const std::vector<glm::vec3>& displacements = mesh.targets[number].positions;
+        for (std::size_t vertex = 0; vertex < displacements.size(); ++vertex)
+            vertices[vertex] += target_weights[number] * glm::dvec3(displacements[vertex]);
+    }
+    for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
+        const glm::dvec4 point(vertices[vertex], 1.0);
+        if (mesh.influences == 0) {
+            if (mesh.joint != kNone) vertices[vertex] = glm::dvec3(joints[mesh.joint] * point);
+            continue;
+        }
+        glm::dvec4 sum(0.0);
+        for (std::size_t k = 0; k < mesh.influences; ++k) {
+            const std::size_t place = vertex * mesh.influences + k;
+            const std::uint32_t entry = mesh.bones[place];
+            const glm::dvec4 in_joint = glm::dmat4(mesh.palette.inverse_bind[entry]) * point;
+            sum += double{mesh.weights[place]} * (joints[mesh.palette.joints[entry]] * in_joint);
+        }
+        vertices[vertex] = glm::dvec3(sum);
+    }
+    return vertices;
+}
+
+}  // namespace bendy::converter

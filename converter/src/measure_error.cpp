@@ -1,0 +1,465 @@
+#include "measure_error.h"
+
+#include "evaluate.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace bendy::converter {
+namespace {
+
+constexpr double kSamplesPerSecond = 240.0;
+constexpr double kMostSamples = 100'800.0;  // of one cycle: 7 minutes
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The upper three rows of a matrix whose fourth is 0 0 0 1.
+struct Affine {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 shift{0.0};
+
+    Affine() = default;
+    explicit Affine(const glm::dmat4& matrix) : linear(matrix), shift(matrix[3]) {}
+    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& point) const {
+        return {linear[0].x * point.x + linear[1].x * point.y + linear[2].x * point.z + shift.x,
+                linear[0].y * point.x + linear[1].y * point.y + linear[2].y * point.z + shift.y,
+                linear[0].z * point.x + linear[1].z * point.y + linear[2].z * point.z + shift.z};
+    }
+    friend bool operator==(const Affine& a, const Affine& b) { return a.linear == b.linear && a.shift == b.shift; }
+};
+
+struct Influence {
+    std::uint32_t entry = 0;
+    double weight = 0.0;
+};
+
+struct Displacement {
+    std::uint32_t vertex = 0;
+    glm::dvec3 by{0.0};
+};
+
+/// A mesh made ready to be posed many times. A rigid one is one with a single bone.
+class PosableMesh {
+public:
+    explicit PosableMesh(const Mesh& mesh)
+        : base_(mesh.positions.begin(), mesh.positions.end()), positions_(base_), weights_(mesh.targets.size(), 0.0) {
+        if (mesh.influences == 0) {
+            joints_ = {mesh.joint};
+            inverse_bind_ = {glm::dmat4(1.0)};
+        } else {
+            joints_ = mesh.palette.joints;
+            inverse_bind_.assign(mesh.palette.inverse_bind.begin(), mesh.palette.inverse_bind.end());
+        }
+        first_.reserve(base_.size() + 1);
+        first_.push_back(0);
+        for (std::size_t vertex = 0; vertex < base_.size(); ++vertex) {
+            if (mesh.influences == 0) influences_.push_back({0, 1.0});
+            for (std::size_t k = 0; k < mesh.influences; ++k) {
+                const std::size_t at = vertex * mesh.influences + k;
+                if (mesh.weights[at] != 0.0f) influences_.push_back({mesh.bones[at], mesh.weights[at]});
+            }
+            first_.push_back(influences_.size());
+        }
+        for (const Target& target : mesh.targets) {
+            std::vector<Displacement>& list = targets_.emplace_back();
+            for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex) {
+                if (target.positions[vertex] == glm::vec3(0.0f)) continue;
+                list.push_back({static_cast<std::uint32_t>(vertex), glm::dvec3(target.positions[vertex])});
+            }
+        }
+        matrices_.resize(joints_.size());
+    }
+
+    /// Takes a pose over; false if nothing has changed since the last one.
+    bool set_pose(const std::vector<glm::dmat4>& joints, const std::vector<double>& weights) {
+        bool has_changed = false;
+        for (std::size_t entry = 0; entry < joints_.size(); ++entry) {
+            const std::uint32_t joint = joints_[entry];
+            const Affine matrix(joint == kNone ? inverse_bind_[entry] : joints[joint] * inverse_bind_[entry]);
+            has_changed = has_changed || !(matrix == matrices_[entry]);
+            matrices_[entry] = matrix;
+        }
+        if (weights == weights_) return has_changed;
+        for (std::size_t target = 0; target < targets_.size(); ++target) {
+            if (weights_[target] == 0.0) continue;
+            for (const Displacement& d : targets_[target]) positions_[d.vertex] = base_[d.vertex];
+        }
+        weights_ = weights;
+        for (std::size_t target = 0; target < targets_.size(); ++target) {
+            if (weights_[target] == 0.0) continue;
+            for (const Displacement& d : targets_[target]) positions_[d.vertex] += weights_[target] * d.by;
+        }
+        return true;
+    }
+
+    [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
+        glm::dvec3 sum(0.0);
+        for (const Influence& influence : influences(vertex))
+            sum += influence.weight * (matrices_[influence.entry] * positions_[vertex]);
+        return sum;
+    }
+
+    [[nodiscard]] std::size_t size() const { return base_.size(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& joints() const { return joints_; }
+    [[nodiscard]] const std::vector<Affine>& matrices() const { return matrices_; }
+    [[nodiscard]] const glm::dvec3& base(std::size_t vertex) const { return base_[vertex]; }
+    [[nodiscard]] std::span<const Influence> influences(std::size_t vertex) const {
+        return std::span(influences_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
+    }
+    [[nodiscard]] bool is_displaced() const {
+        return std::any_of(weights_.begin(), weights_.end(), [](double weight) { return weight != 0.0; });
+    }
+    void mark_touched(std::vector<bool>& touched) const {
+        for (const auto& target : targets_) {
+            for (const Displacement& d : target) touched[d.vertex] = true;
+        }
+    }
+
+private:
+    std::vector<std::uint32_t> joints_;
+    std::vector<glm::dmat4> inverse_bind_;
+    std::vector<Affine> matrices_;
+    std::vector<glm::dvec3> base_, positions_;
+    std::vector<std::size_t> first_;
+    std::vector<Influence> influences_;
+    std::vector<std::vector<Displacement>> targets_;
+    std::vector<double> weights_;
+};
+
+struct Box {
+    glm::dvec3 low{kInfinity};
+    glm::dvec3 high{-kInfinity};
+
+    void add(const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
+    [[nodiscard]] std::array<glm::dvec3, 8> corners() const {
+        std::array<glm::dvec3, 8> all{};
+        for (unsigned i = 0; i < 8; ++i)
+            all[i] = {(i & 1u) != 0 ? high.x : low.x, (i & 2u) != 0 ? high.y : low.y, (i & 4u) != 0 ? high.z : low.z};
+        return all;
+    }
+};
+
+/// What is no number is larger than any.
+double or_infinite(double value) {
+    if (std::isnan(value)) return kInfinity;
+    return value;
+}
+
+/// Makes `most` the larger of the two.
+void raise(double& most, double value) {
+    if (!(value <= most)) most = or_infinite(value);
+}
+
+/// At least the largest factor by which the matrix stretches a vector.
+double stretch_of(const glm::dmat3& m) {
+    double largest = 0.0;  // of the sums of rows of its transpose times itself, whose eigenvalues are squared stretches
+    for (int row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (int column = 0; column < 3; ++column) sum += std::abs(glm::dot(m[row], m[column]));
+        raise(largest, sum);
+    }
+    return std::sqrt(largest);
+}
+
+/// A mesh in both scenes. With P and Q the bones' matrices, p and p' the places, w and w' the weights of the exact and
+/// of the decoded one, a vertex is displaced by
+///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q p - c) + sum (w - w') c + sum w' Q (p - p')
+/// for any c; each of the four is bounded by what is known of the vertex and, once a pose, of the bones.
+class MeshPair {
+public:
+    MeshPair(const Mesh& exact, const Mesh& decoded, const std::vector<std::uint32_t>* map)
+        : exact_(exact), decoded_(decoded), map_(map) {
+        touched_.resize(exact_.size());
+        std::vector<bool> touched_there(decoded_.size());
+        exact_.mark_touched(touched_);
+        decoded_.mark_touched(touched_there);
+        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there != kNone && touched_there[there]) touched_[vertex] = true;
+        }
+        has_bounds_ = exact_.joints() == decoded_.joints();
+        if (has_bounds_) prepare_bounds();
+    }
+
+    /// Raises `worst` to the worst vertex of a pose, if that is worse, and says so.
+    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
+                 MeasuredError& worst) {
+        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.target_weights[mesh]);
+        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.target_weights[mesh]);
+        if (!moved_here && !moved_there && is_measured_) return false;
+        is_measured_ = true;
+        const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
+        if (has_bounds_) {
+            bound_bones();
+            if (!is_displaced && bound(worst_case_, largest_difference_) <= worst.metres) return false;
+        }
+        bool has_risen = false;
+        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            if (has_bounds_ && !(is_displaced && touched_[vertex]) && bound_of(vertex) <= worst.metres) continue;
+            const double error = glm::distance(exact_.place(vertex), decoded_.place(there));
+            if (error <= worst.metres) continue;
+            worst.metres = or_infinite(error);
+            worst.mesh = mesh;
+            worst.vertex = static_cast<std::uint32_t>(vertex);
+            has_risen = true;
+        }
+        return has_risen;
+    }
+
+    [[nodiscard]] bool can_be_compared() const {
+        if (map_ == nullptr) return exact_.size() == decoded_.size();
+        return map_->size() == exact_.size() && std::all_of(map_->begin(), map_->end(), [&](std::uint32_t vertex) {
+                   return vertex == kNone || vertex < decoded_.size();
+               });
+    }
+
+private:
+    /// How far a vertex's data in the two scenes are apart.
+    struct Difference {
+        double place = 0.0;          // metres, in mesh space
+        double weights = 0.0;        // sum of |w - w'|
+        double weight_sum = 0.0;     // |sum of w - w'|
+        double exact_total = 0.0;    // sum of w
+        double decoded_total = 0.0;  // sum of w'
+    };
+
+    [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
+        if (map_ != nullptr)
+            return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
+        return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
+    }
+
+    void prepare_bounds() {
+        boxes_.resize(exact_.joints().size());
+        differences_.resize(exact_.size());
+        std::vector<double> change(boxes_.size(), 0.0);
+        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            Difference& d = differences_[vertex];
+            d.place = glm::distance(exact_.base(vertex), decoded_.base(there));
+            for (const Influence& influence : exact_.influences(vertex)) {
+                change[influence.entry] += influence.weight;
+                d.exact_total += influence.weight;
+                boxes_[influence.entry].add(exact_.base(vertex));
+            }
+            for (const Influence& influence : decoded_.influences(there)) {
+                change[influence.entry] -= influence.weight;
+                d.decoded_total += influence.weight;
+                boxes_[influence.entry].add(exact_.base(vertex));
+            }
+            for (const auto& list : {exact_.influences(vertex), decoded_.influences(there)}) {
+                for (const Influence& influence : list) {
+                    d.weights += std::abs(change[influence.entry]);
+                    change[influence.entry] = 0.0;
+                }
+            }
+            d.weight_sum = std::abs(d.exact_total - d.decoded_total);
+            raise(worst_case_.place, d.place);
+            raise(worst_case_.weights, d.weights);
+            raise(worst_case_.weight_sum, d.weight_sum);
+            raise(worst_case_.exact_total, d.exact_total);
+            raise(worst_case_.decoded_total, d.decoded_total);
+        }
+        bone_differences_.resize(boxes_.size());
+    }
+
+    /// What the bones' matrices add to the bounds in this pose.
+    void bound_bones() {
+        stretch_ = 0.0;
+        largest_difference_ = 0.0;
+        spread_ = 0.0;
+        centre_ = glm::dvec3(0.0);
+        const auto first = std::find_if(boxes_.begin(), boxes_.end(), [](const Box& box) { return !box.is_empty(); });
+        if (first == boxes_.end()) return;
+        centre_ =
+            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())] * ((first->low + first->high) * 0.5);
+        for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
+            if (boxes_[bone].is_empty()) continue;
+            const Affine& p = exact_.matrices()[bone];
+            const Affine& q = decoded_.matrices()[bone];
+            raise(stretch_, stretch_of(q.linear));
+            double largest = 0.0;
+            // Distances are convex: over a box they are largest at a corner.
+            for (const glm::dvec3& corner : boxes_[bone].corners()) {
+                const glm::dvec3 there = q * corner;
+                raise(largest, glm::distance(p * corner, there));
+                raise(spread_, glm::distance(there, centre_));
+            }
+            bone_differences_[bone] = largest;
+            raise(largest_difference_, largest);
+        }
+    }
+
+    [[nodiscard]] double bound(const Difference& d, double bone_difference) const {
+        constexpr double kRounding = 1.0 + 1e-9;
+        return kRounding * (d.exact_total * bone_difference + d.decoded_total * stretch_ * d.place +
+                            d.weights * spread_ + d.weight_sum * glm::length(centre_));
+    }
+
+    [[nodiscard]] double bound_of(std::size_t vertex) const {
+        double bone_difference = 0.0;
+        for (const Influence& influence : exact_.influences(vertex))
+            raise(bone_difference, bone_differences_[influence.entry]);
+        return bound(differences_[vertex], bone_difference);
+    }
+
+    PosableMesh exact_, decoded_;
+    const std::vector<std::uint32_t>* map_;
+    std::vector<bool> touched_;  // by a target of either scene
+    bool is_measured_ = false;
+    bool has_bounds_ = false;
+    std::vector<Difference> differences_;
+    Difference worst_case_;
+    std::vector<Box> boxes_;  // of each bone: the vertices that it moves, in mesh space
+    std::vector<double> bone_differences_;
+    double largest_difference_ = 0.0;
+    double stretch_ = 0.0;
+    double spread_ = 0.0;  // metres from the centre, of what the bones move
+    glm::dvec3 centre_{0.0};
+};
+
+/// Joints that no vertex hangs on.
+std::vector<std::uint32_t> loose_joints(const Scene& scene) {
+    std::vector<bool> moves(scene.joints.size());
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.influences == 0 && mesh.joint != kNone) moves[mesh.joint] = true;
+        for (const std::uint32_t joint : mesh.palette.joints) moves[joint] = true;
+    }
+    std::vector<std::uint32_t> loose;
+    for (std::uint32_t joint = 0; joint < moves.size(); ++joint) {
+        if (!moves[joint]) loose.push_back(joint);
+    }
+    return loose;
+}
+
+std::vector<double> sample_times(const Cycle& exact, const Cycle& decoded) {
+    std::vector<double> times;
+    for (const Cycle* cycle : {&exact, &decoded}) {
+        for (const Track& track : cycle->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
+        std::sort(times.begin(), times.end());
+        times.erase(std::unique(times.begin(), times.end()), times.end());
+    }
+    if (times.empty()) return times;
+    const double start = times.front();
+    const double length = times.back() - start;
+    const double steps = std::min(std::ceil(length * kSamplesPerSecond), kMostSamples);
+    const double step = steps < kMostSamples ? 1.0 / kSamplesPerSecond : length / steps;
+    for (unsigned k = 1; k < steps; ++k) times.push_back(start + k * step);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+class Comparison {
+public:
+    Comparison(const Scene& exact, const Scene& decoded, VertexMaps maps) : exact_(exact), decoded_(decoded) {
+        pairs_.reserve(exact.meshes.size());
+        for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
+            const bool is_mapped = mesh < maps.size() && !maps[mesh].empty();
+            pairs_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
+        }
+        loose_ = loose_joints(exact);
+    }
+
+    [[nodiscard]] bool is_possible() const {
+        return std::all_of(pairs_.begin(), pairs_.end(), [](const MeshPair& pair) { return pair.can_be_compared(); });
+    }
+
+    void measure_rest() {
+        evaluate_rest(exact_, exact_pose_);
+        evaluate_rest(decoded_, decoded_pose_);
+        measure(kNone, 0.0);
+    }
+
+    void measure_at(std::uint32_t cycle, double seconds) {
+        evaluate(exact_, exact_.cycles[cycle], seconds, exact_pose_);
+        evaluate(decoded_, decoded_.cycles[cycle], seconds, decoded_pose_);
+        measure(cycle, seconds);
+    }
+
+    [[nodiscard]] const MeasuredError& worst() const { return worst_; }
+
+private:
+    void measure(std::uint32_t cycle, double seconds) {
+        bool has_risen = false;
+        for (std::uint32_t mesh = 0; mesh < pairs_.size(); ++mesh) {
+            if (!pairs_[mesh].measure(exact_pose_, decoded_pose_, mesh, worst_)) continue;
+            worst_.joint = kNone;
+            has_risen = true;
+        }
+        for (const std::uint32_t joint : loose_) {
+            const double error =
+                glm::distance(glm::dvec3(exact_pose_.joints[joint][3]), glm::dvec3(decoded_pose_.joints[joint][3]));
+            if (error <= worst_.metres) continue;
+            worst_.metres = or_infinite(error);
+            worst_.mesh = worst_.vertex = kNone;
+            worst_.joint = joint;
+            has_risen = true;
+        }
+        if (!has_risen) return;
+        worst_.cycle = cycle;
+        worst_.seconds = seconds;
+    }
+
+    const Scene& exact_;
+    const Scene& decoded_;
+    std::vector<MeshPair> pairs_;
+    std::vector<std::uint32_t> loose_;
+    EvaluatedPose exact_pose_, decoded_pose_;
+    MeasuredError worst_;
+};
+
+}  // namespace
+
+MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps,
+                            const std::function<void(double)>& progress) {
+    MeasuredError impossible;
+    impossible.metres = kInfinity;
+    if (exact.joints.size() != decoded.joints.size() || exact.meshes.size() != decoded.meshes.size() ||
+        exact.cycles.size() != decoded.cycles.size())
+        return impossible;
+    for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
+        if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible;
+    }
+    Comparison comparison(exact, decoded, vertex_maps);
+    if (!comparison.is_possible()) return impossible;
+    comparison.measure_rest();
+
+    std::vector<std::vector<double>> times;
+    std::size_t total = 0;
+    for (std::size_t cycle = 0; cycle < exact.cycles.size(); ++cycle) {
+        times.push_back(sample_times(exact.cycles[cycle], decoded.cycles[cycle]));
+        total += times.back().size();
+    }
+    std::size_t done = 0;
+    std::size_t told = 0;
+    // Far apart first: what is found early spares the work of what is less.
+    constexpr std::size_t kCoarse = 64;
+    for (const bool is_coarse : {true, false}) {
+        for (std::uint32_t cycle = 0; cycle < times.size(); ++cycle) {
+            for (std::size_t k = 0; k < times[cycle].size(); ++k) {
+                if ((k % kCoarse == 0) != is_coarse) continue;
+                comparison.measure_at(cycle, times[cycle][k]);
+                ++done;
+                if (!progress || done * 100 / total == told) continue;
+                told = done * 100 / total;
+                progress(static_cast<double>(done) / static_cast<double>(total));
+            }
+        }
+    }
+    return comparison.worst();
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,125 @@
+#include "evaluate.h"
+
+#include "converter/posed_scene.h"
+#include "format/sample_file.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import_gltf.h>
+#include <bendy/runtime.h>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+Track make_track(TrackPath path, Interpolation interpolation, std::uint32_t components, std::vector<float> times,
+                 std::vector<float> values) {
+    return {path, interpolation, 0, components, std::move(times), std::move(values)};
+}
+
+std::vector<double> value_at(const Track& track, double seconds) {
+    std::vector<double> value;
+    evaluate_track(track, seconds, value);
+    return value;
+}
+
+TEST(Evaluate, StepHoldsAndLinearIsStraight) {
+    Track track = make_track(TrackPath::translation, Interpolation::linear, 3, {1, 2, 4}, {0, 0, 0, 8, 0, 0, 8, 4, 0});
+    EXPECT_EQ(value_at(track, 0.0), (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(value_at(track, 1.25), (std::vector<double>{2, 0, 0}));
+    EXPECT_EQ(value_at(track, 3.0), (std::vector<double>{8, 2, 0}));
+    EXPECT_EQ(value_at(track, 9.0), (std::vector<double>{8, 4, 0}));
+    track.interpolation = Interpolation::step;
+    EXPECT_EQ(value_at(track, 1.999), (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(value_at(track, 2.0), (std::vector<double>{8, 0, 0}));
+}
+
+TEST(Evaluate, LinearRotationsKeepTheirSpeedAndTakeTheShortWay) {
+    const double angle = 2.8;  // radians from one key to the next
+    const auto half = [](double a) { return static_cast<float>(a / 2.0); };
+    for (const float sign : {1.0f, -1.0f}) {
+        const Track track = make_track(TrackPath::rotation, Interpolation::linear, 4, {0, 1},
+                                       {0, 0, 0, 1, 0, sign * std::sin(half(angle)), 0, sign * std::cos(half(angle))});
+        for (double u = 0.0; u <= 1.0; u += 1.0 / 64.0) {
+            std::vector<double> q = value_at(track, u);
+            if (q[3] < 0.0) q = {0, -q[1], 0, -q[3]};  // the same rotation
+            EXPECT_NEAR(2.0 * std::atan2(q[1], q[3]), u * angle, 1e-6);
+            EXPECT_NEAR(q[1] * q[1] + q[3] * q[3], 1.0, 1e-6);
+        }
+    }
+}
+
+TEST(Evaluate, CubicIsASplineThroughItsKeys) {
+    // x^3 on [0, 2]: its tangents are 0 and 12.
+    const Track track = make_track(TrackPath::translation, Interpolation::cubic, 3, {0, 2},
+                                   {0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 0, 0, 0});
+    for (double x = 0.0; x <= 2.0; x += 0.125) EXPECT_NEAR(value_at(track, x)[0], x * x * x, 1e-12);
+}
+
+/// Holds the scene against what the runtime makes of its file, in the rest pose and all over each cycle.
+void compare_with_runtime(const Scene& scene, double tolerance) {
+    Report report;
+    const std::vector<std::byte> bytes = build_chunks(scene, "test", report);
+    const Result<Model> model = Model::from_memory(bytes);
+    ASSERT_TRUE(model);
+    Pose pose(*model);
+    EvaluatedPose evaluated;
+    const auto compare = [&](float seconds) {
+        for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+            const auto expected =
+                evaluate_vertices(scene.meshes[mesh], evaluated.target_weights[mesh], evaluated.joints);
+            std::vector<glm::vec3> skinned(expected.size());
+            ASSERT_TRUE(skin(*model, mesh, pose, {skinned, {}, {}}));
+            double worst = 0.0;
+            double size = 1.0;
+            for (std::size_t vertex = 0; vertex < expected.size(); ++vertex) {
+                worst = std::max(worst, glm::distance(expected[vertex], glm::dvec3(skinned[vertex])));
+                size = std::max(size, glm::length(expected[vertex]));
+            }
+            EXPECT_LE(worst, tolerance * size) << "mesh " << mesh << " at " << seconds;
+        }
+    };
+    pose.set_rest();
+    evaluate_rest(scene, evaluated);
+    compare(-1.0f);
+    for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
+        const Cycle& source = scene.cycles[cycle];
+        const float start = model->cycles()[cycle].start;
+        const float length = model->cycles()[cycle].end - start;
+        for (int k = -1; k <= 21; ++k) {
+            const float seconds = start + length * static_cast<float>(k) / 20.0f;
+            sample(&model->cycles()[cycle], seconds, pose);
+            evaluate(scene, source, seconds, evaluated);
+            compare(seconds);
+        }
+    }
+}
+
+TEST(Evaluate, AgreesWithTheRuntimeOnRandomScenes) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) compare_with_runtime(test::random_scene(seed), 2e-6);
+}
+
+TEST(Evaluate, AgreesWithTheRuntimeOnEveryChunk) {
+    Report report;
+    const auto scene = import_bendy(bendy::test::sample_file(), report);
+    ASSERT_TRUE(scene);
+    compare_with_runtime(*scene, 2e-6);
+}
+
+TEST(Evaluate, AgreesWithTheRuntimeOnTheExamples) {
+    for (const char* name : {"mannequin.glb", "tentacle.glb"}) {
+        Report report;
+        const auto scene = import_gltf(std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name, {}, report);
+        ASSERT_TRUE(scene);
+        compare_with_runtime(*scene, 2e-6);
+    }
+}
+
+}  // namespace
+}  // namespace bendy::converter

@@ -1,0 +1,205 @@
+#include "measure_error.h"
+
+#include "converter/posed_scene.h"
+#include "evaluate.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+/// The worst vertex of all, the slow way: every vertex at every time.
+MeasuredError measure_slowly(const Scene& exact, const Scene& decoded) {
+    MeasuredError worst;
+    EvaluatedPose here;
+    EvaluatedPose there;
+    const auto measure = [&](std::uint32_t cycle, double seconds) {
+        for (std::uint32_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
+            const auto a = evaluate_vertices(exact.meshes[mesh], here.target_weights[mesh], here.joints);
+            const auto b = evaluate_vertices(decoded.meshes[mesh], there.target_weights[mesh], there.joints);
+            for (std::uint32_t vertex = 0; vertex < a.size(); ++vertex) {
+                const double error = glm::distance(a[vertex], b[vertex]);
+                if (error > worst.metres) worst = {error, mesh, vertex, kNone, cycle, seconds};
+            }
+        }
+    };
+    evaluate_rest(exact, here);
+    evaluate_rest(decoded, there);
+    measure(kNone, 0.0);
+    for (std::uint32_t cycle = 0; cycle < exact.cycles.size(); ++cycle) {
+        std::set<double> times;
+        for (const Scene* scene : {&exact, &decoded}) {
+            for (const Track& track : scene->cycles[cycle].tracks) times.insert(track.times.begin(), track.times.end());
+        }
+        if (times.empty()) continue;
+        const double start = *times.begin();
+        const double end = *times.rbegin();
+        for (double k = 1.0; start + k / 240.0 < end; k += 1.0) times.insert(start + k / 240.0);
+        for (const double seconds : times) {
+            evaluate(exact, exact.cycles[cycle], seconds, here);
+            evaluate(decoded, decoded.cycles[cycle], seconds, there);
+            measure(cycle, seconds);
+        }
+    }
+    return worst;
+}
+
+Scene still_scene() {
+    Scene scene;
+    scene.joints.resize(2);
+    scene.joints[1].parent = 0;
+    Mesh mesh;
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+TEST(MeasureError, TheSameSceneHasNone) {
+    const Scene scene = test::random_scene(1);
+    const MeasuredError error = measure_error(scene, scene);
+    EXPECT_EQ(error.metres, 0.0);
+    EXPECT_EQ(error.mesh, kNone);
+}
+
+TEST(MeasureError, OneVertexMovedIsFound) {
+    const Scene exact = still_scene();
+    Scene decoded = exact;
+    decoded.meshes[0].positions[2].x += 0.25f;
+    const MeasuredError error = measure_error(exact, decoded);
+    EXPECT_EQ(error.metres, 0.25);
+    EXPECT_EQ(error.mesh, 0u);
+    EXPECT_EQ(error.vertex, 2u);
+    EXPECT_EQ(error.cycle, kNone);
+    EXPECT_EQ(error.joint, kNone);
+}
+
+TEST(MeasureError, AVertexIsFoundAtItsTime) {
+    // Only half way between its two keys, which both scenes have alike, does the decoded one scale the mesh.
+    Scene exact = still_scene();
+    exact.cycles.resize(2);
+    exact.cycles[1].tracks = {{TrackPath::scale, Interpolation::linear, 0, 3, {1, 3}, {1, 1, 1, 1, 1, 1}}};
+    Scene decoded = exact;
+    decoded.cycles[1].tracks = {
+        {TrackPath::scale, Interpolation::linear, 0, 3, {1, 2, 3}, {1, 1, 1, 1, 1.5f, 1, 1, 1, 1}}};
+    const MeasuredError error = measure_error(exact, decoded);
+    EXPECT_EQ(error.metres, 1.0);  // half of 2
+    EXPECT_EQ(error.vertex, 2u);
+    EXPECT_EQ(error.cycle, 1u);
+    EXPECT_EQ(error.seconds, 2.0);
+}
+
+TEST(MeasureError, TargetsCountByTheirWeights) {
+    Scene exact = still_scene();
+    exact.meshes[0].targets.resize(1);
+    exact.meshes[0].targets[0].positions = {{}, {1, 0, 0}, {}};
+    exact.cycles.resize(1);
+    exact.cycles[0].tracks = {{TrackPath::weights, Interpolation::linear, 0, 1, {0, 1}, {0, 0.5f}}};
+    Scene decoded = exact;
+    decoded.meshes[0].targets[0].positions[1].y = 0.5f;
+    const MeasuredError error = measure_error(exact, decoded);
+    EXPECT_EQ(error.metres, 0.25);
+    EXPECT_EQ(error.vertex, 1u);
+    EXPECT_EQ(error.seconds, 1.0);
+}
+
+TEST(MeasureError, VerticesMayBeInOtherPlaces) {
+    const Scene exact = still_scene();
+    Scene decoded = exact;
+    decoded.meshes[0].positions = {{0, 2, 0}, {0, 0.125f, 0}};
+    const std::vector<std::vector<std::uint32_t>> maps{{1, kNone, 0}};
+    const MeasuredError error = measure_error(exact, decoded, maps);
+    EXPECT_EQ(error.metres, 0.125);
+    EXPECT_EQ(error.vertex, 0u);
+}
+
+TEST(MeasureError, AJointThatMovesNoVertexCounts) {
+    const Scene exact = still_scene();
+    Scene decoded = exact;
+    decoded.joints[1].rest.translation.z = 3.0f;
+    const MeasuredError error = measure_error(exact, decoded);
+    EXPECT_EQ(error.metres, 3.0);
+    EXPECT_EQ(error.joint, 1u);
+    EXPECT_EQ(error.mesh, kNone);
+}
+
+TEST(MeasureError, ScenesThatCannotBeComparedAreInfinitelyWrong) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Scene exact = still_scene();
+    Scene decoded = exact;
+    decoded.meshes[0].positions.pop_back();
+    EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
+    decoded = exact;
+    decoded.joints.pop_back();
+    EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
+    decoded = exact;
+    decoded.cycles.resize(1);
+    EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
+    decoded = exact;
+    decoded.meshes[0].positions[0].x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
+    const std::vector<std::vector<std::uint32_t>> maps{{0, 1, 3}};
+    EXPECT_EQ(measure_error(exact, exact, maps).metres, infinity);
+}
+
+/// Changes everything a little, as an encoder would.
+Scene coarsened(const Scene& exact, std::uint32_t seed, float positions, float weights, float keys) {
+    test::Numbers numbers(seed);
+    Scene scene = exact;
+    for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& position : mesh.positions) position += numbers.vector(positions);
+        for (Target& target : mesh.targets) {
+            for (glm::vec3& position : target.positions) position += numbers.vector(positions);
+        }
+        for (std::size_t vertex = 0; vertex < mesh.weights.size(); vertex += mesh.influences + 0u) {
+            const float moved = std::min(mesh.weights[vertex], numbers.between(0.0f, weights));
+            mesh.weights[vertex] -= moved;
+            mesh.weights[vertex + 2] += moved;
+        }
+    }
+    for (Cycle& cycle : scene.cycles) {
+        for (Track& track : cycle.tracks) {
+            for (float& value : track.values) value += numbers.between(-keys, keys);
+        }
+    }
+    return scene;
+}
+
+TEST(MeasureError, TheBoundsPassOverNoWorstVertex) {
+    for (std::uint32_t seed = 0; seed < 24; ++seed) {
+        const Scene exact = test::random_scene(seed);
+        const Scene decoded = coarsened(exact, seed + 100, seed % 2 == 0 ? 1e-3f : 0.0f, seed % 3 == 0 ? 1e-2f : 0.0f,
+                                        seed % 4 < 2 ? 1e-3f : 0.0f);
+        const MeasuredError expected = measure_slowly(exact, decoded);
+        const MeasuredError error = measure_error(exact, decoded);
+        EXPECT_NEAR(error.metres, expected.metres, 1e-12 + 1e-9 * expected.metres) << seed;
+        EXPECT_EQ(error.mesh, expected.mesh) << seed;
+        EXPECT_EQ(error.cycle, expected.cycle) << seed;
+    }
+}
+
+TEST(MeasureError, ProgressEndsAtOne) {
+    const Scene scene = test::random_scene(3);
+    std::vector<double> told;
+    measure_error(scene, scene, {}, [&](double part) { told.push_back(part); });
+    ASSERT_FALSE(told.empty());
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.back(), 1.0);
+}
+
+TEST(MeasureError, AnEndlessCycleEnds) {
+    Scene scene = still_scene();
+    scene.cycles.resize(1);
+    scene.cycles[0].tracks = {{TrackPath::translation, Interpolation::linear, 0, 3, {0, 1e30f}, {0, 0, 0, 1, 1, 1}}};
+    EXPECT_EQ(measure_error(scene, scene).metres, 0.0);
+}
+
+}  // namespace
+}  // namespace bendy::converter
