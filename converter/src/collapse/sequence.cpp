@@ -283,7 +283,8 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 if (triangle.points[k] != target) continue;
                 if (sides < 2) materials[sides++] = triangle.material;
-                add_move({surface_.alike[triangle.vertices[corner % 3]], surface_.alike[triangle.vertices[k]]});
+                if (!add_move({surface_.alike[triangle.vertices[corner % 3]], surface_.alike[triangle.vertices[k]]}))
+                    return false;
             }
         }
         if (sides == 0 || (is_border_ && sides != 1)) return false;
@@ -299,15 +300,13 @@ private:
         return true;
     }
 
-    void add_move(const Move& move) {
-        const auto known =
-            std::find_if(moves_.begin(), moves_.end(), [&](const Move& m) { return m.from == move.from; });
-        if (known == moves_.end()) {
-            moves_.push_back(move);
-        } else if (known->to != move.to) {
-            crosses_seam_ = true;  // a seam ends here
-            if (apart(move.from, move.to) < apart(move.from, known->to)) known->to = move.to;
+    /// False where a seam ends: its triangles on this edge would keep two vertices apart, and no area.
+    bool add_move(const Move& move) {
+        for (const Move& known : moves_) {
+            if (known.from == move.from) return known.to == move.to;
         }
+        moves_.push_back(move);
+        return true;
     }
 
     /// Of the vertices at the target that triangles have.
