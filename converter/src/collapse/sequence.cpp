@@ -233,11 +233,11 @@ private:
             ends += n.before + n.after == 1 ? 1 : 0;
         }
         is_border_ = ends != 0;
-        return ends == 0 || ends == 2 ? is_connected(point) : false;
+        return ends == 0 || ends == 2 ? is_connected() : false;
     }
 
     /// Walks round the fan from its end, or from anywhere if it is closed.
-    bool is_connected(std::uint32_t point) const {
+    bool is_connected() const {
         std::uint32_t at = neighbours_.front().point;
         for (const Neighbour& n : neighbours_) {
             if (n.before == 0) at = n.point;
@@ -254,7 +254,6 @@ private:
                 break;
             }
         }
-        static_cast<void>(point);
         return steps == fan_.size();
     }
 
@@ -295,7 +294,7 @@ private:
             if (std::any_of(moves_.begin(), moves_.end(), [&](const Move& move) { return move.from == from; }))
                 continue;
             crosses_seam_ = true;
-            moves_.push_back({from, most_alike(from, target)});
+            moves_.push_back({from, most_alike(from)});
         }
         return true;
     }
@@ -310,13 +309,12 @@ private:
     }
 
     /// Of the vertices at the target that triangles have.
-    std::uint32_t most_alike(std::uint32_t vertex, std::uint32_t target) const {
+    std::uint32_t most_alike(std::uint32_t vertex) const {
         std::uint32_t best = kNone;
         for (const std::uint32_t corner : target_fan_) {
             const std::uint32_t other = surface_.alike[surface_.triangles[corner / 3].vertices[corner % 3]];
             if (best == kNone || apart(vertex, other) < apart(vertex, best)) best = other;
         }
-        static_cast<void>(target);
         return best;
     }
 
@@ -506,7 +504,7 @@ private:
         const Costs costs = measure(point, target, kImpossible);
         ++time_;
         error_ = std::max(error_, std::sqrt(costs.distance_squared) * scaled_.extent);
-        add_moves(point, target);
+        add_moves(point);
         hold_samples(costs.distance_squared);
         move_triangles(target);
         is_gone_[point] = true;
@@ -526,13 +524,12 @@ private:
         push(point, cost);
     }
 
-    void add_moves(std::uint32_t point, std::uint32_t target) {
+    void add_moves(std::uint32_t point) {
         bool is_joined = false;
         for (const std::uint32_t vertex : surface_.vertices_of(point)) {
             if (!surface_.is_used[vertex]) continue;
             std::uint32_t to = moved(vertex);
             if (to == vertex) to = moves_.front().to;  // no triangle has it any more
-            static_cast<void>(target);
             sequence_.moves.push_back({vertex, to, is_joined, error_});
             is_joined = true;
         }
