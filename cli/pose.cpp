@@ -87,7 +87,8 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
     Lod lod(model);
     lod.set_share(arguments.lod);
     if (arguments.lod < 1.0f && model.collapse() == nullptr)
-        warn(arguments.file, "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
+        warn(arguments.file,
+             "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
     }
@@ -149,8 +150,9 @@ void add_pose(CLI::App& program) {
         ->needs(reach);
     command->add_flag("--ignore-limits", arguments->reach.ignore_limits, "reach without the joints' constraints")
         ->needs(reach);
-    command->add_option("--lod", arguments->lod,
-                        "level of detail: about this share of the triangles, 0 to 1, and only their vertices")
+    command
+        ->add_option("--lod", arguments->lod,
+                     "level of detail: about this share of the triangles, 0 to 1, and only their vertices")
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");

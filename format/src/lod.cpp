@@ -100,8 +100,7 @@ private:
             needed += collapse_targets_size(count, pool.type) + collapse_bits_size(count);
         }
         if (needed != cutter.left()) {
-            faults_.add(
-                {ErrorCode::kRecordSize, offset_, payload_.size(), payload_.size() - cutter.left() + needed});
+            faults_.add({ErrorCode::kRecordSize, offset_, payload_.size(), payload_.size() - cutter.left() + needed});
             return false;
         }
         for (PoolCollapseView& pool : view_.pools) {

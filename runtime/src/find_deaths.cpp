@@ -35,8 +35,10 @@ public:
             if (label_[at + (k + 1) % 3] == longer || label_[at + (k + 2) % 3] == longer) visit(triangle);
         }
         if (first_[shorter] != kNone) {
-            if (first_[longer] == kNone) first_[longer] = first_[shorter];
-            else next_[last_[longer]] = first_[shorter];
+            if (first_[longer] == kNone)
+                first_[longer] = first_[shorter];
+            else
+                next_[last_[longer]] = first_[shorter];
             last_[longer] = last_[shorter];
             count_[longer] += count_[shorter];
         }
@@ -45,13 +47,15 @@ public:
 
 private:
     void append(std::uint32_t list, std::uint32_t corner) {
-        if (first_[list] == kNone) first_[list] = corner;
-        else next_[last_[list]] = corner;
+        if (first_[list] == kNone)
+            first_[list] = corner;
+        else
+            next_[last_[list]] = corner;
         last_[list] = corner;
         ++count_[list];
     }
 
-    std::vector<std::uint32_t> label_, next_;  // by corner
+    std::vector<std::uint32_t> label_, next_;          // by corner
     std::vector<std::uint32_t> first_, last_, count_;  // by list
     std::vector<std::uint32_t> list_of_;               // by vertex
 };

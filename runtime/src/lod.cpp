@@ -8,8 +8,7 @@
 
 namespace bendy {
 
-Lod::Lod(const Model& model)
-    : model_(&model), pools_(model.pools().size()), place_(model.pools().size(), kNone) {
+Lod::Lod(const Model& model) : model_(&model), pools_(model.pools().size()), place_(model.pools().size(), kNone) {
     if (const CollapseView* collapse = model.collapse()) {
         for (std::uint32_t place = 0; place < collapse->pools.size(); ++place) {
             place_[collapse->pools[place].pool] = place;

@@ -104,9 +104,9 @@ bool Skinning::skin_all(const Model& model, Pose& pose, const Count& vertices_of
         const std::uint64_t first = model.first_vertex(pool);
         const std::uint32_t count = vertices_of(pool);
         if (count == 0) continue;
-        skin_pool(model, pool, pose, count,
-                  {part(out.positions, first, count), part(out.normals, first, count),
-                   part(out.tangents, first, count)});
+        skin_pool(
+            model, pool, pose, count,
+            {part(out.positions, first, count), part(out.normals, first, count), part(out.tangents, first, count)});
     }
     return true;
 }

@@ -5,8 +5,8 @@
 
 namespace bendy::converter {
 
-/// The point of a triangle that is nearest to `p`: its weights on the corners, and how far it is, squared. For a triangle
-/// without area, of one of its edges.
+/// The point of a triangle that is nearest to `p`: its weights on the corners, and how far it is, squared. For a
+/// triangle without area, of one of its edges.
 struct ClosestPoint {
     glm::vec3 weights{1.0f, 0.0f, 0.0f};
     float distance_squared = 0.0f;

@@ -5,8 +5,8 @@
 
 namespace bendy::converter {
 
-/// Sum of squared distances from planes, weighted: M. Garland and P. Heckbert, Surface Simplification Using Quadric Error
-/// Metrics, 1997.
+/// Sum of squared distances from planes, weighted: M. Garland and P. Heckbert, Surface Simplification Using Quadric
+/// Error Metrics, 1997.
 struct Quadric {
     float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0, x = 0, y = 0, z = 0, constant = 0, weight = 0;
 
@@ -26,8 +26,8 @@ struct Quadric {
     /// The weighted mean of the squared distances of `p` from the planes.
     [[nodiscard]] float mean_error(const glm::vec3& p) const {
         if (!(weight > 0.0f)) return 0.0f;
-        const float sum = p.x * (xx * p.x + 2.0f * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2.0f * (yz * p.z + y)) +
-                          p.z * (zz * p.z + 2.0f * z) + constant;
+        const float sum = p.x * (xx * p.x + 2.0f * (xy * p.y + xz * p.z + x)) +
+                          p.y * (yy * p.y + 2.0f * (yz * p.z + y)) + p.z * (zz * p.z + 2.0f * z) + constant;
         return sum > 0.0f ? sum / weight : 0.0f;
     }
 };

@@ -16,8 +16,8 @@ struct ScenePose {
 
 ScenePose rest_pose(const Scene& scene);
 
-/// Poses at times that are spread over every cycle, at most some hundred. Rotations are interpolated along the chord and
-/// cubic tracks straight: to measure by, not to show.
+/// Poses at times that are spread over every cycle, at most some hundred. Rotations are interpolated along the chord
+/// and cubic tracks straight: to measure by, not to show.
 std::vector<ScenePose> sample_cycles(const Scene& scene);
 
 /// Poses of a scene without cycles: every joint turned by some tens of degrees, the same in each run.

@@ -14,7 +14,7 @@ namespace {
 // How far, in extents of the mesh, a point may be off before it is as bad as another normal, colour or coordinate.
 constexpr float kNormal = 0.0015f;  // a normal that differs by 1
 constexpr float kColour = 0.005f;   // a colour that differs by 1
-constexpr float kSlide = 0.04f;     // a texture that slides by 1 extent
+constexpr float kSlide = 0.02f;     // a texture that slides by 1 extent
 constexpr std::size_t kMostCoords = 2;
 constexpr std::size_t kMostColours = 1;
 /// A mesh with fewer vertices gets further samples, up to so many in all.

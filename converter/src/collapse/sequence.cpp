@@ -21,6 +21,8 @@ constexpr float kImpossible = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kMostCorners = 100;
 /// Of the edges at a point, so many are measured: those that the quadrics like best.
 constexpr std::size_t kMeasured = 3;
+/// On a mesh with fewer points, all.
+constexpr std::uint32_t kSmall = 20'000;
 /// Above so many samples round a point every other one is dropped, but for the worst: keeps the work near linear.
 constexpr std::size_t kMostHeld = 160;
 /// A triangle may turn so far at rest: the cosine.
@@ -28,9 +30,9 @@ constexpr float kLeastCosine = 0.2f;
 /// Squared distances in other shapes than the rest pose count for so much: the skin is mostly seen near it.
 constexpr float kPosedFactor = 0.2f;
 /// What looks wrong where a vertex leaves its side of a seam counts for so much more.
-constexpr double kSeamFactor = 16.0;
-constexpr float kBorderFactor = 2.0f;   // of the squared distance from a border or seam
-constexpr float kQuadricFactor = 2.0f;  // of the mean squared distance from the planes, beside the largest distance
+constexpr double kSeamFactor = 8.0;
+constexpr float kBorderFactor = 2.0f;   // of the squared distance from a border
+constexpr float kQuadricFactor = 1.0f;  // of the mean squared distance from the planes, beside the largest distance
 constexpr float kLengthFactor = 1e-7f;  // of the squared length of the edge: decides on flat ground
 
 /// The shapes at a common scale, each round the origin.
@@ -130,7 +132,7 @@ private:
         return scaled_.places[shape][surface_.vertex_of(point)];
     }
 
-    // --- quadrics: of the planes in every shape, and at rest of the borders and seams
+    // --- quadrics: of the planes in every shape, and at rest of borders
 
     void add_quadrics() {
         const std::size_t shapes = scaled_.places.size();
@@ -139,8 +141,7 @@ private:
         for (const Surface::Triangle& triangle : surface_.triangles) {
             for (std::size_t s = 0; s < shapes; ++s) {
                 const auto& p = triangle.points;
-                const glm::vec3 cross =
-                    glm::cross(place(s, p[1]) - place(s, p[0]), place(s, p[2]) - place(s, p[0]));
+                const glm::vec3 cross = glm::cross(place(s, p[1]) - place(s, p[0]), place(s, p[2]) - place(s, p[0]));
                 const float length = glm::length(cross);
                 if (!(length > 0.0f)) continue;
                 for (const std::uint32_t point : p)
@@ -152,7 +153,7 @@ private:
 
     void add_rims() {
         struct Side {
-            std::uint32_t low, high, low_vertex, high_vertex, material, corner;
+            std::uint32_t low, high, material, corner;
         };
         std::vector<Side> sides;
         sides.reserve(surface_.triangles.size() * 3);
@@ -161,24 +162,20 @@ private:
             const std::size_t from = corner % 3;
             const std::size_t to = (from + 1) % 3;
             const bool swaps = triangle.points[from] > triangle.points[to];
-            const std::size_t low = swaps ? to : from;
-            const std::size_t high = swaps ? from : to;
-            sides.push_back({triangle.points[low], triangle.points[high], triangle.vertices[low],
-                             triangle.vertices[high], triangle.material, corner});
+            sides.push_back(
+                {triangle.points[swaps ? to : from], triangle.points[swaps ? from : to], triangle.material, corner});
         }
         std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         for (std::size_t first = 0; first < sides.size();) {
             std::size_t end = first;
-            bool continues = true;
+            bool is_one_material = true;
             for (; end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high;
                  ++end) {
-                continues = continues && sides[end].low_vertex == sides[first].low_vertex &&
-                            sides[end].high_vertex == sides[first].high_vertex &&
-                            sides[end].material == sides[first].material;
+                is_one_material = is_one_material && sides[end].material == sides[first].material;
             }
-            const bool is_rim = end - first != 2 || !continues;
+            const bool is_rim = end - first != 2 || !is_one_material;
             for (; first < end; ++first) {
                 if (is_rim) add_rim(sides[first].corner);
             }
@@ -189,7 +186,7 @@ private:
     void add_rim(std::uint32_t corner) {
         const auto& p = surface_.triangles[corner / 3].points;
         const std::uint32_t from = p[corner % 3];
-        const std::uint32_t to = p[(corner + 1) % 3 == corner % 3 ? 0 : (corner % 3 + 1) % 3];
+        const std::uint32_t to = p[(corner % 3 + 1) % 3];
         const glm::vec3 along = place(0, to) - place(0, from);
         const glm::vec3 normal = glm::cross(place(0, p[1]) - place(0, p[0]), place(0, p[2]) - place(0, p[0]));
         const glm::vec3 across = glm::cross(along, normal);
@@ -203,7 +200,8 @@ private:
         const std::size_t shapes = scaled_.places.size();
         float worst = kBorderFactor * rims_[point].mean_error(place(0, target));
         for (std::size_t s = 0; s < shapes; ++s)
-            worst = std::max(worst, (s == 0 ? 1.0f : kPosedFactor) * quadrics_[point * shapes + s].mean_error(place(s, target)));
+            worst = std::max(
+                worst, (s == 0 ? 1.0f : kPosedFactor) * quadrics_[point * shapes + s].mean_error(place(s, target)));
         const glm::vec3 way = place(0, target) - place(0, point);
         return worst + kLengthFactor * glm::dot(way, way);
     }
@@ -235,11 +233,11 @@ private:
             ends += n.before + n.after == 1 ? 1 : 0;
         }
         is_border_ = ends != 0;
-        return ends == 0 || ends == 2 ? is_connected(point) : false;
+        return ends == 0 || ends == 2 ? is_connected() : false;
     }
 
     /// Walks round the fan from its end, or from anywhere if it is closed.
-    bool is_connected(std::uint32_t point) const {
+    bool is_connected() const {
         std::uint32_t at = neighbours_.front().point;
         for (const Neighbour& n : neighbours_) {
             if (n.before == 0) at = n.point;
@@ -256,7 +254,6 @@ private:
                 break;
             }
         }
-        static_cast<void>(point);
         return steps == fan_.size();
     }
 
@@ -285,7 +282,8 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 if (triangle.points[k] != target) continue;
                 if (sides < 2) materials[sides++] = triangle.material;
-                add_move({surface_.alike[triangle.vertices[corner % 3]], surface_.alike[triangle.vertices[k]]});
+                if (!add_move({surface_.alike[triangle.vertices[corner % 3]], surface_.alike[triangle.vertices[k]]}))
+                    return false;
             }
         }
         if (sides == 0 || (is_border_ && sides != 1)) return false;
@@ -293,31 +291,30 @@ private:
             const Surface::Triangle& triangle = surface_.triangles[corner / 3];
             if (triangle.material != materials[0] && (sides != 2 || triangle.material != materials[1])) return false;
             const std::uint32_t from = surface_.alike[triangle.vertices[corner % 3]];
-            if (std::any_of(moves_.begin(), moves_.end(), [&](const Move& move) { return move.from == from; })) continue;
+            if (std::any_of(moves_.begin(), moves_.end(), [&](const Move& move) { return move.from == from; }))
+                continue;
             crosses_seam_ = true;
-            moves_.push_back({from, most_alike(from, target)});
+            moves_.push_back({from, most_alike(from)});
         }
         return true;
     }
 
-    void add_move(const Move& move) {
-        const auto known = std::find_if(moves_.begin(), moves_.end(), [&](const Move& m) { return m.from == move.from; });
-        if (known == moves_.end()) {
-            moves_.push_back(move);
-        } else if (known->to != move.to) {
-            crosses_seam_ = true;  // a seam ends here
-            if (apart(move.from, move.to) < apart(move.from, known->to)) known->to = move.to;
+    /// False where a seam ends: its triangles on this edge would keep two vertices apart, and no area.
+    bool add_move(const Move& move) {
+        for (const Move& known : moves_) {
+            if (known.from == move.from) return known.to == move.to;
         }
+        moves_.push_back(move);
+        return true;
     }
 
     /// Of the vertices at the target that triangles have.
-    std::uint32_t most_alike(std::uint32_t vertex, std::uint32_t target) const {
+    std::uint32_t most_alike(std::uint32_t vertex) const {
         std::uint32_t best = kNone;
         for (const std::uint32_t corner : target_fan_) {
             const std::uint32_t other = surface_.alike[surface_.triangles[corner / 3].vertices[corner % 3]];
             if (best == kNone || apart(vertex, other) < apart(vertex, best)) best = other;
         }
-        static_cast<void>(target);
         return best;
     }
 
@@ -481,7 +478,7 @@ private:
                 costs_ = costs;
                 target_[point] = choice.target;
             }
-            if (++tried == kMeasured) break;
+            if (++tried == kMeasured && surface_.points() >= kSmall) break;
         }
         return costs_.total < kImpossible;
     }
@@ -507,7 +504,7 @@ private:
         const Costs costs = measure(point, target, kImpossible);
         ++time_;
         error_ = std::max(error_, std::sqrt(costs.distance_squared) * scaled_.extent);
-        add_moves(point, target);
+        add_moves(point);
         hold_samples(costs.distance_squared);
         move_triangles(target);
         is_gone_[point] = true;
@@ -527,13 +524,12 @@ private:
         push(point, cost);
     }
 
-    void add_moves(std::uint32_t point, std::uint32_t target) {
+    void add_moves(std::uint32_t point) {
         bool is_joined = false;
         for (const std::uint32_t vertex : surface_.vertices_of(point)) {
             if (!surface_.is_used[vertex]) continue;
             std::uint32_t to = moved(vertex);
             if (to == vertex) to = moves_.front().to;  // no triangle has it any more
-            static_cast<void>(target);
             sequence_.moves.push_back({vertex, to, is_joined, error_});
             is_joined = true;
         }
@@ -588,7 +584,7 @@ private:
     Appearance appearance_;
     Samples samples_;
     std::vector<Quadric> quadrics_;  // by point, then shape
-    std::vector<Quadric> rims_;      // by point: of borders, seams and the borders of materials
+    std::vector<Quadric> rims_;      // by point: of borders, of the surface and of materials
     std::vector<std::uint32_t> corner_count_;
     std::vector<std::uint32_t> changed_, measured_;  // by point: when
     std::vector<std::uint32_t> target_;

@@ -77,7 +77,13 @@ void list_vertices(Surface& surface) {
 /// Streams that make a seam where they differ.
 class Streams {
 public:
-    explicit Streams(const Mesh& mesh) {
+    explicit Streams(const Mesh& mesh) : mesh_(mesh) {
+        if (mesh.influences != 0) list_.push_back({mesh.weights.data(), mesh.influences});
+        for (const Target& target : mesh.targets) {
+            for (const auto* stream : {&target.positions, &target.normals, &target.tangents}) {
+                if (!stream->empty()) list_.push_back({&stream->front().x, 3});
+            }
+        }
         if (!mesh.normals.empty()) list_.push_back({&mesh.normals.front().x, 3});
         if (!mesh.tangents.empty()) list_.push_back({&mesh.tangents.front().x, 4});
         for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
@@ -87,6 +93,10 @@ public:
         }
     }
     [[nodiscard]] bool are_same(std::uint32_t a, std::uint32_t b) const {
+        const std::size_t bones = mesh_.influences;
+        const auto first = mesh_.bones.begin();
+        const auto at = [&](std::size_t vertex) { return first + static_cast<std::ptrdiff_t>(vertex * bones); };
+        if (!std::equal(at(a), at(a + std::size_t{1}), at(b))) return false;
         return std::all_of(list_.begin(), list_.end(), [&](const auto& stream) {
             const float* values = stream.first;
             const std::size_t n = stream.second;
@@ -95,6 +105,7 @@ public:
     }
 
 private:
+    const Mesh& mesh_;
     std::vector<std::pair<const float*, std::size_t>> list_;
 };
 
@@ -115,7 +126,7 @@ void find_alike(const Mesh& mesh, Surface& surface) {
 }
 
 void add_part(Surface& surface, const Part& part) {
-    for (const std::uint32_t vertex : part.indices) surface.is_used[vertex] = true;
+    for (const std::uint32_t vertex : part.indices) surface.is_used[surface.alike[vertex]] = true;
     if (part.topology != Topology::triangles) {
         for (const std::uint32_t vertex : part.indices) surface.is_locked[surface.point_of[vertex]] = true;
         return;
@@ -124,7 +135,7 @@ void add_part(Surface& surface, const Part& part) {
         Surface::Triangle triangle;
         triangle.material = part.material;
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle.vertices[k] = part.indices[at + k];
+            triangle.vertices[k] = surface.alike[part.indices[at + k]];
             triangle.points[k] = surface.point_of[part.indices[at + k]];
         }
         const auto& p = triangle.points;

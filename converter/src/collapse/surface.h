@@ -21,15 +21,15 @@ struct Surface {
         std::uint32_t material = kNone;
         bool is_alive = true;
     };
-    std::vector<Triangle> triangles;           ///< those with three different points
-    std::vector<std::uint32_t> point_of;       ///< of each vertex
-    std::vector<std::uint32_t> first_vertex;   ///< of each point, in `vertices`; one more than points
-    std::vector<std::uint32_t> vertices;       ///< by point
-    std::vector<std::uint32_t> alike;          ///< per vertex: the first at its point that differs from it in nothing
-    std::vector<bool> is_used;                 ///< per vertex: anything is drawn of it
-    std::vector<bool> is_locked;               ///< per point: stays where it is
-    std::vector<std::uint32_t> first_corner;   ///< per point: a list of its corners, 3 * triangle + 0 to 2; kNone: end
-    std::vector<std::uint32_t> next_corner;    ///< per corner
+    std::vector<Triangle> triangles;          ///< those with three different points
+    std::vector<std::uint32_t> point_of;      ///< of each vertex
+    std::vector<std::uint32_t> first_vertex;  ///< of each point, in `vertices`; one more than points
+    std::vector<std::uint32_t> vertices;      ///< by point
+    std::vector<std::uint32_t> alike;         ///< per vertex: the first at its point that differs from it in nothing
+    std::vector<bool> is_used;                ///< per vertex: anything is drawn of it
+    std::vector<bool> is_locked;              ///< per point: stays where it is
+    std::vector<std::uint32_t> first_corner;  ///< per point: a list of its corners, 3 * triangle + 0 to 2; kNone: end
+    std::vector<std::uint32_t> next_corner;   ///< per corner
 
     [[nodiscard]] std::uint32_t points() const { return static_cast<std::uint32_t>(is_locked.size()); }
     [[nodiscard]] std::span<const std::uint32_t> vertices_of(std::uint32_t point) const {

@@ -16,8 +16,13 @@ void collapse_vertices(Scene& scene) {
     const std::vector<std::vector<Shape>> shapes = find_shapes(scene);
     std::vector<Surface> surfaces;
     surfaces.reserve(scene.meshes.size());
-    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         surfaces.push_back(make_surface(scene.meshes[mesh], shapes[mesh]));
+        // One for all that are alike: else triangles between doubles would stay when they have no area any more.
+        for (Part& part : scene.meshes[mesh].parts) {
+            for (std::uint32_t& index : part.indices) index = surfaces.back().alike[index];
+        }
+    }
     lock_shared_borders(shapes, surfaces);
     std::vector<Sequence> sequences;
     sequences.reserve(surfaces.size());

@@ -180,7 +180,7 @@ struct Scene {
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence
-    std::vector<Cycle> cycles;  ///< the source's order and number
+    std::vector<Cycle> cycles;     ///< the source's order and number
     std::vector<Material> materials;
     std::vector<Image> images;
     std::vector<Texture> textures;

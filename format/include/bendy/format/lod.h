@@ -12,7 +12,8 @@
 // LODD: the sequence in which the vertices of an object's pools are collapsed.
 namespace bendy {
 
-/// The collapse sequence of one pool, in place. The pool's first N vertices are those alive at N, base <= N <= vertices.
+/// The collapse sequence of one pool, in place. The pool's first N vertices are those alive at N, base <= N <=
+/// vertices.
 struct PoolCollapseView {
     std::uint32_t pool = 0;      ///< number inside the object
     std::uint32_t base = 0;      ///< the vertices that never collapse
@@ -40,9 +41,9 @@ struct CollapseView {
     Bytes rows;  ///< levels rows: error f32, alive u32 for each of `pools`
 };
 
-/// Reads an object's LODD and checks all that memory safety hangs on, and that no chain of targets is circular: pools in
-/// range and ascending, sizes, base within the pool, each target below its own number, levels in order. Nothing if there
-/// is none, or it has a fault.
+/// Reads an object's LODD and checks all that memory safety hangs on, and that no chain of targets is circular: pools
+/// in range and ascending, sizes, base within the pool, each target below its own number, levels in order. Nothing if
+/// there is none, or it has a fault.
 std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t object, std::span<const PoolView> pools,
                                           Faults& faults);
 

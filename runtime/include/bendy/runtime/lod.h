@@ -50,7 +50,7 @@ private:
     std::vector<PoolLevel> pools_;
     std::vector<Draw> draws_;
     std::vector<std::uint32_t> first_draw_;  // of each pool, in draws_; one more than pools
-    std::vector<std::uint32_t> place_;  // of each pool in the file's table of levels, or kNone
+    std::vector<std::uint32_t> place_;       // of each pool in the file's table of levels, or kNone
     std::uint64_t all_triangles_ = 0;
     std::uint64_t fixed_triangles_ = 0;  // of pools without a sequence
     std::uint64_t triangles_ = 0;
