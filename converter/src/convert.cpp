@@ -59,8 +59,8 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         auto scene = import_gltf(file, options.gltf, report);
         if (!scene) return scene.error();
         attach_rigs(*scene, rig, options.auto_rig, report);
-        std::vector<std::byte> bytes = options.compact ? build_compact(*scene, options, report)
-                                                       : build_chunks(*scene, kGenerator, report);
+        std::vector<std::byte> bytes =
+            options.compact ? build_compact(*scene, options, report) : build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())

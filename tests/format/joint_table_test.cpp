@@ -18,7 +18,8 @@ using namespace test;
 Node with_table(std::uint32_t joints = 4, std::uint32_t ranges = 0, std::string_view names = {"a\0b\0\0d\0", 7}) {
     Node root = sample();
     Node& object = at(root, "HEAD/OBJE");
-    for (const char* path : {"HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN[1]"}) {
+    for (const char* path :
+         {"HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN[1]"}) {
         remove(at(root, std::string(path) + "/PIVO"), "REST");
     }
     JointsRecord record;
