@@ -106,7 +106,23 @@ const std::vector<Provocation> kProvocations{
     edited(ErrorCode::kRequiredChunkUnknown, "HEAD/OBJE/ZZZZ",
            [](Node& root) { at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("ZZZZ"), {}, kRequiredFlag)); }),
     edited(ErrorCode::kUnsupportedCodec, "HEAD/OBJE/VECT/NORM",
-           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0x0100; }),
+           [](Node& root) { at(root, "HEAD/OBJE/VECT/NORM").flags = 0xff00; }),
+    edited(ErrorCode::kCodecData, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) {
+               Node& normals = at(root, "HEAD/OBJE/VECT/NORM");
+               const CodecHeader header{16, 0, 0, 0};  // and no frame behind it
+               const Bytes bytes = bytes_of(header);
+               normals.payload.assign(bytes.begin(), bytes.end());
+               normals.flags = 0x0100;
+           }),
+    edited(ErrorCode::kCodecRatio, "HEAD/OBJE/VECT/NORM",
+           [](Node& root) {
+               Node& normals = at(root, "HEAD/OBJE/VECT/NORM");
+               const CodecHeader header{16 * kMaxCodecRatio + 1, 0, 0, 0};
+               const Bytes bytes = bytes_of(header);
+               normals.payload.assign(bytes.begin(), bytes.end());
+               normals.flags = 0x0100;
+           }),
 
     edited(ErrorCode::kChunkMissing, "HEAD/OBJE/SKIN/SKIN[1]",
            [](Node& root) { remove(at(root, "HEAD/OBJE/SKIN/SKIN[1]"), "PIVO"); }),
