@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """What compact files weigh, beside gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%]
 
-Prints a Markdown table: bytes without images; of them, the cycles'; and how many times a plain read of the file's bytes
-opening takes, if --open names the program bench_open. Python 3, nothing else.
+Prints a Markdown table: bytes without images, with and without the cycles. Python 3, nothing else.
 """
 
 import argparse

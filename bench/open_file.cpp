@@ -1,4 +1,5 @@
-// bench_open FILE...: what opening a bendy file costs, beside a plain read of its bytes. Best of many runs, in microseconds.
+// bench_open FILE...: what opening a bendy file costs, beside a plain read of its bytes. Best of many runs, in
+// microseconds.
 #include <bendy/runtime.h>
 
 #include <algorithm>

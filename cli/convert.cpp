@@ -204,8 +204,9 @@ void add_convert(CLI::App& program) {
     command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
-    command->add_flag("--compact", arguments->compact,
-                      "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise");
+    command->add_flag(
+        "--compact", arguments->compact,
+        "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise");
     command
         ->add_option("--max-error", arguments->max_error,
                      "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "

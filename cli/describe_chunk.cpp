@@ -284,7 +284,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
 
 std::string encoding_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
-                                                           "indices", "indices, zstd", "cycle", "sums"};
+                                                           "indices", "indices, zstd", "cycle",    "sums"};
     const unsigned codec = tree[number].codec();
     if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
     std::string text = "encoded: " + std::string(kNames[codec]);

@@ -56,7 +56,8 @@ void put_stored(LeafWriter& out, FourCC id, const StoredStream& stream, std::spa
     record.component_type = static_cast<std::uint8_t>(stream.type);
     record.normalised = static_cast<std::uint8_t>(stream.numbers);
     record.components = static_cast<std::uint16_t>(stream.components);
-    record.elements = static_cast<std::uint32_t>(elements.empty() ? stream.bytes.size() / stream.row() : elements.size());
+    record.elements =
+        static_cast<std::uint32_t>(elements.empty() ? stream.bytes.size() / stream.row() : elements.size());
     record.set = set;
     std::vector<std::byte> picked;
     for (const std::uint32_t element : elements) {
@@ -69,8 +70,7 @@ void put_stored(LeafWriter& out, FourCC id, const StoredStream& stream, std::spa
     LeafShape shape =
         stream_shape(sizeof record + boxes.size() + gap.size(), component_size(stream.type), stream.components, false);
     shape.sums = id == FourCC("WGHT") && stream.type == ComponentType::u16;
-    out.leaf(id, std::array{bytes_of(record), boxes, gap, Bytes(elements.empty() ? stream.bytes : picked)},
-             shape);
+    out.leaf(id, std::array{bytes_of(record), boxes, gap, Bytes(elements.empty() ? stream.bytes : picked)}, shape);
 }
 
 /// A stream of float vectors, as they are.
@@ -232,9 +232,9 @@ void put_joint_table(LeafWriter& out, const Scene& scene, const PolygonsByJoint&
 
 void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
     // A zero inside a name would end it too early in the table.
-    const bool has_table = out.is_compact() && std::none_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) {
-        return j.name.find('\0') != std::string::npos;
-    });
+    const bool has_table =
+        out.is_compact() && std::none_of(scene.joints.begin(), scene.joints.end(),
+                                         [](const Joint& j) { return j.name.find('\0') != std::string::npos; });
     const PullsByJoint pulls = sort_pulls(scene);
     std::vector<std::uint32_t> open;
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
@@ -306,7 +306,8 @@ void put_target(LeafWriter& out, const Target& target, const CompactTarget& comp
         const auto put = [&](FourCC id, const std::vector<glm::vec3>& stream,
                              const std::optional<StoredStream>& stored) {
             if (stored) {
-                put_stored(out, id, *stored, is_sparse ? std::span<const std::uint32_t>(touched) : std::span<const std::uint32_t>());
+                put_stored(out, id, *stored,
+                           is_sparse ? std::span<const std::uint32_t>(touched) : std::span<const std::uint32_t>());
                 return;
             }
             const std::vector<glm::vec3> picked = is_sparse ? pick(stream, touched) : std::vector<glm::vec3>();

@@ -31,8 +31,8 @@ std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults)
     return version;
 }
 
-/// Fills the palettes whose matrices follow from the rest pose. All of them together may take no more memory than encoded
-/// leaves may.
+/// Fills the palettes whose matrices follow from the rest pose. All of them together may take no more memory than
+/// encoded leaves may.
 void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) {
     std::vector<glm::dmat4> rests;
     const std::uint64_t most = tree.bytes().size() * kMaxCodecRatio / sizeof(glm::mat4);
@@ -206,8 +206,8 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     std::uint64_t cycles = 0;
     if (document.bound) {
         const BoundRecord& bound = *document.bound;
-        check_finite(std::array{bound.max_error, bound.measured_error, bound.height}, offset_of(tree, 0, FourCC("BNDS")),
-                     faults);
+        check_finite(std::array{bound.max_error, bound.measured_error, bound.height},
+                     offset_of(tree, 0, FourCC("BNDS")), faults);
     }
     for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
     for (const ObjectView& object : document.objects) {

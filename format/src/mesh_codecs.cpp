@@ -20,8 +20,8 @@ std::size_t padded_row(std::size_t stride) {
     return (stride + 3) & ~std::size_t{3};
 }
 
-/// Calls decode(bytes) with the library's bytes: the body, or what zstd makes of it, which is held against `most` before
-/// it is allocated.
+/// Calls decode(bytes) with the library's bytes: the body, or what zstd makes of it, which is held against `most`
+/// before it is allocated.
 template <class Decode>
 bool with_unpacked(bool is_zstd, Bytes body, std::uint64_t most, const Decode& decode) {
     if (!is_zstd) return decode(body);
@@ -71,7 +71,8 @@ void change_first(std::span<std::byte> row, bool add) {
 }
 
 std::optional<std::vector<unsigned char>> pack_triangles(std::span<const std::uint32_t> indices) {
-    const std::size_t vertices = indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
+    const std::size_t vertices =
+        indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices));
     meshopt_encodeIndexVersion(kIndexVersion);
     const std::size_t size = meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size());
@@ -97,7 +98,8 @@ bool decode_rows(const CodecHeader& header, bool is_zstd, Bytes body, std::span<
         if (wide == header.stride)
             return meshopt_decodeVertexBuffer(out.data(), *rows, wide, raw(packed), packed.size()) == 0;
         AlignedBytes padded(*rows * wide);
-        if (meshopt_decodeVertexBuffer(padded.span().data(), *rows, wide, raw(packed), packed.size()) != 0) return false;
+        if (meshopt_decodeVertexBuffer(padded.span().data(), *rows, wide, raw(packed), packed.size()) != 0)
+            return false;
         for (std::size_t row = 0; row < *rows; ++row)
             std::memcpy(out.data() + row * header.stride, padded.bytes().data() + row * wide, header.stride);
         return true;
@@ -167,8 +169,8 @@ bool encode_triangles(const CodecHeader& header, bool is_zstd, Bytes payload, st
     const Bytes list = payload.subspan(header.head);
     if (!count_of(list.size(), std::size_t{3} * header.stride)) return false;
     const std::vector<std::byte> aligned(list.begin(), list.end());
-    const auto packed = pack_triangles(header.stride == 2 ? widened<std::uint16_t>(aligned)
-                                                          : widened<std::uint32_t>(aligned));
+    const auto packed =
+        pack_triangles(header.stride == 2 ? widened<std::uint16_t>(aligned) : widened<std::uint32_t>(aligned));
     if (!packed) return false;
     AlignedBytes decoded(list.size());
     const int failed = meshopt_decodeIndexBuffer(decoded.span().data(), list.size() / header.stride, header.stride,

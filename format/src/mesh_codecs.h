@@ -4,8 +4,8 @@
 
 #include <vector>
 
-// Codec 7, and 2 to 5: meshoptimizer's vertex and index codecs (Kapoulkine, https://github.com/zeux/meshoptimizer), the odd
-// ones under zstd. `body` is what follows the CodecHeader.
+// Codec 7, and 2 to 5: meshoptimizer's vertex and index codecs (Kapoulkine, https://github.com/zeux/meshoptimizer), the
+// odd ones under zstd. `body` is what follows the CodecHeader.
 namespace bendy {
 
 bool decode_rows(const CodecHeader& header, bool is_zstd, Bytes body, std::span<std::byte> out);

@@ -43,12 +43,10 @@ constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16
 constexpr StreamForm kShifts[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, i8, u16, i16), 3, 3, boxed}};
 constexpr StreamForm kNormals[] = {{any_of(f32), 3, 3, plain}, {any_of(i8, i16), 2, 2, normalised}};
 constexpr StreamForm kTangents[] = {{any_of(f32), 4, 4, plain}, {any_of(i8, i16), 3, 3, normalised}};
-constexpr StreamForm kCoords[] = {{any_of(f32), 2, 2, plain},
-                                  {any_of(u8, u16), 2, 2, normalised},
-                                  {any_of(u8, u16), 2, 2, boxed}};
-constexpr StreamForm kColour[] = {{any_of(f32), 3, 4, plain},
-                                  {any_of(u8, u16), 3, 4, normalised},
-                                  {any_of(u8, u16), 3, 4, boxed}};
+constexpr StreamForm kCoords[] = {
+    {any_of(f32), 2, 2, plain}, {any_of(u8, u16), 2, 2, normalised}, {any_of(u8, u16), 2, 2, boxed}};
+constexpr StreamForm kColour[] = {
+    {any_of(f32), 3, 4, plain}, {any_of(u8, u16), 3, 4, normalised}, {any_of(u8, u16), 3, 4, boxed}};
 constexpr StreamForm kBones[] = {{any_of(u8, u16), 1, kMaxInfluences, plain}};
 constexpr StreamForm kWeights[] = {{any_of(f32), 1, kMaxInfluences, plain},
                                    {any_of(u8, u16), 1, kMaxInfluences, normalised},
@@ -80,8 +78,7 @@ public:
     PoolReader(const ChunkTree& tree, Faults& faults) : tree_(tree), faults_(faults) {}
 
     /// The stream in leaf `number`; nothing, and a fault, if it is not as `rule` and the counts have it.
-    std::optional<StreamView> stream(std::uint32_t number, StreamRule rule,
-                                     std::optional<std::uint32_t> elements) {
+    std::optional<StreamView> stream(std::uint32_t number, StreamRule rule, std::optional<std::uint32_t> elements) {
         const Chunk& chunk = tree_[number];
         if (chunk.is_container()) return std::nullopt;
         const Result<StreamRecord> record = read_record<StreamRecord>(tree_, number);
@@ -102,9 +99,12 @@ public:
         const Bytes payload = tree_.payload(number);
         if (payload.size() != before + size)
             return fault({ErrorCode::kRecordSize, chunk.offset, payload.size(), before + size});
-        StreamView view{type,        record->normalised == static_cast<std::uint8_t>(normalised),
-                        record->components, record->elements,
-                        record->set, payload.subspan(before),
+        StreamView view{type,
+                        record->normalised == static_cast<std::uint8_t>(normalised),
+                        record->components,
+                        record->elements,
+                        record->set,
+                        payload.subspan(before),
                         number};
         if (before != sizeof(StreamRecord)) {
             view.boxes = view_at<StreamBox>(payload, sizeof(StreamRecord), record->components);

@@ -15,7 +15,7 @@ MAY_USE = {
 # header: the folders that may include it
 PRIVATE = {
     "tiny_gltf.h": "converter/src/gltf/",
-    "meshoptimizer.h": "converter/src/",
+    "meshoptimizer.h": ("converter/src/", "format/src/"),
     "draco/": "converter/src/",
     "nlohmann/": ("converter/src/", "cli/"),
     "CLI/": "cli/",

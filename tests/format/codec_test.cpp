@@ -25,7 +25,8 @@ Buffer rows(std::size_t head, std::size_t stride, std::size_t count) {
     std::mt19937 random(7);
     Buffer bytes(head + stride * count);
     for (std::size_t at = 0; at < bytes.size(); ++at)
-        bytes[at] = static_cast<std::byte>(at < head + stride ? random() : std::to_integer<unsigned>(bytes[at - stride]) + random() % 3);
+        bytes[at] = static_cast<std::byte>(
+            at < head + stride ? random() : std::to_integer<unsigned>(bytes[at - stride]) + random() % 3);
     return bytes;
 }
 
@@ -35,7 +36,8 @@ std::vector<std::uint32_t> grid(std::uint32_t side) {
     for (std::uint32_t y = 0; y + 1 < side; ++y) {
         for (std::uint32_t x = 0; x + 1 < side; ++x) {
             const std::uint32_t a = y * side + x;
-            for (const std::uint32_t index : {a, a + 1, a + side, a + side, a + 1, a + side + 1}) indices.push_back(index);
+            for (const std::uint32_t index : {a, a + 1, a + side, a + side, a + 1, a + side + 1})
+                indices.push_back(index);
         }
     }
     return indices;
@@ -104,12 +106,14 @@ TEST(Codec, TrianglesComeBackOnceTheyAreCanonical) {
 TEST(Codec, CanonicalTrianglesAreTheSameTriangles) {
     std::mt19937 random(3);
     std::vector<std::uint32_t> list;
-    for (int k = 0; k < 3000; ++k) list.push_back(random() % 500);
+    for (int k = 0; k < 3000; ++k) list.push_back(static_cast<std::uint32_t>(random() % 500));
     const auto canonical = canonical_triangles(list);
     ASSERT_TRUE(canonical && canonical->size() == list.size());
     for (std::size_t t = 0; t < list.size(); t += 3) {
-        const std::vector<std::uint32_t> source(list.begin() + static_cast<std::ptrdiff_t>(t), list.begin() + static_cast<std::ptrdiff_t>(t + 3));
-        std::vector<std::uint32_t> turned(canonical->begin() + static_cast<std::ptrdiff_t>(t), canonical->begin() + static_cast<std::ptrdiff_t>(t + 3));
+        const std::vector<std::uint32_t> source(list.begin() + static_cast<std::ptrdiff_t>(t),
+                                                list.begin() + static_cast<std::ptrdiff_t>(t + 3));
+        std::vector<std::uint32_t> turned(canonical->begin() + static_cast<std::ptrdiff_t>(t),
+                                          canonical->begin() + static_cast<std::ptrdiff_t>(t + 3));
         bool is_same = false;
         for (int turn = 0; turn < 3; ++turn) {
             is_same = is_same || turned == source;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace bendy {
@@ -18,7 +19,8 @@ using namespace test;
 Node with_table(std::uint32_t joints = 4, std::uint32_t ranges = 0, std::string_view names = {"a\0b\0\0d\0", 7}) {
     Node root = sample();
     Node& object = at(root, "HEAD/OBJE");
-    for (const char* path : {"HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN[1]"}) {
+    for (const char* path :
+         {"HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN/SKIN", "HEAD/OBJE/SKIN/SKIN[1]"}) {
         remove(at(root, std::string(path) + "/PIVO"), "REST");
     }
     JointsRecord record;
@@ -127,6 +129,17 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     }
     set(palette, offsetof(PaletteRecord, derived), 2u);
     EXPECT_EQ(faults_in(root)[0], "ENUM_RANGE HEAD/OBJE/VECT/PALT");
+}
+
+TEST(Bound, IsReadAndFinite) {
+    Node root = sample();
+    EXPECT_FALSE(Loaded(root).document.bound);
+    root.children.push_back(make_leaf(FourCC("BNDS"), bytes_of(BoundRecord{1e-4f, 5e-5f, 2.0f})));
+    const Loaded loaded(root);
+    ASSERT_TRUE(loaded.document.bound);
+    EXPECT_EQ(loaded.document.bound->height, 2.0f);
+    set(at(root, "HEAD/BNDS"), offsetof(BoundRecord, max_error), std::numeric_limits<float>::infinity());
+    EXPECT_EQ(faults_in(root), Lines{"NOT_FINITE HEAD/BNDS"});
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ def read_stream_rules(check):
     code = ' '.join(strip_comments((check.source / 'format' / 'src' / 'pool.cpp').read_text(encoding='utf-8')).split())
     limits, _ = read_constants(check)
     rules = {}
-    for rule, body in re.findall(r'constexpr StreamForm (k\w+)\[\] = \{(\{.*?\})\};', code):
+    for rule, body in re.findall(r'constexpr StreamForm (k\w+)\[\] = \{\s*(\{.*?\})\s*\};', code):
         rules[rule] = []
         for types, fewest, most, numbers in re.findall(r'\{any_of\(([^)]*)\), (\w+), (\w+), (\w+)\}', body):
             width = [str(limits[n] if n in limits else int(n, 0)) for n in (fewest, most)]

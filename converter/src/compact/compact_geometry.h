@@ -19,7 +19,7 @@ struct CompactMesh {
     std::optional<StoredStream> positions, normals, tangents, weights;
     std::vector<std::optional<StoredStream>> texture_coords, colours;  ///< as many as the mesh has
     std::vector<CompactTarget> targets;                                ///< as many
-    std::optional<glm::mat4> bind_base;  ///< the inverse bind matrices follow from it and the rest pose
+    std::optional<glm::mat4> bind_base;    ///< the inverse bind matrices follow from it and the rest pose
     std::vector<std::uint32_t> vertex_of;  ///< which vertex the source's vertex n has become
 };
 

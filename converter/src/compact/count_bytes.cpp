@@ -13,16 +13,15 @@ struct KindOfChunk {
     std::string_view kind;
 };
 /// A chunk is of the first of these that it or one of its containers is, nearest first.
-constexpr std::array kKinds{
-    KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk{FourCC("JNTS"), "skeleton"},
-    KindOfChunk{FourCC("JNAM"), "skeleton"}, KindOfChunk{FourCC("IKCH"), "skeleton"},
-    KindOfChunk{FourCC("PALT"), "PALT"},     KindOfChunk{FourCC("POSI"), "POSI"},
-    KindOfChunk{FourCC("NORM"), "NORM"},     KindOfChunk{FourCC("TANG"), "TANG"},
-    KindOfChunk{FourCC("TEXC"), "TEXC"},     KindOfChunk{FourCC("COLR"), "COLR"},
-    KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
-    KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
-    KindOfChunk{FourCC("CYCL"), "cycles"},   KindOfChunk{FourCC("TEXT"), "textures"},
-    KindOfChunk{FourCC("HEAD"), "other"}};
+constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk{FourCC("JNTS"), "skeleton"},
+                            KindOfChunk{FourCC("JNAM"), "skeleton"}, KindOfChunk{FourCC("IKCH"), "skeleton"},
+                            KindOfChunk{FourCC("PALT"), "PALT"},     KindOfChunk{FourCC("POSI"), "POSI"},
+                            KindOfChunk{FourCC("NORM"), "NORM"},     KindOfChunk{FourCC("TANG"), "TANG"},
+                            KindOfChunk{FourCC("TEXC"), "TEXC"},     KindOfChunk{FourCC("COLR"), "COLR"},
+                            KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
+                            KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
+                            KindOfChunk{FourCC("CYCL"), "cycles"},   KindOfChunk{FourCC("TEXT"), "textures"},
+                            KindOfChunk{FourCC("HEAD"), "other"}};
 
 }  // namespace
 
@@ -40,7 +39,8 @@ std::vector<ByteCount> count_bytes(Bytes file) {
     std::vector<std::size_t> kind_of(tree->chunks().size(), counts.size() - 1);
     for (std::uint32_t number = 0; number < kind_of.size(); ++number) {
         const Chunk& chunk = (*tree)[number];
-        const auto known = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindOfChunk& k) { return k.id == chunk.id; });
+        const auto known =
+            std::find_if(kKinds.begin(), kKinds.end(), [&](const KindOfChunk& k) { return k.id == chunk.id; });
         const bool in_target = number != 0 && counts[kind_of[chunk.parent]].kind == "targets";
         if (known != kKinds.end() && !in_target) {
             kind_of[number] = place[static_cast<std::size_t>(known - kKinds.begin())];

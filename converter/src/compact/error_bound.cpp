@@ -25,7 +25,8 @@ std::string quoted(std::string_view text) {
 Result<ErrorBound, std::string> parse_error_bound(std::string_view text) {
     double value = 0.0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failure != std::errc()) return quoted(text) + " is no error bound; write a length, as 0.1mm, or a share, as 0.005%";
+    if (failure != std::errc())
+        return quoted(text) + " is no error bound; write a length, as 0.1mm, or a share, as 0.005%";
     std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     if (unit.empty()) {

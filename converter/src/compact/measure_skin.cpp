@@ -21,7 +21,8 @@ glm::dvec3 position_of(const Mesh& mesh, std::size_t vertex, bool has_targets) {
 
 glm::dvec3 posed(const Mesh& mesh, std::size_t vertex, const std::vector<glm::dmat4>& pose, bool has_targets) {
     const glm::dvec4 position(position_of(mesh, vertex, has_targets), 1.0);
-    if (mesh.influences == 0) return mesh.joint == kNone ? glm::dvec3(position) : glm::dvec3(pose[mesh.joint] * position);
+    if (mesh.influences == 0)
+        return mesh.joint == kNone ? glm::dvec3(position) : glm::dvec3(pose[mesh.joint] * position);
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < mesh.influences; ++k) {
         const std::size_t at = vertex * mesh.influences + k;

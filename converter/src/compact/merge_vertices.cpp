@@ -43,7 +43,7 @@ void for_each_stream(Mesh& mesh, CompactMesh& compact, const Visit& visit) {
     }
 }
 
-/// Vertex v goes to place_of[v]; of several that go to one place the first is taken. 
+/// Vertex v goes to place_of[v]; of several that go to one place the first is taken.
 void move_vertices(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> place_of, std::size_t count) {
     for_each_stream(mesh, compact, [&](auto& values, std::size_t width) {
         if (values.empty()) return;
@@ -119,9 +119,8 @@ void order_for_codecs(Mesh& mesh, CompactMesh& compact) {
     mesh.parts.clear();
     move_vertices(mesh, compact, place_of, vertices);
     for (std::uint32_t& index : assigned.indices) index = place_of[index];
-    const bool all_triangles = std::all_of(assigned.ranges.begin(), assigned.ranges.end(), [](const PolygonRange& r) {
-        return r.topology == Topology::triangles;
-    });
+    const bool all_triangles = std::all_of(assigned.ranges.begin(), assigned.ranges.end(),
+                                           [](const PolygonRange& r) { return r.topology == Topology::triangles; });
     if (all_triangles) {
         if (auto canonical = canonical_triangles(assigned.indices)) assigned.indices = std::move(*canonical);
     }

@@ -14,8 +14,8 @@ struct StoredStream {
     ComponentType type = ComponentType::u8;
     Numbers numbers = Numbers::boxed;
     std::uint32_t components = 0;
-    std::vector<StreamBox> boxes;   ///< one per component if numbers are boxed, else none
-    std::vector<std::byte> bytes;   ///< elements * components integers
+    std::vector<StreamBox> boxes;  ///< one per component if numbers are boxed, else none
+    std::vector<std::byte> bytes;  ///< elements * components integers
     bool is_octahedral = false;
 
     [[nodiscard]] std::size_t row() const { return std::size_t{components} * component_size(type); }

@@ -50,7 +50,8 @@ Scene bent_grid(float scale, std::uint32_t influences, unsigned seed) {
     for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
         for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
             const std::uint32_t a = y * kSide + x;
-            for (const std::uint32_t i : {a, a + 1, a + kSide, a + kSide, a + 1, a + kSide + 1}) part.indices.push_back(i);
+            for (const std::uint32_t i : {a, a + 1, a + kSide, a + kSide, a + 1, a + kSide + 1})
+                part.indices.push_back(i);
         }
     }
     Cycle& cycle = scene.cycles.emplace_back();
@@ -77,7 +78,7 @@ std::vector<glm::vec3> skinned(const std::vector<std::byte>& bytes, float time) 
     const auto model = Model::from_memory(bytes);
     EXPECT_TRUE(model.has_value());
     Pose pose(*model);
-    if (!model->cycles().empty()) sample(model->cycles()[0], time, pose);
+    if (!model->cycles().empty()) sample(&model->cycles()[0], time, pose);
     std::vector<glm::vec3> positions(model->vertex_count());
     EXPECT_TRUE(skin(*model, pose, {positions, {}, {}}));
     return positions;
@@ -138,7 +139,8 @@ std::vector<std::array<std::uint32_t, 3>> triangles(const Mesh& mesh, const std:
     std::vector<std::array<std::uint32_t, 3>> list;
     for (const Part& part : mesh.parts) {
         for (std::size_t at = 0; at + 3 <= part.indices.size(); at += 3) {
-            std::array<std::uint32_t, 3> t{place[part.indices[at]], place[part.indices[at + 1]], place[part.indices[at + 2]]};
+            std::array<std::uint32_t, 3> t{place[part.indices[at]], place[part.indices[at + 1]],
+                                           place[part.indices[at + 2]]};
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
             list.push_back(t);
         }

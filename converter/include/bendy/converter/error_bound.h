@@ -9,7 +9,7 @@ namespace bendy::converter {
 
 /// How far compact encodings may move a point of the skin: a length, or a share of the character's height.
 struct ErrorBound {
-    double value = 5e-5;   ///< metres, or a share (1 is the whole height); above 0, finite
+    double value = 5e-5;  ///< metres, or a share (1 is the whole height); above 0, finite
     bool is_share = true;
 };
 

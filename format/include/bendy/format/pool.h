@@ -57,8 +57,8 @@ struct StreamView {
     [[nodiscard]] bool empty() const { return elements == 0 || components == 0; }
 };
 
-/// The unit vector at a point of the unfolded octahedron (Meyer et al., On Floating-Point Normal Vectors, 2010): x and y
-/// in [-1, 1]. Additions, multiplications, divisions and square roots alone, so the same on every machine.
+/// The unit vector at a point of the unfolded octahedron (Meyer et al., On Floating-Point Normal Vectors, 2010): x and
+/// y in [-1, 1]. Additions, multiplications, divisions and square roots alone, so the same on every machine.
 glm::vec3 decode_octahedral(float x, float y);
 
 /// Which joints a pool's bones mean, and their inverse bind matrices (pool space to joint space at bind time).
@@ -102,8 +102,9 @@ struct PoolView {
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
 };
 
-/// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on: types, counts, sizes, and every index against the
-/// `joints` of the object, the palette and the pool itself. Faults go to `faults`; a part with a fault is left out.
+/// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on:
+/// types, counts, sizes, and every index against the `joints` of the object, the palette and the pool itself. Faults go
+/// to `faults`; a part with a fault is left out.
 PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
 
 /// Faults of meaning that do not endanger memory: numbers that are not finite, weights below zero or that do not sum to
