@@ -4,6 +4,8 @@
 #include "passes/narrow.h"
 
 #include <bendy/format/chunk_writer.h>
+#include <bendy/format/codec.h>
+#include <bendy/format/packed_cycle.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>
@@ -328,6 +330,26 @@ private:
     std::vector<float> floats_;
 };
 
+/// Packed tracks have the cycle's first and last frames, if timed keys do not lie before or after them.
+void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
+    Faults faults;
+    const auto packed = read_packed(cycle.packed, kMaxJoints, 0, faults);
+    if (!packed) return;
+    const auto last = static_cast<float>(packed->time_of(packed->record.frames - 1));
+    info.start = cycle.tracks.empty() ? packed->record.start : std::min(info.start, packed->record.start);
+    info.end = cycle.tracks.empty() ? last : std::max(info.end, last);
+}
+
+/// A leaf as its codec makes it, if that is smaller.
+void put_smallest(ChunkWriter& out, FourCC id, Codec codec, Bytes payload, std::uint16_t stride) {
+    const auto encoded = encode_payload(codec, payload, 0, stride);
+    if (encoded && encoded->size() < payload.size()) {
+        out.leaf(id, Bytes(*encoded), static_cast<std::uint16_t>(static_cast<unsigned>(codec) << kCodecShift));
+    } else {
+        out.leaf(id, payload);
+    }
+}
+
 void put_cycle(ChunkWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
@@ -347,10 +369,12 @@ void put_cycle(ChunkWriter& out, const Cycle& cycle) {
         record.first_value = values.add(track.values);
         tracks.push_back(record);
     }
+    extend_to_packed(cycle, info);
     out.begin(FourCC("CYCL"));
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
+    if (!cycle.packed.empty()) put_smallest(out, FourCC("PACK"), Codec::cycle, cycle.packed, 0);
     if (!tracks.empty()) {
         out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)));
         out.leaf(FourCC("TIME"), times.bytes());

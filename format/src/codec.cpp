@@ -1,5 +1,7 @@
 #include <bendy/format/codec.h>
 
+#include "cycle_codec.h"
+
 #include <zstd.h>
 
 #include <algorithm>
@@ -90,6 +92,8 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
     switch (codec) {
         case Codec::zstd:
             return decode_zstd(header, body, out);
+        case Codec::cycle:
+            return header.head == 0 && header.stride == 0 && decode_cycle(body, out);
         default:
             return false;
     }
@@ -104,6 +108,9 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
     switch (codec) {
         case Codec::zstd:
             is_done = encode_zstd(payload, stride, out);
+            break;
+        case Codec::cycle:
+            is_done = head == 0 && stride == 0 && encode_cycle(payload, out);
             break;
         default:
             break;
