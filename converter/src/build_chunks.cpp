@@ -344,7 +344,7 @@ void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
 void put_smallest(ChunkWriter& out, FourCC id, Codec codec, Bytes payload, std::uint16_t stride) {
     const auto encoded = encode_payload(codec, payload, 0, stride);
     if (encoded && encoded->size() < payload.size()) {
-        out.leaf(id, Bytes(*encoded), static_cast<std::uint16_t>(static_cast<unsigned>(codec) << kCodecShift));
+        out.leaf(id, Bytes(*encoded), static_cast<std::uint16_t>(static_cast<unsigned>(codec) << 8));
     } else {
         out.leaf(id, payload);
     }
