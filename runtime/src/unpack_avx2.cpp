@@ -263,15 +263,15 @@ BENDY_AVX2 inline void store_rotations(const std::uint32_t* joints, std::uint32_
         _mm_storeu_ps(&local[joints[t]].rotation.x, _mm256_extractf128_ps(out[t - 4], 1));
 }
 
-/// The next `count` joints of a list, and the last of them again up to eight.
+/// The joints of a list, one group after another; the last one again where there are fewer than eight.
 class Joints {
 public:
-    explicit Joints(Bytes bits) : bits_(bits) {}
+    Joints(Bytes bits, const std::byte* end) : bits_(bits), end_(end) {}
 
     void next(std::uint32_t count, std::uint32_t* joints) {
         for (std::uint32_t t = 0; t < count; ++t) {
             while (word_ == 0) {
-                word_ = load_bytes(bits_.data() + at_, bits_.data() + bits_.size(),
+                word_ = load_bytes(bits_.data() + at_, end_,
                                    static_cast<std::uint32_t>(std::min<std::size_t>(8, bits_.size() - at_)));
                 first_ = static_cast<std::uint32_t>(at_) * 8;
                 at_ += 8;
@@ -284,6 +284,7 @@ public:
 
 private:
     Bytes bits_;
+    const std::byte* end_;  // of the payload
     std::uint64_t word_ = 0;
     std::size_t at_ = 0;
     std::uint32_t first_ = 0;
@@ -291,7 +292,7 @@ private:
 
 BENDY_AVX2 void unpack_list(const PackedKind& kind, const PackedList& list, const Source& source, float fraction,
                             Frames& frames, JointTransform* local) {
-    Joints joints(list.joints);
+    Joints joints(list.joints, source.end);
     std::array<std::uint32_t, kPackedGroup> of_group{};
     const bool blends = source.widths != nullptr && fraction != 0.0f;
     for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
