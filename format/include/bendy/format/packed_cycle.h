@@ -138,6 +138,8 @@ struct PackedTrack {
     std::uint32_t components = 3;                      ///< 1 or 3
     bool animated = false;
     std::vector<std::int32_t> numbers;  ///< components * (animated ? frames : 1), component by component
+
+    friend bool operator==(const PackedTrack&, const PackedTrack&) = default;
 };
 struct PackedSamples {
     std::uint32_t frames = 1;
