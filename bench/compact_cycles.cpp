@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
     std::uint64_t source = 0;
     std::uint64_t memory = 0;
     std::uint64_t disk = 0;
-    std::printf("%-14s %7s %8s %8s %8s %9s %8s %8s\n", "clip", "source", "memory", "disk", "worst mm", "ACL", "probe", "seconds");
+    std::printf("%-14s %7s %8s %8s %8s %9s %8s %8s\n", "clip", "source", "memory", "disk", "worst mm", "ACL", "probe",
+                "seconds");
     for (int a = 1; a < argc; ++a) {
         const std::string_view argument = argv[a];
         const auto value = [&] { return a + 1 < argc ? argv[++a] : ""; };

@@ -1,6 +1,6 @@
 // What decoding packed cycles costs: bendy_bench_cycles FILE... [--benchmark_...]. Nanoseconds per joint of the
-// skeleton, the copy of the rest pose included; times in order, at random, and at random among so many copies that none is
-// in the cache.
+// skeleton, the copy of the rest pose included; times in order, at random, and at random among so many copies that none
+// is in the cache.
 #include "compact/pack_cycles.h"
 #include "unpack.h"
 
@@ -34,7 +34,8 @@ PackedView view_of(Bytes payload, std::size_t joints) {
 
 void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order order) {
     constexpr std::size_t kCold = 64u << 20;  // bytes
-    const std::size_t copies = order == Order::cold ? std::clamp<std::size_t>(kCold / clip.payload.size(), 64, 16384) : 1;
+    const std::size_t copies =
+        order == Order::cold ? std::clamp<std::size_t>(kCold / clip.payload.size(), 64, 16384) : 1;
     const std::vector<std::vector<std::byte>> payloads(copies, clip.payload);
     std::vector<PackedView> views;
     for (const auto& payload : payloads) views.push_back(view_of(payload, clip.rest.size()));
@@ -44,7 +45,8 @@ void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order ord
     std::uint32_t random = 12345;
     for (std::size_t k = 0; k < times.size(); ++k) {
         random = random * 1664525u + 1013904223u;
-        const double share = order == Order::next_frame ? static_cast<double>(k % 60) / 60.0 : (random >> 8) / 16777216.0;
+        const double share =
+            order == Order::next_frame ? static_cast<double>(k % 60) / 60.0 : (random >> 8) / 16777216.0;
         times[k] = static_cast<float>(view.record.start + length * share);
     }
     std::vector<JointTransform> local(clip.rest.size());
@@ -56,8 +58,9 @@ void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order ord
         benchmark::ClobberMemory();
         ++k;
     }
-    state.counters["s_per_joint"] = benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(clip.rest.size()),
-                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["s_per_joint"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(clip.rest.size()),
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 std::vector<Clip> clips_of(const char* path) {
@@ -69,7 +72,8 @@ std::vector<Clip> clips_of(const char* path) {
     std::vector<JointTransform> rest;
     for (const converter::Joint& joint : scene->joints) {
         const converter::Transform& at = joint.rest;
-        rest.push_back({glm::quat(at.rotation.w, at.rotation.x, at.rotation.y, at.rotation.z), at.translation, at.scale});
+        rest.push_back(
+            {glm::quat(at.rotation.w, at.rotation.x, at.rotation.y, at.rotation.z), at.translation, at.scale});
     }
     for (converter::Cycle& cycle : scene->cycles) {
         if (!cycle.packed.empty()) clips.push_back({cycle.name, rest, std::move(cycle.packed)});

@@ -40,7 +40,8 @@ Word predict(unsigned predictor, std::span<const Word> numbers, std::size_t k) {
 std::vector<Word> residuals(unsigned predictor, std::span<const Word> numbers) {
     std::vector<Word> found;
     found.reserve(numbers.size());
-    for (std::size_t k = 1; k < numbers.size(); ++k) found.push_back(to_zigzag(numbers[k] - predict(predictor, numbers, k)));
+    for (std::size_t k = 1; k < numbers.size(); ++k)
+        found.push_back(to_zigzag(numbers[k] - predict(predictor, numbers, k)));
     return found;
 }
 
@@ -74,7 +75,8 @@ public:
         std::vector<Word> constants;
         std::vector<Word> firsts;
         for (const PackedTrack& track : samples_.tracks) {
-            for (std::uint32_t c = 0; c < track.components; ++c) add_component(track, c, track.animated ? firsts : constants);
+            for (std::uint32_t c = 0; c < track.components; ++c)
+                add_component(track, c, track.animated ? firsts : constants);
         }
         put_numbers(constants, out_);
         put_numbers(firsts, out_);
@@ -117,7 +119,8 @@ private:
         for (unsigned predictor = 0; predictor < kPredictors; ++predictor) {
             std::vector<Word> tried = residuals(predictor, numbers);
             std::uint64_t cost = 0;  // some bits
-            for (const Word residual : tried) cost += residual == 0 ? 1u : 1u + 2u * static_cast<unsigned>(std::bit_width(residual));
+            for (const Word residual : tried)
+                cost += residual == 0 ? 1u : 1u + 2u * static_cast<unsigned>(std::bit_width(residual));
             if (cost >= least) continue;
             least = cost;
             best.predictor = predictor;
@@ -258,7 +261,8 @@ private:
             if (std::to_integer<unsigned>(heads[k]) >> 2 <= plane) continue;
             const Bytes bytes = take(samples_.frames - 1);
             for (std::size_t f = 0; f < bytes.size(); ++f) {
-                const Word number = static_cast<Word>(numbers_of_[k][f + 1]) | std::to_integer<Word>(bytes[f]) << (8 * plane);
+                const Word number = static_cast<Word>(numbers_of_[k][f + 1]) | std::to_integer<Word>(bytes[f])
+                                                                                   << (8 * plane);
                 numbers_of_[k][f + 1] = static_cast<std::int32_t>(number);
             }
         }
@@ -267,7 +271,8 @@ private:
     /// Residuals become numbers.
     void undo(unsigned predictor, std::span<std::int32_t> numbers) {
         words_.assign(numbers.begin(), numbers.end());
-        for (std::size_t k = 1; k < words_.size(); ++k) words_[k] = from_zigzag(words_[k]) + predict(predictor, words_, k);
+        for (std::size_t k = 1; k < words_.size(); ++k)
+            words_[k] = from_zigzag(words_[k]) + predict(predictor, words_, k);
         for (std::size_t k = 0; k < words_.size(); ++k) numbers[k] = static_cast<std::int32_t>(words_[k]);
     }
 

@@ -68,7 +68,8 @@ std::uint64_t all_table_bytes(const PackedView& view) {
 /// The bits of one list: as many joints as the record says, none past them.
 bool read_joints(Bytes bits, std::uint32_t joints, PackedList& list) {
     list.joints = bits;
-    for (const std::byte byte : bits) list.count += static_cast<std::uint32_t>(std::popcount(std::to_integer<unsigned>(byte)));
+    for (const std::byte byte : bits)
+        list.count += static_cast<std::uint32_t>(std::popcount(std::to_integer<unsigned>(byte)));
     return joints % 8 == 0 || bits.empty() || byte_at(bits, bits.size() - 1) >> (joints % 8) == 0;
 }
 
@@ -245,7 +246,8 @@ private:
         if (list.empty()) return;
         const std::size_t at = out_.size();
         out_.resize(at + (samples_.joints + 7) / 8);
-        for (const PackedTrack* track : list) out_[at + track->joint / 8] |= static_cast<std::byte>(1u << (track->joint % 8));
+        for (const PackedTrack* track : list)
+            out_[at + track->joint / 8] |= static_cast<std::byte>(1u << (track->joint % 8));
     }
 
     void put_bases(std::size_t k, std::uint32_t segment) {
@@ -292,7 +294,8 @@ private:
                     for (std::size_t t = group; t < end; ++t) {
                         const Range& found = range(k, s, c, t);
                         const std::int32_t number = numbers(*lists_[k][t], c, s)[f];
-                        put_bits(out_, bit, static_cast<std::uint32_t>(number) - static_cast<std::uint32_t>(found.base));
+                        put_bits(out_, bit,
+                                 static_cast<std::uint32_t>(number) - static_cast<std::uint32_t>(found.base));
                         bit += found.width;
                     }
                 }
@@ -320,8 +323,9 @@ Quaternion normalised(const Quaternion& q) {
 }
 
 Quaternion product(const Quaternion& a, const Quaternion& b) {
-    return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-            a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
+    return {
+        a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+        a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double u) {
@@ -405,7 +409,8 @@ PackedSegment packed_segment(const PackedView& view, std::uint32_t frame) {
             copy_at(view.payload, view.offsets_at + std::uint64_t{number} * 4 + 4, offset);
             end = offset;
         }
-        segment.count = number + 1 < view.segments ? view.record.segment_frames + 1u : view.record.frames - segment.first;
+        segment.count =
+            number + 1 < view.segments ? view.record.segment_frames + 1u : view.record.frames - segment.first;
     }
     segment.tables = begin;
     segment.frames = begin + view.table_bytes;
@@ -562,7 +567,8 @@ PackedSamples packed_samples(const PackedView& view) {
         for (std::uint32_t t = 0; t < list.count; ++t, ++joint) {
             while ((byte_at(list.joints, joint / 8) >> (joint % 8) & 1u) == 0) ++joint;
             PackedTrack track{kind.path, joint, {160, 160, 160}, kind.components, kind.animated, {}};
-            for (std::uint32_t c = 0; c < kind.components; ++c) track.steps[c] = static_cast<std::uint8_t>(list.steps[std::uint64_t{c} * list.count + t]);
+            for (std::uint32_t c = 0; c < kind.components; ++c)
+                track.steps[c] = static_cast<std::uint8_t>(list.steps[std::uint64_t{c} * list.count + t]);
             track.numbers.resize(std::size_t{kind.components} * (kind.animated ? samples.frames : 1));
             for (std::uint32_t c = 0; c < kind.components && !kind.animated; ++c) {
                 const std::uint64_t number = std::uint64_t{c} * list.count + t;
@@ -592,7 +598,8 @@ PackedSamples packed_samples(const PackedView& view) {
                         for (std::uint32_t t = group; t < end; ++t) {
                             const std::uint64_t number = std::uint64_t{c} * list.count + t;
                             const std::uint32_t width = byte_at(view.payload, tables + number);
-                            const std::int32_t base = base_at(view.payload, bases + number * list.base_bytes, list.base_bytes);
+                            const std::int32_t base =
+                                base_at(view.payload, bases + number * list.base_bytes, list.base_bytes);
                             animated[before + t]->numbers[std::size_t{c} * samples.frames + segment.first + f] =
                                 static_cast<std::int32_t>(static_cast<std::uint32_t>(base) +
                                                           bits_at(view.payload, bit, width));
@@ -624,11 +631,13 @@ std::vector<UnpackedTrack> unpack_cycle(const PackedView& view, std::span<const 
             std::array<float, 3> value{};
             for (std::uint32_t c = 0; c < 3; ++c) {
                 const std::uint32_t from = c < packed.components ? c : 0;
-                value[c] = static_cast<float>(packed.numbers[std::size_t{from} * keys + key]) * packed_step(packed.steps[from]);
+                value[c] = static_cast<float>(packed.numbers[std::size_t{from} * keys + key]) *
+                           packed_step(packed.steps[from]);
             }
             if (packed.path == TrackPath::rotation) {
                 const std::array<double, 3> vector{value[0], value[1], value[2]};
-                for (const double q : blend_packed_rotations(rest.rotation, vector, vector, 0.0)) track.values.push_back(static_cast<float>(q));
+                for (const double q : blend_packed_rotations(rest.rotation, vector, vector, 0.0))
+                    track.values.push_back(static_cast<float>(q));
                 continue;
             }
             const auto& at_rest = packed.path == TrackPath::translation ? rest.translation : rest.scale;

@@ -81,8 +81,8 @@ BENDY_AVX2 inline __m256i load_bases(const Source& source, std::uint32_t number,
 /// packed_step of eight codes: a root of two by the low bits, a power of two by the others.
 BENDY_AVX2 inline __m256 to_steps(std::uint64_t codes) {
     const __m256i code = to_lanes(codes);
-    const __m256 roots = _mm256_setr_ps(1.0f, 1.189207115f, 1.414213562f, 1.681792831f, 1.0f, 1.189207115f, 1.414213562f,
-                                        1.681792831f);
+    const __m256 roots =
+        _mm256_setr_ps(1.0f, 1.189207115f, 1.414213562f, 1.681792831f, 1.0f, 1.189207115f, 1.414213562f, 1.681792831f);
     const __m256 root = _mm256_permutevar8x32_ps(roots, _mm256_and_si256(code, _mm256_set1_epi32(3)));
     const __m256i exponent = _mm256_add_epi32(_mm256_srli_epi32(code, 2), _mm256_set1_epi32(127 - 40));
     return _mm256_mul_ps(root, _mm256_castsi256_ps(_mm256_slli_epi32(exponent, 23)));
@@ -115,8 +115,8 @@ BENDY_AVX2 inline Windows find_windows(std::uint64_t widths, std::uint32_t bit, 
     const std::uint64_t offsets =
         (sums << 8) - ((four * kLow) << 32) + (bit % 8) * kLow + (((high_bit % 8) * kLow) << 32);
     const __m256i first = _mm256_set1_epi64x(static_cast<long long>(offsets >> 3 & (0x1f * kOnes)));
-    const __m256i each_four = _mm256_setr_epi8(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 6, 6,
-                                               6, 6, 7, 7, 7, 7);
+    const __m256i each_four = _mm256_setr_epi8(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5,
+                                               6, 6, 6, 6, 7, 7, 7, 7);
     const __m256i one = _mm256_set1_epi32(1);
     Windows windows;
     windows.low = bit / 8;
@@ -128,7 +128,8 @@ BENDY_AVX2 inline Windows find_windows(std::uint64_t widths, std::uint32_t bit, 
 }
 
 BENDY_AVX2 inline __m256i read_bits(const std::byte* frame, const Windows& windows, const std::byte* end) {
-    const __m256i both = _mm256_set_m128i(load_window(frame + windows.high, end), load_window(frame + windows.low, end));
+    const __m256i both =
+        _mm256_set_m128i(load_window(frame + windows.high, end), load_window(frame + windows.low, end));
     const __m256i words = _mm256_shuffle_epi8(both, windows.bytes);
     return _mm256_and_si256(_mm256_srlv_epi32(words, windows.shift), windows.mask);
 }
@@ -248,10 +249,14 @@ BENDY_AVX2 inline void store_rotations(const std::uint32_t* joints, std::uint32_
     transpose(rest);
     const auto& r = rest;
     __m256 out[4];
-    out[0] = _mm256_fmadd_ps(r[3], q[0], _mm256_fmadd_ps(r[0], q[3], _mm256_fmsub_ps(r[1], q[2], _mm256_mul_ps(r[2], q[1]))));
-    out[1] = _mm256_fmadd_ps(r[3], q[1], _mm256_fmadd_ps(r[1], q[3], _mm256_fmsub_ps(r[2], q[0], _mm256_mul_ps(r[0], q[2]))));
-    out[2] = _mm256_fmadd_ps(r[3], q[2], _mm256_fmadd_ps(r[2], q[3], _mm256_fmsub_ps(r[0], q[1], _mm256_mul_ps(r[1], q[0]))));
-    out[3] = _mm256_fmsub_ps(r[3], q[3], _mm256_fmadd_ps(r[0], q[0], _mm256_fmadd_ps(r[1], q[1], _mm256_mul_ps(r[2], q[2]))));
+    out[0] = _mm256_fmadd_ps(r[3], q[0],
+                             _mm256_fmadd_ps(r[0], q[3], _mm256_fmsub_ps(r[1], q[2], _mm256_mul_ps(r[2], q[1]))));
+    out[1] = _mm256_fmadd_ps(r[3], q[1],
+                             _mm256_fmadd_ps(r[1], q[3], _mm256_fmsub_ps(r[2], q[0], _mm256_mul_ps(r[0], q[2]))));
+    out[2] = _mm256_fmadd_ps(r[3], q[2],
+                             _mm256_fmadd_ps(r[2], q[3], _mm256_fmsub_ps(r[0], q[1], _mm256_mul_ps(r[1], q[0]))));
+    out[3] = _mm256_fmsub_ps(r[3], q[3],
+                             _mm256_fmadd_ps(r[0], q[0], _mm256_fmadd_ps(r[1], q[1], _mm256_mul_ps(r[2], q[2]))));
     __m256 square = _mm256_mul_ps(out[0], out[0]);
     for (int c = 1; c < 4; ++c) square = _mm256_fmadd_ps(out[c], out[c], square);
     const __m256 scale = _mm256_div_ps(_mm256_set1_ps(1.0f), _mm256_sqrt_ps(square));

@@ -96,15 +96,15 @@ TEST(PackedCycle, IsLaidOutAsTheSpecificationSays) {
     samples.joints = 2;
     samples.tracks.push_back({TrackPath::rotation, 0, {120, 121, 122}, 3, true, {-1, 2, 5, 0, 0, 0, 9, 9, 9}});
     samples.tracks.push_back({TrackPath::translation, 1, {130, 130, 130}, 3, false, {0, 7, 0}});
-    const std::vector<int> expected{3,    0,   0,   0,                        // frames
-                                    0,    0,   0,   0,   0,   0,   192, 65,   // start, rate: 24
-                                    2,    0,   0,   0,                        // joints, one segment
-                                    0x06, 0,   0,   0,                        // lists 1 and 2
-                                    1,    2,                                  // joint 0; joint 1
-                                    120,  121, 122, 130, 130, 130,            // steps
-                                    0,    0,   7,   0,   0,   0,              // list 2's bases
-                                    3,    0,   0,   255, 255, 0,   0,   9, 0,  // widths and bases of list 1
-                                    0,    3,   6,                             // frames
+    const std::vector<int> expected{3,    0,   0,   0,                          // frames
+                                    0,    0,   0,   0,   0,   0,   192, 65,     // start, rate: 24
+                                    2,    0,   0,   0,                          // joints, one segment
+                                    0x06, 0,   0,   0,                          // lists 1 and 2
+                                    1,    2,                                    // joint 0; joint 1
+                                    120,  121, 122, 130, 130, 130,              // steps
+                                    0,    0,   7,   0,   0,   0,                // list 2's bases
+                                    3,    0,   0,   255, 255, 0,   0,   9,  0,  // widths and bases of list 1
+                                    0,    3,   6,                               // frames
                                     0,    0,   0,   0};
     std::vector<int> found;
     for (const std::byte byte : payload_of(samples)) found.push_back(std::to_integer<int>(byte));
@@ -252,7 +252,8 @@ TEST(CycleCodec, SmoothMotionGetsSmaller) {
     PackedSamples samples = make_samples(1, 200, 0);
     samples.tracks = {{TrackPath::translation, 0, {120, 120, 120}, 3, true, {}}};
     for (int c = 0; c < 3; ++c) {
-        for (int f = 0; f < 200; ++f) samples.tracks[0].numbers.push_back(static_cast<std::int32_t>(1000 * std::sin(0.05 * f + c)));
+        for (int f = 0; f < 200; ++f)
+            samples.tracks[0].numbers.push_back(static_cast<std::int32_t>(1000 * std::sin(0.05 * f + c)));
     }
     const Buffer payload = payload_of(samples);
     EXPECT_LT(encoded(payload).size() * 2, payload.size());

@@ -2,8 +2,8 @@
 
 #include <bendy/format/packed_cycle.h>
 
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace bendy::test {

@@ -56,7 +56,8 @@ double difference(const std::vector<JointTransform>& a, const std::vector<JointT
     double worst = 0.0;
     for (std::size_t j = 0; j < a.size(); ++j) {
         const float sign = glm::dot(a[j].rotation, b[j].rotation) < 0.0f ? -1.0f : 1.0f;
-        for (int c = 0; c < 4; ++c) worst = std::max(worst, std::abs(double{a[j].rotation[c]} - sign * b[j].rotation[c]));
+        for (int c = 0; c < 4; ++c)
+            worst = std::max(worst, std::abs(double{a[j].rotation[c]} - sign * b[j].rotation[c]));
         for (int c = 0; c < 3; ++c) {
             worst = std::max(worst, std::abs(double{a[j].translation[c]} - b[j].translation[c]) / 70.0);
             worst = std::max(worst, std::abs(double{a[j].scale[c]} - b[j].scale[c]) / 70.0);
@@ -130,7 +131,8 @@ TEST(Unpack, TimesOutsideAreHeldAndNoTimeIsTheStart) {
         EXPECT_LT(difference(played(kernel.unpack, view, -5.0f), played(kernel.unpack, view, 0.5f)), 1e-9);
         EXPECT_LT(difference(played(kernel.unpack, view, 1e30f), played(kernel.unpack, view, end + 1.0f)), 1e-9);
         EXPECT_LT(difference(played(kernel.unpack, view, std::numeric_limits<float>::quiet_NaN()),
-                             played(kernel.unpack, view, 0.5f)), 1e-9);
+                             played(kernel.unpack, view, 0.5f)),
+                  1e-9);
     }
 }
 
@@ -156,7 +158,8 @@ TEST(Unpack, DamageStaysInBounds) {
             const auto view = read_packed(bad, kJoints, 0, faults);
             if (!view) continue;
             for (const Kernel& kernel : kernels()) {
-                for (const float seconds : {0.5f, 0.6f, 9.0f}) sum += played(kernel.unpack, *view, seconds)[1].rotation.x;
+                for (const float seconds : {0.5f, 0.6f, 9.0f})
+                    sum += played(kernel.unpack, *view, seconds)[1].rotation.x;
             }
         }
     }

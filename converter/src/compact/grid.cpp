@@ -8,7 +8,7 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::uint32_t kDenser = 4;             // grids up to so many times denser than the densest track are tried
+constexpr std::uint32_t kDenser = 4;  // grids up to so many times denser than the densest track are tried
 constexpr std::uint32_t kMostFrames = 16'000'000;
 
 bool is_packable(const Track& track) {
@@ -79,7 +79,8 @@ Tracks sort_tracks(const Cycle& cycle) {
 /// One frame, or two that span the cycle: for tracks that never change.
 Grid still_grid(const Tracks& tracks) {
     const bool lasts = tracks.end > tracks.start;
-    return {tracks.start, lasts ? static_cast<float>(1.0 / (double{tracks.end} - tracks.start)) : 1.0f, lasts ? 2u : 1u};
+    return {tracks.start, lasts ? static_cast<float>(1.0 / (double{tracks.end} - tracks.start)) : 1.0f,
+            lasts ? 2u : 1u};
 }
 
 /// The even grid that holds most of the moving tracks, and these.

@@ -23,8 +23,8 @@ struct Grid {
 };
 
 /// The coarsest grid that holds the keys of as many tracks as possible, and the numbers of those tracks: linear ones of
-/// joints. If no even grid holds them all, all the times at which there are keys, where those are few. Tracks that never
-/// change need no grid. Nothing if there is nothing to pack.
+/// joints. If no even grid holds them all, all the times at which there are keys, where those are few. Tracks that
+/// never change need no grid. Nothing if there is nothing to pack.
 struct GridTracks {
     Grid grid;
     std::vector<std::uint32_t> tracks;

@@ -29,7 +29,8 @@ std::vector<float> times_of(const Cycle& cycle) {
     }
     const auto count = static_cast<std::size_t>(std::min((double{end} - start) * kRate, 1e8));
     const std::size_t before = times.size();
-    for (std::size_t k = 1; k <= count; ++k) times.push_back(static_cast<float>(start + static_cast<double>(k) / kRate));
+    for (std::size_t k = 1; k <= count; ++k)
+        times.push_back(static_cast<float>(start + static_cast<double>(k) / kRate));
     std::inplace_merge(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(before), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;

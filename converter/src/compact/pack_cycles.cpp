@@ -85,7 +85,10 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
     std::vector<bool> is_replaced(cycle.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
     std::optional<Packed> best;
-    for (const bool corrects : {false, true}) {
+    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
+    const bool is_large = std::uint64_t{tracks->grid.frames} * scene.joints.size() > kLarge;
+    for (const bool corrects : {true, false}) {
+        if (is_large && best) break;
         auto packed = pack(scene, cycle, *tracks, is_replaced, probes, max_error, corrects);
         // Memory and disk count alike.
         if (packed && (!best || packed->bytes.size() + packed->stored < best->bytes.size() + best->stored))

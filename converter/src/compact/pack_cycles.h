@@ -23,8 +23,8 @@ struct PackedReport {
     double worst_time = 0.0;  ///< seconds
 };
 
-/// Packs the cycles' tracks (Cycle::packed) where that is smaller than timed keys, and takes them out of Cycle::tracks. A
-/// track that cannot be packed, because it is stepped or cubic, moves weights or has keys on no grid, stays. No probe
+/// Packs the cycles' tracks (Cycle::packed) where that is smaller than timed keys, and takes them out of Cycle::tracks.
+/// A track that cannot be packed, because it is stepped or cubic, moves weights or has keys on no grid, stays. No probe
 /// ever is farther than `max_error`, metres in model space, from where the source has it: measured on the bytes
 /// that result, 240 times a second and at all keys.
 /// \param progress  called with the share that is done, 0 to 1; may be empty

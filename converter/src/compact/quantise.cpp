@@ -17,10 +17,10 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::size_t kMostTried = 160;          // frames that steps are chosen on
-constexpr std::uint64_t kWork = 6'000'000;       // joints * frames that may be quantised while steps are chosen
+constexpr std::size_t kMostTried = 160;     // frames that steps are chosen on
+constexpr std::uint64_t kWork = 4'000'000;  // joints * frames that may be quantised while steps are chosen
 constexpr double kTwoPi = 2.0 * trig::kPi;
-constexpr std::size_t kPaths = 3;                // translation, rotation, scale: TrackPath's order
+constexpr std::size_t kPaths = 3;  // translation, rotation, scale: TrackPath's order
 
 enum class State : std::uint8_t { unpacked, rest, constant, animated };
 
@@ -28,7 +28,8 @@ struct Property {
     State state = State::unpacked;
     std::uint32_t components = 3;
     std::array<std::uint8_t, 3> steps{160, 160, 160};
-    glm::dvec3 middle{0.0};  // of a constant: between its extremes, relative to rest
+    glm::dvec3 middle{0.0};  // between its extremes, relative to rest
+    glm::dvec3 half{0.0};    // from there to either
     glm::dvec3 reach{0.0};   // metres that a unit of each component moves a probe by, at most
 };
 
@@ -98,6 +99,7 @@ public:
         read_source();
         for (const std::uint32_t number : packed.tracks) open_property(cycle.tracks[number]);
         measure_reach();
+        settle();
         choose_frames();
     }
 
@@ -170,6 +172,7 @@ private:
             uneven = std::max({uneven, std::abs(v.x - v.y), std::abs(v.x - v.z)});
         }
         property.middle = 0.5 * (low + high);
+        property.half = 0.5 * (high - low);
         if (low == high || grid_.frames < 2) property.state = State::constant;
         if (low == glm::dvec3(0.0) && high == low) property.state = State::rest;
         constexpr double kEven = 1e-6;
@@ -207,6 +210,27 @@ private:
         }
     }
 
+    /// Properties whose changes are as good as none are constant or at rest from the start: all of them on a chain
+    /// together take a small part of the bound.
+    void settle() {
+        constexpr double kPart = 0.2;
+        std::size_t deepest = 1;
+        std::vector<std::size_t> depth(plans_.size(), 1);
+        for (std::size_t j = 0; j < plans_.size(); ++j) {
+            if (scene_.joints[j].parent != kNone) depth[j] = depth[scene_.joints[j].parent] + 1;
+            deepest = std::max(deepest, depth[j]);
+        }
+        const double most = kPart * options_.max_error / static_cast<double>(deepest);
+        for (Plan& plan : plans_) {
+            for (Property& property : plan) {
+                if (property.state != State::animated && property.state != State::constant) continue;
+                if (glm::length(property.half * property.reach) < most) property.state = State::constant;
+                if (glm::length((glm::abs(property.middle) + property.half) * property.reach) < most)
+                    property.state = State::rest;
+            }
+        }
+    }
+
     /// \param above  parent's space to model space, at rest
     void set_reach(std::size_t joint, const glm::dmat3& above, const std::vector<glm::dvec3>& points) {
         const glm::dmat3 stretched = stretch(rest_[joint].scale, scene_.joints[joint].rest.shear);
@@ -231,8 +255,8 @@ private:
 
     // --- one joint at one frame
 
-    /// The rotation, from `turn` on, that brings the joint's aims nearest to where they should be, in the sense of least
-    /// squares: one step of Gauss and Newton.
+    /// The rotation, from `turn` on, that brings the joint's aims nearest to where they should be, in the sense of
+    /// least squares: one step of Gauss and Newton.
     [[nodiscard]] glm::dquat correct(std::size_t joint, const Affine& parent, const glm::dvec3& origin,
                                      const glm::dmat3& stretched, const glm::dquat& turn, const Affine& wanted) const {
         const glm::dmat3 axes = parent.linear * glm::mat3_cast(turn);
@@ -283,9 +307,11 @@ private:
         if (move.state != State::unpacked) {
             glm::dvec3 by = value_of(move, relative(frame, joint, TrackPath::translation));
             if (move.state == State::animated && options_.corrects) {
-                const glm::dvec3 place = glm::inverse(parent.linear) * (wanted.origin - parent.origin) - rest_[joint].translation;
+                const glm::dvec3 place =
+                    glm::inverse(parent.linear) * (wanted.origin - parent.origin) - rest_[joint].translation;
                 const glm::dvec3 shift = place - by;
-                const double near = 64.0 * (packed_step(move.steps[0]) + packed_step(move.steps[1]) + packed_step(move.steps[2]));
+                const double near =
+                    64.0 * (packed_step(move.steps[0]) + packed_step(move.steps[1]) + packed_step(move.steps[2]));
                 if (glm::length(shift) < near) by = place;  // not for parents without volume
             }
             if (move.state != State::rest) by = round(move, by, numbers[0]);
@@ -334,8 +360,7 @@ private:
     void choose_frames() {
         const std::size_t joints = scene_.joints.size();
         const std::size_t tried = std::min<std::size_t>(grid_.frames, kMostTried);
-        for (std::size_t k = 0; k < tried; ++k)
-            tried_.push_back(tried < 2 ? 0 : k * (grid_.frames - 1) / (tried - 1));
+        for (std::size_t k = 0; k < tried; ++k) tried_.push_back(tried < 2 ? 0 : k * (grid_.frames - 1) / (tried - 1));
         wanted_.resize(tried * joints);
         decoded_.resize(tried * joints);
         trial_.resize(tried * joints);
@@ -354,7 +379,8 @@ private:
         }
     }
 
-    /// Quantises the joint and all below it at all tried frames; true, and kept, if no probe is farther off than allowed.
+    /// Quantises the joint and all below it at all tried frames; true, and kept, if no probe is farther off than
+    /// allowed.
     bool try_subtree(std::size_t first, std::size_t end) {
         const std::size_t joints = scene_.joints.size();
         const double most = options_.max_error * options_.max_error;
@@ -375,7 +401,8 @@ private:
         }
         for (std::size_t k = 0; k < order_.size(); ++k) {
             const auto row = static_cast<std::ptrdiff_t>(k * joints);
-            std::copy(trial_.begin() + row + static_cast<std::ptrdiff_t>(first), trial_.begin() + row + static_cast<std::ptrdiff_t>(end),
+            std::copy(trial_.begin() + row + static_cast<std::ptrdiff_t>(first),
+                      trial_.begin() + row + static_cast<std::ptrdiff_t>(end),
                       decoded_.begin() + row + static_cast<std::ptrdiff_t>(first));
         }
         return true;
@@ -512,15 +539,15 @@ private:
     Grid grid_;
     const std::vector<std::vector<glm::dvec3>>& probes_;
     QuantiseOptions options_;
-    std::vector<Plan> plans_;                        // per joint
-    std::vector<Local> rest_;                        // per joint
-    std::vector<std::size_t> end_;                   // per joint: one past the last below it
-    std::vector<std::vector<glm::dvec3>> aims_;      // per joint, in its space
-    std::vector<Local> locals_;                      // frame by frame
-    std::vector<glm::dvec3> vectors_;                // frame by frame: rotations from rest
-    std::vector<std::size_t> tried_;                 // frames
-    std::vector<std::size_t> order_;                 // of tried frames: those that failed first
-    std::vector<Affine> wanted_, decoded_, trial_;   // by tried frame, model space
+    std::vector<Plan> plans_;                       // per joint
+    std::vector<Local> rest_;                       // per joint
+    std::vector<std::size_t> end_;                  // per joint: one past the last below it
+    std::vector<std::vector<glm::dvec3>> aims_;     // per joint, in its space
+    std::vector<Local> locals_;                     // frame by frame
+    std::vector<glm::dvec3> vectors_;               // frame by frame: rotations from rest
+    std::vector<std::size_t> tried_;                // frames
+    std::vector<std::size_t> order_;                // of tried frames: those that failed first
+    std::vector<Affine> wanted_, decoded_, trial_;  // by tried frame, model space
     std::uint64_t work_ = 0;
 };
 

@@ -7,8 +7,8 @@
 #include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
-#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,8 @@ Scene chain(std::uint32_t joints, glm::vec3 scale = glm::vec3(1.0f)) {
         Joint joint;
         joint.parent = j == 0 ? kNone : j - 1;
         joint.rest.translation = {0.0f, j == 0 ? 0.0f : 0.2f, 0.0f};
-        const glm::quat turn = glm::angleAxis(0.3f * static_cast<float>(j), glm::normalize(glm::vec3(1.0f, 0.5f, 0.2f)));
+        const glm::quat turn =
+            glm::angleAxis(0.3f * static_cast<float>(j), glm::normalize(glm::vec3(1.0f, 0.5f, 0.2f)));
         joint.rest.rotation = {turn.x, turn.y, turn.z, turn.w};
         if (j == 1) joint.rest.scale = scale;
         scene.joints.push_back(joint);
@@ -88,8 +89,7 @@ public:
         local_to_model(pose_);
         return {pose_.model_space().begin(), pose_.model_space().end()};
     }
-    [[nodiscard]] const Cycle& cycle() const { return model_.cycles()[0]; }
-    using Cycle = bendy::Cycle;
+    [[nodiscard]] const CycleView& cycle() const { return model_.cycles()[0]; }
 
 private:
     static std::vector<std::byte> build(const Scene& scene) {
@@ -109,8 +109,8 @@ private:
     Pose pose_;
 };
 
-/// Packs, and holds the result against the original at 1000 odd times, with points on each joint that the packer has been
-/// promised to.
+/// Packs, and holds the result against the original at 1000 odd times, with points on each joint that the packer has
+/// been promised to.
 PackedReport pack_and_check(Scene scene, double bound = kBound) {
     Played original(scene);
     const auto probes = find_probes(scene, Probes::skin_and_shell);
@@ -129,7 +129,8 @@ PackedReport pack_and_check(Scene scene, double bound = kBound) {
         for (std::size_t j = 0; j < right.size(); ++j) {
             for (const glm::dvec3& probe : probes[j]) {
                 const glm::dvec4 point(probe, 1.0);
-                worst = std::max(worst, glm::length(glm::dvec3(glm::dmat4(right[j]) * point - glm::dmat4(found[j]) * point)));
+                worst = std::max(worst,
+                                 glm::length(glm::dvec3(glm::dmat4(right[j]) * point - glm::dmat4(found[j]) * point)));
             }
         }
     }
@@ -174,8 +175,7 @@ TEST(PackCycles, NegativeAndUnevenScale) {
 
 TEST(PackCycles, LongChain) {
     Scene scene = chain(120);
-    for (std::uint32_t j = 0; j < 120; ++j)
-        rotate(scene, j, frames(12, 24.0), [](float t) { return 0.1f * wave(t); });
+    for (std::uint32_t j = 0; j < 120; ++j) rotate(scene, j, frames(12, 24.0), [](float t) { return 0.1f * wave(t); });
     EXPECT_GT(pack_and_check(std::move(scene)).packed_bytes, 0u);
 }
 
@@ -202,7 +202,8 @@ TEST(PackCycles, OneKey) {
 TEST(PackCycles, UnevenKeysOfAll) {
     Scene scene = chain(3);
     std::vector<float> times;
-    for (int k = 0; k < 40; ++k) times.push_back(0.03f * static_cast<float>(k) + 0.007f * std::sin(static_cast<float>(k * k)));
+    for (int k = 0; k < 40; ++k)
+        times.push_back(0.03f * static_cast<float>(k) + 0.007f * std::sin(static_cast<float>(k * k)));
     for (std::uint32_t j = 0; j < 3; ++j) rotate(scene, j, times, wave);
     const PackedReport report = pack_and_check(std::move(scene));
     EXPECT_GT(report.packed_bytes, 0u);

@@ -103,8 +103,8 @@ struct PackedGroup {
     std::array<std::array<float, kPackedGroup>, 3> right{};  ///< the next frame's; of a constant the same
 };
 
-/// Walks over the tracks of a PACK, group after group, at one frame and the one after it. Plain, portable and exact: what
-/// others are tested against.
+/// Walks over the tracks of a PACK, group after group, at one frame and the one after it. Plain, portable and exact:
+/// what others are tested against.
 class PackedWalk {
 public:
     PackedWalk(const PackedView& view, std::uint32_t frame);
@@ -117,9 +117,9 @@ private:
     const PackedView& view_;
     PackedSegment segment_;
     std::size_t list_ = 0;
-    std::uint32_t track_ = 0;    // of the list
-    std::uint32_t joint_ = 0;    // to look at next
-    std::uint64_t tables_ = 0;   // of the list, in the payload
+    std::uint32_t track_ = 0;   // of the list
+    std::uint32_t joint_ = 0;   // to look at next
+    std::uint64_t tables_ = 0;  // of the list, in the payload
     std::uint64_t bit_left_ = 0;
     std::uint64_t bit_right_ = 0;
 };
@@ -143,9 +143,9 @@ struct PackedTrack {
 };
 struct PackedSamples {
     std::uint32_t frames = 1;
-    float start = 0.0f;       ///< seconds
-    float frame_rate = 1.0f;  ///< per second
-    std::vector<float> times;          ///< seconds, of each frame, if frame_rate is 0
+    float start = 0.0f;        ///< seconds
+    float frame_rate = 1.0f;   ///< per second
+    std::vector<float> times;  ///< seconds, of each frame, if frame_rate is 0
     std::uint32_t joints = 0;
     std::uint32_t segment_frames = 0;  ///< 0: one segment
     std::vector<PackedTrack> tracks;   ///< by list, then joint
