@@ -183,9 +183,9 @@ TEST(PackCycles, WhatNeverChangesCostsNextToNothing) {
     Scene scene = chain(30);
     for (std::uint32_t j = 0; j < 30; ++j) {
         const glm::vec4 rest = scene.joints[j].rest.rotation;
-        const glm::quat q(rest.w, rest.x, rest.y, rest.z);
-        const glm::vec3 axis = glm::axis(q);
-        rotate(scene, j, frames(100, 30.0), [&](float) { return glm::angle(q) * axis; });
+        rotate(scene, j, frames(100, 30.0), wave);
+        auto& values = scene.cycles[0].tracks.back().values;
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = rest[static_cast<int>(k % 4)];
     }
     move(scene, TrackPath::translation, 3, frames(100, 30.0), [](float) { return glm::vec3(1.0f, 0.2f, 0.0f); });
     const PackedReport report = pack_and_check(std::move(scene));
