@@ -4,11 +4,13 @@
 #include "problem.h"
 #include "record_at.h"
 
+#include <bendy/format/packed_cycle.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace bendy::cli {
@@ -174,10 +176,32 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
     return text;
 }
 
+/// The packed tracks of a leaf; nothing if it is faulty.
+std::optional<PackedView> packed_at(const ChunkTree& tree, std::uint32_t number) {
+    Faults unread;
+    if (number == kNone || tree[number].is_container()) return std::nullopt;
+    return read_packed(tree.payload(number), kMaxJoints, tree[number].offset, unread);
+}
+
+std::uint64_t track_count(const PackedView& packed) {
+    std::uint64_t tracks = 0;
+    for (const PackedList& list : packed.lists) tracks += list.count;
+    return tracks;
+}
+
+std::string packed_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto packed = packed_at(tree, number);
+    if (!packed) return {};
+    std::string text = grouped(track_count(*packed)) + " tracks, " + grouped(packed->record.frames) + " frames";
+    if (packed->is_even()) text += ", " + brief(packed->record.frame_rate) + " frames/s";
+    return text;
+}
+
 std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
     const std::uint32_t table = tree.find(number, FourCC("TRAK"));
-    const std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
+    std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
+    if (const auto packed = packed_at(tree, tree.find(number, FourCC("PACK")))) tracks += track_count(*packed);
     std::string text = brief(info.start) + " to " + brief(info.end) + " s, " + grouped(tracks) + " tracks";
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
@@ -268,6 +292,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
     if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
     if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
+    if (chunk.id == FourCC("PACK")) return packed_text(tree, number);
     if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
     if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))
         return grouped(tree.payload(number).size() / sizeof(float)) + " f32";

@@ -339,6 +339,18 @@ def track(target, path, interpolation, components, keys, first_time, first_value
             u32(first_time, 'first_time ' + time), u64(first_value, 'first_value %d' % first_value)]
 
 
+def packed_tracks():
+    """Joint 0 turns about x at 2 frames a second, joint 1 stands aside: one list of each."""
+    return [u32(3, 'frames 3'), f32(0, 'start 0'), f32(2, 'frame_rate 2'), u16(2, 'joints 2'), u16(0, 'segment_frames 0'),
+            u8(6, 'lists 1 and 2'), u8(0, 'wide none'), u8([0, 0], 'reserved'),
+            u8(1, 'list 1 (rotation, animated): joint 0'), u8(2, 'list 2 (translation, constant): joint 1'),
+            u8([120, 121, 122], 'steps of list 1: x, y, z'), u8([130] * 3, 'steps of list 2'),
+            raw(bytes([0, 0, 7, 0, 0, 0]), 'bases of list 2: 0, 7, 0'),
+            u8([3, 0, 0], 'widths of list 1: x has 3 bits'), raw(bytes([255, 255, 0, 0, 9, 0]), 'its bases: -1, 0, 9'),
+            u8(0, 'frame 0: x = -1 + 0'), u8(3, 'frame 1: x = -1 + 3'), u8(6, 'frame 2: x = -1 + 6'),
+            u8([0] * 4, 'tail')]
+
+
 def smallest_png():
     """One red pixel. Its only block is stored, so that every zlib makes the same bytes."""
     def part(kind, data):
@@ -421,7 +433,7 @@ def make_every_chunk():
                 stream('INDX', 'u16', [[0], [1], [2]])),
             collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
-                leaf('TRAK', *tracks), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values))),
+                leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values))),
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),

@@ -6,6 +6,7 @@
 #include "passes/narrow.h"
 #include "rest_record.h"
 
+#include <bendy/format/packed_cycle.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>
@@ -466,6 +467,16 @@ private:
     std::vector<float> floats_;
 };
 
+/// Packed tracks have the cycle's first and last frames, if timed keys do not lie before or after them.
+void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
+    Faults faults;
+    const auto packed = read_packed(cycle.packed, kMaxJoints, 0, faults);
+    if (!packed) return;
+    const auto last = static_cast<float>(packed->time_of(packed->record.frames - 1));
+    info.start = cycle.tracks.empty() ? packed->record.start : std::min(info.start, packed->record.start);
+    info.end = cycle.tracks.empty() ? last : std::max(info.end, last);
+}
+
 void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
@@ -485,10 +496,12 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         record.first_value = values.add(track.values);
         tracks.push_back(record);
     }
+    extend_to_packed(cycle, info);
     out.begin(FourCC("CYCL"));
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
+    if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
     if (!tracks.empty()) {
         constexpr LeafShape kFloats{0, 0, sizeof(float), false};
         out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)), kFloats);

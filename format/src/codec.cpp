@@ -1,5 +1,6 @@
 #include <bendy/format/codec.h>
 
+#include "cycle_codec.h"
 #include "mesh_codecs.h"
 #include "planes.h"
 #include "zstd_frame.h"
@@ -63,6 +64,8 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
         case Codec::indices:
         case Codec::indices_zstd:
             return decode_triangles(header, codec == Codec::indices_zstd, body, out);
+        case Codec::cycle:
+            return header.head == 0 && header.stride == 0 && decode_cycle(body, out);
         default:
             return false;
     }
@@ -88,6 +91,9 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
         case Codec::indices:
         case Codec::indices_zstd:
             is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
+            break;
+        case Codec::cycle:
+            is_done = head == 0 && stride == 0 && encode_cycle(payload, out);
             break;
         default:
             break;

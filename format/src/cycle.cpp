@@ -4,6 +4,7 @@
 #include <bendy/format/text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace bendy {
@@ -88,9 +89,16 @@ void check_shared_values(const CycleView& cycle, std::uint64_t offset, Faults& f
     }
 }
 
+bool holds_frames(const CycleView& cycle, const PackedView& packed) {
+    const double length = double{cycle.end} - cycle.start;
+    const double tolerance = 1e-6 * std::max({length, std::abs(double{cycle.end}), 1e-3});  // `end` is a rounded float
+    return packed.record.start >= cycle.start && packed.time_of(packed.record.frames - 1) <= cycle.end + tolerance;
+}
+
 /// True when start and end ascend and no key lies outside them.
 bool holds_all_keys(const CycleView& cycle) {
     if (!(cycle.start <= cycle.end && cycle.frame_rate >= 0.0f)) return false;
+    if (cycle.packed && !holds_frames(cycle, *cycle.packed)) return false;
     return std::all_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const TrackView& track) {
         if (!track.times.empty()) return track.times.front() >= cycle.start && track.times.back() <= cycle.end;
         constexpr double kFrames = 1e-3;  // of a frame: `end` is a rounded float
@@ -104,12 +112,27 @@ void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults&
         properties.emplace_back(cycle.tracks[index].target, cycle.tracks[index].path, index);
     }
     std::sort(properties.begin(), properties.end());
+    for (const auto& [target, path, index] : properties) {
+        if (cycle.packed && path != TrackPath::weights && cycle.packed->animates(target, path))
+            faults.add({ErrorCode::kTrackRepeated, offset, index});
+    }
     for (std::size_t k = 1; k < properties.size(); ++k) {
         const auto& [target, path, index] = properties[k];
         if (target == std::get<0>(properties[k - 1]) && path == std::get<1>(properties[k - 1])) {
             faults.add({ErrorCode::kTrackRepeated, offset, index});
         }
     }
+}
+
+std::optional<PackedView> read_packed_leaf(const ChunkTree& tree, std::uint32_t cycle, std::uint32_t joints,
+                                           Faults& faults) {
+    const std::uint32_t number = tree.find(cycle, FourCC("PACK"));
+    if (number == kNone || tree[number].is_container()) return std::nullopt;
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
+        return std::nullopt;
+    }
+    return read_packed(tree.payload(number), joints, tree[number].offset, faults);
 }
 
 }  // namespace
@@ -128,6 +151,8 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     const std::uint64_t info_offset = offset_of(tree, chunk, FourCC("CINF"));
     check_enum(info.loop, 2, info_offset, faults);
     check_reserved(info.reserved, info_offset, faults);
+
+    cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
 
     const std::uint32_t table = tree.find(chunk, FourCC("TRAK"));
     if (table == kNone || tree[table].is_container()) return cycle;
@@ -200,6 +225,7 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
     check_shared_values(cycle, table_offset, faults);
     if (!holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
     check_repeated_tracks(cycle, table_offset, faults);
+    if (cycle.packed) check_packed_values(*cycle.packed, offset_of(tree, cycle.chunk, FourCC("PACK")), faults);
 }
 
 }  // namespace bendy

@@ -1,5 +1,7 @@
 #include <bendy/runtime/sample.h>
 
+#include "unpack.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -141,6 +143,7 @@ bool sample(const Cycle* cycle, float seconds, Pose& pose) {
         sample_track(track, *cycle, seconds, std::span(value).first(track.components));
         set_joint(track, value, local[track.target]);
     }
+    if (cycle->packed) best_unpack()(*cycle->packed, seconds, local);
     return true;
 }
 

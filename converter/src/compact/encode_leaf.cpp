@@ -15,6 +15,7 @@ EncodedLeaf encode_leaf(Bytes payload, const LeafShape& shape) {
         smallest = padded(encoded->size());
         best = {codec, std::move(*encoded)};
     };
+    if (shape.is_packed_cycle) offer(Codec::cycle, 0, 0);
     if (shape.is_triangles) {
         offer(Codec::indices, shape.head, shape.number);
         offer(Codec::indices_zstd, shape.head, shape.number);

@@ -124,8 +124,9 @@ struct Track {
 
 struct Cycle {
     std::string name;
-    bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
-    std::vector<Track> tracks;  ///< at most one per target and path; may be empty
+    bool loop = false;              ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
+    std::vector<Track> tracks;      ///< at most one per target and path; may be empty
+    std::vector<std::byte> packed;  ///< a PACK payload (see packed_cycle.h) with tracks that `tracks` lacks, or empty
     std::string extras;
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/packed_cycle.h>
 #include <bendy/format/pool.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,7 @@ struct CycleView {
     float frame_rate = 0.0f;  ///< of fixed frames, per second
     bool loop = false;
     std::vector<TrackView> tracks;
+    std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::string_view extras;
 };
 

@@ -168,6 +168,17 @@ struct CycleRecord {
     std::array<std::uint8_t, 3> reserved{};
 };
 
+struct PackRecord {
+    std::uint32_t frames = 1;
+    float start = 0.0f;
+    float frame_rate = 1.0f;
+    std::uint16_t joints = 0;
+    std::uint16_t segment_frames = 0;
+    std::uint8_t lists = 0;
+    std::uint8_t wide = 0;
+    std::array<std::uint8_t, 2> reserved{};
+};
+
 struct TrackRecord {
     std::uint32_t target = 0;
     std::uint8_t path = 0;

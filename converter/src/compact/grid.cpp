@@ -1,0 +1,152 @@
+#include "compact/grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+constexpr std::uint32_t kDenser = 4;  // grids up to so many times denser than the densest track are tried
+constexpr std::uint32_t kMostFrames = 16'000'000;
+
+bool is_packable(const Track& track) {
+    return track.path != TrackPath::weights && track.interpolation == Interpolation::linear;
+}
+
+bool is_constant(const Track& track) {
+    const std::size_t n = track.components;
+    for (std::size_t at = n; at < track.values.size(); ++at) {
+        if (track.values[at] != track.values[at - n]) return false;
+    }
+    return true;
+}
+
+bool is_on_grid(const Track& track, double start, double rate) {
+    return std::all_of(track.times.begin(), track.times.end(), [&](float time) {
+        const double frame = (double{time} - start) * rate;
+        return frame > -kGridTolerance && std::abs(frame - std::nearbyint(frame)) <= kGridTolerance;
+    });
+}
+
+/// Frames per second of a track's keys, if they are evenly spaced up to `denser` times.
+std::optional<double> rate_of(const Track& track) {
+    const std::size_t last = track.times.size() - 1;
+    double shortest = double{track.times[last]} - track.times[0];
+    for (std::size_t k = 1; k <= last; ++k) shortest = std::min(shortest, double{track.times[k]} - track.times[k - 1]);
+    if (!(shortest > 0.0)) return std::nullopt;
+    // The shortest step is rough, the whole length is not: count the frames in it.
+    const double length = double{track.times[last]} - track.times[0];
+    double rate = 1.0 / shortest;
+    double frames = 0.0;
+    for (std::size_t k = 1; k <= last; ++k) {
+        frames += std::nearbyint((double{track.times[k]} - track.times[k - 1]) * rate);
+        // Every so often, what has been counted gives a better rate than one step does.
+        if ((k & (k - 1)) == 0) rate = frames / (double{track.times[k]} - track.times[0]);
+    }
+    rate = frames / length;
+    if (!(rate > 0.0) || !(frames < kMostFrames)) return std::nullopt;
+    return rate;
+}
+
+/// What the tracks of a cycle are, as far as a grid is concerned.
+struct Tracks {
+    std::vector<std::uint32_t> still;   // numbers of tracks that never change
+    std::vector<std::uint32_t> moving;  // numbers of those that do, and can be packed
+    const Track* densest = nullptr;     // of these
+    float start = 0.0f;                 // seconds: the first key of all
+    float end = 0.0f;
+};
+
+Tracks sort_tracks(const Cycle& cycle) {
+    Tracks tracks;
+    for (std::uint32_t number = 0; number < cycle.tracks.size(); ++number) {
+        const Track& track = cycle.tracks[number];
+        tracks.start = number == 0 ? track.times.front() : std::min(tracks.start, track.times.front());
+        tracks.end = number == 0 ? track.times.back() : std::max(tracks.end, track.times.back());
+        if (!is_packable(track)) continue;
+        if (is_constant(track)) {
+            tracks.still.push_back(number);
+            continue;
+        }
+        tracks.moving.push_back(number);
+        if (tracks.densest == nullptr || track.times.size() > tracks.densest->times.size()) tracks.densest = &track;
+    }
+    return tracks;
+}
+
+/// One frame, or two that span the cycle: for tracks that never change.
+Grid still_grid(const Tracks& tracks) {
+    const bool lasts = tracks.end > tracks.start;
+    return {tracks.start, lasts ? static_cast<float>(1.0 / (double{tracks.end} - tracks.start)) : 1.0f,
+            lasts ? 2u : 1u};
+}
+
+/// The even grid that holds most of the moving tracks, and these.
+GridTracks even_grid(const Cycle& cycle, const Tracks& tracks) {
+    GridTracks found;
+    const std::optional<double> base = rate_of(*tracks.densest);
+    if (!base) return found;
+    for (std::uint32_t denser = 1; denser <= kDenser; ++denser) {
+        const double rate = *base * denser;
+        const double first = tracks.densest->times.front();
+        const double origin = first - std::nearbyint((first - tracks.start) * rate) / rate;
+        std::vector<std::uint32_t> held;
+        double last = origin;
+        for (const std::uint32_t number : tracks.moving) {
+            const Track& track = cycle.tracks[number];
+            if (!is_on_grid(track, origin, rate)) continue;
+            held.push_back(number);
+            last = std::max(last, double{track.times.back()});
+        }
+        const double frames = std::nearbyint((last - origin) * rate);
+        if (held.size() <= found.tracks.size() || !(frames < kMostFrames)) continue;
+        found.grid = {static_cast<float>(origin), static_cast<float>(rate), static_cast<std::uint32_t>(frames) + 1};
+        found.tracks = std::move(held);
+    }
+    return found;
+}
+
+/// All times at which a moving track has a key; no frames if these are many more than any one track has.
+Grid uneven_grid(const Cycle& cycle, const Tracks& tracks) {
+    constexpr std::size_t kMore = 2;
+    Grid grid{0.0f, 0.0f, 0, {}};
+    const std::vector<float>* before = nullptr;
+    for (const std::uint32_t number : tracks.moving) {
+        const std::vector<float>& times = cycle.tracks[number].times;
+        if (before != nullptr && *before == times) continue;
+        before = &times;
+        std::vector<float> merged;
+        std::set_union(grid.times.begin(), grid.times.end(), times.begin(), times.end(), std::back_inserter(merged));
+        grid.times = std::move(merged);
+        if (grid.times.size() > kMore * tracks.densest->times.size()) return {0.0f, 0.0f, 0, {}};
+    }
+    grid.start = grid.times.front();
+    grid.frames = static_cast<std::uint32_t>(grid.times.size());
+    return grid;
+}
+
+}  // namespace
+
+double Grid::snap() const {
+    return rate != 0.0f ? kGridTolerance / rate : 0.0;
+}
+
+std::optional<GridTracks> find_grid(const Cycle& cycle) {
+    const Tracks tracks = sort_tracks(cycle);
+    GridTracks found;
+    if (!tracks.moving.empty()) {
+        found = even_grid(cycle, tracks);
+        if (found.tracks.size() < tracks.moving.size()) {
+            Grid uneven = uneven_grid(cycle, tracks);
+            if (uneven.frames > 1) found = {std::move(uneven), tracks.moving};
+        }
+    }
+    if (found.tracks.empty()) found.grid = still_grid(tracks);
+    found.tracks.insert(found.tracks.end(), tracks.still.begin(), tracks.still.end());
+    std::sort(found.tracks.begin(), found.tracks.end());
+    return found.tracks.empty() ? std::nullopt : std::optional(std::move(found));
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bendy::converter {
+
+/// The times of frames, as PACK stores them: evenly spaced, or a list.
+struct Grid {
+    float start = 0.0f;  ///< seconds
+    float rate = 1.0f;   ///< frames per second; 0: `times` has them
+    std::uint32_t frames = 1;
+    std::vector<float> times{};
+
+    [[nodiscard]] double time_of(std::uint32_t frame) const {
+        return rate != 0.0f ? double{start} + frame / double{rate} : double{times[frame]};
+    }
+    /// Seconds: keys nearer to a frame than this are the frame's.
+    [[nodiscard]] double snap() const;
+};
+
+/// The coarsest grid that holds the keys of as many tracks as possible, and the numbers of those tracks: linear ones of
+/// joints. If no even grid holds them all, all the times at which there are keys, where those are few. Tracks that
+/// never change need no grid. Nothing if there is nothing to pack.
+struct GridTracks {
+    Grid grid;
+    std::vector<std::uint32_t> tracks;
+};
+std::optional<GridTracks> find_grid(const Cycle& cycle);
+
+/// Keys farther from a frame than this, in frames, are not on the grid.
+inline constexpr double kGridTolerance = 0.01;
+
+}  // namespace bendy::converter

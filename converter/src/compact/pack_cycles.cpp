@@ -1,0 +1,124 @@
+#include "compact/pack_cycles.h"
+
+#include "compact/grid.h"
+#include "compact/measure.h"
+#include "compact/quantise_cycle.h"
+
+#include <bendy/format/codec.h>
+#include <bendy/format/packed_cycle.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+struct Packed {
+    std::vector<std::byte> bytes;
+    std::uint64_t stored = 0;
+    WorstError worst;
+};
+
+/// The payload with the segments that make it smallest.
+std::vector<std::byte> smallest_payload(PackedSamples samples) {
+    std::vector<std::byte> smallest;
+    for (const std::uint32_t frames : {0u, 16u, 24u, 32u, 48u, 64u, 96u, 128u}) {
+        if (frames != 0 && frames + 1 >= samples.frames) break;
+        samples.segment_frames = frames;
+        auto written = write_packed(samples);
+        if (written && (smallest.empty() || written->size() < smallest.size())) smallest = *std::move(written);
+    }
+    return smallest;
+}
+
+std::uint64_t stored_size(Bytes payload) {
+    const auto encoded = encode_payload(Codec::cycle, payload, 0, 0);
+    return encoded && encoded->size() < payload.size() ? encoded->size() : payload.size();
+}
+
+/// The cycle's tracks, packed within the bound; nothing if that cannot be.
+std::optional<Packed> pack(const Scene& scene, const Cycle& cycle, const GridTracks& tracks,
+                           const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
+                           double max_error, bool corrects) {
+    constexpr int kAttempts = 6;
+    double aim = 0.998 * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        Packed packed;
+        packed.bytes = smallest_payload(quantise(scene, cycle, tracks, probes, {aim, corrects}));
+        Faults faults;
+        const auto joints = static_cast<std::uint32_t>(scene.joints.size());
+        const auto view = read_packed(packed.bytes, joints, 0, faults);
+        if (!view) return std::nullopt;
+        packed.worst = measure_packed(scene, cycle, is_replaced, *view, probes, 8.0 * max_error);
+        if (packed.worst.metres <= max_error) {
+            packed.stored = stored_size(packed.bytes);
+            return packed;
+        }
+        constexpr double kHopeless = 4.0;
+        if (packed.worst.metres > kHopeless * max_error) return std::nullopt;
+        aim *= 0.97 * max_error / packed.worst.metres;
+    }
+    return std::nullopt;
+}
+
+std::uint64_t key_bytes(const Cycle& cycle, const std::vector<bool>* only = nullptr) {
+    std::set<std::vector<float>> times;
+    std::uint64_t numbers = 0;
+    for (std::size_t k = 0; k < cycle.tracks.size(); ++k) {
+        if (only != nullptr && !(*only)[k]) continue;
+        const Track& track = cycle.tracks[k];
+        if (times.insert(track.times).second) numbers += track.times.size();
+        numbers += track.values.size();
+    }
+    return numbers * sizeof(float);
+}
+
+PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std::vector<glm::dvec3>>& probes,
+                        double max_error) {
+    PackedReport report;
+    report.name = cycle.name;
+    report.source_bytes = report.kept_bytes = key_bytes(cycle);
+    const std::optional<GridTracks> tracks = find_grid(cycle);
+    if (!tracks) return report;
+    std::vector<bool> is_replaced(cycle.tracks.size());
+    for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
+    std::optional<Packed> best;
+    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
+    const bool is_large = std::uint64_t{tracks->grid.frames} * scene.joints.size() > kLarge;
+    for (const bool corrects : {true, false}) {
+        if (is_large && best) break;
+        auto packed = pack(scene, cycle, *tracks, is_replaced, probes, max_error, corrects);
+        // Memory and disk count alike.
+        if (packed && (!best || packed->bytes.size() + packed->stored < best->bytes.size() + best->stored))
+            best = std::move(packed);
+    }
+    if (!best || best->bytes.size() >= key_bytes(cycle, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
+        return report;
+    std::size_t number = 0;
+    std::erase_if(cycle.tracks, [&](const Track&) { return is_replaced[number++]; });
+    report.packed_bytes = best->bytes.size();
+    report.stored_bytes = best->stored;
+    report.kept_bytes = key_bytes(cycle);
+    report.worst_error = best->worst.metres;
+    report.worst_joint = best->worst.joint;
+    report.worst_time = best->worst.seconds;
+    cycle.packed = std::move(best->bytes);
+    return report;
+}
+
+}  // namespace
+
+std::vector<PackedReport> pack_cycles(Scene& scene, double max_error, const std::function<void(double)>& progress,
+                                      Probes kind) {
+    const auto probes = find_probes(scene, kind);
+    std::vector<PackedReport> reports;
+    for (Cycle& cycle : scene.cycles) {
+        reports.push_back(pack_cycle(scene, cycle, probes, max_error));
+        if (progress) progress(static_cast<double>(reports.size()) / static_cast<double>(scene.cycles.size()));
+    }
+    return reports;
+}
+
+}  // namespace bendy::converter

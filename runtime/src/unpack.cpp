@@ -1,0 +1,49 @@
+#include "unpack.h"
+
+namespace bendy {
+namespace {
+
+std::array<double, 3> numbers_of(const std::array<std::array<float, kPackedGroup>, 3>& numbers, std::uint32_t track) {
+    return {numbers[0][track], numbers[1][track], numbers[2][track]};
+}
+
+void set_joint(const PackedGroup& group, std::uint32_t track, double u, JointTransform& joint) {
+    const std::array<double, 3> left = numbers_of(group.left, track);
+    const std::array<double, 3> right = numbers_of(group.right, track);
+    if (group.kind.path == TrackPath::rotation) {
+        const glm::quat& rest = joint.rotation;
+        const auto q = blend_packed_rotations({rest.x, rest.y, rest.z, rest.w}, left, right, u);
+        joint.rotation = glm::quat(static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]),
+                                   static_cast<float>(q[2]));
+        return;
+    }
+    glm::vec3& vector = group.kind.path == TrackPath::translation ? joint.translation : joint.scale;
+    for (int c = 0; c < 3; ++c) {
+        const auto at = static_cast<std::size_t>(c);
+        vector[c] = static_cast<float>(vector[c] + (1.0 - u) * left[at] + u * right[at]);
+    }
+}
+
+}  // namespace
+
+void unpack_plain(const PackedView& packed, float seconds, std::span<JointTransform> local) {
+    if (packed.record.joints > local.size()) return;
+    const PackedMoment moment = packed_moment(packed, seconds);
+    PackedWalk walk(packed, moment.frame);
+    for (PackedGroup group; walk.next(group);) {
+        for (std::uint32_t track = 0; track < group.count; ++track)
+            set_joint(group, track, moment.fraction, local[group.joints[track]]);
+    }
+}
+
+Unpack* best_unpack() {
+#if defined(__x86_64__)
+    static Unpack* const kBest =
+        __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 ? unpack_avx2 : unpack_plain;
+    return kBest;
+#else
+    return unpack_plain;
+#endif
+}
+
+}  // namespace bendy

@@ -1,0 +1,170 @@
+#include "unpack.h"
+
+#include "format/packed_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using namespace test;
+
+constexpr std::uint32_t kJoints = 70;
+
+struct Kernel {
+    const char* name;
+    Unpack* unpack;
+};
+
+std::vector<Kernel> kernels() {
+    std::vector<Kernel> found{{"plain", unpack_plain}};
+    if (best_unpack() != unpack_plain) found.push_back({"best", best_unpack()});
+    return found;
+}
+
+std::vector<JointTransform> rest_pose() {
+    std::vector<JointTransform> rest(kJoints);
+    for (std::size_t j = 0; j < rest.size(); ++j) {
+        const auto turn = static_cast<float>(j);
+        rest[j].rotation = glm::normalize(glm::quat(std::cos(turn), std::sin(turn), 0.3f, -0.2f * turn));
+        rest[j].translation = {turn, 1.0f, -turn};
+        rest[j].scale = {1.0f, 2.0f, -1.0f};
+    }
+    return rest;
+}
+
+std::vector<JointTransform> played(Unpack* unpack, const PackedView& view, float seconds) {
+    std::vector<JointTransform> local = rest_pose();
+    unpack(view, seconds, local);
+    return local;
+}
+
+PackedView view_of(Bytes payload) {
+    Faults faults;
+    return read_packed(payload, kJoints, 0, faults).value();
+}
+
+/// Largest difference of any number of the two poses; rotations up to sign.
+double difference(const std::vector<JointTransform>& a, const std::vector<JointTransform>& b) {
+    double worst = 0.0;
+    for (std::size_t j = 0; j < a.size(); ++j) {
+        const float sign = glm::dot(a[j].rotation, b[j].rotation) < 0.0f ? -1.0f : 1.0f;
+        for (int c = 0; c < 4; ++c)
+            worst = std::max(worst, std::abs(double{a[j].rotation[c]} - sign * b[j].rotation[c]));
+        for (int c = 0; c < 3; ++c) {
+            worst = std::max(worst, std::abs(double{a[j].translation[c]} - b[j].translation[c]) / 70.0);
+            worst = std::max(worst, std::abs(double{a[j].scale[c]} - b[j].scale[c]) / 70.0);
+        }
+    }
+    return worst;
+}
+
+/// Rotations of up to `turn` radians a component from one frame to the next.
+PackedSamples fast_samples(std::uint32_t joints, std::uint32_t frames, double turn) {
+    PackedSamples samples = make_samples(joints, frames, 0);
+    Noise noise(5);
+    for (PackedTrack& track : samples.tracks) {
+        if (track.path != TrackPath::rotation) continue;
+        track.steps = {120, 120, 120};
+        for (auto& number : track.numbers)
+            number = static_cast<std::int32_t>((noise.next(2001) - 1000) * 1e-3 * turn / packed_step(120));
+    }
+    return samples;
+}
+
+TEST(Unpack, KernelsAgree) {
+    for (const std::uint32_t joints : {1u, 7u, 8u, 9u, 23u, 70u}) {
+        for (const double turn : {0.1, 1.0, 1.8, 3.5}) {
+            const auto payload = write_packed(fast_samples(joints, 20, turn)).value();
+            const PackedView view = view_of(payload);
+            for (float seconds = 0.4f; seconds < 1.5f; seconds += 0.0137f) {
+                const auto expected = played(unpack_plain, view, seconds);
+                for (const Kernel& kernel : kernels())
+                    EXPECT_LT(difference(played(kernel.unpack, view, seconds), expected), 2e-6) << kernel.name << turn;
+            }
+        }
+    }
+}
+
+TEST(Unpack, KernelsAgreeInSegmentsAndWithTimes) {
+    PackedSamples samples = make_samples(kJoints, 50, 16);
+    samples.frame_rate = 0.0f;
+    for (int f = 0; f < 50; ++f) samples.times.push_back(0.5f + 0.01f * static_cast<float>(f * f));
+    const auto payload = write_packed(samples).value();
+    const PackedView view = view_of(payload);
+    for (float seconds = 0.4f; seconds < 26.0f; seconds += 0.0937f) {
+        const auto expected = played(unpack_plain, view, seconds);
+        for (const Kernel& kernel : kernels())
+            EXPECT_LT(difference(played(kernel.unpack, view, seconds), expected), 2e-6) << kernel.name;
+    }
+}
+
+TEST(Unpack, BetweenFramesIsSlerp) {
+    PackedSamples samples = make_samples(1, 2, 0);
+    const std::int32_t steps = 1000;
+    samples.tracks = {{TrackPath::rotation, 0, {124, 124, 124}, 3, true, {0, 0, 0, steps, 0, 0}}};
+    samples.frame_rate = 1.0f;
+    samples.start = 0.0f;
+    const auto payload = write_packed(samples).value();
+    const PackedView view = view_of(payload);
+    const double turn = steps * double{packed_step(124)};  // about y: 1.95 radians
+    for (const Kernel& kernel : kernels()) {
+        std::vector<JointTransform> local(kJoints);
+        kernel.unpack(view, 0.25f, local);
+        EXPECT_NEAR(local[0].rotation.y, std::sin(turn / 8), 2e-6) << kernel.name;
+        EXPECT_NEAR(local[0].rotation.w, std::cos(turn / 8), 2e-6) << kernel.name;
+    }
+}
+
+TEST(Unpack, TimesOutsideAreHeldAndNoTimeIsTheStart) {
+    const auto payload = write_packed(make_samples(kJoints, 20, 0)).value();
+    const PackedView view = view_of(payload);
+    const float end = static_cast<float>(view.time_of(19));
+    for (const Kernel& kernel : kernels()) {
+        EXPECT_LT(difference(played(kernel.unpack, view, -5.0f), played(kernel.unpack, view, 0.5f)), 1e-9);
+        EXPECT_LT(difference(played(kernel.unpack, view, 1e30f), played(kernel.unpack, view, end + 1.0f)), 1e-9);
+        EXPECT_LT(difference(played(kernel.unpack, view, std::numeric_limits<float>::quiet_NaN()),
+                             played(kernel.unpack, view, 0.5f)),
+                  1e-9);
+    }
+}
+
+TEST(Unpack, APoseWithFewerJointsStaysAsItIs) {
+    const auto payload = write_packed(make_samples(kJoints, 20, 0)).value();
+    const PackedView view = view_of(payload);
+    for (const Kernel& kernel : kernels()) {
+        std::vector<JointTransform> local(view.record.joints - 1u);
+        kernel.unpack(view, 0.7f, local);
+        for (const JointTransform& joint : local) EXPECT_EQ(joint.translation, glm::vec3(0.0f));
+    }
+}
+
+TEST(Unpack, DamageStaysInBounds) {
+    const auto good = write_packed(make_samples(kJoints, 6, 2)).value();
+    double sum = 0.0;
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        for (const int value : {0x00, 0x01, 0x18, 0x80, 0xff}) {
+            // A buffer of its own, so that a read past its end is one past an allocation.
+            std::vector<std::byte> bad(good);
+            bad[at] = static_cast<std::byte>(value);
+            Faults faults;
+            const auto view = read_packed(bad, kJoints, 0, faults);
+            if (!view) continue;
+            for (const Kernel& kernel : kernels()) {
+                for (const float seconds : {0.5f, 0.6f, 9.0f})
+                    sum += played(kernel.unpack, *view, seconds)[1].rotation.x;
+            }
+        }
+    }
+    EXPECT_FALSE(std::isnan(sum));
+}
+
+}  // namespace
+}  // namespace bendy
