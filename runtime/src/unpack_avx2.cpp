@@ -13,6 +13,7 @@
 // Only the functions marked so may use the instructions, so that nothing shared with other files is compiled for them.
 #define BENDY_AVX2 __attribute__((target("avx2,fma")))
 
+// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
 namespace bendy {
 namespace {
 
@@ -166,7 +167,7 @@ constexpr std::array<float, 10> kSine{0.5f,
                                       1.0f / 240,
                                       -1.0f / 10080,
                                       1.0f / 725760,
-                                      -1.0f / 79833600,
+                                      -1.0f / 79833600.0f,
                                       1.0f / 12454041600.0f,
                                       -1.0f / 2615348736000.0f,
                                       1.0f / 711374856192000.0f,
@@ -177,7 +178,7 @@ constexpr std::array<float, 10> kCosine{1.0f,
                                         -1.0f / 720,
                                         1.0f / 40320,
                                         -1.0f / 3628800,
-                                        1.0f / 479001600,
+                                        1.0f / 479001600.0f,
                                         -1.0f / 87178291200.0f,
                                         1.0f / 20922789888000.0f,
                                         -1.0f / 6402373705728000.0f};
@@ -369,5 +370,6 @@ BENDY_AVX2 void unpack_avx2(const PackedView& packed, float seconds, std::span<J
 }
 
 }  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics)
 
 #endif

@@ -192,7 +192,11 @@ TEST(PackedCycle, DamageIsRefusedOrHarmless) {
                 bad[at] = static_cast<std::byte>(value);
                 Faults faults;
                 const auto view = read_packed(bad, kJoints, 0, faults);
-                view ? sum += use(*view) : ++refused;
+                if (view) {
+                    sum += use(*view);
+                } else {
+                    ++refused;
+                }
             }
         }
         EXPECT_GT(refused, 300u) << sum;
