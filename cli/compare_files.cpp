@@ -58,12 +58,44 @@ void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Diffe
 
 /// Chunks that are done when the tracks of their cycle have been compared: every way in which tracks are stored.
 bool is_of_tracks(FourCC id) {
-    return id == FourCC("TRAK") || id == FourCC("TIME") || id == FourCC("KEYV");
+    return id == FourCC("TRAK") || id == FourCC("PACK") || id == FourCC("TIME") || id == FourCC("KEYV");
 }
 
 /// Chunks that are done when their target has been compared.
 bool is_of_target(FourCC id) {
     return id == FourCC("INDX") || id == FourCC("POSI") || id == FourCC("NORM") || id == FourCC("TANG");
+}
+
+}  // namespace
+
+namespace {
+
+/// Gives packed cycles ordinary tracks beside those that they have.
+void add_unpacked(ReadFile& file) {
+    struct Place {
+        std::size_t object, cycle, tracks;
+    };
+    std::vector<Place> places;
+    for (std::size_t o = 0; o < file.document.objects.size(); ++o) {
+        const ObjectView& object = file.document.objects[o];
+        std::vector<RestRecord> rests;
+        for (const JointView& joint : object.skeleton.joints) rests.push_back(joint.rest);
+        for (std::size_t c = 0; c < object.cycles.size(); ++c) {
+            if (!object.cycles[c].packed) continue;
+            std::vector<UnpackedTrack> tracks = unpack_cycle(*object.cycles[c].packed, rests);
+            places.push_back({o, c, tracks.size()});
+            std::move(tracks.begin(), tracks.end(), std::back_inserter(file.unpacked));
+        }
+    }
+    std::size_t next = 0;
+    for (const Place& place : places) {
+        CycleView& cycle = file.document.objects[place.object].cycles[place.cycle];
+        for (std::size_t k = 0; k < place.tracks; ++k) {
+            const UnpackedTrack& track = file.unpacked[next++];
+            cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
+                                    static_cast<std::uint32_t>(track.times.size()), track.times, track.values});
+        }
+    }
 }
 
 }  // namespace
@@ -74,6 +106,7 @@ std::unique_ptr<ReadFile> read_file(Bytes bytes) {
     decode_leaves(file->tree);
     Faults faults;
     file->document = read_document(file->tree, faults);
+    add_unpacked(*file);
     file->streams.resize(file->tree.chunks().size());
     file->cycles.resize(file->tree.chunks().size());
     file->targets.resize(file->tree.chunks().size());

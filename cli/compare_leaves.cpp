@@ -334,7 +334,7 @@ void ContentComparer::compare_cycles(ChunkPair cycles) {
     }
     if (tolerance_ || differences_.count() != before) return;
     // The same tracks; say so if their bytes are others all the same.
-    for (const FourCC id : {FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV")}) {
+    for (const FourCC id : {FourCC("TRAK"), FourCC("PACK"), FourCC("TIME"), FourCC("KEYV")}) {
         const ChunkPair leaves{a_.tree.find(cycles.a, id), b_.tree.find(cycles.b, id)};
         if (leaves.a == kNone && leaves.b == kNone) continue;
         if (leaves.a != kNone && leaves.b != kNone && have_equal_sums(a_.tree, leaves.a, b_.tree, leaves.b)) continue;

@@ -16,6 +16,7 @@ namespace bendy::cli {
 struct ReadFile {
     ChunkTree tree;
     Document document;
+    std::vector<UnpackedTrack> unpacked;     ///< what the document's packed cycles hold, as tracks of theirs
     std::vector<const StreamView*> streams;  ///< by chunk number; null: no stream
     std::vector<const CycleView*> cycles;    ///< by chunk number; null: no cycle
     std::vector<const TargetView*> targets;  ///< by chunk number; null: no target, or one that displaces nothing

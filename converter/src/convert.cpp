@@ -1,7 +1,6 @@
 #include <bendy/converter/convert.h>
 
-#include "compact/compact_geometry.h"
-#include "compact/measure_skin.h"
+#include "compact/build_compact.h"
 #include "failure.h"
 #include "passes/attach_rigs.h"
 #include "passes/collapse_vertices.h"
@@ -19,37 +18,6 @@ namespace bendy::converter {
 namespace {
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
-
-/// Of the bound, what positions, weights and targets may use up; cycles have the rest.
-constexpr double kGeometryShare = 0.25;
-
-std::vector<std::byte> build_compact(const Scene& exact, const ConvertOptions& options, Report& report) {
-    CompactReport result;
-    result.height = height_at_rest(exact);
-    const ErrorBound& asked = *options.compact;
-    result.max_error = asked.is_share ? asked.value * result.height : asked.value;
-    Report unheard;  // the compact file's warnings are the same
-    result.exact = count_bytes(build_chunks(exact, kGenerator, unheard));
-
-    Scene scene = exact;
-    const double share = exact.cycles.empty() ? 1.0 : kGeometryShare;
-    const CompactGeometry geometry = compact_geometry(scene, result.max_error * share, options.progress);
-    // Cycles are still written as they are. The measurement of whole cycles belongs here, too: this one takes the error
-    // of positions, weights and targets, in poses of the exact cycles.
-    const SkinError measured = measure_skin(exact, scene, geometry);
-    result.measured_error = measured.metres;
-    result.place = measured.place;
-
-    BuildOptions build;
-    build.compact = true;
-    build.geometry = &geometry;
-    build.bound = BoundRecord{static_cast<float>(result.max_error), static_cast<float>(result.measured_error),
-                              static_cast<float>(result.height)};
-    std::vector<std::byte> bytes = build_chunks(scene, kGenerator, report, build);
-    result.compact = count_bytes(bytes);
-    report.compact = std::move(result);
-    return bytes;
-}
 
 /// The scene of a source of any kind, with its rig.
 Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
@@ -76,8 +44,9 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
         if (options.lod) collapse_vertices(*scene);
-        std::vector<std::byte> bytes = options.compact ? build_compact(*scene, options, report)
-                                                       : build_chunks(*scene, kGenerator, report);
+        std::vector<std::byte> bytes =
+            options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
+                            : build_chunks(*scene, kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())

@@ -74,8 +74,11 @@ std::vector<float> frame_times(const CycleView& cycle, std::uint32_t keys) {
 
 class CycleImporter {
 public:
-    CycleImporter(const ChunkTree& tree, gltf::Budget& budget, Report& report)
-        : tree_(tree), budget_(budget), report_(report) {}
+    CycleImporter(const ChunkTree& tree, const SkeletonView& skeleton, gltf::Budget& budget, Report& report)
+        : tree_(tree), budget_(budget), report_(report) {
+        rests_.reserve(skeleton.joints.size());
+        for (const JointView& joint : skeleton.joints) rests_.push_back(joint.rest);
+    }
 
     Cycle import(const CycleView& view) {
         const std::string place = chunk_path(tree_.bytes(), tree_[view.chunk].offset);
@@ -96,12 +99,23 @@ public:
                                     std::move(times),
                                     {track.values.begin(), track.values.end()}});
         }
+        if (view.packed) unpack(*view.packed, place, cycle);
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
         check_ends(view, cycle, place);
         return cycle;
     }
 
 private:
+    void unpack(const PackedView& packed, const std::string& place, Cycle& cycle) {
+        std::uint64_t tracks = 0;
+        for (const PackedList& list : packed.lists) tracks += list.count;
+        budget_.take(tracks * packed.record.frames, 5 * sizeof(float), place);
+        for (UnpackedTrack& track : unpack_cycle(packed, rests_)) {
+            cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
+                                    std::move(track.times), std::move(track.values)});
+        }
+    }
+
     void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {
         float start = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::max();
         float end = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::lowest();
@@ -116,7 +130,31 @@ private:
     const ChunkTree& tree_;
     gltf::Budget& budget_;
     Report& report_;
+    std::vector<RestRecord> rests_;
 };
+
+// --- the collapse sequence
+
+void import_collapse(const CollapseView& view, Scene& scene) {
+    for (const PoolCollapseView& pool : view.pools) {
+        Mesh& mesh = scene.meshes[pool.pool];
+        mesh.base = pool.base;
+        mesh.collapse.resize(pool.vertices);
+        mesh.joined.resize(pool.vertices);
+        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+            const bool collapses = vertex >= pool.base;
+            mesh.collapse[vertex] = collapses ? pool.target(vertex) : vertex;
+            mesh.joined[vertex] = collapses && pool.is_joined(vertex) ? 1 : 0;
+        }
+    }
+    for (std::uint32_t number = 0; number < view.levels; ++number) {
+        LodLevel& level = scene.levels.emplace_back();
+        level.error = view.error(number);
+        for (const Mesh& mesh : scene.meshes) level.alive.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        for (std::uint32_t place = 0; place < view.pools.size(); ++place)
+            level.alive[view.pools[place].pool] = view.alive(number, place);
+    }
+}
 
 // --- materials and textures
 
@@ -222,7 +260,8 @@ Scene import(Bytes bytes, Report& report) {
     import_textures(*tree, document, scene, report);
     import_materials(document, scene);
     import_pools(*tree, object, budget, scene, report);
-    CycleImporter cycles(*tree, budget, report);
+    if (object.collapse) import_collapse(*object.collapse, scene);
+    CycleImporter cycles(*tree, object.skeleton, budget, report);
     for (const CycleView& cycle : object.cycles) scene.cycles.push_back(cycles.import(cycle));
     return scene;
 }

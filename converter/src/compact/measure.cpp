@@ -43,7 +43,7 @@ public:
 
     void set(float seconds, std::vector<Local>& pose) {
         const PackedMoment moment = packed_moment(packed_, seconds);
-        if (!frame_ || *frame_ != moment.frame) decode(moment.frame);
+        if (frame_ != moment.frame) decode(moment.frame);
         for (const PackedGroup& group : groups_) {
             for (std::uint32_t t = 0; t < group.count; ++t) set_joint(group, t, moment.fraction, pose[group.joints[t]]);
         }
@@ -80,7 +80,7 @@ private:
 
     const Scene& scene_;
     const PackedView& packed_;
-    std::optional<std::uint32_t> frame_;
+    std::uint32_t frame_ = kNone;  // that is decoded
     std::vector<PackedGroup> groups_;
 };
 

@@ -1,5 +1,5 @@
 #include "compact/compact_geometry.h"
-#include "compact/measure_skin.h"
+#include "measure_error.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/validate.h>

@@ -1,0 +1,117 @@
+#include "compact/build_compact.h"
+
+#include "compact/compact_geometry.h"
+#include "compact/pack_cycles.h"
+#include "measure_error.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+// Of the bound, what positions, weights and targets may use up, and what cycles may. The two seldom meet at one point at
+// one time, so their sum may be above 1: the measurement decides.
+constexpr double kGeometryShare = 0.15;
+constexpr double kCycleShare = 0.97;
+
+/// One attempt: the bytes, and how far they are from the scene.
+struct Attempt {
+    std::vector<std::byte> bytes;
+    MeasuredError error;
+};
+
+/// Part of a longer work.
+std::function<void(double)> part_of(const std::function<void(double)>& progress, double from, double to) {
+    if (!progress) return {};
+    return [=](double done) { progress(from + done * (to - from)); };
+}
+
+MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
+                      const std::function<void(double)>& progress) {
+    Report unheard;
+    const auto decoded = import_bendy(bytes, unheard);
+    MeasuredError unknown;
+    unknown.metres = std::numeric_limits<double>::infinity();
+    if (!decoded) return unknown;
+    std::vector<std::vector<std::uint32_t>> maps;
+    maps.reserve(geometry.meshes.size());
+    for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
+    return measure_error(exact, *decoded, maps, progress);
+}
+
+std::string named(const std::string& name, std::uint32_t number) {
+    return name.empty() ? '#' + std::to_string(number) : '"' + name + '"';
+}
+
+/// Where the worst error is, in words.
+std::string place_of(const Scene& scene, const MeasuredError& error) {
+    std::string place;
+    if (error.mesh != kNone) {
+        place = "mesh " + named(scene.meshes[error.mesh].name, error.mesh) + ", vertex " + std::to_string(error.vertex);
+    } else if (error.joint != kNone) {
+        place = "joint " + named(scene.joints[error.joint].name, error.joint);
+    } else {
+        return {};
+    }
+    if (error.cycle == kNone) return place + ", at rest";
+    std::string seconds = std::to_string(error.seconds);
+    seconds.resize(seconds.size() - 3);  // milliseconds
+    return place + ", cycle " + named(scene.cycles[error.cycle].name, error.cycle) + " at " + seconds + " s";
+}
+
+}  // namespace
+
+std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
+                                     Report& report, const std::function<void(double)>& progress) {
+    constexpr int kAttempts = 4;
+    constexpr double kGeometryDone = 0.05;  // of the whole work
+    constexpr double kPackingDone = 0.6;
+    constexpr double kSpare = 0.98;
+
+    CompactReport result;
+    result.height = height_at_rest(exact);
+    result.max_error = bound.is_share ? bound.value * result.height : bound.value;
+    const std::vector<std::byte> plain = build_chunks(exact, generator, report);
+    result.exact = count_bytes(plain);
+
+    Report unheard;  // the compact file's warnings are the same
+    Scene geometry_scene = exact;
+    const double geometry_share = exact.cycles.empty() ? 1.0 : kGeometryShare;
+    const CompactGeometry geometry =
+        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, kGeometryDone));
+    double cycle_share = kCycleShare;
+    Attempt attempt;
+    for (int number = 0; number < kAttempts; ++number) {
+        Scene scene = geometry_scene;
+        pack_cycles(scene, result.max_error * cycle_share, part_of(progress, kGeometryDone, kPackingDone));
+        BuildOptions options;
+        options.compact = true;
+        options.geometry = &geometry;
+        attempt.bytes = build_chunks(scene, generator, unheard, options);
+        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, kPackingDone, 1.0));
+        if (attempt.error.metres <= result.max_error) {
+            options.bound =
+                BoundRecord{static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),
+                            static_cast<float>(result.height)};
+            attempt.bytes = build_chunks(scene, generator, unheard, options);
+            break;
+        }
+        cycle_share *= kSpare * result.max_error / attempt.error.metres;
+    }
+    if (!(attempt.error.metres <= result.max_error)) {
+        report.warn("cannot be kept inside the error that was asked for: written exactly");
+        return plain;
+    }
+    result.measured_error = attempt.error.metres;
+    result.place = place_of(exact, attempt.error);
+    result.compact = count_bytes(attempt.bytes);
+    report.compact = std::move(result);
+    return attempt.bytes;
+}
+
+}  // namespace bendy::converter
