@@ -9,6 +9,7 @@ namespace bendy::cli {
 void add_convert(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_pose(CLI::App& program);
+void add_render(CLI::App& program);
 void add_rig(CLI::App& program);
 void add_validate(CLI::App& program);
 

@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
     bendy::cli::add_inspect(program);
     bendy::cli::add_validate(program);
     bendy::cli::add_pose(program);
+    bendy::cli::add_render(program);
     bendy::cli::add_rig(program);
     try {
         program.parse(argc, argv);
