@@ -12,5 +12,6 @@ void add_pose(CLI::App& program);
 void add_render(CLI::App& program);
 void add_rig(CLI::App& program);
 void add_validate(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace bendy::cli

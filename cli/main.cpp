@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
     bendy::cli::add_pose(program);
     bendy::cli::add_render(program);
     bendy::cli::add_rig(program);
+    bendy::cli::add_view(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -19,8 +19,10 @@ public:
         high_ = glm::max(high_, p);
     }
     [[nodiscard]] bool empty() const { return low_.x > high_.x; }
-    [[nodiscard]] glm::vec3 middle() const { return 0.5f * (low_ + high_); }
-    [[nodiscard]] float half_diagonal() const { return 0.5f * glm::length(high_ - low_); }
+    [[nodiscard]] Box box() const {
+        // A point has some room round it.
+        return low_ == high_ ? Box{low_ - 0.5f, high_ + 0.5f} : Box{low_, high_};
+    }
 
 private:
     glm::vec3 low_{std::numeric_limits<float>::max()};
@@ -44,25 +46,24 @@ std::vector<std::uint64_t> drawn_vertices(const Model& model) {
 
 }  // namespace
 
-Sphere bounding_sphere(const Model& model, const Cycle* cycle) {
+Box bounding_box(const Model& model, const Cycle* cycle) {
     constexpr int kTimes = 12;
     const std::vector<std::uint64_t> drawn = drawn_vertices(model);
     std::vector<glm::vec3> positions(drawn.empty() ? 0 : model.vertex_count());
     Pose pose(model);
-    Points box;
+    Points points;
     for (int k = 0; k < (cycle == nullptr ? 1 : kTimes); ++k) {
         if (cycle != nullptr)
             sample(cycle, cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1), pose);
         if (drawn.empty()) {
             local_to_model(pose);
-            for (const glm::mat4& joint : pose.model_space()) box.add(glm::vec3(joint[3]));
+            for (const glm::mat4& joint : pose.model_space()) points.add(glm::vec3(joint[3]));
         } else {
             skin(model, pose, {positions, {}, {}});
-            for (const std::uint64_t v : drawn) box.add(positions[v]);
+            for (const std::uint64_t v : drawn) points.add(positions[v]);
         }
     }
-    if (box.empty()) return {};
-    return {box.middle(), box.half_diagonal() > 0.0f ? box.half_diagonal() : 1.0f};
+    return points.empty() ? Box{} : points.box();
 }
 
 }  // namespace bendy::viewer

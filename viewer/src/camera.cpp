@@ -13,14 +13,26 @@ constexpr float kSteepest = 1.55f;  // radians: straight up has no yaw
 
 }  // namespace
 
-void Camera::fit(const Sphere& sphere, const CameraOptions& options, float aspect) {
-    centre_ = sphere.centre;
-    radius_ = std::max(sphere.radius, 1e-6f);
+void Camera::fit(const Box& box, const CameraOptions& options, float aspect) {
+    centre_ = box.centre();
+    radius_ = std::max(box.radius(), 1e-6f);
     yaw_ = options.yaw;
     pitch_ = std::clamp(options.pitch, -kSteepest, kSteepest);
     aspect_ = aspect;
-    const float half = std::atan(std::tan(0.5f * kViewAngle) * std::min(1.0f, aspect));
-    distance_ = radius_ / std::sin(half) * std::max(options.distance, 1e-3f);
+    // As near as each of the box's corners allows.
+    distance_ = radius_;
+    const glm::mat4 to_camera = view();
+    const float upwards = std::tan(0.5f * kViewAngle);
+    float nearest = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                           (corner & 4) != 0 ? box.high.z : box.low.z);
+        const glm::vec3 p = glm::vec3(to_camera * glm::vec4(at - centre_, 0.0f));
+        const float across = std::max(std::abs(p.y) / upwards, std::abs(p.x) / (upwards * aspect));
+        nearest = std::max(nearest, p.z + across);
+    }
+    constexpr float kMargin = 1.06f;
+    distance_ = std::max(kMargin * nearest * options.distance, 1e-3f * radius_);
 }
 
 void Camera::orbit(float yaw, float pitch) {

@@ -2,23 +2,27 @@
 
 #include <bendy/viewer/render.h>
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace bendy::viewer {
 
-/// A ball that holds the character.
-struct Sphere {
-    glm::vec3 centre{0.0f};
-    float radius = 1.0f;
+/// A box along the axes that holds the character, metres.
+struct Box {
+    glm::vec3 low{-1.0f};
+    glm::vec3 high{1.0f};
+
+    [[nodiscard]] glm::vec3 centre() const { return 0.5f * (low + high); }
+    [[nodiscard]] float radius() const { return 0.5f * glm::length(high - low); }
 };
 
 /// A camera on an orbit: it looks at a point, Y is up.
 class Camera {
 public:
-    /// Looks at the sphere so that it fills the picture, times `options.distance`.
-    void fit(const Sphere& sphere, const CameraOptions& options, float aspect);
+    /// Looks at the box so that it fills the picture, times `options.distance`.
+    void fit(const Box& box, const CameraOptions& options, float aspect);
 
     void orbit(float yaw, float pitch);  ///< radians, added
     void pan(const glm::vec2& move);     ///< in heights of the picture at the point looked at

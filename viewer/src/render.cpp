@@ -17,17 +17,17 @@ struct PictureMaker::Parts {
         : options(wanted),
           context(wanted.context),
           frame(wanted.width, wanted.height),
-          sphere(bounding_sphere(model, wanted.cycle)),
-          renderer(model, sphere, wanted.folder, warn),
+          box(bounding_box(model, wanted.cycle)),
+          renderer(model, box, wanted.folder, warn),
           pose(model) {
-        camera.fit(sphere, wanted.camera, static_cast<float>(wanted.width) / static_cast<float>(wanted.height));
+        camera.fit(box, wanted.camera, static_cast<float>(wanted.width) / static_cast<float>(wanted.height));
         renderer.set_level(wanted.lod);
     }
 
     RenderOptions options;
     OffscreenContext context;
     Frame frame;
-    Sphere sphere;
+    Box box;
     Renderer renderer;
     Camera camera;
     Pose pose;

@@ -19,7 +19,7 @@ namespace bendy::viewer {
 /// outlive it.
 class Renderer {
 public:
-    Renderer(const Model& model, const Sphere& size, const std::filesystem::path& folder, const Warn& warn);
+    Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn);
 
     void set_level(float share);
     [[nodiscard]] const Lod& level() const { return level_; }
@@ -28,7 +28,7 @@ public:
     void draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
               const glm::vec2& size);
 
-    /// Draws every vertex as one pixel with its number (Model::first_vertex and on, from 1, red the lowest bits), what
+    /// Draws every vertex as one pixel with its number (Model::first_vertex and on; red the lowest bits; alpha 0: none), what
     /// is behind others hidden: by vertices only, or also by the surface. For tests.
     void draw_numbers(Pose& pose, const Camera& camera, bool behind_surface);
 
