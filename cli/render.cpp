@@ -121,6 +121,18 @@ std::vector<float> frame_times(const Cycle& cycle, unsigned frames, bool repeats
     return times;
 }
 
+std::uint32_t sheet_columns(unsigned frames) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
+}
+
+/// A sheet is one picture, and made in memory.
+void check_sheet(const Arguments& arguments) {
+    constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
+    const std::uint64_t columns = sheet_columns(arguments.frames);
+    if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
+        fail_option("--frames", "so many pictures of this --size are too large for one");
+}
+
 std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const Arguments& arguments) {
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
@@ -129,8 +141,7 @@ std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const Arguments& 
         pictures.push_back(maker.draw(time));
         bar.show(pictures.size(), arguments.frames);
     }
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(arguments.frames))));
-    return viewer::encode_png(viewer::contact_sheet(pictures, columns));
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames)));
 }
 
 std::vector<std::byte> draw_animation(viewer::PictureMaker& maker, const Arguments& arguments, bool is_gif) {
@@ -183,6 +194,7 @@ void run(Arguments arguments) {
         arguments.render.height = 240;
     }
     if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
+    if (extension == ".png") check_sheet(arguments);
     if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
     arguments.render.context = arguments.context == "egl"      ? viewer::ContextKind::egl

@@ -86,7 +86,8 @@ TEST(LimitDrawing, LockedAndFree) {
 TEST(LimitDrawing, FreeSwingIsAllButABall) {
     const Constraint constraint = constraint_of(LimitModel::swing_twist_ellipse, {-0.5f, -kFree, -kFree},
                                                 {0.5f, kFree, kFree});
-    for (const glm::vec3& edge : make_limit_drawing(constraint, {}).fans[0].rim) EXPECT_LT(edge.x, -0.99f);
+    const LimitDrawing drawing = make_limit_drawing(constraint, {});
+    for (const glm::vec3& edge : drawing.fans[0].rim) EXPECT_LT(edge.x, -0.99f);
 }
 
 }  // namespace

@@ -134,7 +134,8 @@ class Render(WithFolder):
         for option, text in ((["--size", "0x5"], "--size"), (["--size", "9000x10"], "8192"), (["--size", "5"], "--size"),
                              (["--camera", "1"], "--camera"), (["--camera", "1,2,0"], "--camera"),
                              (["--background", "mauve"], "--background"), (["--lod", "2"], "--lod"),
-                             (["--frames", "0"], "--frames"), (["-o", "x.bmp"], "--output"), (["--time", "1"], "--clip"),
+                             (["--frames", "0"], "--frames"),
+                             (["--frames", "1000", "--size", "1000x1000"], "--frames"), (["-o", "x.bmp"], "--output"), (["--time", "1"], "--clip"),
                              (["--clip", "Wave", "--time", "nan"], "--time")):
             with self.subTest(option=option):
                 self.refused(2, text, file, *option)

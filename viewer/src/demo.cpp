@@ -180,6 +180,7 @@ void Demo::pose_by_hand() {
 void Demo::pull() {
     ReachOptions options;
     options.solver = Solver::pull;
+    options.iterations = 1;
     const int pulls = std::min(kMostPulls, static_cast<int>(pull_time_ / kPullEvery));
     pull_time_ -= pulls * kPullEvery;
     if (pulls == kMostPulls) pull_time_ = 0.0;

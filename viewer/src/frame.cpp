@@ -78,8 +78,21 @@ void Frame::resolve() const {
 
 Picture Frame::read(bool is_transparent) const {
     resolve();
-    Picture picture{width_, height_, std::vector<std::uint8_t>(std::size_t{4} * width_ * height_)};
     gl::BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+    Picture picture = read_pixels();
+    if (is_transparent) divide_by_alpha(picture);
+    return picture;
+}
+
+Picture Frame::read_window() const {
+    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    Picture picture = read_pixels();
+    for (std::size_t at = 3; at < picture.pixels.size(); at += 4) picture.pixels[at] = 255;
+    return picture;
+}
+
+Picture Frame::read_pixels() const {
+    Picture picture{width_, height_, std::vector<std::uint8_t>(std::size_t{4} * width_ * height_)};
     gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl::ReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA, GL_UNSIGNED_BYTE,
                    picture.pixels.data());
@@ -88,7 +101,6 @@ Picture Frame::read(bool is_transparent) const {
         return picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.row_size() * y);
     };
     for (std::uint32_t y = 0; y < height_ / 2; ++y) std::swap_ranges(row(y), row(y + 1), row(height_ - 1 - y));
-    if (is_transparent) divide_by_alpha(picture);
     return picture;
 }
 

@@ -21,12 +21,15 @@ public:
     [[nodiscard]] Picture read(bool is_transparent) const;
     /// Copies it into the current window's own framebuffer.
     void copy_to_window() const;
+    /// What stands in the current window, not yet shown; it must be of this size.
+    [[nodiscard]] Picture read_window() const;
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
 
 private:
     void resolve() const;
+    [[nodiscard]] Picture read_pixels() const;
 
     std::uint32_t width_;
     std::uint32_t height_;

@@ -50,13 +50,12 @@ void read_jpeg(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
     int height = 0;
     int subsampling = 0;
     int space = 0;
-    if (tjDecompressHeader3(decoder.get(), data, size, &width, &height, &subsampling, &space) != 0) {
+    if (tjDecompressHeader3(decoder.get(), data, size, &width, &height, &subsampling, &space) != 0 || width <= 0 ||
+        height <= 0) {
         out.problem = std::string("is no good JPEG: ") + tjGetErrorStr2(decoder.get());
         return;
     }
-    if (!prepare(out, static_cast<std::uint64_t>(std::max(width, 0)), static_cast<std::uint64_t>(std::max(height, 0)),
-                 most_pixels))
-        return;
+    if (!prepare(out, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), most_pixels)) return;
     // What can be shown of a damaged file is shown. A scan limit: progressive files can ask for endless work.
     const int failed = tjDecompress2(decoder.get(), data, size, out.picture.pixels.data(), width, 0, height, TJPF_RGBA,
                                      TJFLAG_LIMITSCANS);

@@ -141,6 +141,9 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
         if (lengths_[joint] == 0.0f) lengths_[joint] = kDefaultLength * size;
     }
     for (const Constraint& constraint : model.constraints()) {
+        const Constraint* in_poses = model.constraint(constraint.joint);
+        if (&constraint != (in_poses != nullptr ? in_poses : model.ik_constraint(constraint.joint))) continue;
+        constraints_.push_back(&constraint);
         const std::uint32_t next = child[constraint.joint];
         const glm::vec3 bone = next == kNone ? glm::vec3(0.0f) : model.joints()[next].rest.translation;
         limits_.push_back(make_limit_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
@@ -175,13 +178,9 @@ void Overlay::add_axes(const Pose& pose, OverlayList& list) const {
     }
 }
 
-void Overlay::add_limit(const LimitDrawing& drawing, const Pose& pose, OverlayList& list) const {
+void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
+                        OverlayList& list) const {
     const Joint& joint = model_->joints()[drawing.joint];
-    const Constraint* constraint = nullptr;
-    for (const Constraint* each : {model_->constraint(drawing.joint), model_->ik_constraint(drawing.joint)}) {
-        if (each != nullptr) constraint = each;
-    }
-    if (constraint == nullptr) return;
     // The limit stands still in the parent's space: rest * C. Scales are left out, but not mirrorings.
     glm::mat3 parent(1.0f);
     if (joint.parent != kNone) parent = glm::mat3(pose.model_space()[joint.parent]);
@@ -189,10 +188,10 @@ void Overlay::add_limit(const LimitDrawing& drawing, const Pose& pose, OverlayLi
         const float length = glm::length(parent[axis]);
         if (length > 0.0f) parent[axis] /= length;
     }
-    const glm::mat3 frame = parent * glm::mat3_cast(joint.rest.rotation * glm::quat(constraint->frame));
+    const glm::mat3 frame = parent * glm::mat3_cast(joint.rest.rotation * glm::quat(constraint.frame));
     const glm::vec3 centre = place(pose, drawing.joint);
     const float radius = std::clamp(0.45f * lengths_[drawing.joint], 0.02f * size_, 0.12f * size_);
-    const glm::dquat R = to_limit_space(*constraint, joint.rest.rotation, pose.local()[drawing.joint].rotation);
+    const glm::dquat R = to_limit_space(constraint, joint.rest.rotation, pose.local()[drawing.joint].rotation);
     const glm::vec3 pointer = centre + 1.15f * radius * (frame * glm::vec3(R * glm::dvec3(drawing.pointer)));
 
     for (const LimitFan& fan : drawing.fans) {
@@ -225,7 +224,7 @@ void Overlay::add_limit(const LimitDrawing& drawing, const Pose& pose, OverlayLi
 }
 
 void Overlay::add_constraints(const Pose& pose, OverlayList& list) const {
-    for (const LimitDrawing& drawing : limits_) add_limit(drawing, pose, list);
+    for (std::size_t k = 0; k < limits_.size(); ++k) add_limit(*constraints_[k], limits_[k], pose, list);
 }
 
 void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list) const {
@@ -250,7 +249,8 @@ glm::vec3 tip_of(const Chain& chain, const Pose& pose) {
 std::vector<TargetMark> target_marks(const Pose& pose) {
     std::vector<TargetMark> marks;
     for (const Chain& chain : pose.model().chains()) {
-        if (chain.target != kNone) marks.push_back({place(pose, chain.target), tip_of(chain, pose), true});
+        const bool is_followed = chain.target != kNone && chain.record.influence > 0.0f;
+        if (is_followed) marks.push_back({place(pose, chain.target), tip_of(chain, pose), true});
     }
     return marks;
 }

@@ -52,7 +52,7 @@ public:
     void add_targets(std::span<const TargetMark> targets, OverlayList& list) const;
 
 private:
-    void add_limit(const LimitDrawing& drawing, const Pose& pose, OverlayList& list) const;
+    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose, OverlayList& list) const;
 
     struct Bone {
         std::uint32_t from, to;
@@ -62,10 +62,11 @@ private:
     std::vector<Bone> bones_;
     std::vector<std::uint32_t> ends_;  // joints where a bone ends
     std::vector<float> lengths_;       // of each joint's longest bone at rest, model space; or a share of the size
-    std::vector<LimitDrawing> limits_;
+    std::vector<const Constraint*> constraints_;  // one a joint: what poses obey, or else what the solvers do
+    std::vector<LimitDrawing> limits_;            // as many
 };
 
-/// Where the chains' target joints are in a pose that is up to date; chains without one are left out.
+/// Where the chains' target joints are in a pose that is up to date; chains without one, or that are off, are left out.
 std::vector<TargetMark> target_marks(const Pose& pose);
 
 /// Where a chain's tip is.

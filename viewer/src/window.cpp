@@ -321,6 +321,7 @@ void Window::draw() {
         gl::Viewport(0, 0, size_.x, size_.y);
         draw_panels();
     }
+    if (!picture_.empty()) save_picture();
     glfwSwapBuffers(window_);
 }
 

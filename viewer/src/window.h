@@ -57,6 +57,7 @@ private:
     void draw_help();
     void play_script();
     void run_command(const std::string& line);
+    void save_picture();
     void print_state();
     [[nodiscard]] DrawOptions draw_options() const;
     [[nodiscard]] glm::vec2 to_pixels(const glm::vec3& point) const;
@@ -74,6 +75,7 @@ private:
     DrawOptions draw_;
     StageTimer timer_;
     std::string message_;  // what the last drop had to say
+    std::filesystem::path picture_;  // where the next frame goes, for the script
     std::set<int> held_;
     Drag drag_ = Drag::none;
     std::size_t dragged_ = 0;

@@ -135,6 +135,12 @@ void Window::play_script() {
     }
 }
 
+void Window::save_picture() {
+    const auto written = write_file(picture_, encode_png(frame_->read_window()));
+    if (!written) throw ViewerError(picture_.string() + ": " + describe(written.error()));
+    picture_.clear();
+}
+
 void Window::run_command(const std::string& line) {
     std::istringstream words(line);
     std::string command;
@@ -171,9 +177,7 @@ void Window::run_command(const std::string& line) {
         on_drop(name);
     } else if (command == "picture") {
         std::getline(words >> std::ws, name);
-        draw();
-        if (const auto written = write_file(name, encode_png(frame_->read(false))); !written)
-            throw ViewerError(name + ": " + describe(written.error()));
+        picture_ = name;  // by the frame that is drawn after every command
     } else {
         throw ViewerError("script: there is no command " + command);
     }
