@@ -1,4 +1,5 @@
-// Runs while bendy is built: embed_character IN.glb OUT.h NAME converts a character and writes its bytes as a C++ array.
+// Runs while bendy is built: embed_character IN.glb OUT.h NAME converts a character and writes its bytes as a C++
+// array.
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>

@@ -17,8 +17,8 @@ void ProgressBar::show(std::uint64_t done, std::uint64_t all) {
     if (!is_terminal_) return;
     constexpr std::uint64_t kWidth = 40;
     const std::uint64_t full = kWidth * done / std::max<std::uint64_t>(all, 1);
-    std::cerr << '\r' << what_ << " [" << std::string(full, '#') << std::string(kWidth - full, ' ') << "] " << done << '/'
-              << all << std::flush;
+    std::cerr << '\r' << what_ << " [" << std::string(full, '#') << std::string(kWidth - full, ' ') << "] " << done
+              << '/' << all << std::flush;
 }
 
 }  // namespace bendy::cli

@@ -100,7 +100,8 @@ void parse_background(const std::string& text, glm::vec4& background) {
     constexpr std::array<Named, 3> kNamed{{{"white", 0xffffff}, {"black", 0}, {"grey", 0x808080}}};
     for (const Named& named : kNamed) {
         if (text != named.name) continue;
-        background = {linear(named.colour >> 16u), linear(named.colour >> 8u & 255u), linear(named.colour & 255u), 1.0f};
+        background = {linear(named.colour >> 16u), linear(named.colour >> 8u & 255u), linear(named.colour & 255u),
+                      1.0f};
         return;
     }
     unsigned colour = 0;
@@ -175,8 +176,7 @@ std::vector<std::byte> draw_all(Arguments& arguments, const Model& model, const 
         render.cycle = model.cycles().data();
     }
     if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.cycle);
-    viewer::PictureMaker maker(model, render,
-                               [&](const std::string& what) { warn(arguments.file, printable(what)); });
+    viewer::PictureMaker maker(model, render, [&](const std::string& what) { warn(arguments.file, printable(what)); });
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
     if (is_animation) return draw_animation(maker, arguments, extension == ".gif");
     if (arguments.frames > 1) return draw_sheet(maker, arguments);
@@ -234,7 +234,8 @@ void add_render(CLI::App& program) {
                         "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");
     command->add_flag("--bones", arguments->render.draw.bones, "draw the skeleton");
     command->add_flag("--axes", arguments->render.draw.axes, "draw the joints' axes");
-    command->add_flag("--constraints", arguments->render.draw.constraints, "draw the joints' limits and the IK targets");
+    command->add_flag("--constraints", arguments->render.draw.constraints,
+                      "draw the joints' limits and the IK targets");
     command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
     command->add_option("--lod", arguments->render.lod, "share of the triangles, 0 to 1")->check(CLI::Range(0.0, 1.0));
     command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");

@@ -2,8 +2,8 @@
 
 #include "viewer/example_model.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 
@@ -154,6 +154,14 @@ TEST_F(DemoTest, TheTargetPullsTheTipOverSeveralFrames) {
     EXPECT_LT(distance(), 0.1f * far);
 }
 
+TEST_F(DemoTest, TheTipArrivesWhereTheForceAloneGetsStuck) {
+    demo.drag_target({0.5f, 1.5f, -0.1f});
+    run(5.0);
+    demo.drag_target({0.428f, 0.96f, -0.028f});
+    run(6.0);
+    EXPECT_LT(distance(), 0.02f);
+}
+
 TEST_F(DemoTest, PullingKeepsTheLimitsWhereverTheTargetGoes) {
     demo.press(DemoKey::inverse);
     const std::array<glm::vec3, 5> places{
@@ -178,9 +186,9 @@ TEST_F(DemoTest, ModesEaseIntoEachOther) {
     const glm::vec3 pulled = demo.tip();
     demo.press(DemoKey::inverse);
     demo.step(kFrame);
-    EXPECT_LT(glm::length(demo.tip() - pulled), 0.12f);
+    EXPECT_LT(glm::length(demo.tip() - pulled), 0.2f);  // the chain's limits are not quite the pose's
     run(1.0);
-    EXPECT_GT(glm::length(demo.tip() - pulled), 0.12f);
+    EXPECT_GT(glm::length(demo.tip() - pulled), 0.2f);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ constexpr std::uint64_t kPlenty = 1u << 20u;
 Picture gradient(std::uint32_t width, std::uint32_t height) {
     Picture picture{width, height, {}};
     for (std::uint32_t k = 0; k < width * height; ++k)
-        picture.pixels.insert(picture.pixels.end(),
-                              {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(k * 7), 40, static_cast<std::uint8_t>(k % 3 * 100)});
+        picture.pixels.insert(picture.pixels.end(), {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(k * 7), 40,
+                                                     static_cast<std::uint8_t>(k % 3 * 100)});
     return picture;
 }
 
@@ -58,8 +58,9 @@ TEST(ImageReader, ALargePictureIsRefusedBeforeItIsMade) {
     EXPECT_NE(small.problem.find("too large"), std::string::npos);
     EXPECT_TRUE(small.picture.pixels.empty());
 
-    const unsigned char webp[] = {'R', 'I', 'F', 'F', 26, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'L', 14, 0, 0, 0,
-                                  0x2f, 0xff, 0xff, 0xff, 0x0f, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    const unsigned char webp[] = {'R',  'I', 'F', 'F', 26, 0, 0, 0, 'W',  'E',  'B',  'P',
+                                  'V',  'P', '8', 'L', 14, 0, 0, 0, 0x2f, 0xff, 0xff, 0xff,
+                                  0x0f, 0,   0,   0,   0,  0, 0, 0, 0,    0};
     const ReadImage large = read_image(std::as_bytes(std::span(webp)), kPlenty);
     EXPECT_NE(large.problem.find("too large: 16384 x 16384"), std::string::npos) << large.problem;
 }

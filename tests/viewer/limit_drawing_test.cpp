@@ -1,9 +1,9 @@
 #include "limit_drawing.h"
 
+#include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -42,13 +42,11 @@ void expect_edge_of_limits(const Constraint& constraint) {
 }
 
 TEST(LimitDrawing, SwingEllipseIsTheEdgeOfWhatIsLegal) {
-    expect_edge_of_limits(
-        constraint_of(LimitModel::swing_twist_ellipse, {-0.5f, -0.4f, -1.2f}, {0.5f, 0.9f, 0.3f}));
+    expect_edge_of_limits(constraint_of(LimitModel::swing_twist_ellipse, {-0.5f, -0.4f, -1.2f}, {0.5f, 0.9f, 0.3f}));
 }
 
 TEST(LimitDrawing, SwingPyramidIsTheEdgeOfWhatIsLegal) {
-    expect_edge_of_limits(
-        constraint_of(LimitModel::swing_twist_pyramid, {-0.5f, -0.4f, -1.2f}, {0.5f, 0.9f, 0.3f}));
+    expect_edge_of_limits(constraint_of(LimitModel::swing_twist_pyramid, {-0.5f, -0.4f, -1.2f}, {0.5f, 0.9f, 0.3f}));
 }
 
 TEST(LimitDrawing, LargestAngleIsARoundCone) {
@@ -71,8 +69,7 @@ TEST(LimitDrawing, HingeArcGoesFromEndToEndAcrossItsAxis) {
 }
 
 TEST(LimitDrawing, EulerBoxHasAnArcForEachAxisThatIsLimited) {
-    const Constraint constraint =
-        constraint_of(LimitModel::euler_box, {-0.2f, -kFree, 0.0f}, {0.4f, kFree, 0.0f});
+    const Constraint constraint = constraint_of(LimitModel::euler_box, {-0.2f, -kFree, 0.0f}, {0.4f, kFree, 0.0f});
     const LimitDrawing drawing = make_limit_drawing(constraint, {0.0f, 1.0f, 0.0f});
     ASSERT_EQ(drawing.fans.size(), 1u);  // Y is free, Z cannot turn
     EXPECT_EQ(drawing.fans[0].axis, glm::dvec3(1, 0, 0));
@@ -84,8 +81,8 @@ TEST(LimitDrawing, LockedAndFree) {
 }
 
 TEST(LimitDrawing, FreeSwingIsAllButABall) {
-    const Constraint constraint = constraint_of(LimitModel::swing_twist_ellipse, {-0.5f, -kFree, -kFree},
-                                                {0.5f, kFree, kFree});
+    const Constraint constraint =
+        constraint_of(LimitModel::swing_twist_ellipse, {-0.5f, -kFree, -kFree}, {0.5f, kFree, kFree});
     const LimitDrawing drawing = make_limit_drawing(constraint, {});
     for (const glm::vec3& edge : drawing.fans[0].rim) EXPECT_LT(edge.x, -0.99f);
 }

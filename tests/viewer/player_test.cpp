@@ -4,8 +4,8 @@
 #include "overlay.h"
 #include "viewer/example_model.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 
@@ -57,9 +57,9 @@ TEST_F(PlayerTest, BlendIsOneCycleAtEachEndAndBetweenThemInTheMiddle) {
         EXPECT_NEAR(closeness(at_b.local()[j].rotation, b.local()[j].rotation), 1.0f, 1e-5f);
         EXPECT_NEAR(closeness(middle.local()[j].rotation, a.local()[j].rotation),
                     closeness(middle.local()[j].rotation, b.local()[j].rotation), 1e-5f);
-        EXPECT_LT(glm::length(middle.local()[j].translation -
-                              0.5f * (a.local()[j].translation + b.local()[j].translation)),
-                  1e-5f);
+        EXPECT_LT(
+            glm::length(middle.local()[j].translation - 0.5f * (a.local()[j].translation + b.local()[j].translation)),
+            1e-5f);
     }
 }
 

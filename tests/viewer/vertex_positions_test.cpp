@@ -43,7 +43,8 @@ protected:
         std::vector<Projected> out;
         for (const glm::vec3& p : positions) {
             const glm::dvec4 clip = matrix * glm::dvec4(glm::dvec3(p), 1.0);
-            out.push_back({(0.5 + 0.5 * clip.x / clip.w) * kSide, (0.5 - 0.5 * clip.y / clip.w) * kSide, clip.z / clip.w});
+            out.push_back(
+                {(0.5 + 0.5 * clip.x / clip.w) * kSide, (0.5 - 0.5 * clip.y / clip.w) * kSide, clip.z / clip.w});
         }
         return out;
     }
@@ -127,8 +128,8 @@ protected:
         for (const Draw& draw : model.draws()) {
             if (draw.topology != Topology::triangles) continue;
             for (std::uint32_t k = 0; k < draw.count; ++k) {
-                const Projected& vertex =
-                    vertices[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+                const Projected& vertex = vertices[model.first_vertex(draw.pool) +
+                                                   model.pools()[draw.pool].indices->index(draw.first + k, 0)];
                 bool found = false;
                 for (int dy = -1; dy <= 1; ++dy) {
                     for (int dx = -1; dx <= 1; ++dx)

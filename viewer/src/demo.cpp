@@ -14,9 +14,10 @@
 namespace bendy::viewer {
 namespace {
 
-constexpr double kEase = 0.4;             // seconds from one mode into the next
-constexpr double kPress = 1.0 / 15.0;     // seconds of holding that a press is worth
+constexpr double kEase = 0.4;              // seconds from one mode into the next
+constexpr double kPress = 1.0 / 15.0;      // seconds of holding that a press is worth
 constexpr double kPullEvery = 1.0 / 60.0;  // seconds between two steps of the pull
+constexpr double kOtherWay = 0.8;          // seconds from where it was stuck to the other pose
 constexpr int kMostPulls = 30;             // in one step, whatever its length
 
 glm::vec3 direction_of(DemoKey key) {
@@ -62,12 +63,19 @@ glm::quat rotation_of(const glm::mat4& matrix) {
 }  // namespace
 
 Demo::Demo(const Model& model)
-    : model_(&model), chain_(model.chains().data()), cycle_(find_animation(model)), pose_(model), before_(model) {
+    : model_(&model),
+      chain_(model.chains().data()),
+      cycle_(find_animation(model)),
+      pose_(model),
+      before_(model),
+      other_way_(model) {
     local_to_model(pose_);
     start_ = glm::vec3(pose_.model_space()[chain_->start][3]);
     reach_ = 0.0f;
     glm::vec3 last = tip();
+    is_link_.resize(model.joints().size());
     for_each_link(model, *chain_, [&](std::uint32_t joint) {
+        is_link_[joint] = true;
         const glm::vec3 here(pose_.model_space()[joint][3]);
         reach_ += glm::length(here - last);
         last = here;
@@ -84,7 +92,7 @@ glm::vec3 Demo::tip() const {
 double Demo::violation() const {
     double worst = 0.0;
     for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
-        const Constraint* constraint = model_->constraint(joint);
+        const Constraint* constraint = limit_of(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
             to_limit_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local()[joint].rotation);
@@ -93,9 +101,28 @@ double Demo::violation() const {
     return worst;
 }
 
+const Constraint* Demo::limit_of(std::uint32_t joint) const {
+    return state_.inverse && is_link_[joint] ? model_->ik_constraint(joint) : model_->constraint(joint);
+}
+
+void Demo::hold_limits() {
+    const auto local = pose_.change_local();
+    for (std::uint32_t joint = 0; joint < local.size(); ++joint) {
+        const Constraint* constraint = limit_of(joint);
+        if (constraint == nullptr) continue;
+        const glm::quat& rest = model_->joints()[joint].rest.rotation;
+        const glm::dquat R = to_limit_space(*constraint, rest, local[joint].rotation);
+        const glm::dquat legal = clamp_rotation(*constraint, R);
+        if (legal != R) local[joint].rotation = from_limit_space(*constraint, rest, legal);
+        local[joint].translation =
+            clamp_translation(*constraint, model_->joints()[joint].rest, local[joint].translation);
+    }
+}
+
 void Demo::set_mode(bool forward, bool inverse) {
     before_ = pose_;
     since_mode_ = 0.0;
+    since_other_way_ = kOtherWay;
     pull_time_ = 0.0;
     state_.forward = forward;
     state_.inverse = inverse;
@@ -154,6 +181,9 @@ void Demo::move_target(const glm::vec3& position) {
     const glm::vec3 away = position - start_;
     const float distance = glm::length(away);
     if (!std::isfinite(distance)) return;
+    since_other_way_ = kOtherWay;
+    still_ = 0;
+    has_looked_ = false;
     state_.target = distance > farthest ? start_ + away * (farthest / distance) : position;
 }
 
@@ -184,7 +214,27 @@ void Demo::pull() {
     const int pulls = std::min(kMostPulls, static_cast<int>(pull_time_ / kPullEvery));
     pull_time_ -= pulls * kPullEvery;
     if (pulls == kMostPulls) pull_time_ = 0.0;
-    for (int k = 0; k < pulls; ++k) reach(chain_, state_.target, pose_, options);
+    for (int k = 0; k < pulls; ++k) {
+        const float distance = reach(chain_, state_.target, pose_, options).distance;
+        constexpr float kProgress = 2e-4f;  // of the chain's length
+        still_ = last_distance_ - distance > kProgress * reach_ ? 0 : still_ + 1;
+        last_distance_ = distance;
+    }
+    look_for_another_way(last_distance_);
+}
+
+void Demo::look_for_another_way(float distance) {
+    constexpr int kStill = 20;
+    constexpr float kNear = 5e-3f;   // of the chain's length
+    constexpr float kBetter = 0.7f;  // of the distance that is left
+    if (has_looked_ || still_ < kStill || distance < kNear * reach_) return;
+    has_looked_ = true;
+    other_way_ = pose_;
+    ReachOptions options;
+    options.solver = Solver::least_squares;
+    if (reach(chain_, state_.target, other_way_, options).distance > kBetter * distance) return;
+    before_ = pose_;
+    since_other_way_ = 0.0;
 }
 
 void Demo::step(double seconds) {
@@ -193,8 +243,15 @@ void Demo::step(double seconds) {
     if (state_.turntable) state_.angle = std::remainder(state_.angle + 0.8 * seconds, 6.283185307179586);
     if (state_.inverse) {
         // From where it is: the force takes frames to bring the tip there.
-        pull_time_ += seconds;
-        pull();
+        since_other_way_ += seconds;
+        if (since_other_way_ < kOtherWay) {
+            const double share = since_other_way_ / kOtherWay;
+            pose_ = before_;
+            blend_poses(other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)), pose_);
+        } else {
+            pull_time_ += seconds;
+            pull();
+        }
     } else {
         if (state_.forward) {
             pose_by_hand();
@@ -206,7 +263,7 @@ void Demo::step(double seconds) {
         }
         if (since_mode_ < kEase) blend_poses(before_, static_cast<float>(1.0 - since_mode_ / kEase), pose_);
     }
-    constrain(pose_);
+    hold_limits();
     local_to_model(pose_);
 }
 

@@ -22,7 +22,8 @@ int append(GifFileType* file, const GifByteType* data, int size) {
 
 class GifFile : public AnimationFile {
 public:
-    GifFile(std::uint32_t width, std::uint32_t height) : width_(static_cast<int>(width)), height_(static_cast<int>(height)) {
+    GifFile(std::uint32_t width, std::uint32_t height)
+        : width_(static_cast<int>(width)), height_(static_cast<int>(height)) {
         int problem = 0;
         file_ = EGifOpen(&bytes_, append, &problem);
         if (file_ == nullptr) fail(problem);

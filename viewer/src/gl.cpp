@@ -7,8 +7,8 @@
 namespace bendy::viewer::gl {
 
 void load(Lookup lookup) {
-#define BENDY_GL(capitals, name)                                              \
-    name = reinterpret_cast<PFNGL##capitals##PROC>(lookup("gl" #name));       \
+#define BENDY_GL(capitals, name)                                        \
+    name = reinterpret_cast<PFNGL##capitals##PROC>(lookup("gl" #name)); \
     if ((name) == nullptr) throw ViewerError("OpenGL 3.3 lacks gl" #name);
 #include "gl_functions.def"
 #undef BENDY_GL

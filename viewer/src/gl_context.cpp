@@ -67,8 +67,7 @@ constexpr unsigned kDefaultDisplay = 0;
 
 EGLDisplay open_display(unsigned platform) {
     const Library& egl = egl_library();
-    if (platform == kDefaultDisplay)
-        return egl.find<decltype(&eglGetDisplay)>("eglGetDisplay")(EGL_DEFAULT_DISPLAY);
+    if (platform == kDefaultDisplay) return egl.find<decltype(&eglGetDisplay)>("eglGetDisplay")(EGL_DEFAULT_DISPLAY);
     const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(find_egl("eglGetPlatformDisplayEXT"));
     if (get_display == nullptr) return EGL_NO_DISPLAY;
     if (platform != EGL_PLATFORM_DEVICE_EXT) return get_display(platform, EGL_DEFAULT_DISPLAY, nullptr);
@@ -114,15 +113,11 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     EGLint configs = 0;
     egl.find<decltype(&eglChooseConfig)>("eglChooseConfig")(display, kConfig.data(), &config, 1, &configs);
     if (configs == 0) config = nullptr;  // EGL_KHR_no_config_context, where there is none
-    constexpr std::array<EGLint, 7> kContext{EGL_CONTEXT_MAJOR_VERSION,
-                                             3,
-                                             EGL_CONTEXT_MINOR_VERSION,
-                                             3,
-                                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                             EGL_NONE};
-    const EGLContext context = egl.find<decltype(&eglCreateContext)>("eglCreateContext")(
-        display, config, EGL_NO_CONTEXT, kContext.data());
+    constexpr std::array<EGLint, 7> kContext{
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLContext context =
+        egl.find<decltype(&eglCreateContext)>("eglCreateContext")(display, config, EGL_NO_CONTEXT, kContext.data());
     if (context == EGL_NO_CONTEXT) {
         terminate(display);
         return add_line(tried, name, "no OpenGL 3.3 core context"), false;

@@ -27,13 +27,13 @@ private:
     GLuint name_ = 0;
 };
 
-#define BENDY_GL_OBJECT(Type, plural)                                                        \
-    struct Make##Type {                                                                      \
-        void operator()(GLsizei n, GLuint* names) const { gl::Gen##plural(n, names); }       \
-    };                                                                                       \
-    struct Drop##Type {                                                                      \
+#define BENDY_GL_OBJECT(Type, plural)                                                           \
+    struct Make##Type {                                                                         \
+        void operator()(GLsizei n, GLuint* names) const { gl::Gen##plural(n, names); }          \
+    };                                                                                          \
+    struct Drop##Type {                                                                         \
         void operator()(GLsizei n, const GLuint* names) const { gl::Delete##plural(n, names); } \
-    };                                                                                       \
+    };                                                                                          \
     using Type = GlObject<Make##Type, Drop##Type>;
 
 BENDY_GL_OBJECT(Buffer, Buffers)

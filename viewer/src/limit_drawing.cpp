@@ -89,8 +89,7 @@ LimitFan make_round_cone(double half_angle, const glm::dvec3& middle) {
     LimitFan fan;
     fan.colour = kConeColour;
     fan.is_closed = true;
-    const glm::dvec3 side =
-        glm::normalize(glm::cross(middle, std::abs(middle.x) < 0.9 ? unit_axis(0) : unit_axis(1)));
+    const glm::dvec3 side = glm::normalize(glm::cross(middle, std::abs(middle.x) < 0.9 ? unit_axis(0) : unit_axis(1)));
     const glm::dvec3 other = glm::cross(middle, side);
     constexpr int kSides = 72;
     for (int k = 0; k < kSides; ++k) {

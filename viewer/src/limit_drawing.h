@@ -17,8 +17,8 @@ struct LimitFan {
     glm::dvec3 axis{0.0};        ///< what an arc's angle turns about; zero for cones
 };
 
-/// How a joint's constraint looks. A cone holds the directions that `pointer` may have; an arc, where a direction across
-/// its axis may turn to.
+/// How a joint's constraint looks. A cone holds the directions that `pointer` may have; an arc, where a direction
+/// across its axis may turn to.
 struct LimitDrawing {
     std::uint32_t joint = 0;
     glm::vec3 pointer{1.0f, 0.0f, 0.0f};  ///< what is shown of R: R * pointer, unit, in the limit's frame

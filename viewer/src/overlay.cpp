@@ -146,7 +146,8 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
         constraints_.push_back(&constraint);
         const std::uint32_t next = child[constraint.joint];
         const glm::vec3 bone = next == kNone ? glm::vec3(0.0f) : model.joints()[next].rest.translation;
-        limits_.push_back(make_limit_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
+        limits_.push_back(
+            make_limit_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
     }
 }
 

@@ -15,8 +15,8 @@ namespace bendy::viewer {
 
 struct OverlayVertex {
     glm::vec3 position;
-    glm::vec3 other;   ///< of a line: its other end
-    glm::vec4 colour;  ///< linear, alpha straight
+    glm::vec3 other;    ///< of a line: its other end
+    glm::vec4 colour;   ///< linear, alpha straight
     float side = 0.0f;  ///< of a line: pixels to its edge, sign by side; 0 in a triangle
 };
 
@@ -52,7 +52,8 @@ public:
     void add_targets(std::span<const TargetMark> targets, OverlayList& list) const;
 
 private:
-    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose, OverlayList& list) const;
+    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
+                   OverlayList& list) const;
 
     struct Bone {
         std::uint32_t from, to;

@@ -159,8 +159,8 @@ void Window::draw_time_panel() {
 }
 
 void Window::draw_help() {
-    ImGui::SetNextWindowPos({static_cast<float>(size_.x) - 10.0f, static_cast<float>(size_.y) - 10.0f}, ImGuiCond_Always,
-                            {1.0f, 1.0f});
+    ImGui::SetNextWindowPos({static_cast<float>(size_.x) - 10.0f, static_cast<float>(size_.y) - 10.0f},
+                            ImGuiCond_Always, {1.0f, 1.0f});
     constexpr ImGuiWindowFlags kFlags =
         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs;
     if (ImGui::Begin("help", nullptr, kFlags)) {

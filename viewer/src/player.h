@@ -26,8 +26,8 @@ public:
     void update();
 
     bool is_playing = true;
-    bool obeys_limits = false;  ///< brings the clip's pose inside the constraints
-    std::uint32_t cycle = 0;    ///< kNone: the rest pose
+    bool obeys_limits = false;    ///< brings the clip's pose inside the constraints
+    std::uint32_t cycle = 0;      ///< kNone: the rest pose
     std::uint32_t other = kNone;  ///< the cycle mixed in, or kNone
     float share = 0.5f;           ///< of the other one
     float speed = 1.0f;

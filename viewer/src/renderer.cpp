@@ -59,7 +59,8 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
     for (const Draw& draw : model.draws()) {
         glm::dvec3 sum(0.0);
         for (std::uint32_t k = 0; k < draw.count; ++k)
-            sum += positions[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+            sum +=
+                positions[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
         centres.emplace_back(sum / std::max(1.0, static_cast<double>(draw.count)));
     }
     return centres;
@@ -83,8 +84,9 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
     gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
         gl::EnableVertexAttribArray(place);
-        gl::VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
-                                reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+        gl::VertexAttribPointer(
+            place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
     floats(0, 3, offsetof(OverlayVertex, position));
     floats(1, 3, offsetof(OverlayVertex, other));
@@ -131,9 +133,10 @@ void Renderer::set_skin(const Program& program, const Camera& camera) const {
 void Renderer::draw_range(const Draw& draw) const {
     constexpr std::array<GLenum, kTopologies> kModes{GL_TRIANGLES, GL_LINES, GL_POINTS};
     const std::size_t first = std::size_t{buffers_.first_index(draw.pool)} + draw.first;
-    gl::DrawElements(
-        kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(first * sizeof(GLuint)));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+    gl::DrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
+                     GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(
+                         first * sizeof(GLuint)));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
 }
 
 void Renderer::set_material(const Draw& draw) {

@@ -28,8 +28,8 @@ public:
     void draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
               const glm::vec2& size);
 
-    /// Draws every vertex as one pixel with its number (Model::first_vertex and on; red the lowest bits; alpha 0: none), what
-    /// is behind others hidden: by vertices only, or also by the surface. For tests.
+    /// Draws every vertex as one pixel with its number (Model::first_vertex and on; red the lowest bits; alpha 0:
+    /// none), what is behind others hidden: by vertices only, or also by the surface. For tests.
     void draw_numbers(Pose& pose, const Camera& camera, bool behind_surface);
 
 private:

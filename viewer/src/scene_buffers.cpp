@@ -52,8 +52,7 @@ void fill_coords_and_colours(const Pool& pool, std::span<GpuVertex> out) {
     for (const StreamView& stream : pool.colours) {
         if (stream.set != 0) continue;
         for (std::uint32_t v = 0; v < out.size(); ++v) {
-            for (std::uint32_t c = 0; c < 4; ++c)
-                out[v].colour[static_cast<int>(c)] = number_or(stream, v, c, 1.0f);
+            for (std::uint32_t c = 0; c < 4; ++c) out[v].colour[static_cast<int>(c)] = number_or(stream, v, c, 1.0f);
         }
     }
 }
@@ -125,8 +124,9 @@ std::size_t bytes_of(const std::vector<T>& list) {
 void describe_vertices() {
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
         gl::EnableVertexAttribArray(place);
-        gl::VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
-                                reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+        gl::VertexAttribPointer(
+            place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
     const auto integers = [](GLuint place, std::size_t offset) {
         gl::EnableVertexAttribArray(place);

@@ -17,8 +17,8 @@ namespace bendy::viewer {
 /// A vertex as the graphics processor gets it; all pools, pool after pool.
 struct GpuVertex {
     glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};   ///< zero where the source has none
-    glm::vec4 tangent{0.0f};  ///< likewise
+    glm::vec3 normal{0.0f};             ///< zero where the source has none
+    glm::vec4 tangent{0.0f};            ///< likewise
     std::array<glm::vec2, 4> coords{};  ///< sets 0 to 3
     glm::vec4 colour{1.0f};             ///< set 0
     glm::uvec2 influences{0};           ///< first and count, in the list of influences

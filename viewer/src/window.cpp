@@ -65,9 +65,9 @@ Window::Window(const ViewOptions& options) : options_(options) {
         open_gl();
         draw_.targets = true;
         if (options.file.empty()) {
-            character_ = std::make_unique<Character>(
-                std::vector<std::byte>(options.tentacle.begin(), options.tentacle.end()), "Bendy Tentacle Demo",
-                std::filesystem::path(), true, options.warn);
+            character_ =
+                std::make_unique<Character>(std::vector<std::byte>(options.tentacle.begin(), options.tentacle.end()),
+                                            "Bendy Tentacle Demo", std::filesystem::path(), true, options.warn);
         } else {
             show(options.file);
         }
@@ -109,16 +109,15 @@ void Window::open_gl() {
     glfwSwapInterval(options_.script.empty() ? 1 : 0);
     gl::load(glfwGetProcAddress);
     if (options_.verbose)
-        std::cerr << "bendy: drawing with a window: " << reinterpret_cast<const char*>(gl::GetString(GL_RENDERER)) << ", "
-                  << reinterpret_cast<const char*>(gl::GetString(GL_VERSION)) << '\n';
+        std::cerr << "bendy: drawing with a window: " << reinterpret_cast<const char*>(gl::GetString(GL_RENDERER))
+                  << ", " << reinterpret_cast<const char*>(gl::GetString(GL_VERSION)) << '\n';
     glfwGetFramebufferSize(window_, &size_.x, &size_.y);
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
         if (action != GLFW_REPEAT) owner(w).on_key(key, action == GLFW_PRESS);
     });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-        owner(w).on_button(button, action == GLFW_PRESS);
-    });
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* w, int button, int action, int) { owner(w).on_button(button, action == GLFW_PRESS); });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         owner(w).on_move({static_cast<float>(x), static_cast<float>(y)});
     });
@@ -129,8 +128,9 @@ void Window::open_gl() {
 }
 
 void Window::show(const std::filesystem::path& file) {
-    auto character = std::make_unique<Character>(options_.open(file), file.filename().string(),
-                                                 file.has_parent_path() ? file.parent_path() : ".", false, options_.warn);
+    auto character =
+        std::make_unique<Character>(options_.open(file), file.filename().string(),
+                                    file.has_parent_path() ? file.parent_path() : ".", false, options_.warn);
     character_ = std::move(character);
     level_ = 1.0f;
     draw_.wireframe = draw_.bones = turntable_ = false;
@@ -258,8 +258,7 @@ void Window::on_move(const glm::vec2& place) {
     if (drag_ == Drag::orbit) camera_.orbit(-kTurn * moved.x / height, kTurn * moved.y / height);
     if (drag_ == Drag::pan) camera_.pan({moved.x / height, -moved.y / height});
     if (drag_ == Drag::target)
-        character_->move_target(dragged_,
-                                camera_.on_plane(to_place(place), character_->targets()[dragged_].position));
+        character_->move_target(dragged_, camera_.on_plane(to_place(place), character_->targets()[dragged_].position));
 }
 
 void Window::on_scroll(float amount) {
@@ -305,7 +304,8 @@ void Window::draw_scene() {
     {
         const auto running = timer_.run(Stage::upload_and_draw);
         frame_->bind();
-        character_->renderer->draw(character_->pose(), camera_, draw_options(), character_->targets(), glm::vec2(size_));
+        character_->renderer->draw(character_->pose(), camera_, draw_options(), character_->targets(),
+                                   glm::vec2(size_));
     }
     const auto running = timer_.run(Stage::graphics);
     frame_->copy_to_window();

@@ -74,7 +74,7 @@ private:
     Camera camera_;
     DrawOptions draw_;
     StageTimer timer_;
-    std::string message_;  // what the last drop had to say
+    std::string message_;            // what the last drop had to say
     std::filesystem::path picture_;  // where the next frame goes, for the script
     std::set<int> held_;
     Drag drag_ = Drag::none;

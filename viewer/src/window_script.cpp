@@ -35,8 +35,7 @@ int key_named(const std::string& name) {
                                            {"Space", GLFW_KEY_SPACE},
                                            {"Home", GLFW_KEY_HOME}}};
     if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
-    const auto found =
-        std::find_if(kNamed.begin(), kNamed.end(), [&](const Named& each) { return name == each.name; });
+    const auto found = std::find_if(kNamed.begin(), kNamed.end(), [&](const Named& each) { return name == each.name; });
     if (found == kNamed.end()) throw ViewerError("script: there is no key " + name);
     return found->key;
 }

@@ -29,8 +29,8 @@ struct DrawOptions {
     bool bones = false;
     bool axes = false;  ///< the joints' axes: X red, Y green, Z blue
     bool constraints = false;
-    bool targets = false;                                   ///< what the IK chains are to reach
-    glm::vec4 background{0.086f, 0.1f, 0.122f, 1.0f};       ///< linear; alpha 0: transparent
+    bool targets = false;                              ///< what the IK chains are to reach
+    glm::vec4 background{0.086f, 0.1f, 0.122f, 1.0f};  ///< linear; alpha 0: transparent
 };
 
 struct CameraOptions {
@@ -40,10 +40,10 @@ struct CameraOptions {
 };
 
 struct RenderOptions {
-    std::uint32_t width = 1024;   ///< pixels, 1 to kMostPixels
-    std::uint32_t height = 768;   ///< likewise
+    std::uint32_t width = 1024;    ///< pixels, 1 to kMostPixels
+    std::uint32_t height = 768;    ///< likewise
     const Cycle* cycle = nullptr;  ///< null: the rest pose
-    float lod = 1.0f;             ///< share of the triangles
+    float lod = 1.0f;              ///< share of the triangles
     CameraOptions camera;
     DrawOptions draw;
     ContextKind context = ContextKind::any;

@@ -16,13 +16,13 @@ struct ViewOptions {
     /// Gives the bytes of a file that shall be shown, converted if it is none of ours. Throws ViewerError with the
     /// reason if it cannot.
     std::function<std::vector<std::byte>(const std::filesystem::path&)> open;
-    std::filesystem::path file;       ///< empty: the tentacle demo
-    Bytes tentacle;                   ///< the demo's character, a bendy file
-    std::filesystem::path script;     ///< for tests: keys to press, see window.h; empty: a person does
-    bool trace = false;               ///< for tests: prints the state, a JSON object a line, after each key
+    std::filesystem::path file;    ///< empty: the tentacle demo
+    Bytes tentacle;                ///< the demo's character, a bendy file
+    std::filesystem::path script;  ///< for tests: keys to press, see window.h; empty: a person does
+    bool trace = false;            ///< for tests: prints the state, a JSON object a line, after each key
     std::uint32_t width = 1280;
     std::uint32_t height = 800;
-    bool verbose = false;             ///< says which OpenGL draws
+    bool verbose = false;  ///< says which OpenGL draws
     Warn warn;
 };
 
