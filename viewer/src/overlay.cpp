@@ -145,7 +145,10 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
         if (&constraint != (in_poses != nullptr ? in_poses : model.ik_constraint(constraint.joint))) continue;
         constraints_.push_back(&constraint);
         const std::uint32_t next = child[constraint.joint];
-        const glm::vec3 bone = next == kNone ? glm::vec3(0.0f) : model.joints()[next].rest.translation;
+        // At a skeleton's end, straight on.
+        const JointTransform& own = model.joints()[constraint.joint].rest;
+        const glm::vec3 bone =
+            next == kNone ? glm::conjugate(own.rotation) * own.translation : model.joints()[next].rest.translation;
         limits_.push_back(
             make_limit_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
     }
