@@ -11,6 +11,8 @@ public:
     explicit ProgressBar(std::string what);
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
+    ProgressBar(ProgressBar&&) = delete;
+    ProgressBar& operator=(ProgressBar&&) = delete;
     /// Clears the line.
     ~ProgressBar();
 

@@ -52,7 +52,7 @@ std::vector<TargetMark> Character::targets() const {
     return marks;
 }
 
-void Character::move_target(std::size_t number, const glm::vec3& position) {
+void Character::move_target(std::size_t number, const glm::vec3& position) const {
     if (demo) {
         demo->drag_target(position);
     } else {

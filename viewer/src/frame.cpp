@@ -35,7 +35,8 @@ void divide_by_alpha(Picture& picture) {
         const std::uint8_t alpha = picture.pixels[at + 3];
         if (alpha == 0 || alpha == 255) continue;
         for (std::size_t c = at; c < at + 3; ++c) {
-            const float linear = to_linear(static_cast<float>(picture.pixels[c]) / 255.0f) * 255.0f / alpha;
+            const float linear =
+                to_linear(static_cast<float>(picture.pixels[c]) / 255.0f) * 255.0f / static_cast<float>(alpha);
             picture.pixels[c] = static_cast<std::uint8_t>(std::lround(255.0f * to_srgb(std::min(linear, 1.0f))));
         }
     }

@@ -39,6 +39,8 @@ public:
     }
     GifFile(const GifFile&) = delete;
     GifFile& operator=(const GifFile&) = delete;
+    GifFile(GifFile&&) = delete;
+    GifFile& operator=(GifFile&&) = delete;
     ~GifFile() override {
         int ignored = 0;
         if (file_ != nullptr) EGifCloseFile(file_, &ignored);

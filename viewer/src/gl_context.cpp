@@ -101,7 +101,7 @@ OffscreenContext::~OffscreenContext() {
 
 bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string& tried) {
     const Library& egl = egl_library();
-    const EGLDisplay display = open_display(platform);
+    EGLDisplay display = open_display(platform);
     if (display == EGL_NO_DISPLAY) return add_line(tried, name, "no display"), false;
     if (egl.find<decltype(&eglInitialize)>("eglInitialize")(display, nullptr, nullptr) == EGL_FALSE)
         return add_line(tried, name, "cannot be initialised"), false;
@@ -116,7 +116,7 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     constexpr std::array<EGLint, 7> kContext{
         EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    const EGLContext context =
+    EGLContext context =
         egl.find<decltype(&eglCreateContext)>("eglCreateContext")(display, config, EGL_NO_CONTEXT, kContext.data());
     if (context == EGL_NO_CONTEXT) {
         terminate(display);
@@ -154,7 +154,7 @@ bool OffscreenContext::try_osmesa(std::string& tried) {
                                            24,
                                            0};
     const auto create = osmesa.find<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
-    const OSMesaContext context = create == nullptr ? nullptr : create(kContext.data(), nullptr);
+    OSMesaContext context = create == nullptr ? nullptr : create(kContext.data(), nullptr);
     if (context == nullptr) return add_line(tried, "OSMesa", "no OpenGL 3.3 core context"), false;
     constexpr int kSide = 4;
     osmesa_picture_ = std::make_unique<unsigned char[]>(std::size_t{4} * kSide * kSide);

@@ -17,6 +17,8 @@ public:
     explicit OffscreenContext(ContextKind kind);
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
+    OffscreenContext(OffscreenContext&&) = delete;
+    OffscreenContext& operator=(OffscreenContext&&) = delete;
     ~OffscreenContext();
 
     /// Such as "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".

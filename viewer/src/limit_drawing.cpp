@@ -133,9 +133,8 @@ LimitDrawing make_limit_drawing(const Constraint& constraint, const glm::vec3& b
             drawing.pointer = glm::vec3(towards);
             for (int axis = 0; axis < 3; ++axis) {
                 const auto i = static_cast<std::size_t>(axis);
-                if (!is_all_round(shape.angles[i]) && shape.angles[i].half > 0.0)
-                    drawing.fans.push_back(
-                        make_arc(shape.angles[i], axis, across(towards, axis), kAxisColours[i], 0.8f));
+                if (is_all_round(shape.angles[i]) || shape.angles[i].half == 0.0) continue;
+                drawing.fans.push_back(make_arc(shape.angles[i], axis, across(towards, axis), kAxisColours[i], 0.8f));
             }
             break;
         case LimitModel::largest_angle:

@@ -18,7 +18,7 @@ constexpr glm::vec4 kIdleColour{0.6f, 0.25f, 0.22f, 1.0f};
 constexpr glm::vec4 kPointerColour{1.0f, 0.95f, 0.6f, 1.0f};
 
 glm::vec3 place(const Pose& pose, std::uint32_t joint) {
-    return glm::vec3(pose.model_space()[joint][3]);
+    return {pose.model_space()[joint][3]};
 }
 
 bool is_finite(const glm::vec3& p) {
@@ -247,7 +247,7 @@ void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list
 
 glm::vec3 tip_of(const Chain& chain, const Pose& pose) {
     const auto& offset = chain.record.tip_offset;
-    return glm::vec3(pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f));
+    return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
 std::vector<TargetMark> target_marks(const Pose& pose) {

@@ -45,10 +45,11 @@ Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t column
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         const std::size_t left = (k % columns) * first.row_size();
         const std::size_t top = (k / columns) * first.height;
-        for (std::size_t y = 0; y < first.height; ++y)
-            std::copy_n(pictures[k].pixels.begin() + static_cast<std::ptrdiff_t>(y * first.row_size()),
-                        first.row_size(),
-                        sheet.pixels.begin() + static_cast<std::ptrdiff_t>((top + y) * sheet.row_size() + left));
+        for (std::size_t y = 0; y < first.height; ++y) {
+            const auto from = static_cast<std::ptrdiff_t>(y * first.row_size());
+            const auto to = static_cast<std::ptrdiff_t>((top + y) * sheet.row_size() + left);
+            std::copy_n(pictures[k].pixels.begin() + from, first.row_size(), sheet.pixels.begin() + to);
+        }
     }
     return sheet;
 }

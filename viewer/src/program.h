@@ -11,6 +11,8 @@ public:
     Program(const char* vertex_source, const char* fragment_source);
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
+    Program(Program&&) = delete;
+    Program& operator=(Program&&) = delete;
     ~Program();
 
     void use() const { gl::UseProgram(name_); }

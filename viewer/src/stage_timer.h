@@ -21,6 +21,8 @@ public:
         Running(StageTimer& timer, Stage stage) : timer_(timer), stage_(stage) {}
         Running(const Running&) = delete;
         Running& operator=(const Running&) = delete;
+        Running(Running&&) = delete;
+        Running& operator=(Running&&) = delete;
         ~Running() { timer_.add(stage_, std::chrono::steady_clock::now() - start_); }
 
     private:

@@ -22,6 +22,8 @@ public:
     }
     WebpFile(const WebpFile&) = delete;
     WebpFile& operator=(const WebpFile&) = delete;
+    WebpFile(WebpFile&&) = delete;
+    WebpFile& operator=(WebpFile&&) = delete;
     ~WebpFile() override { WebPAnimEncoderDelete(encoder_); }
 
     void add(const Picture& picture, double seconds) override {

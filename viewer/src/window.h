@@ -28,6 +28,8 @@ public:
     explicit Window(const ViewOptions& options);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
+    Window(Window&&) = delete;
+    Window& operator=(Window&&) = delete;
     ~Window();
 
     void run();

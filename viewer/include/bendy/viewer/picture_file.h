@@ -19,6 +19,8 @@ public:
     AnimationFile() = default;
     AnimationFile(const AnimationFile&) = delete;
     AnimationFile& operator=(const AnimationFile&) = delete;
+    AnimationFile(AnimationFile&&) = delete;
+    AnimationFile& operator=(AnimationFile&&) = delete;
     virtual ~AnimationFile() = default;
     /// \param seconds  when it is to be seen, from the start; ascending
     virtual void add(const Picture& picture, double seconds) = 0;

@@ -59,6 +59,8 @@ public:
     PictureMaker(const Model& model, const RenderOptions& options, Warn warn);
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
+    PictureMaker(PictureMaker&&) = delete;
+    PictureMaker& operator=(PictureMaker&&) = delete;
     ~PictureMaker();
 
     /// The character at a time of the cycle, seconds.
