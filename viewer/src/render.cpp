@@ -33,7 +33,7 @@ struct PictureMaker::Parts {
     Pose pose;
 };
 
-PictureMaker::PictureMaker(const Model& model, const RenderOptions& options, Warn warn)
+PictureMaker::PictureMaker(const Model& model, const RenderOptions& options, const Warn& warn)
     : parts_(std::make_unique<Parts>(model, options, warn)) {}
 
 PictureMaker::~PictureMaker() = default;

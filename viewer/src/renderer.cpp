@@ -133,10 +133,10 @@ void Renderer::set_skin(const Program& program, const Camera& camera) const {
 void Renderer::draw_range(const Draw& draw) const {
     constexpr std::array<GLenum, kTopologies> kModes{GL_TRIANGLES, GL_LINES, GL_POINTS};
     const std::size_t first = std::size_t{buffers_.first_index(draw.pool)} + draw.first;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
+    const auto* place = reinterpret_cast<const void*>(first * sizeof(GLuint));
     gl::DrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
-                     GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(
-                         first * sizeof(GLuint)));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+                     GL_UNSIGNED_INT, place);
 }
 
 void Renderer::set_material(const Draw& draw) {

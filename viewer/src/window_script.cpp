@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -147,7 +147,8 @@ void Window::run_command(const std::string& line) {
     words >> command;
     constexpr double kFrame = 1.0 / 60.0;
     const auto wait = [&](double seconds) {
-        for (double at = 0.0; at < seconds; at += kFrame) step(std::min(kFrame, seconds - at));
+        const auto frames = static_cast<int>(std::ceil(std::clamp(seconds, 0.0, 1e4) / kFrame));
+        for (int k = 0; k < frames; ++k) step(std::min(kFrame, seconds - k * kFrame));
     };
     if (command == "key") {
         words >> name;

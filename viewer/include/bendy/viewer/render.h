@@ -56,7 +56,7 @@ inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 class PictureMaker {
 public:
     /// Throws ViewerError if there is no OpenGL 3.3 or too little memory.
-    PictureMaker(const Model& model, const RenderOptions& options, Warn warn);
+    PictureMaker(const Model& model, const RenderOptions& options, const Warn& warn);
     PictureMaker(const PictureMaker&) = delete;
     PictureMaker& operator=(const PictureMaker&) = delete;
     PictureMaker(PictureMaker&&) = delete;
