@@ -10,7 +10,9 @@ void add_convert(CLI::App& program);
 void add_diff(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_pose(CLI::App& program);
+void add_render(CLI::App& program);
 void add_rig(CLI::App& program);
 void add_validate(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace bendy::cli

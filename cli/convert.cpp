@@ -1,12 +1,11 @@
 #include "commands.h"
 #include "problem.h"
+#include "progress_bar.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -98,13 +97,16 @@ void print_compact(const converter::CompactReport& report) {
     std::cout << '\n';
 }
 
-/// A bar on the terminal, for work that takes a while.
-void show_progress(double share) {
-    constexpr int kWidth = 40;
-    const int done = static_cast<int>(share * kWidth);
-    std::string bar(kWidth, '.');
-    for (int k = 0; k < done; ++k) bar[static_cast<std::size_t>(k)] = '#';
-    std::cerr << "\r[" << bar << ']' << (share >= 1.0 ? "\n" : "") << std::flush;
+auto convert_with_bar(const Arguments& arguments, converter::ConvertOptions options, converter::Report& report) {
+    ProgressBar bar("compacting");
+    std::uint64_t shown = 0;
+    if (!arguments.quiet) {
+        options.progress = [&](double share) {
+            const auto percent = static_cast<std::uint64_t>(100.0 * share);
+            if (percent > shown) bar.show(shown = percent, 100);
+        };
+    }
+    return converter::convert(arguments.input, options, report);
 }
 
 void print_summary(const Arguments& arguments, Bytes bytes) {
@@ -164,10 +166,9 @@ void run(Arguments arguments) {
     options.auto_rig = arguments.auto_rig;
     if (arguments.compact) options.compact = converter::ErrorBound();
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
-    if (isatty(STDERR_FILENO) != 0 && !arguments.quiet) options.progress = show_progress;
     options.lod = arguments.lod;
     converter::Report report;
-    const auto bytes = converter::convert(arguments.input, options, report);
+    const auto bytes = convert_with_bar(arguments, options, report);
     if (!bytes) {
         const converter::ImportError& error = bytes.error();
         fail(error.file.empty() ? arguments.input : error.file,
@@ -201,12 +202,13 @@ void add_convert(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
-    command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
+    CLI::Option* exact = command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
-    command->add_flag(
-        "--compact", arguments->compact,
-        "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise");
+    command
+        ->add_flag("--compact", arguments->compact,
+                   "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
+        ->excludes(exact);
     command
         ->add_option("--max-error", arguments->max_error,
                      "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "

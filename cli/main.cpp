@@ -35,8 +35,10 @@ int run(int argc, char** argv) {
     bendy::cli::add_inspect(program);
     bendy::cli::add_validate(program);
     bendy::cli::add_pose(program);
+    bendy::cli::add_render(program);
     bendy::cli::add_rig(program);
     bendy::cli::add_diff(program);
+    bendy::cli::add_view(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

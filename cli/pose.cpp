@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "find_cycle.h"
 #include "mesh_writer.h"
 #include "problem.h"
 #include "reach_request.h"
@@ -11,7 +12,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -29,25 +29,6 @@ struct Arguments {
     float lod = 1.0f;  // share of the triangles
     std::filesystem::path output;
 };
-
-/// A cycle by its number, or else by its name.
-const Cycle& find_cycle(const Arguments& arguments, const Model& model) {
-    const std::string& clip = arguments.clip;
-    std::size_t number = 0;
-    const auto [end, problem] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
-    const bool is_number = problem == std::errc() && end == clip.data() + clip.size();
-    if (is_number && number < model.cycles().size()) return model.cycles()[number];
-    if (const Cycle* cycle = model.cycle(clip)) return *cycle;
-
-    std::string known;
-    for (std::size_t i = 0; i < model.cycles().size(); ++i) {
-        const std::string_view name = model.cycles()[i].name;
-        known += (i == 0 ? "" : ", ") + (name.empty() ? "number " + std::to_string(i) : printable(name));
-    }
-    fail(arguments.file,
-         "there is no cycle \"" + printable(clip) + "\"; there " +
-             (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));
-}
 
 /// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
 bool is_mirrored(const Model& model, const Pose& pose, std::uint32_t pool) {
@@ -76,7 +57,7 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
     object.file = arguments.file.filename().string();
     Pose pose(model);
     if (arguments.has_clip) {
-        const Cycle& cycle = find_cycle(arguments, model);
+        const Cycle& cycle = find_cycle(arguments.clip, arguments.file, model);
         sample(&cycle, arguments.time, pose);
         object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
         object.time = arguments.time;

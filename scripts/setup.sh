@@ -21,8 +21,21 @@ need /usr/include/CLI/App.hpp libcli11-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
+need pkg-config pkg-config
+need /usr/include/GL/glcorearb.h libgl-dev
+need /usr/include/EGL/egl.h libegl-dev
+need /usr/include/GL/osmesa.h libosmesa6-dev
+need /usr/include/GLFW/glfw3.h libglfw3-dev
+need /usr/include/imgui/imgui.h libimgui-dev
+need /usr/include/png.h libpng-dev
+need /usr/include/turbojpeg.h libturbojpeg0-dev
+need /usr/include/webp/mux.h libwebp-dev
+need /usr/include/gif_lib.h libgif-dev
+need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
+need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
 if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
+    need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need clang++ clang
     need clang-format clang-format
     need clang-tidy clang-tidy
@@ -30,6 +43,8 @@ if [ "${1:-build}" = test ]; then
     need python3 python3
     need node nodejs
     need chromium chromium
+    need Xvfb xvfb
+    need xdotool xdotool
 fi
 [ ${#missing[@]} -gt 0 ] || exit 0
 

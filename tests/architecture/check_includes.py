@@ -10,7 +10,8 @@ MAY_USE = {
     "format": set(),
     "runtime": {"format"},
     "converter": {"format"},
-    "cli": {"format", "runtime", "converter"},
+    "viewer": {"format", "runtime"},
+    "cli": {"format", "runtime", "converter", "viewer"},
 }
 # header: the folders that may include it
 PRIVATE = {
@@ -19,6 +20,12 @@ PRIVATE = {
     "draco/": "converter/src/",
     "nlohmann/": ("converter/src/", "cli/"),
     "CLI/": "cli/",
+    "GL/": "viewer/src/",
+    "EGL/": "viewer/src/",
+    "GLFW/": "viewer/src/",
+    "imgui.h": "viewer/src/",
+    "backends/": "viewer/src/",
+    "png.h": "viewer/src/",
     "gtest/": "tests/",
 }
 # What format and runtime may take from outside: the C++ library and the system have no folder in their names.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace bendy::cli {
+
+/// A bar on standard error while long work goes on; nothing where that is no terminal.
+class ProgressBar {
+public:
+    explicit ProgressBar(std::string what);
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ProgressBar(ProgressBar&&) = delete;
+    ProgressBar& operator=(ProgressBar&&) = delete;
+    /// Clears the line.
+    ~ProgressBar();
+
+    void show(std::uint64_t done, std::uint64_t all);
+
+private:
+    std::string what_;
+    bool is_terminal_;
+};
+
+}  // namespace bendy::cli

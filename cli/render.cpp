@@ -1,0 +1,269 @@
+#include "commands.h"
+#include "problem.h"
+
+#ifdef BENDY_HAS_VIEWER
+
+#include "find_cycle.h"
+#include "progress_bar.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/runtime.h>
+#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/render.h>
+#include <bendy/viewer/viewer_error.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+    std::string clip;
+    bool has_clip = false;
+    float time = 0.0f;
+    bool has_time = false;
+    std::string size;
+    std::string camera;
+    std::string background;
+    std::string context = "auto";
+    unsigned frames = 0;  // 0: not said
+    bool verbose = false;
+    viewer::RenderOptions render;
+};
+
+[[noreturn]] void fail_option(const char* option, const std::string& what) {
+    throw CLI::ValidationError(option, what);
+}
+
+/// Numbers with commas between them; nothing if the text is anything else, or holds fewer than `least`.
+std::optional<std::vector<float>> parse_numbers(std::string_view text, std::size_t least, std::size_t most) {
+    std::vector<float> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (numbers.size() < most) {
+        float number = 0.0f;
+        const auto [stop, problem] = std::from_chars(at, end, number);
+        if (problem != std::errc() || !std::isfinite(number)) return std::nullopt;
+        numbers.push_back(number);
+        at = stop;
+        if (at == end) break;
+        if (*at++ != ',') return std::nullopt;
+    }
+    return at == end && numbers.size() >= least ? std::optional(numbers) : std::nullopt;
+}
+
+void parse_size(const std::string& text, viewer::RenderOptions& options) {
+    const char* const end = text.data() + text.size();
+    const auto [cross, bad_width] = std::from_chars(text.data(), end, options.width);
+    const bool has_cross = bad_width == std::errc() && cross != end && *cross == 'x';
+    const auto [stop, bad_height] = std::from_chars(has_cross ? cross + 1 : end, end, options.height);
+    const auto fits = [](std::uint32_t side) { return side >= 1 && side <= viewer::kMostPixels; };
+    if (!has_cross || bad_height != std::errc() || stop != end || !fits(options.width) || !fits(options.height))
+        fail_option("--size", "must be WIDTHxHEIGHT in pixels, 1 to " + std::to_string(viewer::kMostPixels) + " each");
+}
+
+void parse_camera(const std::string& text, viewer::CameraOptions& camera) {
+    const auto numbers = parse_numbers(text, 2, 3);
+    if (!numbers || (numbers->size() == 3 && (*numbers)[2] <= 0.0f))
+        fail_option("--camera", "must be YAW,PITCH or YAW,PITCH,DISTANCE: degrees, and a factor above 0");
+    constexpr float kDegree = 3.14159265f / 180.0f;
+    camera.yaw = (*numbers)[0] * kDegree;
+    camera.pitch = (*numbers)[1] * kDegree;
+    if (numbers->size() == 3) camera.distance = (*numbers)[2];
+}
+
+float linear(unsigned srgb) {
+    const float value = static_cast<float>(srgb) / 255.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+void parse_background(const std::string& text, glm::vec4& background) {
+    if (text == "transparent") {
+        background = glm::vec4(0.0f);
+        return;
+    }
+    struct Named {
+        std::string_view name;
+        unsigned colour;
+    };
+    constexpr std::array<Named, 3> kNamed{{{"white", 0xffffff}, {"black", 0}, {"grey", 0x808080}}};
+    for (const Named& named : kNamed) {
+        if (text != named.name) continue;
+        background = {linear(named.colour >> 16u), linear(named.colour >> 8u & 255u), linear(named.colour & 255u),
+                      1.0f};
+        return;
+    }
+    unsigned colour = 0;
+    const std::size_t hash = text.starts_with('#') ? 1 : 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data() + hash, end, colour, 16);
+    if (text.size() - hash != 6 || problem != std::errc() || stop != end)
+        fail_option("--background", "must be RRGGBB, white, black, grey or transparent");
+    background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
+}
+
+/// When the frames are, on the cycle's time line: a cycle that repeats does not show its end, which is its start again.
+std::vector<float> frame_times(const Cycle& cycle, unsigned frames, bool repeats) {
+    std::vector<float> times;
+    const float steps = static_cast<float>(repeats ? frames : std::max(1u, frames - 1));
+    for (unsigned k = 0; k < frames; ++k)
+        times.push_back(cycle.start + (cycle.end - cycle.start) * static_cast<float>(k) / steps);
+    return times;
+}
+
+std::uint32_t sheet_columns(unsigned frames) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
+}
+
+/// A sheet is one picture, and made in memory.
+void check_sheet(const Arguments& arguments) {
+    constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
+    const std::uint64_t columns = sheet_columns(arguments.frames);
+    if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
+        fail_option("--frames", "so many pictures of this --size are too large for one");
+}
+
+std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const Arguments& arguments) {
+    ProgressBar bar("drawing");
+    std::vector<viewer::Picture> pictures;
+    const Cycle& cycle = *arguments.render.cycle;
+    for (const float time : frame_times(cycle, arguments.frames, cycle.loop)) {
+        pictures.push_back(maker.draw(time));
+        bar.show(pictures.size(), arguments.frames);
+    }
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames)));
+}
+
+std::vector<std::byte> draw_animation(viewer::PictureMaker& maker, const Arguments& arguments, bool is_gif) {
+    const viewer::RenderOptions& render = arguments.render;
+    const auto file =
+        is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
+    const double length = static_cast<double>(render.cycle->end) - static_cast<double>(render.cycle->start);
+    ProgressBar bar("drawing");
+    unsigned done = 0;
+    for (const float time : frame_times(*render.cycle, arguments.frames, true)) {
+        file->add(maker.draw(time), length * done / arguments.frames);
+        bar.show(++done, arguments.frames);
+    }
+    return file->finish(length);
+}
+
+/// Frames of an animation whose number was not given: 25 a second.
+unsigned default_frames(const Cycle& cycle) {
+    constexpr double kRate = 25.0;
+    constexpr double kMost = 1000.0;
+    const double length = static_cast<double>(cycle.end) - static_cast<double>(cycle.start);
+    return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
+}
+
+std::vector<std::byte> draw_all(Arguments& arguments, const Model& model, const std::string& extension) {
+    const bool is_animation = extension != ".png";
+    viewer::RenderOptions& render = arguments.render;
+    if (arguments.has_clip) render.cycle = &find_cycle(arguments.clip, arguments.file, model);
+    if (render.cycle == nullptr && (is_animation || arguments.frames > 1)) {
+        if (model.cycles().empty()) fail(arguments.file, "there is no cycle to show in several frames");
+        render.cycle = model.cycles().data();
+    }
+    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.cycle);
+    viewer::PictureMaker maker(model, render, [&](const std::string& what) { warn(arguments.file, printable(what)); });
+    if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
+    if (is_animation) return draw_animation(maker, arguments, extension == ".gif");
+    if (arguments.frames > 1) return draw_sheet(maker, arguments);
+    const float start = render.cycle == nullptr ? 0.0f : render.cycle->start;
+    return viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+}
+
+void run(Arguments arguments) {
+    const std::string extension = arguments.output.extension().string();
+    if (extension != ".png" && extension != ".gif" && extension != ".webp")
+        fail_option("--output", "must end in .png, .gif or .webp");
+    if (arguments.frames > 1 && arguments.has_time) fail_option("--time", "does not go with --frames");
+    if (arguments.frames > 1 || extension != ".png") {
+        arguments.render.width = 320;
+        arguments.render.height = 240;
+    }
+    if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
+    if (extension == ".png") check_sheet(arguments);
+    if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
+    if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
+    arguments.render.context = arguments.context == "egl"      ? viewer::ContextKind::egl
+                               : arguments.context == "osmesa" ? viewer::ContextKind::osmesa
+                                                               : viewer::ContextKind::any;
+    arguments.render.draw.targets = arguments.render.draw.constraints;
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    const Result<Model> model = Model::from_memory(file->bytes());
+    if (!model) fail(arguments.file, model.error(), file->bytes());
+    arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
+    try {
+        const std::vector<std::byte> bytes = draw_all(arguments, *model, extension);
+        if (const auto written = write_file(arguments.output, bytes); !written)
+            fail(arguments.output, describe(written.error()));
+    } catch (const viewer::ViewerError& problem) {
+        fail(arguments.file, printable(problem.what()));
+    }
+}
+
+}  // namespace
+
+void add_render(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("render", "Make a picture or an animation, without a display");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command->add_option("-o,--output", arguments->output, "OUT.png; or OUT.gif, OUT.webp: an animation")->required();
+    CLI::Option* clip =
+        command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
+    CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the cycle's time line")->needs(clip);
+    command
+        ->add_option("--frames", arguments->frames,
+                     "so many pictures over the cycle: in rows in OUT.png, or one after another in an animation")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
+    command->add_option("--camera", arguments->camera,
+                        "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");
+    command->add_flag("--bones", arguments->render.draw.bones, "draw the skeleton");
+    command->add_flag("--axes", arguments->render.draw.axes, "draw the joints' axes");
+    command->add_flag("--constraints", arguments->render.draw.constraints,
+                      "draw the joints' limits and the IK targets");
+    command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
+    command->add_option("--lod", arguments->render.lod, "share of the triangles, 0 to 1")->check(CLI::Range(0.0, 1.0));
+    command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
+    command->add_option("--context", arguments->context, "where OpenGL comes from")
+        ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
+        ->capture_default_str();
+    command->add_flag("-v,--verbose", arguments->verbose, "say which OpenGL draws");
+    command->footer("Example: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png");
+    command->callback([arguments, clip, time] {
+        arguments->has_clip = clip->count() != 0;
+        arguments->has_time = time->count() != 0;
+        if (!std::isfinite(arguments->time)) fail_option("--time", "must be a finite number");
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::cli
+
+#else
+
+namespace bendy::cli {
+
+void add_render(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "Make a picture (this bendy was built without it)");
+    command->allow_extras();
+    command->callback([] { fail("render", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+}
+
+}  // namespace bendy::cli
+
+#endif

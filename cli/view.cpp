@@ -1,0 +1,97 @@
+#include "commands.h"
+#include "problem.h"
+
+#ifdef BENDY_HAS_VIEWER
+
+#include "tentacle.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/viewer/view.h>
+#include <bendy/viewer/viewer_error.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    viewer::ViewOptions view;
+};
+
+bool is_bendy(Bytes bytes) {
+    constexpr std::size_t kPlace = 32;  // of VERS' payload: after the headers of HEAD and VERS
+    return bytes.size() >= kPlace + kSignature.size() &&
+           std::equal(kSignature.begin(), kSignature.end(), bytes.begin() + kPlace,
+                      [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
+}
+
+/// The bytes of a bendy file, or of a glTF file converted to one.
+std::vector<std::byte> open_any(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const Result<MappedFile> mapped = MappedFile::open(file);
+    if (!mapped) throw viewer::ViewerError(name + ": " + describe(mapped.error()));
+    const Bytes bytes = mapped->bytes();
+    const std::string extension = file.extension().string();
+    if (is_bendy(bytes) || (extension != ".glb" && extension != ".gltf")) return {bytes.begin(), bytes.end()};
+    converter::Report report;
+    auto converted = converter::convert(file, {}, report);
+    if (!converted) {
+        const converter::ImportError& error = converted.error();
+        throw viewer::ViewerError(name + ": " +
+                                  (error.place.empty() ? error.message : error.place + ": " + error.message));
+    }
+    return *std::move(converted);
+}
+
+void run(Arguments arguments) {
+    viewer::ViewOptions& options = arguments.view;
+    options.file = arguments.file;
+    options.open = open_any;
+    options.tentacle = std::as_bytes(std::span(kTentacle));
+    const std::filesystem::path name = arguments.file.empty() ? "tentacle demo" : arguments.file;
+    options.warn = [name](const std::string& what) { warn(name, printable(what)); };
+    try {
+        viewer::view(options);
+    } catch (const viewer::ViewerError& problem) {
+        std::string what = problem.what();
+        // What is wrong with a file begins with its name.
+        if (what.starts_with(name.string() + ": ")) what.erase(0, name.string().size() + 2);
+        fail(name, printable(what));
+    }
+}
+
+}  // namespace
+
+void add_view(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
+    command->add_option("FILE", arguments->file, "a bendy file, or a .glb or .gltf, which is converted on the fly");
+    command->add_flag("-v,--verbose", arguments->view.verbose, "say which OpenGL draws");
+    // For tests, see viewer/src/window.h.
+    command->add_option("--script", arguments->view.script)->group("");
+    command->add_flag("--trace", arguments->view.trace)->group("");
+    command->footer("H shows the keys. Drop a .glb or .bendy file on the window to open it.");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli
+
+#else
+
+namespace bendy::cli {
+
+void add_view(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("view", "Look at a character (this bendy was built without it)");
+    command->allow_extras();
+    command->callback([] { fail("view", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+}
+
+}  // namespace bendy::cli
+
+#endif

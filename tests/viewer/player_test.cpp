@@ -1,0 +1,77 @@
+#include "player.h"
+
+#include "blend_poses.h"
+#include "overlay.h"
+#include "viewer/example_model.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace bendy::viewer {
+namespace {
+
+class PlayerTest : public testing::Test {
+protected:
+    test::ExampleModel model{test::example("mannequin.glb")};
+    Player player{*model};
+};
+
+TEST_F(PlayerTest, PlaysRoundAndRound) {
+    const double length = player.length();
+    player.step(0.25 * length);
+    EXPECT_NEAR(player.phase, 0.25f, 1e-5f);
+    player.step(0.9 * length);
+    EXPECT_NEAR(player.phase, 0.15f, 1e-5f);
+    player.is_playing = false;
+    player.step(0.5);
+    EXPECT_NEAR(player.phase, 0.15f, 1e-5f);
+}
+
+TEST_F(PlayerTest, PosesAsTheRuntimeDoes) {
+    player.cycle = 1;
+    player.phase = 0.5f;
+    player.update();
+    const Cycle& cycle = model->cycles()[1];
+    Pose expected(*model);
+    sample(&cycle, cycle.start + 0.5f * (cycle.end - cycle.start), expected);
+    for (std::size_t joint = 0; joint < expected.local().size(); ++joint)
+        EXPECT_EQ(player.pose().local()[joint].rotation, expected.local()[joint].rotation);
+}
+
+TEST_F(PlayerTest, BlendIsOneCycleAtEachEndAndBetweenThemInTheMiddle) {
+    Pose a(*model);
+    Pose b(*model);
+    sample(&model->cycles()[0], 0.2f, a);
+    sample(&model->cycles()[1], 0.4f, b);
+    Pose at_a = a;
+    blend_poses(b, 0.0f, at_a);
+    Pose at_b = a;
+    blend_poses(b, 1.0f, at_b);
+    Pose middle = a;
+    blend_poses(b, 0.5f, middle);
+    const auto closeness = [](const glm::quat& p, const glm::quat& q) { return std::abs(glm::dot(p, q)); };
+    for (std::size_t j = 0; j < a.local().size(); ++j) {
+        EXPECT_NEAR(closeness(at_a.local()[j].rotation, a.local()[j].rotation), 1.0f, 1e-5f);
+        EXPECT_NEAR(closeness(at_b.local()[j].rotation, b.local()[j].rotation), 1.0f, 1e-5f);
+        EXPECT_NEAR(closeness(middle.local()[j].rotation, a.local()[j].rotation),
+                    closeness(middle.local()[j].rotation, b.local()[j].rotation), 1e-5f);
+        EXPECT_LT(
+            glm::length(middle.local()[j].translation - 0.5f * (a.local()[j].translation + b.local()[j].translation)),
+            1e-5f);
+    }
+}
+
+TEST_F(PlayerTest, AChainThatIsOnReaches) {
+    const Chain* arm = model->chain("IK_LeftArm");
+    ASSERT_NE(arm, nullptr);
+    player.is_playing = false;
+    player.cycle = kNone;
+    player.chains[arm->number] = {true, {0.3f, 1.2f, 0.4f}};
+    player.update();
+    EXPECT_LT(glm::length(tip_of(*arm, player.pose()) - glm::vec3(0.3f, 1.2f, 0.4f)), 2e-3f);
+}
+
+}  // namespace
+}  // namespace bendy::viewer

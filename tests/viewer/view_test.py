@@ -1,0 +1,371 @@
+#!/usr/bin/env python3
+"""Runs `bendy render` and `bendy view` as a user does, with software rendering.
+
+    view_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
+
+With BENDY_NEW_PICTURES=1 the reference pictures are written again: look at them before you keep them.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from png_file import read_png, write_png  # noqa: E402
+from surfaces_file import surfaces  # noqa: E402
+
+BENDY = ""
+SOURCE = Path()
+SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+
+def bendy(*arguments, env=None):
+    return subprocess.run([BENDY, *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                          env=env or SOFTWARE)
+
+
+class WithFolder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="bendy-view-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        for name in ("tentacle", "mannequin"):
+            done = bendy("convert", SOURCE / f"examples/{name}.glb", "-o", cls.folder / f"{name}.bendy", "-q")
+            assert done.returncode == 0, done.stderr
+        (cls.folder / "surfaces.gltf").write_text(surfaces(), encoding="utf-8")
+        done = bendy("convert", cls.folder / "surfaces.gltf", "-q")
+        assert done.returncode == 0, done.stderr
+        probe = bendy("render", cls.folder / "tentacle.bendy", "-o", cls.folder / "probe.png", "--size", "8x8")
+        if "no OpenGL 3.3 here" in probe.stderr:
+            raise unittest.SkipTest(probe.stderr.strip())
+
+    def render(self, name, *arguments, out="out.png"):
+        """The picture as read_png gives it."""
+        path = self.folder / out
+        path.unlink(missing_ok=True)
+        done = bendy("render", self.folder / f"{name}.bendy", "-o", path, *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return read_png(path.read_bytes())
+
+    def refused(self, status, text, *arguments):
+        out = self.folder / "refused.png"
+        done = bendy("render", *arguments, *([] if "-o" in arguments else ["-o", out]))
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIn(text, done.stderr)
+        self.assertFalse(out.exists())
+
+
+def difference(a, b):
+    """Mean difference of a channel, and the share of pixels that differ by more than 24."""
+    assert a[:3] == b[:3], (a[:3], b[:3])
+    n = a[2]
+    apart = [abs(x - y) for x, y in zip(a[3], b[3])]
+    far = sum(1 for at in range(0, len(apart), n) if max(apart[at:at + n]) > 24)
+    return sum(apart) / len(apart), far / (len(apart) // n)
+
+
+class Render(WithFolder):
+    def test_size_and_default_size(self):
+        self.assertEqual(self.render("tentacle")[:2], (1024, 768))
+        self.assertEqual(self.render("tentacle", "--size", "100x41")[:2], (100, 41))
+
+    def test_says_which_opengl_draws(self):
+        done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "o.png", "--size", "9x9", "-v")
+        self.assertRegex(done.stderr, r"^bendy: drawing with (EGL|OSMesa)[^:]*: .+\n$")
+
+    def test_both_contexts_draw_the_same(self):
+        pictures = []
+        for context in ("egl", "osmesa"):
+            out = self.folder / f"{context}.png"
+            done = bendy("render", self.folder / "mannequin.bendy", "-o", out, "--size", "200x150", "--context", context)
+            if done.returncode:
+                self.skipTest(done.stderr.strip())
+            pictures.append(read_png(out.read_bytes()))
+        mean, far = difference(*pictures)
+        self.assertLess(mean, 0.5)
+        self.assertLess(far, 0.005)
+
+    def test_transparent_background(self):
+        width, height, channels, pixels = self.render("tentacle", "--size", "80x60", "--background", "transparent")
+        self.assertEqual(channels, 4)
+        self.assertEqual(pixels[:4], bytes(4))
+        alphas = pixels[3::4]
+        self.assertGreater(alphas.count(255), 100)
+
+    def test_background_colour(self):
+        pixels = self.render("tentacle", "--size", "80x60", "--background", "#3366cc")[3]
+        self.assertTrue(all(abs(a - b) <= 1 for a, b in zip(pixels[:3], (0x33, 0x66, 0xcc))), pixels[:3])
+
+    def test_each_option_changes_the_picture(self):
+        plain = self.render("mannequin", "--size", "160x120", "--clip", "Walk", "--time", "0.3")
+        for option in (["--bones"], ["--axes"], ["--constraints"], ["--wireframe"], ["--camera", "180,10"],
+                       ["--camera", "34,11,2"], ["--background", "white"]):
+            with self.subTest(option=option):
+                other = self.render("mannequin", "--size", "160x120", "--clip", "Walk", "--time", "0.3", *option)
+                self.assertGreater(difference(plain, other)[0], 0.1)
+        other = self.render("mannequin", "--size", "160x120", "--clip", "Walk", "--time", "0.6")
+        self.assertGreater(difference(plain, other)[0], 0.1)
+
+    def test_full_detail_is_the_default(self):
+        one = self.render("mannequin", "--size", "160x120", "--lod", "1")
+        self.assertEqual(one, self.render("mannequin", "--size", "160x120"))
+        self.render("mannequin", "--size", "160x120", "--lod", "0.2")
+
+    def test_contact_sheet(self):
+        sheet = self.render("tentacle", "--frames", "5", "--size", "40x30")
+        self.assertEqual(sheet[:2], (120, 60))
+
+    def test_animations(self):
+        for ending, start in ((".gif", b"GIF89a"), (".webp", b"RIFF")):
+            out = self.folder / f"a{ending}"
+            done = bendy("render", self.folder / "tentacle.bendy", "-o", out, "--frames", "4", "--size", "40x30")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(out.read_bytes()[:len(start)], start)
+
+    def test_wrong_command_lines(self):
+        file = self.folder / "tentacle.bendy"
+        for option, text in ((["--size", "0x5"], "--size"), (["--size", "9000x10"], "8192"), (["--size", "5"], "--size"),
+                             (["--camera", "1"], "--camera"), (["--camera", "1,2,0"], "--camera"),
+                             (["--background", "mauve"], "--background"), (["--lod", "2"], "--lod"),
+                             (["--frames", "0"], "--frames"),
+                             (["--frames", "1000", "--size", "1000x1000"], "--frames"), (["-o", "x.bmp"], "--output"), (["--time", "1"], "--clip"),
+                             (["--clip", "Wave", "--time", "nan"], "--time")):
+            with self.subTest(option=option):
+                self.refused(2, text, file, *option)
+
+    def test_bad_input(self):
+        self.refused(1, 'there is no cycle "Run"; there are 2: Reach, Wave', self.folder / "tentacle.bendy", "--clip", "Run")
+        self.refused(1, "error: ", self.folder / "missing.bendy")
+        bad = self.folder / "bad.bendy"
+        bad.write_bytes((self.folder / "tentacle.bendy").read_bytes()[:5000])
+        self.refused(1, "bad.bendy: ", bad)
+        self.refused(1, "there is no cycle to show in several frames", self.folder / "surfaces.bendy", "--frames", "3")
+
+    def test_an_output_that_cannot_be_written(self):
+        done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "none/out.png", "--size", "9x9")
+        self.assertEqual(done.returncode, 1)
+
+    def test_images_outside_the_files_folder_are_not_read(self):
+        gltf = json.loads(surfaces())
+        inner = self.folder / "inner"
+        inner.mkdir(exist_ok=True)
+        png = write_png(1, 1, 3, b"\x20\xff\x20")
+        (self.folder / "secret.png").write_bytes(png)
+        (inner / "a b.png").write_bytes(png)
+        for uri, warning in (("../secret.png", "not read from outside its folder"), ("a%20b.png", "")):
+            gltf["images"] = [{"uri": uri}]
+            (inner / "links.gltf").write_text(json.dumps(gltf), encoding="utf-8")
+            done = bendy("convert", inner / "links.gltf", "--images", "link", "-q")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = bendy("render", inner / "links.bendy", "-o", self.folder / "o.png", "--size", "20x20")
+            self.assertEqual(done.returncode, 0)
+            self.assertIn(warning, done.stderr)
+            self.assertEqual(done.stderr == "", warning == "", done.stderr)
+
+
+class Pictures(WithFolder):
+    """Small pictures that somebody has looked at. Another driver rounds otherwise: hence the tolerance."""
+
+    def check(self, name, picture):
+        reference = Path(__file__).parent / "pictures" / f"{name}.png"
+        if os.environ.get("BENDY_NEW_PICTURES"):
+            reference.parent.mkdir(exist_ok=True)
+            reference.write_bytes((self.folder / "out.png").read_bytes())
+        mean, far = difference(picture, read_png(reference.read_bytes()))
+        self.assertLess(mean, 1.0, f"mean difference of {name}")
+        self.assertLess(far, 0.01, f"share of pixels of {name} that differ")
+
+    def test_tentacle(self):
+        self.check("tentacle", self.render("tentacle", "--size", "320x240", "--clip", "Wave", "--time", "0.5"))
+
+    def test_mannequin_with_bones_and_limits(self):
+        self.check("mannequin", self.render("mannequin", "--size", "320x240", "--clip", "Walk", "--time", "0.3",
+                                            "--bones", "--constraints"))
+
+    def test_surfaces(self):
+        self.check("surfaces", self.render("surfaces", "--size", "320x240", "--camera", "0,0"))
+
+    def test_surfaces_by_their_colours(self):
+        width, height, channels, pixels = self.render("surfaces", "--size", "320x160", "--camera", "0,0")
+
+        def at(column, row, x=0.5, y=0.5):
+            left = int(width * 0.5 + (column - 2 + x) * 75)
+            top = int(height * 0.5 + (row - 1 + y) * 75)
+            place = channels * (top * width + left)
+            return pixels[place:place + 3]
+
+        back = pixels[:3]
+        red, gold, green, blue = at(0, 0), at(1, 0), at(2, 1), at(3, 1)
+        self.assertGreater(red[0], 2 * red[1])
+        self.assertGreater(gold[0], gold[2])
+        self.assertEqual(at(2, 0, 0.72, 0.72), back)  # masked away
+        self.assertEqual(at(3, 0, 0.72, 0.72), back)  # blended away
+        self.assertNotEqual(at(3, 0, 0.3, 0.3), back)
+        self.assertGreater(green[1], max(green[0], green[2]))  # emissive
+        self.assertGreater(blue[2], blue[0])  # the back of a double-sided square
+
+
+class Window(WithFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if not shutil.which("Xvfb"):
+            raise unittest.SkipTest("Xvfb is not there: no display for the window")
+        cls.server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"],
+                                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        cls.addClassCleanup(cls.stop_server)
+        cls.env = {**SOFTWARE, "DISPLAY": ":" + cls.server.stdout.readline().strip()}
+        cls.env.pop("WAYLAND_DISPLAY", None)
+
+    @classmethod
+    def stop_server(cls):
+        cls.server.terminate()
+        cls.server.wait(10)
+        cls.server.stdout.close()
+
+    def play(self, *commands, file=None):
+        """The state after each command."""
+        script = self.folder / "script"
+        script.write_text("\n".join(commands) + "\n", encoding="utf-8")
+        done = bendy("view", *([file] if file else []), "--script", script, env=self.env)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.stderr = done.stderr
+        states = [json.loads(line) for line in done.stdout.splitlines()]
+        for state in states:
+            self.assertLessEqual(state.get("violation", 0), 1e-5)
+        return states
+
+    def test_demo_keys(self):
+        states = self.play("wait 0", "key B", "key F", "key I", "key P", "key R", "key T", "key H", "key Esc", "key B")
+        self.assertEqual(len(states), 9)  # closed by Esc
+        names = ["bones", "forward", "inverse", "paused", "turntable", "wireframe"]
+        self.assertTrue(states[0]["demo"])
+        for name in names:
+            self.assertFalse(states[0][name], name)
+        for number, name in enumerate(names, 1):
+            self.assertTrue(states[number][name], name)
+            self.assertFalse(states[number - 1][name], name)
+        self.assertFalse(states[3]["forward"])
+        self.assertTrue(states[0]["help"])
+        self.assertFalse(states[7]["help"])
+        self.assertTrue(states[8]["quits"])
+
+    def test_demo_moves_the_target_and_it_pulls(self):
+        start, *moved, pulled, dropped = self.play("key I", "key Left", "key Up", "key PgDn", "hold Down 0.5", "wait 6",
+                                                   "wait 0")
+        place = start["targets"][0]["position"]
+        for state, axis, sign in zip(moved, (0, 1, 2, 1), (-1, 1, 1, -1)):
+            now = state["targets"][0]["position"]
+            self.assertGreater(sign * (now[axis] - place[axis]), 1e-3)
+            place = now
+        target = pulled["targets"][0]
+        self.assertLess(sum((a - b) ** 2 for a, b in zip(target["tip"], target["position"])) ** 0.5, 0.05)
+
+    def test_demo_moves_the_tentacle_by_hand(self):
+        states = self.play("key F", "wait 1", "hold Right 0.6", "wait 0.1", "hold Left 1.2", "wait 0.1")
+        tips = [state["targets"][0]["tip"] for state in states]
+        self.assertGreater(tips[3][0], tips[1][0] + 0.02)
+        self.assertLess(tips[5][0], tips[1][0] - 0.02)
+
+    def test_demo_turntable_and_animation(self):
+        states = self.play("wait 0", "wait 0.5", "key R", "wait 0.5", "key P", "wait 0.5")
+        self.assertAlmostEqual(states[1]["time"], 0.5, places=2)
+        self.assertEqual(states[0]["yaw"], states[1]["yaw"])
+        self.assertAlmostEqual(states[3]["yaw"] - states[2]["yaw"], 0.4, places=2)
+        self.assertEqual(states[4]["time"], states[5]["time"])
+
+    def test_demo_picture(self):
+        out = self.folder / "demo.png"
+        self.play("key B", "key I", f"picture {out}")
+        width, height, _, pixels = read_png(out.read_bytes())
+        self.assertEqual((width, height), (1280, 800))
+        self.assertGreater(len(set(zip(pixels[0::3], pixels[1::3], pixels[2::3]))), 200)
+
+    def test_a_target_is_dragged_with_the_mouse(self):
+        first, = self.play("wait 0", file=self.folder / "mannequin.bendy")
+        number, target = next((k, t) for k, t in enumerate(first["targets"]) if t["pixels"][0] > 500)
+        x, y, _ = target["pixels"]
+        state, = self.play(f"drag {x} {y} {x + 40} {y - 30}", file=self.folder / "mannequin.bendy")
+        moved = state["targets"][number]
+        self.assertTrue(moved["on"])
+        self.assertAlmostEqual(moved["pixels"][0], x + 40, delta=1.5)
+        self.assertAlmostEqual(moved["pixels"][1], y - 30, delta=1.5)
+        self.assertEqual(state["yaw"], first["yaw"])
+
+    def test_mouse_orbits_and_keys_toggle(self):
+        states = self.play("wait 0", "drag 700 740 760 740", "key B", "key C", "key X", "key T", "key P", "key R", "key Esc",
+                           file=self.folder / "mannequin.bendy")
+        self.assertNotEqual(states[0]["yaw"], states[1]["yaw"])
+        for number, name in enumerate(("bones", "constraints", "axes", "wireframe", "paused", "turntable", "quits"), 2):
+            self.assertTrue(states[number][name], name)
+            self.assertFalse(states[number - 1][name], name)
+
+    def test_dropped_files_open(self):
+        states = self.play(f"drop {SOURCE / 'examples/mannequin.glb'}", f"drop {self.folder / 'tentacle.bendy'}",
+                           f"drop {self.folder / 'missing.glb'}", f"drop {self.folder / 'script'}", "wait 0.1")
+        self.assertEqual([state["title"] for state in states], ["mannequin.glb"] + 4 * ["tentacle.bendy"])
+        self.assertFalse(states[0]["demo"])
+        self.assertIn("missing.glb", states[2]["message"])
+        self.assertNotEqual(states[3]["message"], "")
+
+    def test_real_keys(self):
+        if not shutil.which("xdotool"):
+            self.skipTest("xdotool is not there: no real keys")
+        with subprocess.Popen([BENDY, "view", "--trace"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env=self.env) as program:
+            try:
+                self.assertFalse(json.loads(program.stdout.readline())["bones"])
+
+                def tool(*arguments):
+                    subprocess.run(["xdotool", *arguments], env=self.env, check=True, timeout=60,
+                                   stdout=subprocess.DEVNULL)
+
+                tool("search", "--sync", "--onlyvisible", "--name", "Bendy")
+                tool("mousemove", "600", "400")
+                for key, name in (("b", "bones"), ("t", "wireframe"), ("i", "inverse"), ("r", "turntable")):
+                    tool("key", key)
+                    self.assertTrue(json.loads(program.stdout.readline())[name], name)
+                before = json.loads(self.press(tool, program, "Left"))["targets"][0]["position"]
+                after = json.loads(self.press(tool, program, "Left"))["targets"][0]["position"]
+                self.assertLess(after[0], before[0])
+                tool("key", "Escape")
+                self.assertTrue(json.loads(program.stdout.readline())["quits"])
+                self.assertEqual(program.wait(30), 0)
+                self.assertEqual(program.stderr.read(), "")
+            finally:
+                program.kill()
+
+    @staticmethod
+    def press(tool, program, key):
+        tool("key", key)
+        return program.stdout.readline()
+
+    def test_what_cannot_be_shown(self):
+        done = bendy("view", self.folder / "missing.bendy", env=self.env)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("missing.bendy", done.stderr)
+        done = bendy("view", env={**SOFTWARE, "DISPLAY": ":987", "WAYLAND_DISPLAY": ""})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no display", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+
+def main():
+    global BENDY, SOURCE
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bendy", required=True)
+    parser.add_argument("--source", type=Path, required=True)
+    arguments, rest = parser.parse_known_args()
+    BENDY, SOURCE = str(Path(arguments.bendy).resolve()), arguments.source.resolve()
+    unittest.main(argv=[sys.argv[0], *rest])
+
+
+if __name__ == "__main__":
+    main()

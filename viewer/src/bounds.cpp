@@ -1,0 +1,69 @@
+#include "bounds.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace bendy::viewer {
+namespace {
+
+class Points {
+public:
+    void add(const glm::vec3& p) {
+        constexpr float kFarthest = 1e15f;  // beyond, squares leave a float's range
+        if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest)) return;
+        low_ = glm::min(low_, p);
+        high_ = glm::max(high_, p);
+    }
+    [[nodiscard]] bool empty() const { return low_.x > high_.x; }
+    [[nodiscard]] Box box() const {
+        // A point has some room round it.
+        return low_ == high_ ? Box{low_ - 0.5f, high_ + 0.5f} : Box{low_, high_};
+    }
+
+private:
+    glm::vec3 low_{std::numeric_limits<float>::max()};
+    glm::vec3 high_{std::numeric_limits<float>::lowest()};
+};
+
+/// Vertices that something draws: pools may hold others.
+std::vector<std::uint64_t> drawn_vertices(const Model& model) {
+    std::vector<bool> is_drawn(model.vertex_count());
+    for (const Draw& draw : model.draws()) {
+        const Pool& pool = model.pools()[draw.pool];
+        for (std::uint32_t k = 0; k < draw.count; ++k)
+            is_drawn[model.first_vertex(draw.pool) + pool.indices->index(draw.first + k, 0)] = true;
+    }
+    std::vector<std::uint64_t> list;
+    for (std::uint64_t v = 0; v < is_drawn.size(); ++v) {
+        if (is_drawn[v]) list.push_back(v);
+    }
+    return list;
+}
+
+}  // namespace
+
+Box bounding_box(const Model& model, const Cycle* cycle) {
+    constexpr int kTimes = 12;
+    const std::vector<std::uint64_t> drawn = drawn_vertices(model);
+    std::vector<glm::vec3> positions(drawn.empty() ? 0 : model.vertex_count());
+    Pose pose(model);
+    Points points;
+    for (int k = 0; k < (cycle == nullptr ? 1 : kTimes); ++k) {
+        if (cycle != nullptr)
+            sample(cycle, cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1), pose);
+        if (drawn.empty()) {
+            local_to_model(pose);
+            for (const glm::mat4& joint : pose.model_space()) points.add(glm::vec3(joint[3]));
+        } else {
+            skin(model, pose, {positions, {}, {}});
+            for (const std::uint64_t v : drawn) points.add(positions[v]);
+        }
+    }
+    return points.empty() ? Box{} : points.box();
+}
+
+}  // namespace bendy::viewer

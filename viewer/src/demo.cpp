@@ -1,0 +1,270 @@
+#include "demo.h"
+
+#include "blend_poses.h"
+#include "overlay.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy::viewer {
+namespace {
+
+constexpr double kEase = 0.4;              // seconds from one mode into the next
+constexpr double kPress = 1.0 / 15.0;      // seconds of holding that a press is worth
+constexpr double kPullEvery = 1.0 / 60.0;  // seconds between two steps of the pull
+constexpr double kOtherWay = 0.8;          // seconds from where it was stuck to the other pose
+constexpr int kMostPulls = 30;             // in one step, whatever its length
+
+glm::vec3 direction_of(DemoKey key) {
+    switch (key) {
+        case DemoKey::left:
+            return {-1.0f, 0.0f, 0.0f};
+        case DemoKey::right:
+            return {1.0f, 0.0f, 0.0f};
+        case DemoKey::up:
+            return {0.0f, 1.0f, 0.0f};
+        case DemoKey::down:
+            return {0.0f, -1.0f, 0.0f};
+        case DemoKey::page_up:
+            return {0.0f, 0.0f, -1.0f};
+        case DemoKey::page_down:
+            return {0.0f, 0.0f, 1.0f};
+        default:
+            return glm::vec3(0.0f);
+    }
+}
+
+const Cycle* find_animation(const Model& model) {
+    const Cycle* wave = model.cycle("Wave");
+    return wave != nullptr || model.cycles().empty() ? wave : model.cycles().data();
+}
+
+/// Calls take(joint) from the effector up to the start.
+template <class Take>
+void for_each_link(const Model& model, const Chain& chain, const Take& take) {
+    std::uint32_t joint = chain.effector;
+    for (std::uint32_t link = 0; link < chain.links; ++link) {
+        take(joint);
+        joint = model.joints()[joint].parent;
+    }
+}
+
+glm::quat rotation_of(const glm::mat4& matrix) {
+    glm::mat3 axes(matrix);
+    for (int k = 0; k < 3; ++k) axes[k] = glm::normalize(axes[k]);
+    return glm::quat_cast(axes);
+}
+
+}  // namespace
+
+Demo::Demo(const Model& model)
+    : model_(&model),
+      chain_(model.chains().data()),
+      cycle_(find_animation(model)),
+      pose_(model),
+      before_(model),
+      other_way_(model) {
+    local_to_model(pose_);
+    start_ = glm::vec3(pose_.model_space()[chain_->start][3]);
+    reach_ = 0.0f;
+    glm::vec3 last = tip();
+    is_link_.resize(model.joints().size());
+    for_each_link(model, *chain_, [&](std::uint32_t joint) {
+        is_link_[joint] = true;
+        const glm::vec3 here(pose_.model_space()[joint][3]);
+        reach_ += glm::length(here - last);
+        last = here;
+    });
+    reach_ = std::max(reach_, 1e-3f);
+    move_target(chain_->target != kNone ? glm::vec3(pose_.model_space()[chain_->target][3]) : tip());
+    step(0.0);
+}
+
+glm::vec3 Demo::tip() const {
+    return tip_of(*chain_, pose_);
+}
+
+double Demo::violation() const {
+    double worst = 0.0;
+    for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
+        const Constraint* constraint = limit_of(joint);
+        if (constraint == nullptr) continue;
+        const glm::dquat R =
+            to_limit_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local()[joint].rotation);
+        worst = std::max(worst, bendy::violation(*constraint, R));
+    }
+    return worst;
+}
+
+const Constraint* Demo::limit_of(std::uint32_t joint) const {
+    return state_.inverse && is_link_[joint] ? model_->ik_constraint(joint) : model_->constraint(joint);
+}
+
+void Demo::hold_limits() {
+    const auto local = pose_.change_local();
+    for (std::uint32_t joint = 0; joint < local.size(); ++joint) {
+        const Constraint* constraint = limit_of(joint);
+        if (constraint == nullptr) continue;
+        const glm::quat& rest = model_->joints()[joint].rest.rotation;
+        const glm::dquat R = to_limit_space(*constraint, rest, local[joint].rotation);
+        const glm::dquat legal = clamp_rotation(*constraint, R);
+        if (legal != R) local[joint].rotation = from_limit_space(*constraint, rest, legal);
+        local[joint].translation =
+            clamp_translation(*constraint, model_->joints()[joint].rest, local[joint].translation);
+    }
+}
+
+void Demo::set_mode(bool forward, bool inverse) {
+    before_ = pose_;
+    since_mode_ = 0.0;
+    since_other_way_ = kOtherWay;
+    pull_time_ = 0.0;
+    state_.forward = forward;
+    state_.inverse = inverse;
+}
+
+void Demo::press(DemoKey key) {
+    switch (key) {
+        case DemoKey::quit:
+            state_.quits = true;
+            break;
+        case DemoKey::bones:
+            state_.bones = !state_.bones;
+            break;
+        case DemoKey::forward:
+            set_mode(!state_.forward, false);
+            break;
+        case DemoKey::inverse:
+            set_mode(false, !state_.inverse);
+            break;
+        case DemoKey::pause:
+            state_.paused = !state_.paused;
+            break;
+        case DemoKey::turntable:
+            state_.turntable = !state_.turntable;
+            break;
+        case DemoKey::wireframe:
+            state_.wireframe = !state_.wireframe;
+            break;
+        case DemoKey::help:
+            state_.help = !state_.help;
+            break;
+        default:
+            hold(key, kPress);
+            break;
+    }
+}
+
+void Demo::hold(DemoKey key, double seconds) {
+    move(direction_of(key), static_cast<float>(std::clamp(seconds, 0.0, 1.0)));
+}
+
+void Demo::move(const glm::vec3& direction, float amount) {
+    if (state_.inverse) {
+        move_target(state_.target + direction * (0.6f * reach_ * amount));
+    } else if (state_.forward) {
+        // The chain stands up: Left and Right bend it about Z, Up and Down about X, PgUp and PgDn twist it.
+        constexpr float kMost = 2.4f;
+        const glm::vec3 turn(direction.y, direction.z, -direction.x);
+        state_.bend = glm::clamp(state_.bend + turn * (1.5f * amount), -kMost, kMost);
+    }
+}
+
+void Demo::move_target(const glm::vec3& position) {
+    // A little out of reach is worth seeing: the tentacle then points at it.
+    const float farthest = 1.3f * reach_;
+    const glm::vec3 away = position - start_;
+    const float distance = glm::length(away);
+    if (!std::isfinite(distance)) return;
+    since_other_way_ = kOtherWay;
+    still_ = 0;
+    has_looked_ = false;
+    state_.target = distance > farthest ? start_ + away * (farthest / distance) : position;
+}
+
+void Demo::drag_target(const glm::vec3& position) {
+    if (!state_.inverse) set_mode(false, true);
+    move_target(position);
+}
+
+void Demo::pose_by_hand() {
+    pose_.set_rest();
+    local_to_model(pose_);
+    const glm::vec3 share = state_.bend / static_cast<float>(std::max(chain_->links, 1u));
+    const float angle = glm::length(share);
+    if (angle == 0.0f) return;
+    const glm::vec3 axis = share / angle;
+    const std::vector<glm::mat4> rest(pose_.model_space().begin(), pose_.model_space().end());
+    const auto local = pose_.change_local();
+    for_each_link(*model_, *chain_, [&](std::uint32_t joint) {
+        const glm::vec3 own = glm::conjugate(rotation_of(rest[joint])) * axis;
+        local[joint].rotation = glm::normalize(local[joint].rotation * glm::angleAxis(angle, own));
+    });
+}
+
+void Demo::pull() {
+    ReachOptions options;
+    options.solver = Solver::pull;
+    options.iterations = 1;
+    const int pulls = std::min(kMostPulls, static_cast<int>(pull_time_ / kPullEvery));
+    pull_time_ -= pulls * kPullEvery;
+    if (pulls == kMostPulls) pull_time_ = 0.0;
+    for (int k = 0; k < pulls; ++k) {
+        const float distance = reach(chain_, state_.target, pose_, options).distance;
+        constexpr float kProgress = 2e-4f;  // of the chain's length
+        still_ = last_distance_ - distance > kProgress * reach_ ? 0 : still_ + 1;
+        last_distance_ = distance;
+    }
+    look_for_another_way(last_distance_);
+}
+
+void Demo::look_for_another_way(float distance) {
+    constexpr int kStill = 20;
+    constexpr float kNear = 5e-3f;   // of the chain's length
+    constexpr float kBetter = 0.7f;  // of the distance that is left
+    if (has_looked_ || still_ < kStill || distance < kNear * reach_) return;
+    has_looked_ = true;
+    other_way_ = pose_;
+    ReachOptions options;
+    options.solver = Solver::least_squares;
+    if (reach(chain_, state_.target, other_way_, options).distance > kBetter * distance) return;
+    before_ = pose_;
+    since_other_way_ = 0.0;
+}
+
+void Demo::step(double seconds) {
+    if (!(seconds >= 0.0)) return;
+    since_mode_ += seconds;
+    if (state_.turntable) state_.angle = std::remainder(state_.angle + 0.8 * seconds, 6.283185307179586);
+    if (state_.inverse) {
+        // From where it is: the force takes frames to bring the tip there.
+        since_other_way_ += seconds;
+        if (since_other_way_ < kOtherWay) {
+            const double share = since_other_way_ / kOtherWay;
+            pose_ = before_;
+            blend_poses(other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)), pose_);
+        } else {
+            pull_time_ += seconds;
+            pull();
+        }
+    } else {
+        if (state_.forward) {
+            pose_by_hand();
+        } else if (cycle_ != nullptr) {
+            if (!state_.paused) state_.time += seconds;
+            const double length = std::max(static_cast<double>(cycle_->end) - static_cast<double>(cycle_->start), 1e-3);
+            state_.time = std::fmod(state_.time, length);
+            sample(cycle_, cycle_->start + static_cast<float>(state_.time), pose_);
+        }
+        if (since_mode_ < kEase) blend_poses(before_, static_cast<float>(1.0 - since_mode_ / kEase), pose_);
+    }
+    hold_limits();
+    local_to_model(pose_);
+}
+
+}  // namespace bendy::viewer

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <bendy/runtime.h>
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace bendy::viewer {
+
+enum class DemoKey : std::uint8_t {
+    quit,
+    bones,
+    forward,
+    inverse,
+    pause,
+    turntable,
+    wireframe,
+    help,
+    left,
+    right,
+    up,
+    down,
+    page_up,
+    page_down
+};
+
+struct DemoState {
+    bool quits = false;
+    bool bones = false;
+    bool forward = false;  ///< the tentacle is moved by hand
+    bool inverse = false;  ///< the target pulls the tip; at most one of these two
+    bool paused = false;   ///< the animation, which plays where neither is on
+    bool turntable = false;
+    bool wireframe = false;
+    bool help = true;
+    double time = 0.0;       ///< of the animation, seconds from its start
+    double angle = 0.0;      ///< of the turntable, radians
+    glm::vec3 bend{0.0f};    ///< by hand: of the whole chain about the model's axes, radians
+    glm::vec3 target{0.0f};  ///< metres, model space
+};
+
+/// The Bendy Tentacle Demo: what the keys do, without window or drawing. Takes a model with a chain; plays its cycle
+/// "Wave", or else its first. The limits of the joints hold after every step.
+class Demo {
+public:
+    /// The model must outlive it and have at least one chain.
+    explicit Demo(const Model& model);
+
+    /// A key went down. An arrow, PgUp or PgDn moves the target or the tentacle a little.
+    void press(DemoKey key);
+    /// A key is held down for so long.
+    void hold(DemoKey key, double seconds);
+    /// Time goes on.
+    void step(double seconds);
+    /// Puts the target there, as near as it may go, and lets it pull.
+    void drag_target(const glm::vec3& position);
+
+    [[nodiscard]] const DemoState& state() const { return state_; }
+    [[nodiscard]] Pose& pose() { return pose_; }
+    [[nodiscard]] const Chain& chain() const { return *chain_; }
+    [[nodiscard]] glm::vec3 tip() const;
+    /// How far the worst of all joints is outside its limits, radians; while the target pulls, the chain's joints have
+    /// those that the file gives for IK.
+    [[nodiscard]] double violation() const;
+
+private:
+    [[nodiscard]] const Constraint* limit_of(std::uint32_t joint) const;
+    void hold_limits();
+    void set_mode(bool forward, bool inverse);
+    void move(const glm::vec3& direction, float amount);
+    void move_target(const glm::vec3& position);
+    void pose_by_hand();
+    void pull();
+    void look_for_another_way(float distance);
+
+    const Model* model_;
+    const Chain* chain_;
+    const Cycle* cycle_;
+    Pose pose_;
+    Pose before_;  // what the mode before left, from which the new one eases away
+    DemoState state_;
+    glm::vec3 start_{0.0f};      // of the chain at rest, model space
+    std::vector<bool> is_link_;  // of the chain, one a joint
+    float reach_ = 1.0f;         // the chain's length at rest
+    double since_mode_ = 1e9;
+    double pull_time_ = 0.0;  // not yet used by pulling
+    // Where the limits keep the force from the target although the tip can reach it, the tentacle goes to a pose that
+    // another solver has found; once for each place of the target.
+    Pose other_way_;
+    double since_other_way_ = 1e9;
+    float last_distance_ = 0.0f;
+    int still_ = 0;  // pulls without progress
+    bool has_looked_ = false;
+};
+
+}  // namespace bendy::viewer

@@ -1,0 +1,119 @@
+#include "frame.h"
+
+#include <bendy/viewer/viewer_error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy::viewer {
+namespace {
+
+void attach(const Renderbuffer& buffer, GLenum place, GLenum format, std::uint32_t width, std::uint32_t height,
+            std::uint32_t samples) {
+    gl::BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+    gl::RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? static_cast<GLsizei>(samples) : 0, format,
+                                       static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    gl::FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
+}
+
+void check_complete() {
+    const bool is_complete = gl::CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    if (!is_complete || gl::GetError() == GL_OUT_OF_MEMORY)
+        throw ViewerError("the graphics driver cannot make a picture of this size");
+}
+
+float to_linear(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+float to_srgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+/// Colours that were drawn over transparent black hold their alpha as a factor.
+void divide_by_alpha(Picture& picture) {
+    for (std::size_t at = 0; at + 4 <= picture.pixels.size(); at += 4) {
+        const std::uint8_t alpha = picture.pixels[at + 3];
+        if (alpha == 0 || alpha == 255) continue;
+        for (std::size_t c = at; c < at + 3; ++c) {
+            const float linear =
+                to_linear(static_cast<float>(picture.pixels[c]) / 255.0f) * 255.0f / static_cast<float>(alpha);
+            picture.pixels[c] = static_cast<std::uint8_t>(std::lround(255.0f * to_srgb(std::min(linear, 1.0f))));
+        }
+    }
+}
+
+}  // namespace
+
+Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t samples, bool srgb)
+    : width_(width), height_(height) {
+    GLint most = 1;
+    GLint largest = 0;
+    gl::GetIntegerv(GL_MAX_SAMPLES, &most);
+    gl::GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (std::max(width, height) > static_cast<std::uint32_t>(largest))
+        throw ViewerError("the graphics driver makes pictures up to " + std::to_string(largest) + " pixels wide");
+    const std::uint32_t used = std::min(samples, static_cast<std::uint32_t>(std::max(most, 1)));
+    const GLenum format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    gl::BindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+    attach(picture_colour_, GL_COLOR_ATTACHMENT0, format, width, height, 1);
+    check_complete();
+    gl::BindFramebuffer(GL_FRAMEBUFFER, samples_.name());
+    attach(sample_colour_, GL_COLOR_ATTACHMENT0, format, width, height, used);
+    attach(sample_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, used);
+    check_complete();
+}
+
+void Frame::bind() const {
+    gl::BindFramebuffer(GL_FRAMEBUFFER, samples_.name());
+    gl::Viewport(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_));
+    gl::Enable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Frame::resolve() const {
+    const auto w = static_cast<GLint>(width_);
+    const auto h = static_cast<GLint>(height_);
+    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, samples_.name());
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
+    gl::BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Picture Frame::read(bool is_transparent) const {
+    resolve();
+    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+    Picture picture = read_pixels();
+    if (is_transparent) divide_by_alpha(picture);
+    return picture;
+}
+
+Picture Frame::read_window() const {
+    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    Picture picture = read_pixels();
+    for (std::size_t at = 3; at < picture.pixels.size(); at += 4) picture.pixels[at] = 255;
+    return picture;
+}
+
+Picture Frame::read_pixels() const {
+    Picture picture{width_, height_, std::vector<std::uint8_t>(std::size_t{4} * width_ * height_)};
+    gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl::ReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA, GL_UNSIGNED_BYTE,
+                   picture.pixels.data());
+    // OpenGL begins at the bottom.
+    const auto row = [&](std::uint32_t y) {
+        return picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.row_size() * y);
+    };
+    for (std::uint32_t y = 0; y < height_ / 2; ++y) std::swap_ranges(row(y), row(y + 1), row(height_ - 1 - y));
+    return picture;
+}
+
+void Frame::copy_to_window() const {
+    resolve();
+    const auto w = static_cast<GLint>(width_);
+    const auto h = static_cast<GLint>(height_);
+    gl::Disable(GL_FRAMEBUFFER_SRGB);  // what was encoded once is copied as it is
+    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl::BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl::BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+}  // namespace bendy::viewer

@@ -1,0 +1,272 @@
+#include "renderer.h"
+
+#include "shaders.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy::viewer {
+namespace {
+
+enum WhichFaces : GLint { kBothFaces, kFrontFaces, kBackFaces };
+
+/// The material of a draw that has none: glTF's default is mirror-like metal, which shows little; this is plain grey.
+SurfaceRecord plain_surface() {
+    SurfaceRecord surface;
+    surface.base_colour = {0.6f, 0.6f, 0.6f, 1.0f};
+    surface.metallic = 0.0f;
+    surface.roughness = 0.6f;
+    return surface;
+}
+
+SurfaceRecord surface_of(const Model& model, const Draw& draw) {
+    return draw.material < model.materials().size() ? model.materials()[draw.material].surface : plain_surface();
+}
+
+bool is_blended(const Model& model, const Draw& draw) {
+    return static_cast<AlphaMode>(surface_of(model, draw).alpha_mode) == AlphaMode::blend;
+}
+
+/// T * R * S, KHR_texture_transform.
+glm::mat3 uv_matrix(const TextureUseRecord& use) {
+    const float c = std::cos(use.rotation);
+    const float s = std::sin(use.rotation);
+    return {glm::vec3(c * use.scale[0], -s * use.scale[0], 0.0f), glm::vec3(s * use.scale[1], c * use.scale[1], 0.0f),
+            glm::vec3(use.offset[0], use.offset[1], 1.0f)};
+}
+
+void set_vector(GLint place, const glm::vec3& v) {
+    gl::Uniform3fv(place, 1, glm::value_ptr(v));
+}
+
+/// From over the camera's left shoulder.
+glm::vec3 key_light(const Camera& camera) {
+    const float yaw = camera.yaw() - 0.7f;
+    const float height = 0.85f;
+    return glm::normalize(glm::vec3(std::sin(yaw), height, std::cos(yaw)));
+}
+
+std::vector<glm::vec3> draw_centres(const Model& model) {
+    std::vector<glm::vec3> positions(model.vertex_count());
+    Pose pose(model);
+    skin(model, pose, {positions, {}, {}});
+    std::vector<glm::vec3> centres;
+    for (const Draw& draw : model.draws()) {
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t k = 0; k < draw.count; ++k)
+            sum +=
+                positions[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+        centres.emplace_back(sum / std::max(1.0, static_cast<double>(draw.count)));
+    }
+    return centres;
+}
+
+}  // namespace
+
+Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn)
+    : model_(&model),
+      level_(model),
+      buffers_(model),
+      textures_(model, folder, warn),
+      overlay_(model, 2.0f * box.radius()),
+      surface_(kSkinShader, kSurfaceShader),
+      flat_(kSkinShader, kFlatShader),
+      numbers_(kSkinShader, kNumberShader),
+      overlay_program_(kOverlayVertexShader, kOverlayShader),
+      centres_(draw_centres(model)) {
+    buffers_.set_level(level_);
+    gl::BindVertexArray(overlay_layout_.name());
+    gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
+    const auto floats = [](GLuint place, GLint components, std::size_t offset) {
+        gl::EnableVertexAttribArray(place);
+        gl::VertexAttribPointer(
+            place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+    };
+    floats(0, 3, offsetof(OverlayVertex, position));
+    floats(1, 3, offsetof(OverlayVertex, other));
+    floats(2, 4, offsetof(OverlayVertex, colour));
+    floats(3, 1, offsetof(OverlayVertex, side));
+    for (const Pool& pool : model.pools()) {
+        for (const StreamView& stream : pool.texture_coords) {
+            if (stream.set > 3) warn("texture coordinate sets after the fourth are not shown");
+        }
+    }
+}
+
+void Renderer::set_level(float share) {
+    level_.set_share(share);
+    buffers_.set_level(level_);
+}
+
+void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
+                    const glm::vec2& size) {
+    const glm::vec4& back = options.background;
+    gl::ClearColor(back.r * back.a, back.g * back.a, back.b * back.a, back.a);
+    gl::DepthMask(GL_TRUE);
+    gl::Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LEQUAL);
+    // The alpha of what was drawn over nothing adds up, so that a picture can be laid over another.
+    gl::BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    buffers_.set_pose(pose);
+    buffers_.bind();
+    if (options.surface && !options.wireframe) draw_surface(camera);
+    if (options.wireframe) draw_wireframe(camera);
+    draw_overlay(pose, camera, options, targets, size);
+}
+
+void Renderer::set_skin(const Program& program, const Camera& camera) const {
+    program.use();
+    gl::UniformMatrix4fv(program["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
+    gl::Uniform1i(program["palette"], SceneBuffers::kPaletteUnit);
+    gl::Uniform1i(program["influence_list"], SceneBuffers::kInfluenceUnit);
+    gl::Uniform1i(program["displacement_list"], SceneBuffers::kDisplacementUnit);
+    gl::Uniform1i(program["target_weights"], SceneBuffers::kWeightUnit);
+}
+
+void Renderer::draw_range(const Draw& draw) const {
+    constexpr std::array<GLenum, kTopologies> kModes{GL_TRIANGLES, GL_LINES, GL_POINTS};
+    const std::size_t first = std::size_t{buffers_.first_index(draw.pool)} + draw.first;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
+    const auto* place = reinterpret_cast<const void*>(first * sizeof(GLuint));
+    gl::DrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
+                     GL_UNSIGNED_INT, place);
+}
+
+void Renderer::set_material(const Draw& draw) {
+    const SurfaceRecord surface = surface_of(*model_, draw);
+    struct Use {
+        const TextureUseRecord* record;
+        const char* sampler;
+        bool srgb;
+    };
+    const std::array<Use, 5> uses{{{&surface.base_colour_texture, "base_colour_map", true},
+                                   {&surface.metallic_roughness_texture, "metallic_roughness_map", false},
+                                   {&surface.normal_texture, "normal_map", false},
+                                   {&surface.occlusion_texture, "occlusion_map", false},
+                                   {&surface.emissive_texture, "emissive_map", true}}};
+    std::array<glm::mat3, 5> matrices{};
+    std::array<GLint, 5> sets{};
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+        const GLuint texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
+        gl::ActiveTexture(GL_TEXTURE0 + static_cast<GLuint>(k));
+        gl::BindTexture(GL_TEXTURE_2D, texture);
+        gl::Uniform1i(surface_[uses[k].sampler], static_cast<GLint>(k));
+        matrices[k] = uv_matrix(*uses[k].record);
+        sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, 3u));
+    }
+    gl::UniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
+    gl::Uniform1iv(surface_["uv_set"], 5, sets.data());
+    gl::Uniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
+    gl::Uniform3fv(surface_["emissive"], 1, surface.emissive.data());
+    gl::Uniform1f(surface_["metallic"], surface.metallic);
+    gl::Uniform1f(surface_["roughness"], surface.roughness);
+    gl::Uniform1f(surface_["normal_scale"], surface.normal_scale);
+    gl::Uniform1f(surface_["occlusion_strength"], surface.occlusion_strength);
+    gl::Uniform1f(surface_["alpha_cutoff"], surface.alpha_cutoff);
+    gl::Uniform1i(surface_["alpha_mode"], surface.alpha_mode);
+    gl::Uniform1i(surface_["double_sided"], surface.double_sided);
+    gl::Uniform1i(surface_["unlit"], surface.unlit);
+    gl::Uniform1i(surface_["has_normal_map"], surface.normal_texture.texture != kNone ? 1 : 0);
+    gl::Uniform1i(surface_["has_faces"], draw.topology == Topology::triangles ? 1 : 0);
+}
+
+void Renderer::draw_surface(const Camera& camera) {
+    set_skin(surface_, camera);
+    set_vector(surface_["eye"], camera.eye());
+    set_vector(surface_["key_light"], key_light(camera));
+    gl::Uniform1i(surface_["which_faces"], kBothFaces);
+    struct SeeThrough {
+        float distance;
+        std::size_t number;
+    };
+    std::vector<SeeThrough> later;
+    const auto draws = level_.draws();
+    for (std::size_t number = 0; number < draws.size(); ++number) {
+        if (is_blended(*model_, draws[number])) {
+            const glm::vec3 centre = number < centres_.size() ? centres_[number] : glm::vec3(0.0f);
+            later.push_back({glm::length(centre - camera.eye()), number});
+            continue;
+        }
+        set_material(draws[number]);
+        draw_range(draws[number]);
+    }
+    if (later.empty()) return;
+    std::stable_sort(later.begin(), later.end(),
+                     [](const SeeThrough& a, const SeeThrough& b) { return a.distance > b.distance; });
+    gl::Enable(GL_BLEND);
+    gl::DepthMask(GL_FALSE);
+    for (const SeeThrough& each : later) {
+        set_material(draws[each.number]);
+        for (const WhichFaces faces : {kBackFaces, kFrontFaces}) {
+            gl::Uniform1i(surface_["which_faces"], faces);
+            draw_range(draws[each.number]);
+        }
+    }
+    gl::DepthMask(GL_TRUE);
+    gl::Disable(GL_BLEND);
+}
+
+void Renderer::draw_wireframe(const Camera& camera) {
+    constexpr std::array<float, 4> kWire{0.75f, 0.8f, 0.85f, 1.0f};
+    set_skin(flat_, camera);
+    gl::Uniform4fv(flat_["flat_colour"], 1, kWire.data());
+    gl::PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    for (const Draw& draw : level_.draws()) draw_range(draw);
+    gl::PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void Renderer::draw_numbers(Pose& pose, const Camera& camera, bool behind_surface) {
+    gl::ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl::DepthMask(GL_TRUE);
+    gl::Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LEQUAL);
+    gl::Disable(GL_FRAMEBUFFER_SRGB);
+    buffers_.set_pose(pose);
+    buffers_.bind();
+    set_skin(numbers_, camera);
+    gl::Uniform1i(numbers_["depth_only"], 1);
+    if (behind_surface) {
+        for (const Draw& draw : level_.draws()) draw_range(draw);
+    }
+    gl::Uniform1i(numbers_["depth_only"], 0);
+    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers_.vertices()));
+}
+
+void Renderer::draw_list(const std::vector<OverlayVertex>& list) const {
+    if (list.empty()) return;
+    gl::BindVertexArray(overlay_layout_.name());
+    gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
+    gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof(OverlayVertex)), list.data(),
+                   GL_STREAM_DRAW);
+    gl::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(list.size()));
+}
+
+void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
+                            std::span<const TargetMark> targets, const glm::vec2& size) {
+    list_.clear();
+    if (options.bones) overlay_.add_bones(pose, list_);
+    if (options.axes) overlay_.add_axes(pose, list_);
+    if (options.constraints) overlay_.add_constraints(pose, list_);
+    if (options.targets) overlay_.add_targets(targets, list_);
+    gl::Clear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
+    overlay_program_.use();
+    gl::UniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
+    gl::Uniform2f(overlay_program_["size"], size.x, size.y);
+    draw_list(list_.solid);
+    gl::Enable(GL_BLEND);
+    gl::DepthMask(GL_FALSE);
+    draw_list(list_.translucent);
+    draw_list(list_.lines);
+    gl::DepthMask(GL_TRUE);
+    gl::Disable(GL_BLEND);
+}
+
+}  // namespace bendy::viewer

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "camera.h"
+#include "overlay.h"
+#include "program.h"
+#include "scene_buffers.h"
+#include "texture_loader.h"
+
+#include <bendy/runtime.h>
+
+#include <glm/vec2.hpp>
+
+#include <span>
+#include <vector>
+
+namespace bendy::viewer {
+
+/// Draws one model into the framebuffer that is bound; the pictures and the window both come from here. The model must
+/// outlive it.
+class Renderer {
+public:
+    Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn);
+
+    void set_level(float share);
+    [[nodiscard]] const Lod& level() const { return level_; }
+
+    /// Draws the pose. `targets`: of IK chains, drawn if the options say so. `size`: of the framebuffer, pixels.
+    void draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
+              const glm::vec2& size);
+
+    /// Draws every vertex as one pixel with its number (Model::first_vertex and on; red the lowest bits; alpha 0:
+    /// none), what is behind others hidden: by vertices only, or also by the surface. For tests.
+    void draw_numbers(Pose& pose, const Camera& camera, bool behind_surface);
+
+private:
+    void draw_surface(const Camera& camera);
+    void draw_wireframe(const Camera& camera);
+    void draw_range(const Draw& draw) const;
+    void set_material(const Draw& draw);
+    void draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
+                      std::span<const TargetMark> targets, const glm::vec2& size);
+    void draw_list(const std::vector<OverlayVertex>& list) const;
+    void set_skin(const Program& program, const Camera& camera) const;
+
+    const Model* model_;
+    Lod level_;
+    SceneBuffers buffers_;
+    TextureLoader textures_;
+    Overlay overlay_;
+    Program surface_;
+    Program flat_;
+    Program numbers_;
+    Program overlay_program_;
+    VertexArray overlay_layout_;
+    Buffer overlay_vertices_;
+    OverlayList list_;
+    std::vector<glm::vec3> centres_;  // of the draws at rest: to sort what is see-through
+};
+
+}  // namespace bendy::viewer

@@ -1,0 +1,241 @@
+#include "scene_buffers.h"
+
+#include <bendy/viewer/viewer_error.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <limits>
+
+namespace bendy::viewer {
+namespace {
+
+/// The palette's first matrix; the joints' follow, then the pools' bind palettes.
+constexpr std::uint32_t kIdentity = 0;
+
+struct Displacement {
+    glm::vec3 position{0.0f};
+    float target = 0.0f;  ///< Model-wide number: a float, since bits of an integer would be a denormal one
+    glm::vec4 normal{0.0f};
+    glm::vec4 tangent{0.0f};
+};
+static_assert(sizeof(Displacement) == 48, "three texels");
+
+std::vector<float> no_weights(const Pool& pool) {
+    return std::vector<float>(pool.targets.size(), 0.0f);
+}
+
+float number_or(const StreamView& stream, std::uint32_t vertex, std::uint32_t component, float otherwise) {
+    return component < stream.components ? stream.number(vertex, component) : otherwise;
+}
+
+void fill_geometry(const Pool& pool, std::span<GpuVertex> out) {
+    std::vector<glm::vec3> positions(pool.vertices);
+    std::vector<glm::vec3> normals(pool.vertices);
+    std::vector<glm::vec4> tangents(pool.vertices);
+    inbetween(pool, no_weights(pool), {positions, normals, tangents});
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        out[v].position = positions[v];
+        out[v].normal = normals[v];
+        out[v].tangent = tangents[v];
+    }
+}
+
+void fill_coords_and_colours(const Pool& pool, std::span<GpuVertex> out) {
+    for (const StreamView& stream : pool.texture_coords) {
+        if (stream.set >= out.front().coords.size()) continue;
+        for (std::uint32_t v = 0; v < out.size(); ++v)
+            out[v].coords[stream.set] = {number_or(stream, v, 0, 0.0f), number_or(stream, v, 1, 0.0f)};
+    }
+    for (const StreamView& stream : pool.colours) {
+        if (stream.set != 0) continue;
+        for (std::uint32_t v = 0; v < out.size(); ++v) {
+            for (std::uint32_t c = 0; c < 4; ++c) out[v].colour[static_cast<int>(c)] = number_or(stream, v, c, 1.0f);
+        }
+    }
+}
+
+/// Adds what moves the pool's vertices: pairs of palette entry and weight, of any number a vertex.
+void add_influences(const Model& model, std::uint32_t number, std::uint32_t first_entry, std::span<GpuVertex> out,
+                    std::vector<glm::uvec2>& list) {
+    const Pool& pool = model.pools()[number];
+    for (std::uint32_t v = 0; v < out.size(); ++v) {
+        const auto first = static_cast<std::uint32_t>(list.size());
+        if (pool.is_rigid()) {
+            const std::uint32_t joint = model.rigid_mover(number, v);
+            list.emplace_back(joint == kNone ? kIdentity : 1 + joint, std::bit_cast<std::uint32_t>(1.0f));
+        } else {
+            for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
+                const float weight = pool.weights->number(v, k);
+                if (weight != 0.0f)
+                    list.emplace_back(first_entry + pool.bones->index(v, k), std::bit_cast<std::uint32_t>(weight));
+            }
+        }
+        out[v].influences = {first, static_cast<std::uint32_t>(list.size()) - first};
+    }
+}
+
+glm::vec3 vector_at(const std::optional<StreamView>& stream, std::uint32_t entry) {
+    if (!stream) return glm::vec3(0.0f);
+    return {stream->number(entry, 0), stream->number(entry, 1), stream->number(entry, 2)};
+}
+
+std::uint32_t touched(const Pool& pool, const TargetView& target) {
+    return target.vertices ? target.vertices->elements : pool.vertices;
+}
+
+/// Adds the targets' displacements, sorted by vertex: as many as the file has, whatever their number.
+void add_displacements(const Pool& pool, std::uint32_t first_target, std::span<GpuVertex> out,
+                       std::vector<Displacement>& list) {
+    const auto vertex_of = [](const TargetView& target, std::uint32_t entry) {
+        return target.vertices ? target.vertices->index(entry, 0) : entry;
+    };
+    for (const TargetView& target : pool.targets) {
+        for (std::uint32_t entry = 0; entry < touched(pool, target); ++entry)
+            ++out[vertex_of(target, entry)].displacements.y;
+    }
+    auto next = static_cast<std::uint32_t>(list.size());
+    for (GpuVertex& vertex : out) {
+        vertex.displacements.x = next;
+        next += vertex.displacements.y;
+        vertex.displacements.y = 0;
+    }
+    list.resize(next);
+    for (std::uint32_t t = 0; t < pool.targets.size(); ++t) {
+        const TargetView& target = pool.targets[t];
+        for (std::uint32_t entry = 0; entry < touched(pool, target); ++entry) {
+            glm::uvec2& range = out[vertex_of(target, entry)].displacements;
+            Displacement& displacement = list[range.x + range.y++];
+            displacement.target = static_cast<float>(first_target + t);
+            displacement.position = vector_at(target.positions, entry);
+            if (pool.normals) displacement.normal = glm::vec4(vector_at(target.normals, entry), 0.0f);
+            if (pool.tangents) displacement.tangent = glm::vec4(vector_at(target.tangents, entry), 0.0f);
+        }
+    }
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& list) {
+    return list.size() * sizeof(T);
+}
+
+void describe_vertices() {
+    const auto floats = [](GLuint place, GLint components, std::size_t offset) {
+        gl::EnableVertexAttribArray(place);
+        gl::VertexAttribPointer(
+            place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+    };
+    const auto integers = [](GLuint place, std::size_t offset) {
+        gl::EnableVertexAttribArray(place);
+        gl::VertexAttribIPointer(place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                                 reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): likewise
+    };
+    floats(0, 3, offsetof(GpuVertex, position));
+    floats(1, 3, offsetof(GpuVertex, normal));
+    floats(2, 4, offsetof(GpuVertex, tangent));
+    floats(3, 4, offsetof(GpuVertex, coords));
+    floats(4, 4, offsetof(GpuVertex, coords) + 2 * sizeof(glm::vec2));
+    floats(5, 4, offsetof(GpuVertex, colour));
+    integers(6, offsetof(GpuVertex, influences));
+    integers(7, offsetof(GpuVertex, displacements));
+}
+
+/// The three upper rows.
+void put_rows(const glm::mat4& matrix, glm::vec4* out) {
+    for (int row = 0; row < 3; ++row) out[row] = {matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]};
+}
+
+}  // namespace
+
+void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
+    GLint most = 0;
+    gl::GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (bytes / texel_ > static_cast<std::size_t>(most))
+        throw ViewerError("the character is too large for this graphics driver: " + std::to_string(bytes / texel_) +
+                          " entries in a buffer, which takes " + std::to_string(most));
+    constexpr std::array<std::byte, 16> kNothing{};  // an empty buffer texture is an error
+    gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+    gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
+                   bytes == 0 ? kNothing.data() : data, usage);
+    gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    gl::TexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
+}
+
+void BufferTexture::bind(GLuint unit) const {
+    gl::ActiveTexture(GL_TEXTURE0 + unit);
+    gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+}
+
+SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
+    constexpr std::uint64_t kMostVertices = std::numeric_limits<std::int32_t>::max();
+    if (model.vertex_count() > kMostVertices) throw ViewerError("the character has too many vertices to be drawn");
+    std::vector<GpuVertex> vertices(model.vertex_count());
+    std::vector<glm::uvec2> influences;
+    std::vector<Displacement> displacements;
+    std::uint64_t entries = 1 + model.joints().size();
+    for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
+        const Pool& pool = model.pools()[number];
+        first_palette_.push_back(static_cast<std::uint32_t>(entries));
+        entries += pool.palette.joints.size();
+        if (pool.vertices == 0) continue;
+        const auto part = std::span(vertices).subspan(model.first_vertex(number), pool.vertices);
+        fill_geometry(pool, part);
+        fill_coords_and_colours(pool, part);
+        add_influences(model, number, first_palette_.back(), part, influences);
+        add_displacements(pool, model.first_target(number), part, displacements);
+    }
+    rows_.resize(3 * entries);
+
+    gl::BindVertexArray(layout_.name());
+    gl::BindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(vertices)), vertices.data(), GL_STATIC_DRAW);
+    describe_vertices();
+    influences_.fill(influences.data(), bytes_of(influences), GL_STATIC_DRAW);
+    displacements_.fill(displacements.data(), bytes_of(displacements), GL_STATIC_DRAW);
+    if (gl::GetError() == GL_OUT_OF_MEMORY) throw ViewerError("the graphics driver is out of memory");
+}
+
+void SceneBuffers::set_pose(Pose& pose) {
+    if (pose.is_stale()) local_to_model(pose);
+    put_rows(glm::mat4(1.0f), rows_.data());
+    const auto joints = pose.model_space();
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) put_rows(joints[joint], &rows_[3 * (1 + joint)]);
+    for (std::size_t number = 0; number < model_->pools().size(); ++number) {
+        const PaletteView& palette = model_->pools()[number].palette;
+        for (std::size_t entry = 0; entry < palette.joints.size(); ++entry) {
+            // Large translations cancel here, which a product of floats would not survive.
+            const glm::dmat4 product =
+                glm::dmat4(joints[palette.joints[entry]]) * glm::dmat4(palette.inverse_bind[entry]);
+            put_rows(glm::mat4(product), &rows_[3 * (first_palette_[number] + entry)]);
+        }
+    }
+    palette_.fill(rows_.data(), bytes_of(rows_), GL_STREAM_DRAW);
+    weight_list_.assign(pose.target_weights().begin(), pose.target_weights().end());
+    weights_.fill(weight_list_.data(), bytes_of(weight_list_), GL_STREAM_DRAW);
+}
+
+void SceneBuffers::set_level(const Lod& lod) {
+    std::vector<std::uint32_t> indices;
+    first_index_.clear();
+    for (std::uint32_t pool = 0; pool < model_->pools().size(); ++pool) {
+        first_index_.push_back(static_cast<std::uint32_t>(indices.size()));
+        const auto first = static_cast<std::uint32_t>(model_->first_vertex(pool));
+        for (const std::uint32_t index : lod.indices(pool)) indices.push_back(first + index);
+    }
+    gl::BindVertexArray(layout_.name());
+    gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+    gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(indices)), indices.data(), GL_STATIC_DRAW);
+}
+
+void SceneBuffers::bind() const {
+    gl::BindVertexArray(layout_.name());
+    palette_.bind(kPaletteUnit);
+    influences_.bind(kInfluenceUnit);
+    displacements_.bind(kDisplacementUnit);
+    weights_.bind(kWeightUnit);
+}
+
+}  // namespace bendy::viewer

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "gl_object.h"
+
+#include <bendy/runtime.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bendy::viewer {
+
+/// A vertex as the graphics processor gets it; all pools, pool after pool.
+struct GpuVertex {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};             ///< zero where the source has none
+    glm::vec4 tangent{0.0f};            ///< likewise
+    std::array<glm::vec2, 4> coords{};  ///< sets 0 to 3
+    glm::vec4 colour{1.0f};             ///< set 0
+    glm::uvec2 influences{0};           ///< first and count, in the list of influences
+    glm::uvec2 displacements{0};        ///< first and count, in the list of displacements
+};
+
+/// A buffer that shaders read by number: any length up to what the driver takes (65,536 texels at least).
+class BufferTexture {
+public:
+    /// `format` such as GL_RGBA32F; `texel` bytes of one.
+    BufferTexture(GLenum format, std::size_t texel) : format_(format), texel_(texel) {}
+    /// Replaces the content. Throws ViewerError if the driver cannot take so much.
+    void fill(const void* data, std::size_t bytes, GLenum usage);
+    void bind(GLuint unit) const;
+
+private:
+    Buffer buffer_;
+    GlTexture texture_;
+    GLenum format_;
+    std::size_t texel_;
+};
+
+/// A model in the graphics processor's memory. The model must outlive it.
+class SceneBuffers {
+public:
+    explicit SceneBuffers(const Model& model);
+
+    /// What changes from frame to frame: matrices and weights of inbetweening targets. Brings the pose up to date.
+    void set_pose(Pose& pose);
+    void set_level(const Lod& lod);
+    /// Binds vertices, indices, and the buffers to the texture units from kFirstBufferUnit on.
+    void bind() const;
+
+    /// Where a pool's indices begin in the bound index buffer.
+    [[nodiscard]] std::uint32_t first_index(std::uint32_t pool) const { return first_index_[pool]; }
+    [[nodiscard]] std::uint32_t vertices() const { return static_cast<std::uint32_t>(model_->vertex_count()); }
+
+    static constexpr GLuint kPaletteUnit = 8;
+    static constexpr GLuint kInfluenceUnit = 9;
+    static constexpr GLuint kDisplacementUnit = 10;
+    static constexpr GLuint kWeightUnit = 11;
+
+private:
+    const Model* model_;
+    VertexArray layout_;
+    Buffer vertices_;
+    Buffer indices_;
+    BufferTexture palette_{GL_RGBA32F, 16};
+    BufferTexture influences_{GL_RG32UI, 8};
+    BufferTexture displacements_{GL_RGBA32F, 16};
+    BufferTexture weights_{GL_R32F, 4};
+    std::vector<std::uint32_t> first_index_;    // one per pool
+    std::vector<std::uint32_t> first_palette_;  // of a pool's entries, in matrices
+    std::vector<glm::vec4> rows_;               // the palette while it is made
+    std::vector<float> weight_list_;
+};
+
+}  // namespace bendy::viewer

@@ -1,0 +1,149 @@
+#include "texture_loader.h"
+
+#include "image_reader.h"
+
+#include <bendy/format/file.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bendy::viewer {
+namespace {
+
+/// Of all textures together: half a gigabyte.
+constexpr std::uint64_t kMostTexels = 1u << 27u;
+
+void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {
+    gl::ActiveTexture(GL_TEXTURE0);
+    gl::BindTexture(GL_TEXTURE_2D, texture);
+    gl::PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl::TexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
+                   static_cast<GLsizei>(picture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
+}
+
+void set_parameter(GLenum what, GLint value) {
+    gl::TexParameteri(GL_TEXTURE_2D, what, value);
+}
+
+GLint wrap_of(std::uint8_t wrap) {
+    constexpr std::array<GLint, kWraps> kAll{GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
+    return kAll.at(wrap);
+}
+
+void set_sampler(const SamplerRecord& sampler) {
+    constexpr std::array<GLint, kMinFilters> kFilters{GL_LINEAR_MIPMAP_LINEAR,
+                                                      GL_NEAREST,
+                                                      GL_LINEAR,
+                                                      GL_NEAREST_MIPMAP_NEAREST,
+                                                      GL_LINEAR_MIPMAP_NEAREST,
+                                                      GL_NEAREST_MIPMAP_LINEAR,
+                                                      GL_LINEAR_MIPMAP_LINEAR};
+    set_parameter(GL_TEXTURE_MIN_FILTER, kFilters.at(sampler.min_filter));
+    set_parameter(GL_TEXTURE_MAG_FILTER,
+                  static_cast<Filter>(sampler.mag_filter) == Filter::nearest ? GL_NEAREST : GL_LINEAR);
+    set_parameter(GL_TEXTURE_WRAP_S, wrap_of(sampler.wrap_s));
+    set_parameter(GL_TEXTURE_WRAP_T, wrap_of(sampler.wrap_t));
+    if (sampler.min_filter == 0 || sampler.min_filter >= static_cast<std::uint8_t>(Filter::nearest_mipmap_nearest))
+        gl::GenerateMipmap(GL_TEXTURE_2D);
+}
+
+/// "a%20b" as "a b"; a percent sign that means nothing stays.
+std::string percent_decoded(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        unsigned byte = 0;
+        const char* digits = text.data() + at + 1;
+        if (text[at] == '%' && text.size() - at > 2 &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte != 0) {
+            out += static_cast<char>(byte);
+            at += 2;
+        } else {
+            out += text[at];
+        }
+    }
+    return out;
+}
+
+/// The file that a URI names inside `folder`; nothing for what leads elsewhere.
+std::optional<std::filesystem::path> file_in(const std::filesystem::path& folder, std::string_view uri) {
+    if (folder.empty() || uri.empty() || uri.find(':') != std::string_view::npos) return std::nullopt;
+    const std::filesystem::path file = percent_decoded(uri);
+    const bool leads_out = std::any_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
+    if (file.is_absolute() || leads_out) return std::nullopt;
+    return folder / file;
+}
+
+}  // namespace
+
+TextureLoader::TextureLoader(const Model& model, std::filesystem::path folder, Warn warn)
+    : model_(&model), folder_(std::move(folder)), warn_(std::move(warn)), pixels_left_(kMostTexels) {
+    constexpr std::uint8_t kLight = 170;
+    constexpr std::uint8_t kDark = 110;
+    upload_pixels(white_.name(), {1, 1, {255, 255, 255, 255}}, false);
+    set_sampler({});
+    Picture check{8, 8, {}};
+    for (unsigned k = 0; k < 64; ++k) {
+        const std::uint8_t grey = ((k / 8 + k) & 1u) != 0 ? kLight : kDark;
+        check.pixels.insert(check.pixels.end(), {grey, grey, grey, 255});
+    }
+    upload_pixels(check_.name(), check, true);
+    SamplerRecord coarse;
+    coarse.mag_filter = static_cast<std::uint8_t>(Filter::nearest);
+    set_sampler(coarse);
+}
+
+GLuint TextureLoader::texture(std::uint32_t number, bool srgb) {
+    if (number >= model_->textures().size()) return white_.name();
+    const auto found = names_.find({number, srgb});
+    if (found != names_.end()) return found->second;
+    const GLuint name = load(number, srgb);
+    names_[{number, srgb}] = name;
+    return name;
+}
+
+GLuint TextureLoader::load(std::uint32_t number, bool srgb) {
+    std::string problem = "has no image";
+    const auto all = model_->textures();
+    for (const ImageView& image : all[number].images) {
+        const ImageView& source = image.same ? all[image.same->texture].images[image.same->image] : image;
+        GlTexture texture;
+        if (!upload(number, source, srgb, texture, problem)) continue;
+        const GLuint name = texture.name();
+        loaded_.emplace(std::pair(number, srgb), std::move(texture));
+        return name;
+    }
+    warn_("texture " + std::to_string(number) + " cannot be shown: " + problem);
+    return check_.name();
+}
+
+bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool srgb, GlTexture& texture,
+                           std::string& problem) {
+    MappedFile linked;
+    Bytes bytes = image.bytes;
+    if (bytes.empty()) {
+        const auto path = file_in(folder_, image.uri);
+        problem = "its image is not in this file, and is not read from outside its folder";
+        if (!path) return false;
+        auto opened = MappedFile::open(*path);
+        problem = "its image " + path->string() + " cannot be read";
+        if (!opened) return false;
+        linked = *std::move(opened);
+        bytes = linked.bytes();
+    }
+    const ReadImage read = read_image(bytes, pixels_left_);
+    if (!read.problem.empty()) {
+        problem = "its image " + read.problem;
+        return false;
+    }
+    pixels_left_ -= std::uint64_t{read.picture.width} * read.picture.height;
+    upload_pixels(texture.name(), read.picture, srgb);
+    set_sampler(model_->textures()[number].sampler);
+    return true;
+}
+
+}  // namespace bendy::viewer

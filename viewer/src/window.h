@@ -1,0 +1,92 @@
+#pragma once
+
+#include "camera.h"
+#include "character.h"
+#include "frame.h"
+#include "stage_timer.h"
+
+#include <bendy/viewer/view.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+struct GLFWwindow;
+
+namespace bendy::viewer {
+
+/// The window with its panels; see view.h. A script has one command a line, and after each the state is printed as a
+/// JSON object: `key NAME`, `hold NAME SECONDS`, `wait SECONDS`, `drag X Y X Y` (pixels, left button), `drop FILE`,
+/// `picture OUT.png`. Time is then the script's, not the clock's.
+class Window {
+public:
+    explicit Window(const ViewOptions& options);
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+    Window(Window&&) = delete;
+    Window& operator=(Window&&) = delete;
+    ~Window();
+
+    void run();
+
+    // What GLFW reports.
+    void on_key(int key, bool is_down);
+    void on_button(int button, bool is_down);
+    void on_move(const glm::vec2& place);
+    void on_scroll(float amount);
+    void on_drop(const std::filesystem::path& file);
+
+private:
+    enum class Drag : std::uint8_t { none, orbit, pan, target };
+
+    void open_gl();
+    void show(const std::filesystem::path& file);
+    void fit_camera();
+    void step(double seconds);
+    void draw();
+    void draw_scene();
+    void draw_panels();
+    void draw_player_panel();
+    void draw_chain_panel();
+    void draw_view_panel();
+    void draw_chunk_panel();
+    void draw_time_panel();
+    void draw_help();
+    void play_script();
+    void run_command(const std::string& line);
+    void save_picture();
+    void print_state();
+    [[nodiscard]] DrawOptions draw_options() const;
+    [[nodiscard]] glm::vec2 to_pixels(const glm::vec3& point) const;
+    [[nodiscard]] glm::vec2 to_place(const glm::vec2& pixels) const;
+    [[nodiscard]] bool is_demo() const { return character_->demo != nullptr; }
+    void toggle_chains();
+
+    const ViewOptions& options_;
+    GLFWwindow* window_ = nullptr;
+    bool has_panels_ = false;
+    glm::ivec2 size_{1, 1};  // pixels
+    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<Character> character_;
+    Camera camera_;
+    DrawOptions draw_;
+    StageTimer timer_;
+    std::string message_;            // what the last drop had to say
+    std::filesystem::path picture_;  // where the next frame goes, for the script
+    std::set<int> held_;
+    Drag drag_ = Drag::none;
+    std::size_t dragged_ = 0;
+    glm::vec2 mouse_{0.0f};
+    double turned_ = 0.0;  // by the demo's turntable, so far
+    float level_ = 1.0f;
+    bool turntable_ = false;
+    bool help_ = true;
+    bool quits_ = false;
+};
+
+}  // namespace bendy::viewer
