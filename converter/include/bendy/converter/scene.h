@@ -124,10 +124,10 @@ struct Track {
 
 struct Cycle {
     std::string name;
-    bool loop = false;              ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
-    std::vector<Track> tracks;      ///< at most one per target and path; may be empty
-    std::vector<std::byte> packed;  ///< a PACK payload (see packed_cycle.h) with tracks that `tracks` lacks, or empty
+    bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
+    std::vector<Track> tracks;  ///< at most one per target and path; may be empty
     std::string extras;
+    std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
