@@ -202,7 +202,8 @@ void add_convert(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
-    CLI::Option* exact = command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
+    CLI::Option* exact =
+        command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
     command

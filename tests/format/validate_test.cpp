@@ -206,6 +206,20 @@ const std::vector<Provocation> kProvocations{
            [](Node& root) {
                edit<RestRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/REST"), [](auto& rest) { rest.rotation = {}; });
            }),
+    // LODD: its record, the pool's, two levels of 8 bytes, targets.
+    edited(ErrorCode::kCollapsePool, "HEAD/OBJE/LODD",
+           [](Node& root) {
+               const CollapseRecord record{2, 0, {}};
+               PoolCollapseRecord pool;
+               pool.base = 4;  // all of its vertices
+               pool.target_type = static_cast<std::uint8_t>(ComponentType::u16);
+               Buffer& payload = at(root, "HEAD/OBJE/LODD").payload;
+               payload.clear();
+               for (const Bytes bytes : {bytes_of(record), bytes_of(pool), bytes_of(pool)})
+                   payload.insert(payload.end(), bytes.begin(), bytes.end());
+           }),
+    number(ErrorCode::kCollapseTarget, "HEAD/OBJE/LODD", 48, std::uint16_t{3}),
+    number(ErrorCode::kCollapseLevel, "HEAD/OBJE/LODD", 36, std::uint32_t{5}),
     record<CycleRecord>(ErrorCode::kCycleLength, "HEAD/OBJE/CYCL/CINF", [](auto& cycle) { cycle.end = 0.75f; }),
 };
 
