@@ -26,7 +26,7 @@ using VertexMaps = std::span<const std::vector<std::uint32_t>>;
 /// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every cycle:
 /// at 240 times a second, and at all key times of both scenes. Cycles longer than 7 minutes are sampled as often as
 /// ones of that length. Nothing is left out for speed: a vertex is passed over only where a bound on its displacement
-/// (docs/decisions/0015) shows that it cannot be the worst.
+/// (docs/decisions/0013) shows that it cannot be the worst.
 /// \param decoded   joints, meshes and cycles as the exact scene numbers them
 /// \param progress  is told the part that is done, 0 to 1; may be empty
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps = {},

@@ -7,6 +7,7 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -16,8 +17,8 @@ namespace {
 
 // Of the bound, what positions, weights and targets may use up, and what cycles may. The two seldom meet at one point
 // at one time, so their sum may be above 1: the measurement decides.
-constexpr double kGeometryShare = 0.4;
-constexpr double kCycleShare = 0.97;
+constexpr double kGeometryShare = 0.35;
+constexpr double kCycleShare = 0.9;
 
 /// One attempt: the bytes, and how far they are from the scene.
 struct Attempt {
@@ -68,10 +69,11 @@ std::string place_of(const Scene& scene, const MeasuredError& error) {
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
                                      Report& report, const std::function<void(double)>& progress) {
-    constexpr int kAttempts = 4;
+    constexpr int kAttempts = 5;
     constexpr double kGeometryDone = 0.05;  // of the whole work
     constexpr double kPackingDone = 0.6;
-    constexpr double kSpare = 0.98;
+    constexpr double kOvershoot = 1.1;  // of what is taken off the cycles, for what is too much
+    constexpr double kLeast = 0.2;      // of their share, from one attempt to the next
 
     CompactReport result;
     result.height = height_at_rest(exact);
@@ -100,7 +102,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
             attempt.bytes = build_chunks(scene, generator, unheard, options);
             break;
         }
-        cycle_share *= kSpare * result.max_error / attempt.error.metres;
+        const double excess = attempt.error.metres / result.max_error - 1.0;
+        cycle_share = std::max(cycle_share - kOvershoot * excess, kLeast * cycle_share);
     }
     if (!(attempt.error.metres <= result.max_error)) {
         report.warn("cannot be kept inside the error that was asked for: written exactly");
