@@ -67,9 +67,10 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
     local_to_model(pose);
     Lod lod(model);
     lod.set_share(arguments.lod);
-    if (arguments.lod < 1.0f && model.collapse() == nullptr)
+    if (arguments.lod < 1.0f && model.collapse() == nullptr) {
         warn(arguments.file,
              "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
+    }
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
     }

@@ -58,9 +58,10 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
     std::vector<glm::vec3> centres;
     for (const Draw& draw : model.draws()) {
         glm::dvec3 sum(0.0);
-        for (std::uint32_t k = 0; k < draw.count; ++k)
+        for (std::uint32_t k = 0; k < draw.count; ++k) {
             sum +=
                 positions[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+        }
         centres.emplace_back(sum / std::max(1.0, static_cast<double>(draw.count)));
     }
     return centres;

@@ -153,9 +153,10 @@ void put_rows(const glm::mat4& matrix, glm::vec4* out) {
 void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     GLint most = 0;
     gl::GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (bytes / texel_ > static_cast<std::size_t>(most))
+    if (bytes / texel_ > static_cast<std::size_t>(most)) {
         throw ViewerError("the character is too large for this graphics driver: " + std::to_string(bytes / texel_) +
                           " entries in a buffer, which takes " + std::to_string(most));
+    }
     constexpr std::array<std::byte, 16> kNothing{};  // an empty buffer texture is an error
     gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),

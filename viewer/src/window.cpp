@@ -108,9 +108,10 @@ void Window::open_gl() {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(options_.script.empty() ? 1 : 0);
     gl::load(glfwGetProcAddress);
-    if (options_.verbose)
+    if (options_.verbose) {
         std::cerr << "bendy: drawing with a window: " << reinterpret_cast<const char*>(gl::GetString(GL_RENDERER))
                   << ", " << reinterpret_cast<const char*>(gl::GetString(GL_VERSION)) << '\n';
+    }
     glfwGetFramebufferSize(window_, &size_.x, &size_.y);
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {

@@ -245,9 +245,10 @@ Scene import(Bytes bytes, Report& report) {
         const ObjectView& left_out = document.objects[other];
         report.warn("object left out, only the first is kept", chunk_path(bytes, (*tree)[left_out.chunk].offset));
     }
-    if (document.materials.size() > document.global_materials)
+    if (document.materials.size() > document.global_materials) {
         report.warn("a joint's own material is written as the file's", {},
                     document.materials.size() - document.global_materials);
+    }
     warn_of_left_out(*tree, report);
 
     Scene scene;

@@ -62,6 +62,7 @@ double distance(const ScenePose& a, const ScenePose& b) {
 std::vector<ScenePose> choose_poses(const ScenePose& rest, std::vector<ScenePose> candidates) {
     std::vector<ScenePose> chosen;
     std::vector<double> nearest;
+    nearest.reserve(candidates.size());
     for (const ScenePose& candidate : candidates) nearest.push_back(distance(rest, candidate));
     while (chosen.size() < kMostPoses && !candidates.empty()) {
         const auto farthest = std::max_element(nearest.begin(), nearest.end());

@@ -97,7 +97,8 @@ private:
         float v = 0.5f;
         for (std::uint32_t triangle = 0; triangle < surface_.triangles.size(); ++triangle) {
             owed += per_area * area_of(places_[0], surface_.triangles[triangle].vertices);
-            for (; owed >= 1.0; owed -= 1.0) {
+            while (owed >= 1.0) {
+                owed -= 1.0;
                 u += 0.7548776662f;
                 v += 0.5698402909f;
                 u -= u >= 1.0f ? 1.0f : 0.0f;

@@ -199,9 +199,10 @@ private:
     float estimate(std::uint32_t point, std::uint32_t target) const {
         const std::size_t shapes = scaled_.places.size();
         float worst = kBorderFactor * rims_[point].mean_error(place(0, target));
-        for (std::size_t s = 0; s < shapes; ++s)
+        for (std::size_t s = 0; s < shapes; ++s) {
             worst = std::max(
                 worst, (s == 0 ? 1.0f : kPosedFactor) * quadrics_[point * shapes + s].mean_error(place(s, target)));
+        }
         const glm::vec3 way = place(0, target) - place(0, point);
         return worst + kLengthFactor * glm::dot(way, way);
     }

@@ -78,17 +78,17 @@ void list_vertices(Surface& surface) {
 class Streams {
 public:
     explicit Streams(const Mesh& mesh) : mesh_(mesh) {
-        if (mesh.influences != 0) list_.push_back({mesh.weights.data(), mesh.influences});
+        if (mesh.influences != 0) list_.emplace_back(mesh.weights.data(), mesh.influences);
         for (const Target& target : mesh.targets) {
             for (const auto* stream : {&target.positions, &target.normals, &target.tangents}) {
-                if (!stream->empty()) list_.push_back({&stream->front().x, 3});
+                if (!stream->empty()) list_.emplace_back(&stream->front().x, 3);
             }
         }
-        if (!mesh.normals.empty()) list_.push_back({&mesh.normals.front().x, 3});
-        if (!mesh.tangents.empty()) list_.push_back({&mesh.tangents.front().x, 4});
+        if (!mesh.normals.empty()) list_.emplace_back(&mesh.normals.front().x, 3);
+        if (!mesh.tangents.empty()) list_.emplace_back(&mesh.tangents.front().x, 4);
         for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
             for (const Stream& stream : *streams) {
-                if (!stream.values.empty()) list_.push_back({stream.values.data(), stream.components});
+                if (!stream.values.empty()) list_.emplace_back(stream.values.data(), stream.components);
             }
         }
     }
@@ -187,7 +187,7 @@ std::vector<bool> find_borders(const Surface& surface) {
     edges.reserve(surface.triangles.size() * 3);
     for (const Surface::Triangle& triangle : surface.triangles) {
         for (std::size_t k = 0; k < 3; ++k)
-            edges.push_back(std::minmax(triangle.points[k], triangle.points[(k + 1) % 3]));
+            edges.emplace_back(std::minmax(triangle.points[k], triangle.points[(k + 1) % 3]));
     }
     std::sort(edges.begin(), edges.end());
     std::vector<bool> is_border(surface.points());

@@ -78,7 +78,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
     CompactReport result;
     result.height = height_at_rest(exact);
     result.max_error = bound.is_share ? bound.value * result.height : bound.value;
-    const std::vector<std::byte> plain = build_chunks(exact, generator, report);
+    std::vector<std::byte> plain = build_chunks(exact, generator, report);
     result.exact = count_bytes(plain);
 
     Report unheard;  // the compact file's warnings are the same
