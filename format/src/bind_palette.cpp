@@ -39,7 +39,8 @@ glm::mat4 derive_inverse_bind(const glm::dmat4& rest, const glm::mat4& base) {
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(rest));
     glm::dmat4 whole(inverse);
     whole[3] = glm::dvec4(-(inverse * glm::dvec3(rest[3])), 1.0);
-    return glm::mat4(whole * glm::dmat4(base));
+    const glm::mat4 derived(whole * glm::dmat4(base));
+    return derived;
 }
 
 }  // namespace bendy

@@ -18,9 +18,9 @@ std::span<const Crc32cKernel> crc32c_kernels() {
 }
 
 std::uint32_t crc32c(Bytes bytes, std::uint32_t before) {
-    static const auto kBest = std::find_if(kKernels.begin(), kKernels.end(),
-                                           [](const Crc32cKernel& kernel) { return kernel.is_supported(); });
-    return kBest->sum(bytes, before);
+    static const auto best = std::find_if(kKernels.begin(), kKernels.end(),
+                                          [](const Crc32cKernel& kernel) { return kernel.is_supported(); });
+    return best->sum(bytes, before);
 }
 
 }  // namespace bendy

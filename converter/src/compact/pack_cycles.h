@@ -29,6 +29,6 @@ struct PackedReport {
 /// that result, 240 times a second and at all keys.
 /// \param progress  called with the share that is done, 0 to 1; may be empty
 std::vector<PackedReport> pack_cycles(Scene& scene, double max_error, const std::function<void(double)>& progress,
-                                      Probes probes = Probes::skin_and_shell);
+                                      Probes kind = Probes::skin_and_shell);
 
 }  // namespace bendy::converter
