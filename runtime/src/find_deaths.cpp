@@ -35,10 +35,11 @@ public:
             if (label_[at + (k + 1) % 3] == longer || label_[at + (k + 2) % 3] == longer) visit(triangle);
         }
         if (first_[shorter] != kNone) {
-            if (first_[longer] == kNone)
+            if (first_[longer] == kNone) {
                 first_[longer] = first_[shorter];
-            else
+            } else {
                 next_[last_[longer]] = first_[shorter];
+            }
             last_[longer] = last_[shorter];
             count_[longer] += count_[shorter];
         }
@@ -47,10 +48,11 @@ public:
 
 private:
     void append(std::uint32_t list, std::uint32_t corner) {
-        if (first_[list] == kNone)
+        if (first_[list] == kNone) {
             first_[list] = corner;
-        else
+        } else {
             next_[last_[list]] = corner;
+        }
         last_[list] = corner;
         ++count_[list];
     }

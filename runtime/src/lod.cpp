@@ -29,38 +29,38 @@ Lod::Lod(const Model& model) : model_(&model), pools_(model.pools().size()), pla
 }
 
 /// What a pool's levels are made of. Only the triangles that are drawn are counted.
-void Lod::prepare(std::uint32_t number) {
-    const Pool& source = model_->pools()[number];
-    PoolLevel& pool = pools_[number];
-    pool.vertices = source.vertices;
+void Lod::prepare(std::uint32_t pool) {
+    const Pool& source = model_->pools()[pool];
+    PoolLevel& state = pools_[pool];
+    state.vertices = source.vertices;
     if (source.indices) {
-        pool.all.resize(source.indices->elements);
-        for (std::uint32_t k = 0; k < pool.all.size(); ++k) pool.all[k] = source.indices->index(k, 0);
+        state.all.resize(source.indices->elements);
+        for (std::uint32_t k = 0; k < state.all.size(); ++k) state.all[k] = source.indices->index(k, 0);
     }
-    pool.indices = pool.all;
-    if (pool.collapse == nullptr) return;
-    pool.now.resize(source.vertices);
-    std::iota(pool.now.begin(), pool.now.begin() + pool.collapse->base, 0u);
-    pool.counts.assign(std::size_t{source.vertices} - pool.collapse->base + 1, 0);
+    state.indices = state.all;
+    if (state.collapse == nullptr) return;
+    state.now.resize(source.vertices);
+    std::iota(state.now.begin(), state.now.begin() + state.collapse->base, 0u);
+    state.counts.assign(std::size_t{source.vertices} - state.collapse->base + 1, 0);
     std::vector<std::uint32_t> corners;
-    const auto draws = model_->draws().subspan(first_draw_[number], first_draw_[number + 1] - first_draw_[number]);
+    const auto draws = model_->draws().subspan(first_draw_[pool], first_draw_[pool + 1] - first_draw_[pool]);
     for (const Draw& draw : draws) {
-        const auto part = std::span(pool.all).subspan(draw.first, draw.count);
+        const auto part = std::span(state.all).subspan(draw.first, draw.count);
         if (draw.topology == Topology::triangles) corners.insert(corners.end(), part.begin(), part.end());
     }
-    pool.deaths = find_deaths(*pool.collapse, corners);
-    for (const std::uint32_t death : pool.deaths)
-        ++pool.counts[std::max(death + 1, pool.collapse->base) - pool.collapse->base];
-    std::partial_sum(pool.counts.begin(), pool.counts.end(), pool.counts.begin());
+    state.deaths = find_deaths(*state.collapse, corners);
+    for (const std::uint32_t death : state.deaths)
+        ++state.counts[std::max(death + 1, state.collapse->base) - state.collapse->base];
+    std::partial_sum(state.counts.begin(), state.counts.end(), state.counts.begin());
 }
 
 /// A level is a row of the file's table, or a number between two of them; 0 full detail. Past the table, down to base.
-std::uint32_t Lod::vertices_at(std::uint32_t number, double level) const {
-    const PoolCollapseView& collapse = *pools_[number].collapse;
+std::uint32_t Lod::vertices_at(std::uint32_t pool, double level) const {
+    const PoolCollapseView& collapse = *pools_[pool].collapse;
     const CollapseView& table = *model_->collapse();
     const auto row = [&](std::uint32_t at) {
         if (at == 0) return collapse.vertices;
-        return at <= table.levels ? table.alive(at - 1, place_[number]) : collapse.base;
+        return at <= table.levels ? table.alive(at - 1, place_[pool]) : collapse.base;
     };
     const double whole = std::floor(level);
     const auto before = static_cast<std::uint32_t>(whole);
@@ -82,12 +82,12 @@ std::uint64_t Lod::triangles_at(double level) const {
     return triangles;
 }
 
-void Lod::set_share(float share) {
+void Lod::set_share(float triangles) {
     double level = 0.0;
     const CollapseView* collapse = model_->collapse();
-    if (collapse != nullptr && !std::isnan(share) && share < 1.0f) {
+    if (collapse != nullptr && !std::isnan(triangles) && triangles < 1.0f) {
         // Fewer triangles as the level rises: the first level that is not above the wanted number.
-        const double wanted = std::max(share, 0.0f) * static_cast<double>(all_triangles_);
+        const double wanted = std::max(triangles, 0.0f) * static_cast<double>(all_triangles_);
         double low = 0.0;
         double high = collapse->levels + 1.0;
         constexpr int kSteps = 40;  // finer than any number of vertices
@@ -115,34 +115,34 @@ void Lod::set_share(float share) {
 }
 
 /// The index list and the draws of a pool at its number of vertices.
-void Lod::make_list(std::uint32_t number) {
-    PoolLevel& pool = pools_[number];
-    const PoolCollapseView& collapse = *pool.collapse;
-    const std::uint32_t alive = pool.vertices;
-    for (std::uint32_t v = collapse.base; v < alive; ++v) pool.now[v] = v;
-    for (std::uint32_t v = alive; v < collapse.vertices; ++v) pool.now[v] = pool.now[collapse.target(v)];
+void Lod::make_list(std::uint32_t pool) {
+    PoolLevel& state = pools_[pool];
+    const PoolCollapseView& collapse = *state.collapse;
+    const std::uint32_t alive = state.vertices;
+    for (std::uint32_t v = collapse.base; v < alive; ++v) state.now[v] = v;
+    for (std::uint32_t v = alive; v < collapse.vertices; ++v) state.now[v] = state.now[collapse.target(v)];
 
-    pool.indices.resize(pool.all.size());  // never above what the constructor has allocated
-    std::uint32_t* out = pool.indices.data();
-    const std::uint32_t* death = pool.deaths.data();
-    for (std::uint32_t k = first_draw_[number]; k < first_draw_[number + 1]; ++k) {
+    state.indices.resize(state.all.size());  // never above what the constructor has allocated
+    std::uint32_t* out = state.indices.data();
+    const std::uint32_t* death = state.deaths.data();
+    for (std::uint32_t k = first_draw_[pool]; k < first_draw_[pool + 1]; ++k) {
         const Draw& source = model_->draws()[k];
         Draw& draw = draws_[k];
-        draw.first = static_cast<std::uint32_t>(out - pool.indices.data());
+        draw.first = static_cast<std::uint32_t>(out - state.indices.data());
         const std::uint32_t end = source.first + source.count;
         if (source.topology == Topology::triangles) {
             for (std::uint32_t at = source.first; at < end; at += 3, ++death) {
                 if (*death >= alive && *death != 0) continue;
-                *out++ = pool.now[pool.all[at]];
-                *out++ = pool.now[pool.all[at + 1]];
-                *out++ = pool.now[pool.all[at + 2]];
+                *out++ = state.now[state.all[at]];
+                *out++ = state.now[state.all[at + 1]];
+                *out++ = state.now[state.all[at + 2]];
             }
         } else {
-            for (std::uint32_t at = source.first; at < end; ++at) *out++ = pool.now[pool.all[at]];
+            for (std::uint32_t at = source.first; at < end; ++at) *out++ = state.now[state.all[at]];
         }
-        draw.count = static_cast<std::uint32_t>(out - pool.indices.data()) - draw.first;
+        draw.count = static_cast<std::uint32_t>(out - state.indices.data()) - draw.first;
     }
-    pool.indices.resize(static_cast<std::size_t>(out - pool.indices.data()));
+    state.indices.resize(static_cast<std::size_t>(out - state.indices.data()));
 }
 
 }  // namespace bendy

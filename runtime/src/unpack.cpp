@@ -38,9 +38,9 @@ void unpack_plain(const PackedView& packed, float seconds, std::span<JointTransf
 
 Unpack* best_unpack() {
 #if defined(__x86_64__)
-    static Unpack* const kBest =
+    static Unpack* const best =
         __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 ? unpack_avx2 : unpack_plain;
-    return kBest;
+    return best;
 #else
     return unpack_plain;
 #endif
