@@ -24,7 +24,8 @@ struct Displacement {
 static_assert(sizeof(Displacement) == 48, "three texels");
 
 std::vector<float> no_weights(const Pool& pool) {
-    return std::vector<float>(pool.targets.size(), 0.0f);
+    std::vector<float> weights(pool.targets.size(), 0.0f);
+    return weights;
 }
 
 float number_or(const StreamView& stream, std::uint32_t vertex, std::uint32_t component, float otherwise) {
