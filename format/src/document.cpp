@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -39,7 +38,7 @@ void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) 
     std::uint64_t entries = 0;
     for (PoolView& pool : object.pools) {
         PaletteView& palette = pool.palette;
-        if (palette.base == nullptr) continue;
+        if (!palette.is_derived) continue;
         entries += palette.joints.size();
         if (entries > most) {
             faults.add({ErrorCode::kCodecRatio, tree[pool.chunk].offset, entries, most});
@@ -54,12 +53,9 @@ void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) 
             }
             rests = rest_matrices(records, parents);
         }
-        auto derived = std::make_shared<std::vector<glm::mat4>>();
-        derived->reserve(palette.joints.size());
+        palette.derived.reserve(palette.joints.size());
         for (const std::uint32_t joint : palette.joints)
-            derived->push_back(derive_inverse_bind(rests[joint], *palette.base));
-        palette.inverse_bind = *derived;
-        palette.derived = std::move(derived);
+            palette.derived.push_back(derive_inverse_bind(rests[joint], palette.stored.front()));
     }
 }
 

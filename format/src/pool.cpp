@@ -176,11 +176,10 @@ public:
         const std::uint64_t joints_end = sizeof(PaletteRecord) + std::uint64_t{record->entries} * sizeof(std::uint32_t);
         check_gap(payload.subspan(joints_end, matrices_at - joints_end), chunk.offset);
         PaletteView palette{view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record->entries),
-                            view_at<glm::mat4>(payload, matrices_at, matrices)};
-        if (record->derived != 0) {
-            palette.base = palette.inverse_bind.data();
-            palette.inverse_bind = {};
-        }
+                            view_at<glm::mat4>(payload, matrices_at, matrices),
+                            false,
+                            {}};
+        palette.is_derived = record->derived != 0;
         for (const std::uint32_t joint : palette.joints) {
             if (joint < joints) continue;
             faults_.add({ErrorCode::kJointRange, chunk.offset, joint, joints});
@@ -434,7 +433,7 @@ void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faul
         for (const auto& stream : {target.positions, target.normals, target.tangents})
             check_stream_values(tree, stream, faults);
     }
-    for (const glm::mat4& matrix : pool.palette.inverse_bind)
+    for (const glm::mat4& matrix : pool.palette.inverse_bind())
         check_finite(std::span(&matrix[0][0], 16), offset, faults);
 
     if (!pool.weights) return;

@@ -1,6 +1,6 @@
 #include <bendy/runtime/constraint.h>
 
-#include "trig.h"
+#include <bendy/format/trig.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "ik_problem.h"
 #include "rotation.h"
-#include "trig.h"
+
+#include <bendy/format/trig.h>
 
 #include <algorithm>
 #include <cmath>

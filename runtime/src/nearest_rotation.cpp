@@ -1,7 +1,8 @@
 #include "nearest_rotation.h"
 
 #include "rotation.h"
-#include "trig.h"
+
+#include <bendy/format/trig.h>
 
 #include <algorithm>
 #include <array>

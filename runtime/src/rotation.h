@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trig.h"
+#include <bendy/format/trig.h>
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -81,10 +81,10 @@ bool Skinning::skin_pool(const Model& model, std::uint32_t pool_number, Pose& po
         return true;
     }
     const auto palette = std::span(pose.palette_).first(pool.palette.joints.size());
+    const auto inverse_bind = pool.palette.inverse_bind();
     for (std::size_t entry = 0; entry < palette.size(); ++entry) {
         // Large translations cancel here, which a product of floats would not survive.
-        const glm::dmat4 matrix =
-            pose.exact_model_space_[pool.palette.joints[entry]] * glm::dmat4(pool.palette.inverse_bind[entry]);
+        const glm::dmat4 matrix = pose.exact_model_space_[pool.palette.joints[entry]] * glm::dmat4(inverse_bind[entry]);
         palette[entry] = glm::mat4(matrix);
     }
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {

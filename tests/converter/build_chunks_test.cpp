@@ -255,9 +255,9 @@ TEST(BuildChunks, VerticesSurvive) {
     for (std::uint32_t i = 0; i < mesh.bones.size(); ++i) EXPECT_EQ(pool.bones->index(i / 2, i % 2), mesh.bones[i]);
     EXPECT_TRUE(std::equal(pool.palette.joints.begin(), pool.palette.joints.end(), mesh.palette.joints.begin(),
                            mesh.palette.joints.end()));
-    ASSERT_EQ(pool.palette.inverse_bind.size(), 2u);
-    EXPECT_EQ(pool.palette.inverse_bind[0], mesh.palette.inverse_bind[0]);
-    EXPECT_EQ(pool.palette.inverse_bind[1], mesh.palette.inverse_bind[1]);
+    ASSERT_EQ(pool.palette.inverse_bind().size(), 2u);
+    EXPECT_EQ(pool.palette.inverse_bind()[0], mesh.palette.inverse_bind[0]);
+    EXPECT_EQ(pool.palette.inverse_bind()[1], mesh.palette.inverse_bind[1]);
 
     const Pool& hat = built.model.pools()[1];
     EXPECT_TRUE(hat.is_rigid());

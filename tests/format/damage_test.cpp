@@ -122,7 +122,7 @@ double read_everything(const ChunkTree& tree, const Document& document) {
                 for (std::uint32_t k = 0; k < pool.bones->components; ++k) {
                     const std::uint32_t bone = pool.bones->index(vertex, k);
                     sum += joints[pool.palette.joints[bone]].rest.scale[1] +
-                           pool.palette.inverse_bind[bone][3][1] * pool.weights->number(vertex, k);
+                           pool.palette.inverse_bind()[bone][3][1] * pool.weights->number(vertex, k);
                 }
             }
             for (const TargetView& target : pool.targets) {

@@ -113,7 +113,7 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     EXPECT_EQ(loaded.lines(), Lines{});
     const ObjectView& object = loaded.document.objects[0];
     const PaletteView& view = object.pools[0].palette;
-    ASSERT_EQ(view.inverse_bind.size(), view.joints.size());
+    ASSERT_EQ(view.inverse_bind().size(), view.joints.size());
     std::vector<RestRecord> rests;
     std::vector<std::uint32_t> parents;
     for (const JointView& joint : object.skeleton.joints) {
@@ -122,7 +122,7 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     }
     const auto rest = rest_matrices(rests, parents);
     for (std::size_t entry = 0; entry < view.joints.size(); ++entry) {
-        const glm::dmat4 product = rest[view.joints[entry]] * glm::dmat4(view.inverse_bind[entry]);
+        const glm::dmat4 product = rest[view.joints[entry]] * glm::dmat4(view.inverse_bind()[entry]);
         for (int c = 0; c < 4; ++c) {
             for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], base[c][r], 1e-5) << entry;
         }

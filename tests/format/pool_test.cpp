@@ -134,10 +134,10 @@ TEST(Pool, GivesItsPalette) {
     const Loaded sample(sample_file());
     const PaletteView& palette = sample.document.objects.at(0).pools.at(0).palette;
     ASSERT_EQ(palette.joints.size(), 2u);
-    ASSERT_EQ(palette.inverse_bind.size(), 2u);
+    ASSERT_EQ(palette.inverse_bind().size(), 2u);
     EXPECT_EQ(palette.joints[1], 1u);
-    EXPECT_EQ(palette.inverse_bind[1][3][1], -1.0f);
-    EXPECT_EQ(palette.inverse_bind[1][3][3], 1.0f);
+    EXPECT_EQ(palette.inverse_bind()[1][3][1], -1.0f);
+    EXPECT_EQ(palette.inverse_bind()[1][3][3], 1.0f);
 }
 
 TEST(Pool, GivesDenseAndSparseTargets) {

@@ -210,7 +210,7 @@ void SceneBuffers::set_pose(Pose& pose) {
         for (std::size_t entry = 0; entry < palette.joints.size(); ++entry) {
             // Large translations cancel here, which a product of floats would not survive.
             const glm::dmat4 product =
-                glm::dmat4(joints[palette.joints[entry]]) * glm::dmat4(palette.inverse_bind[entry]);
+                glm::dmat4(joints[palette.joints[entry]]) * glm::dmat4(palette.inverse_bind()[entry]);
             put_rows(glm::mat4(product), &rows_[3 * (first_palette_[number] + entry)]);
         }
     }

@@ -153,7 +153,8 @@ private:
         mesh_.weights = read_numbers(*pool_.weights);
         take(pool_.palette.joints.size(), sizeof(glm::mat4) + sizeof(std::uint32_t));
         mesh_.palette.joints.assign(pool_.palette.joints.begin(), pool_.palette.joints.end());
-        mesh_.palette.inverse_bind.assign(pool_.palette.inverse_bind.begin(), pool_.palette.inverse_bind.end());
+        const auto inverse_bind = pool_.palette.inverse_bind();
+        mesh_.palette.inverse_bind.assign(inverse_bind.begin(), inverse_bind.end());
     }
 
     /// A rigid vertex is moved by the joint whose polygons use it. A mesh of the scene has one such joint; where a pool

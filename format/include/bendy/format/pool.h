@@ -8,7 +8,6 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -64,9 +63,11 @@ glm::vec3 decode_octahedral(float x, float y);
 /// Which joints a pool's bones mean, and their inverse bind matrices (pool space to joint space at bind time).
 struct PaletteView {
     std::span<const std::uint32_t> joints;
-    std::span<const glm::mat4> inverse_bind;  ///< as many, column-major
-    const glm::mat4* base = nullptr;          ///< if they follow from the rest pose: see derive_inverse_bind
-    std::shared_ptr<const std::vector<glm::mat4>> derived = {};  ///< then they are here
+    std::span<const glm::mat4> stored;  ///< column-major: as many as joints; or one, from which they are derived
+    bool is_derived = false;            ///< from the rest pose: see derive_inverse_bind
+    std::vector<glm::mat4> derived;     ///< then, as many as joints
+
+    [[nodiscard]] std::span<const glm::mat4> inverse_bind() const { return is_derived ? derived : stored; }
 };
 
 /// TARG: an inbetweening target. A stream that is absent is not displaced.
