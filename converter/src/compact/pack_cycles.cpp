@@ -3,6 +3,7 @@
 #include "compact/grid.h"
 #include "compact/measure.h"
 #include "compact/quantise_cycle.h"
+#include "compact/thin_grid.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
@@ -39,11 +40,12 @@ std::uint64_t stored_size(Bytes payload) {
 }
 
 /// The cycle's tracks, packed within the bound; nothing if that cannot be.
+/// \param share  of the bound that frames may take; the rest is for what lies between them
 std::optional<Packed> pack(const Scene& scene, const Cycle& cycle, const GridTracks& tracks,
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
-                           double max_error, bool corrects) {
+                           double max_error, double share, bool corrects) {
     constexpr int kAttempts = 6;
-    double aim = 0.998 * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
+    double aim = 0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Packed packed;
         packed.bytes = smallest_payload(quantise(scene, cycle, tracks, probes, {aim, corrects}));
@@ -75,6 +77,40 @@ std::uint64_t key_bytes(const Cycle& cycle, const std::vector<bool>* only = null
     return numbers * sizeof(float);
 }
 
+/// Memory and disk count alike.
+bool is_smaller(const Packed& a, const Packed& b) {
+    return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
+}
+
+/// The smaller one of the two ways to quantise.
+std::optional<Packed> pack_best(const Scene& scene, const Cycle& cycle, const GridTracks& tracks,
+                                const std::vector<bool>& is_replaced,
+                                const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share) {
+    std::optional<Packed> best;
+    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
+    const bool is_large = std::uint64_t{tracks.grid.frames} * scene.joints.size() > kLarge;
+    for (const bool corrects : {true, false}) {
+        if (is_large && best) break;
+        auto packed = pack(scene, cycle, tracks, is_replaced, probes, max_error, share, corrects);
+        if (packed && (!best || is_smaller(*packed, *best))) best = std::move(packed);
+    }
+    return best;
+}
+
+/// Takes fewer and fewer frames while that makes the cycle smaller: it does where motion is smooth and long.
+void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& tracks, const std::vector<bool>& is_replaced,
+                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, Packed& best) {
+    constexpr double kMost = 0.7;  // of the bound, for lines between frames: more leaves steps too fine
+    for (const std::uint32_t fewer : {2u, 3u, 4u, 6u, 8u, 12u}) {
+        const std::optional<ThinGrid> thin = thin_grid(scene, cycle, tracks, fewer, probes, kMost * max_error);
+        if (!thin) return;
+        const GridTracks thinner{thin->grid, tracks.tracks};
+        auto packed = pack_best(scene, cycle, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
+        if (!packed || !is_smaller(*packed, best)) return;
+        best = *std::move(packed);
+    }
+}
+
 PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std::vector<glm::dvec3>>& probes,
                         double max_error) {
     PackedReport report;
@@ -84,16 +120,8 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
     if (!tracks) return report;
     std::vector<bool> is_replaced(cycle.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
-    std::optional<Packed> best;
-    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
-    const bool is_large = std::uint64_t{tracks->grid.frames} * scene.joints.size() > kLarge;
-    for (const bool corrects : {true, false}) {
-        if (is_large && best) break;
-        auto packed = pack(scene, cycle, *tracks, is_replaced, probes, max_error, corrects);
-        // Memory and disk count alike.
-        if (packed && (!best || packed->bytes.size() + packed->stored < best->bytes.size() + best->stored))
-            best = std::move(packed);
-    }
+    std::optional<Packed> best = pack_best(scene, cycle, *tracks, is_replaced, probes, max_error, 1.0);
+    if (best) pack_thinner(scene, cycle, *tracks, is_replaced, probes, max_error, *best);
     if (!best || best->bytes.size() >= key_bytes(cycle, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
         return report;
     std::size_t number = 0;

@@ -156,6 +156,33 @@ TEST(PackCycles, KeepsTheBound) {
     EXPECT_EQ(report.kept_bytes, 0u);
 }
 
+/// Frames of the packed cycle.
+std::uint32_t packed_frames(Scene scene) {
+    pack_cycles(scene, kBound, {});
+    Faults faults;
+    const auto joints = static_cast<std::uint32_t>(scene.joints.size());
+    return read_packed(scene.cycles.at(0).packed, joints, 0, faults).value().record.frames;
+}
+
+TEST(PackCycles, LongSmoothCyclesKeepFewerFrames) {
+    Scene scene = chain(6);
+    for (std::uint32_t j = 0; j < 6; ++j) {
+        rotate(scene, j, frames(181, 30.0),
+               [j](float t) { return 0.3f * wave(0.12f * t + static_cast<float>(j)); });
+    }
+    const PackedReport report = pack_and_check(scene);
+    EXPECT_LT(packed_frames(scene), 181u / 3);
+    EXPECT_LT(report.packed_bytes * 20, report.source_bytes);
+}
+
+TEST(PackCycles, JerkyCyclesKeepAllFrames) {
+    Scene scene = chain(2);
+    for (std::uint32_t j = 0; j < 2; ++j)
+        rotate(scene, j, frames(181, 30.0), [](float t) { return wave(40.0f * t); });
+    pack_and_check(scene);
+    EXPECT_EQ(packed_frames(scene), 181u);
+}
+
 TEST(PackCycles, FastSpinsAndWraps) {
     Scene scene = chain(3);
     rotate(scene, 0, frames(50, 30.0), [](float t) { return glm::vec3(0.0f, 40.0f * t, 0.0f); });
