@@ -31,7 +31,7 @@ struct Moment {
     float fraction;
     bool is_near_end;  // reading past a frame may leave the payload
 };
-constexpr std::size_t kWindow = 16;                   // bytes read at once
+constexpr std::size_t kWindow = 16;             // bytes read at once
 constexpr std::size_t kReadPast = 2 * kWindow;  // so far past a frame's or a table's end may be read
 
 /// The bytes there are, zeros after the end of the payload.
@@ -71,8 +71,8 @@ BENDY_AVX2 inline Places load_places(const UnpackWindows& windows) {
     const __m256i all = _mm256_set1_epi64x(static_cast<long long>(bytes));
     const __m256i each_four = _mm256_setr_epi8(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5,
                                                6, 6, 6, 6, 7, 7, 7, 7);
-    return {_mm256_add_epi8(_mm256_shuffle_epi8(all, each_four), _mm256_set1_epi32(0x0302'0100)), load_lanes(windows.left),
-            load_lanes(windows.right)};
+    return {_mm256_add_epi8(_mm256_shuffle_epi8(all, each_four), _mm256_set1_epi32(0x0302'0100)),
+            load_lanes(windows.left), load_lanes(windows.right)};
 }
 
 template <bool is_near_end>

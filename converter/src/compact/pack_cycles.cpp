@@ -45,7 +45,8 @@ std::optional<Packed> pack(const Scene& scene, const Cycle& cycle, const GridTra
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
                            double max_error, double share, bool corrects) {
     constexpr int kAttempts = 6;
-    double aim = 0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
+    double aim =
+        0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Packed packed;
         packed.bytes = smallest_payload(quantise(scene, cycle, tracks, probes, {aim, corrects}));
@@ -98,8 +99,9 @@ std::optional<Packed> pack_best(const Scene& scene, const Cycle& cycle, const Gr
 }
 
 /// Takes fewer and fewer frames while that makes the cycle smaller: it does where motion is smooth and long.
-void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& tracks, const std::vector<bool>& is_replaced,
-                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, Packed& best) {
+void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& tracks,
+                  const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
+                  double max_error, Packed& best) {
     constexpr double kMost = 0.7;  // of the bound, for lines between frames: more leaves steps too fine
     for (const std::uint32_t fewer : {2u, 3u, 4u, 6u, 8u, 12u}) {
         const std::optional<ThinGrid> thin = thin_grid(scene, cycle, tracks, fewer, probes, kMost * max_error);

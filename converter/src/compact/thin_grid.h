@@ -18,9 +18,8 @@ struct ThinGrid {
     double error = 0.0;
 };
 
-/// About one frame of `fewer`, evenly spaced: frames need not lie on keys. Nothing if the old grid is uneven, few frames
-/// would be left, or the error is more than `most` metres.
-/// \param probes  per joint, see find_probes
+/// About one frame of `fewer`, evenly spaced: frames need not lie on keys. Nothing if the old grid is uneven, few
+/// frames would be left, or the error is more than `most` metres. \param probes  per joint, see find_probes
 std::optional<ThinGrid> thin_grid(const Scene& scene, const Cycle& cycle, const GridTracks& tracks, std::uint32_t fewer,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double most);
 

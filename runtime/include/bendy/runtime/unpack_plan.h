@@ -34,8 +34,8 @@ struct UnpackGroup {
     std::uint32_t base_bytes = 2;  ///< 2 or 4
 };
 
-/// Where one component of a group lies in the frames of a segment: four numbers in each of two windows of sixteen bytes.
-/// Lane by lane a number is the 32 bits from byte `bytes` of its window on, shifted left and then right.
+/// Where one component of a group lies in the frames of a segment: four numbers in each of two windows of sixteen
+/// bytes. Lane by lane a number is the 32 bits from byte `bytes` of its window on, shifted left and then right.
 struct UnpackWindows {
     std::uint32_t low = 0;  ///< bytes from the frame's start to the window of lanes 0 to 3
     std::uint32_t high = 0;
@@ -56,7 +56,7 @@ struct UnpackSegment {
 struct UnpackPlan {
     const PackedView* packed = nullptr;
     std::vector<UnpackedConstant> constants;
-    std::vector<UnpackGroup> groups;     ///< in the order of a frame's bits
+    std::vector<UnpackGroup> groups;  ///< in the order of a frame's bits
     std::vector<UnpackSegment> segments;
     std::vector<UnpackWindows> windows;  ///< by segment, group, component
 };
