@@ -15,7 +15,7 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::size_t kMostPoses = 4;
+constexpr std::size_t kMostPoses = 8;
 constexpr std::size_t kMostSamples = 120;  // poses to choose from
 constexpr std::size_t kSamplesOfCycle = 12;
 constexpr int kMadeUpPoses = 3;

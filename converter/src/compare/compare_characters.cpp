@@ -173,10 +173,10 @@ private:
                 continue;
             }
             for (std::uint32_t target = 0; target < a.targets.size(); ++target) {
-                if (a.targets[target].name != b.targets[target].name)
-                    add(Kind::value, place,
-                        "inbetweening target " + quoted_name(a.targets[target].name, target) + " -> " +
-                            quoted_name(b.targets[target].name, target));
+                if (a.targets[target].name == b.targets[target].name) continue;
+                add(Kind::value, place,
+                    "inbetweening target " + quoted_name(a.targets[target].name, target) + " -> " +
+                        quoted_name(b.targets[target].name, target));
             }
             numbers_.push_back(number);
             b_.meshes.push_back(renumbered(b));
@@ -335,10 +335,12 @@ private:
     void add_polygons(Kind kind, std::span<const Polygon> polygons, const std::string& place, const Shape& shape) {
         for (const Polygon& polygon : polygons.first(std::min(polygons.size(), kMostPolygons))) {
             constexpr std::array kNames{"point", "line", "triangle"};
-            std::string text = place + ", " + kNames[polygon.corners - 1];
-            for (std::uint32_t k = 0; k < polygon.corners; ++k) text += ' ' + std::to_string(polygon.vertices[k]);
+            std::string text = place;
+            text.append(", ").append(kNames[polygon.corners - 1]);
+            for (std::uint32_t k = 0; k < polygon.corners; ++k)
+                text.append(" ").append(std::to_string(polygon.vertices[k]));
             if (polygon.material < a_.materials.size())
-                text += " of material " + quoted_name(a_.materials[polygon.material].name, polygon.material);
+                text.append(" of material ").append(quoted_name(a_.materials[polygon.material].name, polygon.material));
             add(kind, text + " at " + text_of(shape[polygon.vertices[0]]));
         }
         if (polygons.size() > kMostPolygons) {

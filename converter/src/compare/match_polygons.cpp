@@ -125,6 +125,7 @@ public:
           b_(list_polygons(b, material_of)),
           shapes_a_(shapes_a.first(std::min(shapes_a.size(), shapes_b.size()))),
           shapes_b_(shapes_b.first(shapes_a_.size())),
+          compared_(shapes_a_.size()),
           looks_(looks),
           tolerance_(tolerance),
           partner_(a_.size()),
@@ -170,6 +171,9 @@ private:
             pair_within(radius);
         pair_within(tolerance_);
         change_partners();
+        compared_ = 1;  // what moves otherwise is still the same if it rests at the same place
+        pair_within(tolerance_);
+        compared_ = shapes_a_.size();
         for (double radius = kGrowth * tolerance_; radius < kLastRadius * extent; radius *= kGrowth)
             pair_within(radius);
     }
@@ -188,7 +192,7 @@ private:
     /// The largest distance of two corners in any shape; above the square of `limit`, that it is so.
     [[nodiscard]] double square_apart(const Polygon& a, const Polygon& b, std::uint32_t turn, double limit) const {
         double largest = 0.0;
-        for (std::size_t shape = 0; shape < shapes_a_.size(); ++shape) {
+        for (std::size_t shape = 0; shape < compared_; ++shape) {
             for (std::uint32_t k = 0; k < a.corners; ++k) {
                 const glm::dvec3 apart = glm::dvec3(shapes_a_[shape][a.vertices[k]]) -
                                          glm::dvec3(shapes_b_[shape][b.vertices[(k + turn) % a.corners]]);
@@ -297,6 +301,7 @@ private:
 
     std::vector<Polygon> a_, b_;
     std::span<const Shape> shapes_a_, shapes_b_;
+    std::size_t compared_;  // shapes that count now, from the first
     const Looks& looks_;
     double tolerance_;
     std::vector<Choice> partner_;       // of each of A's
