@@ -1348,7 +1348,7 @@ class Diff(Case):
         lines = self.differ(self.convert(), path, "--tolerance", "1mm")
         self.assertTrue(any(re.match(r'! joint ".*", at rest: .* mm apart', line) for line in lines), lines)
         def vertex(root):
-            self.set_bytes("HEAD/OBJE/VECT/POSI", 16 + 12 * 5 + 4, struct.pack("<f", 3))(root)
+            self.set_bytes("HEAD/OBJE/VECT/POSI", 16 + 12 * 5 + 4, struct.pack("<f", 0.9))(root)
         lines = self.differ(self.convert(), self.edited(vertex), "--tolerance", "1mm")
         self.assertTrue(lines[0].startswith('! mesh "Body", vertex 5, at rest: '), lines)
         report = json.loads(self.bendy("diff", self.convert(), path, "--tolerance", "1mm", "--json").stdout)

@@ -24,7 +24,7 @@ Original::Original(const Surface& surface, std::span<const std::vector<glm::vec3
     for (const Surface::Triangle& triangle : surface.triangles) triangles_.push_back(triangle.vertices);
     order_.resize(triangles_.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+    if (!order_.empty()) build();
     fit_boxes();
 }
 
@@ -34,10 +34,31 @@ glm::vec3 Original::centre(std::uint32_t triangle) const {
 }
 
 /// Halves; so it goes no deeper than the logarithm of the triangles.
-void Original::build(std::uint32_t first, std::uint32_t count) {
-    const std::size_t number = nodes_.size();
-    nodes_.push_back({0, first, count <= kLeaf ? count : 0});
-    if (count <= kLeaf) return;
+void Original::build() {
+    struct Part {
+        std::uint32_t first, count, parent;  // parent: whose right child it is; kNone: a left one
+    };
+    std::vector<Part> open{{0, static_cast<std::uint32_t>(order_.size()), kNone}};
+    while (!open.empty()) {
+        const Part part = open.back();
+        open.pop_back();
+        const auto number = static_cast<std::uint32_t>(nodes_.size());
+        if (part.parent != kNone) nodes_[part.parent].right = number;
+        nodes_.push_back({0, part.first, part.count <= kLeaf ? part.count : 0});
+        if (part.count <= kLeaf) continue;
+        const int axis = longest_side(part.first, part.count);
+        const auto before = [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b);
+        };
+        const std::uint32_t half = part.count / 2;
+        const auto begin = order_.begin() + part.first;
+        std::nth_element(begin, begin + half, begin + part.count, before);
+        open.push_back({part.first + half, part.count - half, number});
+        open.push_back({part.first, half, kNone});
+    }
+}
+
+int Original::longest_side(std::uint32_t first, std::uint32_t count) const {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (std::uint32_t k = first; k < first + count; ++k) {
@@ -45,14 +66,7 @@ void Original::build(std::uint32_t first, std::uint32_t count) {
         high = glm::max(high, centre(order_[k]));
     }
     const glm::vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto begin = order_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b);
-    });
-    build(first, count / 2);
-    nodes_[number].right = static_cast<std::uint32_t>(nodes_.size());
-    build(first + count / 2, count - count / 2);
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
 void Original::fit_boxes() {

@@ -34,7 +34,8 @@ private:
     };
 
     [[nodiscard]] glm::vec3 centre(std::uint32_t triangle) const;
-    void build(std::uint32_t first, std::uint32_t count);
+    void build();
+    [[nodiscard]] int longest_side(std::uint32_t first, std::uint32_t count) const;
     void fit_boxes();
 
     std::span<const std::vector<glm::vec3>> places_;

@@ -47,7 +47,9 @@ public:
         std::uint64_t cell;
         std::uint32_t polygon;
         std::uint32_t turn;
-        friend auto operator<=>(const Entry&, const Entry&) = default;
+        friend bool operator<(const Entry& x, const Entry& y) {
+            return std::tie(x.cell, x.polygon, x.turn) < std::tie(y.cell, y.polygon, y.turn);
+        }
     };
 
     explicit Grid(double radius) : size_(2.0 * radius) {}
@@ -167,15 +169,21 @@ private:
     void match() {
         const double extent = std::max(extent_of(shapes_a_[0]), extent_of(shapes_b_[0]));
         if (!(extent > 0.0) && !(tolerance_ > 0.0)) return;
-        for (double radius = std::max(kFirstRadius * extent, 1e-3 * tolerance_); radius < tolerance_; radius *= kGrowth)
+        double radius = std::max(kFirstRadius * extent, 1e-3 * tolerance_);
+        while (radius < tolerance_) {
             pair_within(radius);
+            radius *= kGrowth;
+        }
         pair_within(tolerance_);
         change_partners();
         compared_ = 1;  // what moves otherwise is still the same if it rests at the same place
         pair_within(tolerance_);
         compared_ = shapes_a_.size();
-        for (double radius = kGrowth * tolerance_; radius < kLastRadius * extent; radius *= kGrowth)
+        radius = kGrowth * tolerance_;
+        while (radius < kLastRadius * extent) {
             pair_within(radius);
+            radius *= kGrowth;
+        }
     }
 
     [[nodiscard]] Grid make_grid(double radius, bool all) const {
