@@ -5,6 +5,7 @@
 #include <bendy/format/result.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
+#include <bendy/runtime/unpack_plan.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -108,6 +109,8 @@ public:
     [[nodiscard]] std::uint32_t largest_palette() const { return data_->largest_palette; }
     /// The joint that moves a vertex of a rigid pool, or kNone.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
+    /// How a packed cycle is played; null if it is not packed, or of another model.
+    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
 
 private:
     struct RigidMovers {
@@ -124,6 +127,7 @@ private:
         Document document;
         ObjectView object;
         std::vector<Joint> joints;
+        std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
         std::vector<std::uint32_t> first_target;  // one more than pools
@@ -141,6 +145,7 @@ private:
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
+    static void plan_cycles(Data& data);
 
     std::unique_ptr<const Data> data_;  // behind a pointer, so that views into it survive a move of the Model
 };
