@@ -16,9 +16,9 @@ struct Contestant {
 };
 
 struct Timing {
-    double median = 0.0;   ///< ns per item
-    double least = 0.0;    ///< ns per item
-    double ratio = 1.0;    ///< median over rounds: this one's time over the first one's in the same round
+    double median = 0.0;  ///< ns per item
+    double least = 0.0;   ///< ns per item
+    double ratio = 1.0;   ///< median over rounds: this one's time over the first one's in the same round
 };
 
 inline double median_of(std::vector<double> numbers) {

@@ -58,7 +58,8 @@ inline void make_local(const float* local, double* to) {
     const Doubles z = __builtin_convertvector(rotations[2], Doubles);
     const Doubles w = __builtin_convertvector(rotations[3], Doubles);
     Floats scales[4];  // from translation z on
-    transpose(load_floats(local + 6), load_floats(local + 16), load_floats(local + 26), load_floats(local + 36), scales);
+    transpose(load_floats(local + 6), load_floats(local + 16), load_floats(local + 26), load_floats(local + 36),
+              scales);
     const Doubles sx = __builtin_convertvector(scales[1], Doubles);
     const Doubles sy = __builtin_convertvector(scales[2], Doubles);
     const Doubles sz = __builtin_convertvector(scales[3], Doubles);
@@ -119,8 +120,7 @@ bool palette_avx2(const PaletteBlock& block) {
         Floats columns[4];
         for (std::size_t k = 0; k < 4; ++k) {
             const double* const from = bind + 4 * k;
-            columns[k] =
-                __builtin_convertvector((a * from[0] + b * from[1]) + (c * from[2] + d * from[3]), Floats);
+            columns[k] = __builtin_convertvector((a * from[0] + b * from[1]) + (c * from[2] + d * from[3]), Floats);
         }
         Floats rows[4];
         transpose(columns[0], columns[1], columns[2], columns[3], rows);

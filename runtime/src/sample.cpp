@@ -54,8 +54,8 @@ Interval frame_interval(const TrackView& track, const Cycle& cycle, float second
     return {left, left + 1, frame - whole, 1.0 / cycle.frame_rate};
 }
 
-// sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm for
-// Computing SLERP (2011). Within 1e-11 for `away` below kNear.
+// sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
+// for Computing SLERP (2011). Within 1e-11 for `away` below kNear.
 constexpr double kNear = 0.15;
 constexpr int kTerms = 8;
 struct SlerpTerms {

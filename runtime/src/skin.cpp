@@ -159,7 +159,8 @@ bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std:
     wanted.out_normals = output_at(out.normals, at);
     wanted.out_tangents = output_at(out.tangents, at);
     wanted.streams = vertices >= kManyVertices;
-    const auto weights = std::span(pose_.target_weights_).subspan(model_.first_target(pool_number), pool.targets.size());
+    const auto weights =
+        std::span(pose_.target_weights_).subspan(model_.first_target(pool_number), pool.targets.size());
     if (pool.is_rigid()) {
         Staging staging(pool, nullptr, weights, wanted);
         skin_rigid(pool_number, staging, wanted);
@@ -172,38 +173,38 @@ bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std:
     return true;
 }
 
-bool skin(const Model& model, std::uint32_t pool, Pose& pose, const VertexBuffer& out) {
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const VertexBuffer& out) {
     const std::uint32_t vertices = model.pools()[pool].vertices;
     return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
 }
 
-bool skin(const Model& model, Pose& pose, const VertexBuffer& out) {
+bool skin_into(const Model& model, Pose& pose, const VertexBuffer& out) {
     return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return model.pools()[pool].vertices; }, out);
 }
 
-bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const VertexBuffer& out) {
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const VertexBuffer& out) {
     const std::uint32_t vertices = lod.vertices(pool);
     return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
 }
 
-bool skin(const Model& model, Pose& pose, const Lod& lod, const VertexBuffer& out) {
+bool skin_into(const Model& model, Pose& pose, const Lod& lod, const VertexBuffer& out) {
     return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return lod.vertices(pool); }, out);
 }
 
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out) {
-    return skin(model, pool, pose, as_buffer(out));
+    return skin_into(model, pool, pose, as_buffer(out));
 }
 
 bool skin(const Model& model, Pose& pose, const Vertices& out) {
-    return skin(model, pose, as_buffer(out));
+    return skin_into(model, pose, as_buffer(out));
 }
 
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out) {
-    return skin(model, pool, pose, lod, as_buffer(out));
+    return skin_into(model, pool, pose, lod, as_buffer(out));
 }
 
 bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out) {
-    return skin(model, pose, lod, as_buffer(out));
+    return skin_into(model, pose, lod, as_buffer(out));
 }
 
 }  // namespace bendy

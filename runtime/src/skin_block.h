@@ -24,8 +24,8 @@ struct SkinBlock {
     const std::uint16_t* bones16;  ///< instead; both null: palette[0] moves all
     const float* weights;          ///< as bones
     std::size_t influences;
-    /// Or null: for each group of eight vertices, where its bones begin in plan_bones; one more than groups. A group without
-    /// any goes by the lists above. Only kernels of eight lanes look at it.
+    /// Or null: for each group of eight vertices, where its bones begin in plan_bones; one more than groups. A group
+    /// without any goes by the lists above. Only kernels of eight lanes look at it.
     const std::uint32_t* plan_first;
     const std::uint16_t* plan_bones;
     const float* plan_weights;  ///< eight for each of plan_bones, on 32 bytes
@@ -33,7 +33,7 @@ struct SkinBlock {
     const float* normals;       ///< 3 per vertex
     const float* tangents;      ///< 4 per vertex
     SkinOutput out_positions, out_normals, out_tangents;
-    bool streams;            ///< the output is large: write past the caches where its alignment allows
+    bool streams;  ///< the output is large: write past the caches where its alignment allows
 };
 
 using SkinKernel = void(const SkinBlock& block);

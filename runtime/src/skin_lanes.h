@@ -1,8 +1,8 @@
 // The body of the skinning kernels, included by one source for each instruction set, which defines BENDY_LANES (4 or
 // 8), roots_of(Lanes) and stream(float*, Quad), and is compiled with that set's options.
 //
-// Some vertices at a time: matrices are blended vertex by vertex, as rows, since each vertex reads others; then they are
-// turned so that a lane is a vertex, and what follows goes by lanes.
+// Some vertices at a time: matrices are blended vertex by vertex, as rows, since each vertex reads others; then they
+// are turned so that a lane is a vertex, and what follows goes by lanes.
 
 // NOLINTBEGIN(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic): see skin_block.h
 
@@ -222,8 +222,8 @@ struct Rows {
 
 /// sum(weight * matrix) over `used` influences.
 template <class Bone>
-inline __attribute__((always_inline)) void blend_vertex(const PaletteMatrix* palette, const Bone* bones, const float* weights, std::size_t used,
-                                                          float* to) {
+inline __attribute__((always_inline)) void blend_vertex(const PaletteMatrix* palette, const Bone* bones,
+                                                        const float* weights, std::size_t used, float* to) {
 #if BENDY_LANES == 8
     const float* matrix = &palette[bones[0]].rows[0][0];
     Lanes weight = splat(weights[0]);
@@ -361,8 +361,7 @@ inline __attribute__((always_inline)) Matrix blend_shared(const PaletteMatrix* p
 inline Matrix spread(const PaletteMatrix& entry) {
     Matrix matrix;
     for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 4; ++column)
-            matrix.at[row][column] = splat(entry.rows[row][column]);
+        for (std::size_t column = 0; column < 4; ++column) matrix.at[row][column] = splat(entry.rows[row][column]);
     }
     return matrix;
 }

@@ -31,14 +31,17 @@ public:
 
 private:
     std::size_t count_ = 0;
-    std::array<std::uint16_t, SkinPlan::kMostBones> bones_;      // the first count_ are set
+    std::array<std::uint16_t, SkinPlan::kMostBones> bones_;        // the first count_ are set
     std::array<SkinPlan::Weights, SkinPlan::kMostBones> weights_;  // as bones_
 };
 
 /// A pool's bones and weights, of the types that most files have without a look at the type each time.
 struct Influences {
     explicit Influences(const PoolView& pool)
-        : bones(*pool.bones), weights(*pool.weights), count(bones.components), is_narrow(bones.type == ComponentType::u8),
+        : bones(*pool.bones),
+          weights(*pool.weights),
+          count(bones.components),
+          is_narrow(bones.type == ComponentType::u8),
           is_float(weights.type == ComponentType::f32),
           bones8(is_narrow ? bones.as<std::uint8_t>() : std::span<const std::uint8_t>{}),
           bones16(is_narrow ? std::span<const std::uint16_t>{} : bones.as<std::uint16_t>()),

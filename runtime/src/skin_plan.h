@@ -21,11 +21,11 @@ struct SkinPlan {
         float of[kGroup];  // NOLINT(modernize-avoid-c-arrays): kernels read it
     };
 
-    std::vector<std::uint32_t> first;  ///< in bones, of each group; one more than groups. Empty: no plan
-    std::vector<std::uint16_t> bones;  ///< into the palette
-    std::vector<Weights> weights;      ///< as bones
+    std::vector<std::uint32_t> first;      ///< in bones, of each group; one more than groups. Empty: no plan
+    std::vector<std::uint16_t> bones;      ///< into the palette
+    std::vector<Weights> weights;          ///< as bones
     std::vector<glm::dmat4> inverse_bind;  ///< as the pool's palette
-    bool is_complete = false;          ///< every group has a list
+    bool is_complete = false;              ///< every group has a list
 };
 
 /// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex, and 128 a palette entry.

@@ -85,7 +85,7 @@ Staging::Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> 
 }
 
 template <class Vector>
-const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::* shifts,
+const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
                             std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const {
     constexpr std::size_t kNumbersEach = static_cast<std::size_t>(Vector::length());
     if (in_place) return stream->as<float>().data() + first * kNumbersEach;
@@ -111,14 +111,14 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);
     if (wanted.out_positions.data != nullptr)
-        block.positions = bring<glm::vec3>(positions_, &TargetView::positions, first, count, positions_in_place_,
-                                           positions_scratch_);
+        block.positions =
+            bring<glm::vec3>(positions_, &TargetView::positions, first, count, positions_in_place_, positions_scratch_);
     if (wanted.out_normals.data != nullptr)
         block.normals =
             bring<glm::vec3>(pool_.normals, &TargetView::normals, first, count, normals_in_place_, normals_scratch_);
     if (wanted.out_tangents.data != nullptr)
-        block.tangents =
-            bring<glm::vec4>(pool_.tangents, &TargetView::tangents, first, count, tangents_in_place_, tangents_scratch_);
+        block.tangents = bring<glm::vec4>(pool_.tangents, &TargetView::tangents, first, count, tangents_in_place_,
+                                          tangents_scratch_);
     if (!pool_.bones) return;
     const StreamView& bones = *pool_.bones;
     const StreamView& weights = *pool_.weights;

@@ -15,8 +15,8 @@ namespace bendy {
 /// place; else decoded and moved, a few at a time, so that they are still in the nearest cache when they are skinned.
 class Staging {
 public:
-    /// `wanted`: only its outputs are looked at. `weights`: of the pool's targets. `plan`: null if the kernel has no use
-    /// for it.
+    /// `wanted`: only its outputs are looked at. `weights`: of the pool's targets. `plan`: null if the kernel has no
+    /// use for it.
     Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted);
 
     /// How many vertices fill() takes at most.
@@ -31,7 +31,7 @@ private:
 
     [[nodiscard]] bool is_in_place(const std::optional<StreamView>& stream, bool is_shifted) const;
     template <class Vector>
-    const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::* shifts,
+    const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
                        std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const;
 
     const Pool& pool_;

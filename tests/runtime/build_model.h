@@ -97,8 +97,8 @@ inline Node pool_node(const PoolSpec& pool) {
     Node node = make_container(FourCC("VECT"));
     const PoolRecord info{static_cast<std::uint32_t>(pool.positions.size()), pool.joint};
     node.children.push_back(make_leaf(FourCC("VINF"), bytes_of(info)));
-    const bool has_own = std::any_of(pool.more.begin(), pool.more.end(),
-                                     [](const Node& more) { return more.id == FourCC("POSI"); });
+    const bool has_own =
+        std::any_of(pool.more.begin(), pool.more.end(), [](const Node& more) { return more.id == FourCC("POSI"); });
     if (!pool.positions.empty() && !has_own) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
     if (!pool.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), pool.normals));
     if (!pool.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), pool.tangents));

@@ -36,8 +36,13 @@ struct Unaligned {
 /// Vertices of `influences` bones at random.
 struct RandomBlock {
     RandomBlock(std::size_t vertices, std::size_t influences, unsigned seed)
-        : positions(3 * vertices), normals(3 * vertices), tangents(4 * vertices), weights(influences * vertices),
-          bones8(influences * vertices), bones16(influences * vertices), palette(40) {
+        : positions(3 * vertices),
+          normals(3 * vertices),
+          tangents(4 * vertices),
+          weights(influences * vertices),
+          bones8(influences * vertices),
+          bones16(influences * vertices),
+          palette(40) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> number(-1.0f, 1.0f);
         for (PaletteMatrix& entry : palette) {
@@ -60,7 +65,8 @@ struct RandomBlock {
             for (std::size_t k = 0; k < influences; ++k) {
                 const std::size_t at = v * influences + k;
                 // Near joints, so that what is blended has a volume.
-                bones16[at] = bones8[at] = static_cast<std::uint8_t>(k == 0 ? random() % palette.size() : bones8[at - 1]);
+                bones16[at] = bones8[at] =
+                    static_cast<std::uint8_t>(k == 0 ? random() % palette.size() : bones8[at - 1]);
                 if (k % 2 == 1) bones16[at] = bones8[at] = static_cast<std::uint8_t>(random() % palette.size());
                 const bool is_zero = k >= used || random() % 8 == 0;
                 sum += weights.data()[at] = is_zero ? 0.0f : std::abs(number(random));
@@ -88,7 +94,8 @@ struct RandomBlock {
 
 struct Output {
     Output(SkinBlock& block, std::size_t position_stride, std::size_t normal_stride, std::size_t tangent_stride)
-        : positions(block.vertices * position_stride, kUntouched), normals(block.vertices * normal_stride, kUntouched),
+        : positions(block.vertices * position_stride, kUntouched),
+          normals(block.vertices * normal_stride, kUntouched),
           tangents(block.vertices * tangent_stride, kUntouched) {
         block.out_positions = {position_stride == 0 ? nullptr : positions.data(), position_stride};
         block.out_normals = {normal_stride == 0 ? nullptr : normals.data(), normal_stride};
@@ -131,8 +138,8 @@ void compare(RandomBlock& random, Kernel kernel, std::size_t positions, std::siz
     SkinBlock block = random.block;
     Output found(block, positions, normals, tangents);
     skin_kernel(kernel)(block);
-    const std::string what = std::string(kernel_name(kernel)) + ", " + std::to_string(block.vertices) + " vertices of " +
-                             std::to_string(block.influences);
+    const std::string what = std::string(kernel_name(kernel)) + ", " + std::to_string(block.vertices) +
+                             " vertices of " + std::to_string(block.influences);
     for (std::size_t v = 0; v < block.vertices; ++v) {
         // A row times a vector of the cube, and the translation: at most 1.5 * sqrt(3) * sqrt(3) + 3.
         expect_same(found.positions, expected.positions, v, positions, 3, 8 * 7.5 * kEpsilon, what + ", positions");
@@ -211,7 +218,8 @@ TEST(SkinKernels, SharedBonesGiveTheSame) {
                 // By turns groups that share six bones, one bone, and too many for a list.
                 for (std::size_t at = 0; at < random.bones8.size(); ++at) {
                     const std::size_t group = at / influences / 8;
-                    if (group % 3 != 2) random.bones8[at] = static_cast<std::uint8_t>(random.bones8[at] % (group % 3 == 0 ? 6 : 1));
+                    if (group % 3 != 2)
+                        random.bones8[at] = static_cast<std::uint8_t>(random.bones8[at] % (group % 3 == 0 ? 6 : 1));
                     random.bones16[at] = random.bones8[at];
                 }
                 const SkinPlan plan = make_skin_plan(as_pool(random));
@@ -297,8 +305,8 @@ TEST(Kernels, OneIsChosenAndOthersCanBeForced) {
 /// One component type of weights; `box` instead of normalising.
 template <class Weight>
 test::Node weights_leaf(std::uint16_t influences, const std::vector<Weight>& weights) {
-    return test::make_leaf(FourCC("WGHT"), test::stream_payload<Weight>(influences, weights,
-                                                                        !std::is_same_v<Weight, float>));
+    return test::make_leaf(FourCC("WGHT"),
+                           test::stream_payload<Weight>(influences, weights, !std::is_same_v<Weight, float>));
 }
 
 /// Integers that stand for minimum + step * integer.
@@ -418,9 +426,9 @@ void expect_as_defined(const Buffer& file) {
             glm::dmat4 matrix(0.0);
             for (std::uint32_t k = 0; k < 4; ++k) {
                 const std::uint32_t bone = pool.bones->index(v, k);
-                matrix += double{pool.weights->number(v, k)} *
-                          (glm::dmat4(pose.model_space()[pool.palette.joints[bone]]) *
-                           glm::dmat4(pool.palette.inverse_bind()[bone]));
+                matrix +=
+                    double{pool.weights->number(v, k)} * (glm::dmat4(pose.model_space()[pool.palette.joints[bone]]) *
+                                                          glm::dmat4(pool.palette.inverse_bind()[bone]));
             }
             const glm::dvec4 expected = matrix * glm::dvec4(base[v], 1.0);
             const glm::dmat3 cofactors = glm::determinant(matrix) * glm::transpose(glm::inverse(glm::dmat3(matrix)));
@@ -466,9 +474,10 @@ TEST(SkinBuffer, InterleavedIsAsApart) {
     std::vector<glm::vec3> positions(count), normals(count);
     std::vector<glm::vec4> tangents(count);
     ASSERT_TRUE(skin(*model, pose, Vertices{positions, normals, tangents}));
-    std::vector<float> buffer(count * 13, kUntouched);  // position, 2 of the caller's, normal, tangent, 1 of the caller's
+    std::vector<float> buffer(count * 13,
+                              kUntouched);  // position, 2 of the caller's, normal, tangent, 1 of the caller's
     const auto from = [&](std::size_t at) { return StridedFloats{std::span(buffer).subspan(at), 13}; };
-    ASSERT_TRUE(skin(*model, pose, VertexBuffer{from(0), from(5), from(8)}));
+    ASSERT_TRUE(skin_into(*model, pose, VertexBuffer{from(0), from(5), from(8)}));
     for (std::size_t v = 0; v < count; ++v) {
         const float* const vertex = &buffer[v * 13];
         for (int c = 0; c < 3; ++c) EXPECT_EQ(vertex[c], positions[v][c]);
@@ -485,8 +494,9 @@ TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
     std::vector<float> buffer(count * 8, kUntouched);
     const auto attempt = [&](std::size_t size, std::size_t stride) {
         const StridedFloats memory{std::span(buffer).first(size), stride};
-        return skin(*model, pose, VertexBuffer{memory, {}, {}}) || skin(*model, pose, VertexBuffer{{}, memory, {}}) ||
-               skin(*model, 0, pose, VertexBuffer{{}, {}, memory});
+        return skin_into(*model, pose, VertexBuffer{memory, {}, {}}) ||
+               skin_into(*model, pose, VertexBuffer{{}, memory, {}}) ||
+               skin_into(*model, 0, pose, VertexBuffer{{}, {}, memory});
     };
     EXPECT_FALSE(attempt((count - 1) * 8 + 2, 8));
     EXPECT_FALSE(attempt(count * 8, 2));
@@ -496,7 +506,7 @@ TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
     EXPECT_FALSE(attempt(2, 8));
     EXPECT_EQ(buffer, std::vector<float>(count * 8, kUntouched));
     const StridedFloats exact{std::span(buffer).first((count - 1) * 8 + 3), 8};
-    EXPECT_TRUE(skin(*model, pose, VertexBuffer{exact, {}, {}}));
+    EXPECT_TRUE(skin_into(*model, pose, VertexBuffer{exact, {}, {}}));
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ private:
     void make_plans() const;
     [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
-    std::unique_ptr<const Data, DeleteData> data_;  // behind a pointer, so that views into it survive a move of the Model
+    std::unique_ptr<const Data, DeleteData>
+        data_;  // behind a pointer, so that views into it survive a move of the Model
 };
 
 }  // namespace bendy
