@@ -140,7 +140,7 @@ private:
         ObjectView object;
         std::vector<Joint> joints;
         std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
-        std::vector<std::uint32_t> parents;  // as joints
+        std::vector<std::uint32_t> parents;    // as joints
         bool is_sheared = false;
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
@@ -169,8 +169,8 @@ private:
     void make_plans() const;
     [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
-    std::unique_ptr<const Data, DeleteData>
-        data_;  // behind a pointer, so that views into it survive a move of the Model
+    // Behind a pointer, so that views into it survive a move of the Model.
+    std::unique_ptr<const Data, DeleteData> data_;
 };
 
 }  // namespace bendy
