@@ -3,6 +3,8 @@
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 
+#include "skin_plan.h"
+
 #include <algorithm>
 #include <functional>
 #include <numeric>
@@ -140,7 +142,7 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
     if (!tree) return tree.error();
     Faults faults;
     if (options.check_sums) check_sums(*tree, faults);
-    auto data = std::make_unique<Data>();
+    std::unique_ptr<Data> data = std::make_unique<Data>();
     if (faults.empty()) {
         decode_leaves(*tree);
         data->document = read_document(*tree, faults);
@@ -156,7 +158,13 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
 
     const ObjectView& object = data->object;
     data->joints.reserve(object.skeleton.joints.size());
-    for (const JointView& joint : object.skeleton.joints) data->joints.push_back(make_joint(joint));
+    data->parents.reserve(object.skeleton.joints.size());
+    for (const JointView& view : object.skeleton.joints) {
+        const Joint joint = make_joint(view);
+        data->joints.push_back(joint);
+        data->parents.push_back(joint.parent);
+        data->is_sheared = data->is_sheared || joint.shear != glm::vec3(0.0f);
+    }
     build_rig(*data);
     plan_cycles(*data);
     data->draws = make_draws(object.skeleton.polygons);
@@ -168,7 +176,22 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
         data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(pool.targets.size()));
         data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(pool.palette.joints.size()));
     }
-    return Model(std::move(data));
+    return Model(data.release());
+}
+
+void Model::DeleteData::operator()(const Data* data) const {
+    delete data;
+}
+
+void Model::make_plans() const {
+    std::call_once(data_->plans_made, [this] {
+        data_->plans.reserve(pools().size());
+        for (const Pool& pool : pools()) data_->plans.push_back(make_skin_plan(pool));
+    });
+}
+
+const SkinPlan& Model::plan(std::uint32_t pool) const {
+    return data_->plans[pool];
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {

@@ -2,6 +2,8 @@
 
 #include <bendy/runtime/local_to_model.h>
 
+#include <algorithm>
+
 namespace bendy {
 
 Pose::Pose(const Model& model)
@@ -11,7 +13,8 @@ Pose::Pose(const Model& model)
       exact_model_space_(model.joints().size()),
       target_weights_(model.target_count()),
       ik_links_(model.longest_chain()),
-      palette_(model.largest_palette()) {
+      palette_(std::max(model.largest_palette(), 1u)) {
+    model.make_plans();
     set_rest();
     local_to_model(*this);
 }

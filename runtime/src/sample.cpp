@@ -19,8 +19,23 @@ struct Interval {
     double seconds = 0.0;   // from left to right
 };
 
+/// The first time after `seconds`. Most tracks' keys are evenly spread: then it is where it should be, and no search is
+/// needed.
+std::span<const float>::iterator first_after(std::span<const float> times, float seconds) {
+    const float length = times.back() - times.front();
+    const float guess = (seconds - times.front()) / length * static_cast<float>(times.size() - 1);
+    if (guess >= 0.0f && guess < static_cast<float>(times.size() - 1)) {
+        auto left = static_cast<std::size_t>(guess);
+        if (left > 0 && times[left] > seconds) --left;  // rounding, or nearly even
+        if (left + 2 < times.size() && times[left + 1] <= seconds) ++left;
+        if (times[left] <= seconds && times[left + 1] > seconds)
+            return times.begin() + static_cast<std::ptrdiff_t>(left) + 1;
+    }
+    return std::upper_bound(times.begin(), times.end(), seconds);
+}
+
 Interval timed_interval(std::span<const float> times, float seconds) {
-    const auto after = std::upper_bound(times.begin(), times.end(), seconds);
+    const auto after = first_after(times, seconds);
     if (after == times.begin()) return {};
     const auto left = static_cast<std::size_t>(after - times.begin()) - 1;
     if (after == times.end() || times[left] == seconds) return {left, left};
@@ -39,10 +54,42 @@ Interval frame_interval(const TrackView& track, const Cycle& cycle, float second
     return {left, left + 1, frame - whole, 1.0 / cycle.frame_rate};
 }
 
+// sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
+// for Computing SLERP (2011). Within 1e-11 for `away` below kNear.
+constexpr double kNear = 0.15;
+constexpr int kTerms = 8;
+struct SlerpTerms {
+    std::array<double, kTerms> flat{}, curved{};  // i / (2i + 1) and 1 / (i (2i + 1)), i from 1
+};
+constexpr SlerpTerms make_terms() {
+    SlerpTerms terms;
+    for (std::size_t k = 0; k < terms.flat.size(); ++k) {
+        const double i = static_cast<double>(k) + 1.0;
+        terms.flat[k] = i / (2.0 * i + 1.0);
+        terms.curved[k] = 1.0 / (i * (2.0 * i + 1.0));
+    }
+    return terms;
+}
+constexpr SlerpTerms kSlerp = make_terms();
+
+double slerp_weight(double u, double away) {
+    const double square = u * u;
+    double sum = 1.0;
+    for (std::size_t k = kTerms; k-- > 0;) sum = 1.0 + sum * (away * (kSlerp.flat[k] - kSlerp.curved[k] * square));
+    return u * sum;
+}
+
 void slerp(std::span<const float> a, std::span<const float> b, double u, std::span<float> out) {
     double dot = 0.0;
     for (std::size_t c = 0; c < 4; ++c) dot += double{a[c]} * b[c];
     const double sign = dot < 0.0 ? -1.0 : 1.0;
+    const double away = 1.0 - std::abs(dot);
+    if (away >= 0.0 && away < kNear) {  // all but the fastest turns from one key to the next
+        const double by_a = slerp_weight(1.0 - u, away);
+        const double by_b = sign * slerp_weight(u, away);
+        for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(by_a * a[c] + by_b * b[c]);
+        return;
+    }
     const double angle = std::acos(std::min(1.0, std::abs(dot)));
     double weight_a = 1.0 - u;
     double weight_b = u;
@@ -102,7 +149,13 @@ void unpack(const Cycle& cycle, float seconds, Pose& pose) {
 
 }  // namespace
 
-void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value) {
+namespace {
+
+Interval find_interval(const TrackView& track, const Cycle& cycle, float seconds) {
+    return track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
+}
+
+void sample_between(const TrackView& track, const Interval& at, std::span<float> value) {
     assert(value.size() == track.components);
     const std::size_t n = value.size();
     const bool cubic = track.interpolation == Interpolation::cubic;
@@ -110,8 +163,6 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
     const auto key = [&](std::size_t k) { return track.values.subspan(k * per_key, per_key); };
     const auto key_value = [&](std::size_t k) { return key(k).subspan(cubic ? n : 0, n); };
 
-    const Interval at =
-        track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
     if (at.left == at.right || track.interpolation == Interpolation::step) {
         std::copy_n(key_value(at.left).begin(), n, value.begin());
         if (cubic && track.path == TrackPath::rotation) normalise(value);
@@ -133,23 +184,35 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
     }
 }
 
+}  // namespace
+
+void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value) {
+    sample_between(track, find_interval(track, cycle, seconds), value);
+}
+
 bool sample(const Cycle* cycle, float seconds, Pose& pose) {
     pose.set_rest();
     if (cycle == nullptr || std::isnan(seconds)) return false;
     const Model& model = pose.model();
     const std::span<JointTransform> local = pose.change_local();
     const std::span<float> weights = pose.change_target_weights();
+    // Neighbouring tracks mostly share their times.
+    const TrackView* same = nullptr;
+    Interval at;
     for (const TrackView& track : cycle->tracks) {
+        if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
+            at = find_interval(track, *cycle, seconds);
+        same = &track;
         if (track.path == TrackPath::weights) {
             if (track.target >= model.pools().size()) continue;  // a cycle of another model
             if (track.components != model.pools()[track.target].targets.size()) continue;
             const std::size_t first = model.first_target(track.target);
-            sample_track(track, *cycle, seconds, weights.subspan(first, track.components));
+            sample_between(track, at, weights.subspan(first, track.components));
             continue;
         }
         if (track.target >= local.size()) continue;
         std::array<float, 4> value{};
-        sample_track(track, *cycle, seconds, std::span(value).first(track.components));
+        sample_between(track, at, std::span(value).first(track.components));
         set_joint(track, value, local[track.target]);
     }
     if (cycle->packed) unpack(*cycle, seconds, pose);

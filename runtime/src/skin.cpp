@@ -1,55 +1,75 @@
 #include <bendy/runtime/skin.h>
 
-#include <bendy/runtime/inbetween.h>
+#include <bendy/runtime/kernels.h>
 #include <bendy/runtime/local_to_model.h>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+#include "pose_block.h"
+#include "skin_kernel.h"
+#include "staging.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace bendy {
 namespace {
 
-/// Zero stays zero.
-glm::vec3 normalised(const glm::vec3& v) {
-    const float length = glm::length(v);
-    return length > 0.0f ? v / length : glm::vec3(0.0f);
+/// What nothing moves.
+void copy_block(const SkinBlock& block) {
+    const auto copy = [&](const float* from, const SkinOutput& out, std::size_t numbers) {
+        if (out.data == nullptr) return;
+        for (std::size_t vertex = 0; vertex < block.vertices; ++vertex)
+            std::copy_n(from + vertex * numbers, numbers, out.data + vertex * out.stride);
+    };
+    copy(block.positions, block.out_positions, 3);
+    copy(block.normals, block.out_normals, 3);
+    copy(block.tangents, block.out_tangents, 4);
 }
 
-/// The inverse transpose times |determinant|: the same direction, and defined for matrices without an inverse.
-glm::mat3 normal_matrix(const glm::mat3& m, float determinant) {
-    const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    return determinant < 0.0f ? -cofactors : cofactors;
+PaletteMatrix to_rows(const glm::dmat4& matrix) {
+    PaletteMatrix entry{};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) entry.rows[row][column] = static_cast<float>(matrix[column][row]);
+    }
+    return entry;
 }
 
-void transform_vertex(const glm::mat4& matrix, std::uint32_t vertex, const Vertices& out) {
-    if (!out.positions.empty()) {
-        glm::vec3& position = out.positions[vertex];
-        position = glm::vec3(matrix * glm::vec4(position, 1.0f));
+bool is_finite(std::span<const PaletteMatrix> palette) {
+    float sum = 0.0f;
+    for (const PaletteMatrix& entry : palette) {
+        for (const auto& row : entry.rows) {
+            for (const float number : row) sum += 0.0f * number;
+        }
     }
-    if (out.normals.empty() && out.tangents.empty()) return;
-    const glm::mat3 linear(matrix);
-    const float determinant = glm::determinant(linear);
-    if (!out.normals.empty()) {
-        glm::vec3& normal = out.normals[vertex];
-        normal = normalised(normal_matrix(linear, determinant) * normal);
-    }
-    if (!out.tangents.empty()) {
-        glm::vec4& tangent = out.tangents[vertex];
-        // A mirrored surface turns its bitangent round.
-        tangent = glm::vec4(normalised(linear * glm::vec3(tangent)), determinant < 0.0f ? -tangent.w : tangent.w);
-    }
+    return sum == 0.0f;
 }
 
-/// sum(w_i M_i) of one vertex.
-glm::mat4 blend(const Pool& pool, std::span<const glm::mat4> palette, std::uint32_t vertex) {
-    glm::mat4 sum(0.0f);
-    for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
-        const float weight = pool.weights->number(vertex, k);
-        if (weight != 0.0f) sum += weight * palette[pool.bones->index(vertex, k)];
-    }
-    return sum;
+bool fits(const StridedFloats& memory, std::size_t numbers, std::uint64_t vertices) {
+    if (memory.floats.empty() || vertices == 0) return true;
+    if (memory.floats.size() < numbers || memory.stride < numbers) return false;
+    return vertices - 1 <= (memory.floats.size() - numbers) / memory.stride;
+}
+
+bool fits(const VertexBuffer& out, std::uint64_t vertices) {
+    return fits(out.positions, 3, vertices) && fits(out.normals, 3, vertices) && fits(out.tangents, 4, vertices);
+}
+
+SkinOutput output_at(const StridedFloats& memory, std::uint64_t vertex) {
+    if (memory.floats.empty()) return {nullptr, 0};
+    return {memory.floats.data() + vertex * memory.stride, memory.stride};
+}
+
+/// The same memory; each vector is that many floats without gaps.
+template <class Vector>
+StridedFloats as_floats(std::span<Vector> vectors) {
+    constexpr auto kNumbers = static_cast<std::size_t>(Vector::length());
+    static_assert(sizeof(Vector) == kNumbers * sizeof(float));
+    if (vectors.empty()) return {};
+    return {{&vectors.front().x, vectors.size() * kNumbers}, kNumbers};
+}
+
+VertexBuffer as_buffer(const Vertices& out) {
+    return {as_floats(out.positions), as_floats(out.normals), as_floats(out.tangents)};
 }
 
 }  // namespace
@@ -57,76 +77,134 @@ glm::mat4 blend(const Pool& pool, std::span<const glm::mat4> palette, std::uint3
 /// The work on a pose's scratch memory.
 class Skinning {
 public:
-    /// The first `vertices` of a pool.
-    static bool skin_pool(const Model& model, std::uint32_t pool_number, Pose& pose, std::uint32_t vertices,
-                          const Vertices& out);
+    Skinning(const Model& model, Pose& pose) : model_(model), pose_(pose) { assert(&model == &pose.model()); }
+
+    /// The first `vertices` of a pool, vertex 0 at `at` of the output.
+    bool skin_pool(std::uint32_t pool, std::uint32_t vertices, std::uint64_t at, const VertexBuffer& out);
     /// Of all pools, each at its place; vertices_of(pool): how many of its first.
     template <class Count>
-    static bool skin_all(const Model& model, Pose& pose, const Count& vertices_of, const Vertices& out);
-};
-
-bool Skinning::skin_pool(const Model& model, std::uint32_t pool_number, Pose& pose, std::uint32_t vertices,
-                         const Vertices& out) {
-    assert(&model == &pose.model() && pool_number < model.pools().size());
-    const Pool& pool = model.pools()[pool_number];
-    const auto weights = std::span(pose.target_weights_).subspan(model.first_target(pool_number), pool.targets.size());
-    if (!inbetween(pool, weights, vertices, out)) return false;
-    if (pose.is_stale()) local_to_model(pose);
-
-    if (pool.is_rigid()) {
-        for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-            const std::uint32_t joint = model.rigid_mover(pool_number, vertex);
-            if (joint != kNone) transform_vertex(pose.model_space_[joint], vertex, out);
-        }
+    bool skin_all(const Count& vertices_of, const VertexBuffer& out) {
+        if (!fits(out, model_.vertex_count())) return false;
+        for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool)
+            skin_pool(pool, vertices_of(pool), model_.first_vertex(pool), out);
         return true;
     }
-    const auto palette = std::span(pose.palette_).first(pool.palette.joints.size());
-    const auto inverse_bind = pool.palette.inverse_bind();
-    for (std::size_t entry = 0; entry < palette.size(); ++entry) {
+
+private:
+    /// Whether it is finite.
+    bool make_palette(std::uint32_t pool_number);
+    void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
+    void skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted);
+
+    const Model& model_;
+    Pose& pose_;
+};
+
+bool Skinning::make_palette(std::uint32_t pool_number) {
+    const PaletteView& palette = model_.pools()[pool_number].palette;
+    const auto inverse_bind = palette.inverse_bind();
+#if defined(__x86_64__)
+    if (kernel() == Kernel::avx2 && !palette.joints.empty() && !pose_.exact_model_space_.empty()) {
+        return palette_avx2({palette.joints.size(), &pose_.exact_model_space_.front()[0].x, palette.joints.data(),
+                             &model_.plan(pool_number).inverse_bind.front()[0].x, pose_.palette_.data()});
+    }
+#endif
+    for (std::size_t entry = 0; entry < palette.joints.size(); ++entry) {
         // Large translations cancel here, which a product of floats would not survive.
-        const glm::dmat4 matrix = pose.exact_model_space_[pool.palette.joints[entry]] * glm::dmat4(inverse_bind[entry]);
-        palette[entry] = glm::mat4(matrix);
+        pose_.palette_[entry] =
+            to_rows(pose_.exact_model_space_[palette.joints[entry]] * glm::dmat4(inverse_bind[entry]));
     }
-    for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-        transform_vertex(blend(pool, palette, vertex), vertex, out);
+    return is_finite(std::span(pose_.palette_).first(palette.joints.size()));
+}
+
+void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first,
+                   std::size_t count) const {
+    SkinBlock block = wanted;
+    for (const std::size_t end = first + count; first < end; first += block.vertices) {
+        block.vertices = std::min(end - first, staging.capacity());
+        staging.fill(first, wanted, block);
+        kernel(block);
     }
+}
+
+void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted) {
+    SkinKernel* const chosen = skin_kernel(kernel());
+    const std::size_t vertices = wanted.vertices;
+    for (std::size_t first = 0; first < vertices;) {
+        const std::uint32_t joint = model_.rigid_mover(pool, static_cast<std::uint32_t>(first));
+        std::size_t end = first + 1;
+        if (model_.has_one_mover(pool)) end = vertices;
+        while (end < vertices && model_.rigid_mover(pool, static_cast<std::uint32_t>(end)) == joint) ++end;
+        if (joint == kNone) {
+            run(copy_block, staging, wanted, first, end - first);
+        } else {
+            pose_.palette_.front() = to_rows(pose_.exact_model_space_[joint]);
+            run(is_finite(std::span(pose_.palette_).first(1)) ? chosen : skin_plain, staging, wanted, first,
+                end - first);
+        }
+        first = end;
+    }
+}
+
+bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std::uint64_t at, const VertexBuffer& out) {
+    assert(pool_number < model_.pools().size());
+    const Pool& pool = model_.pools()[pool_number];
+    if (vertices == 0) return true;
+    if (pose_.is_stale()) local_to_model(pose_);
+
+    SkinBlock wanted{};
+    wanted.vertices = vertices;
+    wanted.palette = pose_.palette_.data();
+    wanted.out_positions = output_at(out.positions, at);
+    wanted.out_normals = output_at(out.normals, at);
+    wanted.out_tangents = output_at(out.tangents, at);
+    wanted.streams = vertices >= kManyVertices;
+    const auto weights =
+        std::span(pose_.target_weights_).subspan(model_.first_target(pool_number), pool.targets.size());
+    if (pool.is_rigid()) {
+        Staging staging(pool, nullptr, weights, wanted);
+        skin_rigid(pool_number, staging, wanted);
+        return true;
+    }
+    // Lanes multiply by weights that are zero, too.
+    const Kernel chosen = make_palette(pool_number) ? kernel() : Kernel::plain;
+    Staging staging(pool, chosen == Kernel::avx2 ? &model_.plan(pool_number) : nullptr, weights, wanted);
+    run(skin_kernel(chosen), staging, wanted, 0, vertices);
     return true;
 }
 
-template <class Count>
-bool Skinning::skin_all(const Model& model, Pose& pose, const Count& vertices_of, const Vertices& out) {
-    const auto fits = [&](const auto& span) { return span.empty() || span.size() >= model.vertex_count(); };
-    if (!fits(out.positions) || !fits(out.normals) || !fits(out.tangents)) return false;
-    const auto part = [](const auto& span, std::uint64_t first, std::uint64_t count) {
-        return span.empty() ? span : span.subspan(first, count);
-    };
-    for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) {
-        const std::uint64_t first = model.first_vertex(pool);
-        const std::uint32_t count = vertices_of(pool);
-        if (count == 0) continue;
-        skin_pool(
-            model, pool, pose, count,
-            {part(out.positions, first, count), part(out.normals, first, count), part(out.tangents, first, count)});
-    }
-    return true;
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const VertexBuffer& out) {
+    const std::uint32_t vertices = model.pools()[pool].vertices;
+    return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
+}
+
+bool skin_into(const Model& model, Pose& pose, const VertexBuffer& out) {
+    return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return model.pools()[pool].vertices; }, out);
+}
+
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const VertexBuffer& out) {
+    const std::uint32_t vertices = lod.vertices(pool);
+    return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
+}
+
+bool skin_into(const Model& model, Pose& pose, const Lod& lod, const VertexBuffer& out) {
+    return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return lod.vertices(pool); }, out);
 }
 
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out) {
-    return Skinning::skin_pool(model, pool, pose, model.pools()[pool].vertices, out);
+    return skin_into(model, pool, pose, as_buffer(out));
 }
 
 bool skin(const Model& model, Pose& pose, const Vertices& out) {
-    return Skinning::skin_all(
-        model, pose, [&](std::uint32_t pool) { return model.pools()[pool].vertices; }, out);
+    return skin_into(model, pose, as_buffer(out));
 }
 
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out) {
-    return Skinning::skin_pool(model, pool, pose, lod.vertices(pool), out);
+    return skin_into(model, pool, pose, lod, as_buffer(out));
 }
 
 bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out) {
-    return Skinning::skin_all(
-        model, pose, [&](std::uint32_t pool) { return lod.vertices(pool); }, out);
+    return skin_into(model, pose, lod, as_buffer(out));
 }
 
 }  // namespace bendy

@@ -6,6 +6,7 @@
 
 #include "format/edit_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +55,7 @@ struct PoolSpec {
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
     std::vector<std::uint32_t> indices;
-    std::vector<Node> more;  ///< BONE, WGHT, PALT, TARG
+    std::vector<Node> more;  ///< BONE, WGHT, PALT, TARG; POSI instead of `positions`
 };
 
 struct ModelSpec {
@@ -96,7 +97,9 @@ inline Node pool_node(const PoolSpec& pool) {
     Node node = make_container(FourCC("VECT"));
     const PoolRecord info{static_cast<std::uint32_t>(pool.positions.size()), pool.joint};
     node.children.push_back(make_leaf(FourCC("VINF"), bytes_of(info)));
-    if (!pool.positions.empty()) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
+    const bool has_own =
+        std::any_of(pool.more.begin(), pool.more.end(), [](const Node& more) { return more.id == FourCC("POSI"); });
+    if (!pool.positions.empty() && !has_own) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
     if (!pool.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), pool.normals));
     if (!pool.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), pool.tangents));
     if (!pool.indices.empty())

@@ -1,8 +1,16 @@
 #include <bendy/runtime/local_to_model.h>
 
+#include <bendy/runtime/kernels.h>
+#include <bendy/runtime/skin.h>
+
 #include "runtime/build_model.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
 
 namespace bendy {
 namespace {
@@ -95,6 +103,108 @@ TEST(LocalToModel, ALeafOfADeepChainComesBackToItsParent) {
     local_to_model(pose);
     EXPECT_NEAR(place(pose, kDeep / 2 - 1).x, kDeep / 2 * double{0.7f}, 1e-3);
     EXPECT_NEAR(place(pose, kDeep - 1).x, 0.0, 1e-6);
+}
+
+/// Joints at random, each under one before it or under none, turned, scaled and mirrored.
+test::ModelSpec random_joints(std::uint32_t count, float shear) {
+    std::mt19937 random(count);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    test::ModelSpec spec;
+    std::vector<std::uint32_t> open;  // pre-order: a parent is the last joint or above it
+    for (std::uint32_t joint = 0; joint < count; ++joint) {
+        while (!open.empty() && random() % 3 == 0) open.pop_back();
+        test::JointSpec made;
+        made.parent = open.empty() ? kNone : open.back();
+        const glm::quat q = glm::normalize(glm::quat(number(random), number(random), number(random), 0.5f));
+        made.rest.rotation = {q.x, q.y, q.z, q.w};
+        made.rest.translation = {number(random), 1000.0f * number(random), number(random)};
+        made.rest.scale = {1.0f + 0.1f * number(random), -1.0f + 0.1f * number(random), 1.0f};
+        made.rest.shear = {shear, 0.0f, -shear};
+        spec.joints.push_back(made);
+        open.push_back(joint);
+    }
+    return spec;
+}
+
+TEST(LocalToModel, AllKernelsAgree) {
+    const Kernel before = kernel();
+    for (const float shear : {0.0f, 0.25f}) {
+        for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 50u, 203u}) {
+            const Owned model(test::build_file(random_joints(count, shear)));
+            EXPECT_EQ(model->is_sheared(), shear != 0.0f);
+            ASSERT_TRUE(set_kernel(Kernel::plain));
+            const Pose expected(*model);
+            for (const Kernel each : kernels()) {
+                ASSERT_TRUE(set_kernel(each));
+                const Pose found(*model);
+                for (std::uint32_t joint = 0; joint < count; ++joint) {
+                    for (int c = 0; c < 4; ++c) {
+                        for (int r = 0; r < 4; ++r) {
+                            const float should = expected.model_space()[joint][c][r];
+                            // One unit in the last place of a float, of the longest sum on the way.
+                            EXPECT_NEAR(found.model_space()[joint][c][r], should, 1.3e-7f * std::abs(should) + 1e-9f)
+                                << kernel_name(each) << ", joint " << joint;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+TEST(LocalToModel, LargeTranslationsCancelInThePaletteWithAllKernels) {
+    // A character a thousand kilometres from its origin, its bind matrices as exact as floats are.
+    test::ModelSpec spec;
+    spec.joints.resize(2);
+    spec.joints[0].rest = test::moved(1e6f, 0, -2e6f);
+    spec.joints[1].parent = 0;
+    spec.joints[1].rest = test::turned(30, 2);
+    glm::mat4 bind(1.0f);
+    bind[3] = glm::vec4(-1e6f, 0.0f, 2e6f, 1.0f);
+    spec.pools.resize(1);
+    spec.pools[0].positions = {{0.125f, 0.25f, 0.5f}};
+    spec.pools[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, {0, 1})),
+                          test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, {1.0f, 0.0f})),
+                          test::palette_leaf({0, 1}, {bind, bind})};
+    const Owned model(test::build_file(spec));
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        Pose pose(*model);
+        std::vector<glm::vec3> positions(1);
+        ASSERT_TRUE(skin(*model, pose, Vertices{positions, {}, {}}));
+        EXPECT_EQ(positions[0], glm::vec3(0.125f, 0.25f, 0.5f)) << kernel_name(each);
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+TEST(LocalToModel, BonesThatAreNotFiniteDoNotHarmVerticesWithoutThem) {
+    test::ModelSpec spec;
+    spec.joints.resize(2);
+    glm::mat4 bad(1.0f);
+    bad[1][1] = std::numeric_limits<float>::infinity();
+    spec.pools.resize(1);
+    std::vector<std::uint8_t> bones;
+    std::vector<float> weights;
+    for (int v = 0; v < 21; ++v) {
+        spec.pools[0].positions.emplace_back(1, 2, v);
+        bones.insert(bones.end(), {0, 1});
+        weights.insert(weights.end(), {1.0f, 0.0f});
+    }
+    spec.pools[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
+                          test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, weights)),
+                          test::palette_leaf({0, 1}, {glm::mat4(1.0f), bad})};
+    const Owned model(test::build_file(spec));
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        Pose pose(*model);
+        std::vector<glm::vec3> positions(21);
+        ASSERT_TRUE(skin(*model, pose, Vertices{positions, {}, {}}));
+        EXPECT_EQ(positions, spec.pools[0].positions) << kernel_name(each);
+    }
+    EXPECT_TRUE(set_kernel(before));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ using Cycle = CycleView;
 using Pool = PoolView;
 using Material = MaterialView;
 using Texture = TextureView;
+
+struct SkinPlan;
 
 struct Joint {
     std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
@@ -69,6 +72,10 @@ public:
 
     [[nodiscard]] std::string_view name() const { return data_->object.name; }
     [[nodiscard]] std::span<const Joint> joints() const { return data_->joints; }
+    /// The joints' parents alone: less memory to walk through.
+    [[nodiscard]] std::span<const std::uint32_t> parents() const { return data_->parents; }
+    /// Whether some joint has shear.
+    [[nodiscard]] bool is_sheared() const { return data_->is_sheared; }
     [[nodiscard]] std::span<const Pool> pools() const { return data_->object.pools; }
     [[nodiscard]] std::span<const Cycle> cycles() const { return data_->object.cycles; }
     [[nodiscard]] std::span<const Material> materials() const { return data_->document.materials; }
@@ -111,8 +118,13 @@ public:
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
     /// How a packed cycle is played; null if it is not packed, or of another model.
     [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
+    /// Whether that is the same for all vertices of the pool.
+    [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
 
 private:
+    friend class Pose;
+    friend class Skinning;
+
     struct RigidMovers {
         std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
         std::vector<std::uint32_t> per_vertex;  // only for a pool with polygons of other joints
@@ -128,6 +140,8 @@ private:
         ObjectView object;
         std::vector<Joint> joints;
         std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
+        std::vector<std::uint32_t> parents;    // as joints
+        bool is_sheared = false;
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
         std::vector<std::uint32_t> first_target;  // one more than pools
@@ -139,15 +153,24 @@ private:
         std::vector<std::uint32_t> chain_order;
         std::vector<PullView> weights;  // by chain, then joint
         std::uint32_t longest_chain = 0;
+        mutable std::once_flag plans_made;
+        mutable std::vector<SkinPlan> plans;  // one per pool, from the first Pose on
     };
 
-    explicit Model(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+    struct DeleteData {
+        void operator()(const Data* data) const;  // where SkinPlan is known
+    };
+    explicit Model(const Data* data) : data_(data) {}
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
     static void plan_cycles(Data& data);
+    /// What skinning needs beside the file's own streams: made once, before it is asked for.
+    void make_plans() const;
+    [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
-    std::unique_ptr<const Data> data_;  // behind a pointer, so that views into it survive a move of the Model
+    // Behind a pointer, so that views into it survive a move of the Model.
+    std::unique_ptr<const Data, DeleteData> data_;
 };
 
 }  // namespace bendy

@@ -2,6 +2,7 @@
 
 #include <bendy/runtime/ik_link.h>
 #include <bendy/runtime/model.h>
+#include <bendy/runtime/palette_matrix.h>
 
 #include <glm/mat4x4.hpp>
 
@@ -44,8 +45,8 @@ private:
     std::vector<glm::mat4> model_space_;
     std::vector<glm::dmat4> exact_model_space_;  // so that rounding does not add up along deep chains
     std::vector<float> target_weights_;
-    std::vector<IkLink> ik_links_;    // of the chain that reaches
-    std::vector<glm::mat4> palette_;  // of the pool that is being skinned
+    std::vector<IkLink> ik_links_;        // of the chain that reaches
+    std::vector<PaletteMatrix> palette_;  // of the pool that is being skinned; never empty
     bool is_stale_ = true;
 };
 

@@ -14,6 +14,11 @@ namespace bendy {
 /// if a span that is not empty is shorter than the pool.
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out);
 
+/// Into memory of any layout. False, and nothing written, if a span that is not empty is too short or a stride too
+/// small.
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const VertexBuffer& out);
+bool skin_into(const Model& model, Pose& pose, const VertexBuffer& out);
+
 /// The same for all pools, pool after pool (Model::first_vertex); spans hold Model::vertex_count() or are empty.
 bool skin(const Model& model, Pose& pose, const Vertices& out);
 
@@ -21,5 +26,7 @@ bool skin(const Model& model, Pose& pose, const Vertices& out);
 /// Lod::vertices, the others are left as they are. Costs as much less as there are fewer of them.
 bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out);
 bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out);
+bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const VertexBuffer& out);
+bool skin_into(const Model& model, Pose& pose, const Lod& lod, const VertexBuffer& out);
 
 }  // namespace bendy

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+// The ways in which this program can do the bulk of its arithmetic: see skin.
+namespace bendy {
+
+enum class Kernel : std::uint8_t {
+    plain,  ///< one number at a time; every other one is held against it
+    sse4,   ///< four lanes, SSE 4.1
+    avx2,   ///< eight lanes, AVX2 and FMA
+    neon,   ///< four lanes, 64-bit ARM
+    wasm,   ///< four lanes, WebAssembly SIMD
+};
+
+/// Those that this program holds and this machine can run, the quickest first; plain is the last.
+std::span<const Kernel> kernels();
+
+/// "plain", "sse4", ...
+std::string_view kernel_name(Kernel kernel);
+
+/// The one in use: the quickest, unless the environment variable BENDY_KERNEL named another one of kernels() when this
+/// was first asked, or set_kernel has changed it.
+Kernel kernel();
+
+/// From now on, in every thread. False, and nothing changes, if it is not one of kernels().
+bool set_kernel(Kernel kernel);
+
+}  // namespace bendy

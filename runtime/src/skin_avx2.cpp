@@ -1,0 +1,38 @@
+#include "skin_block.h"
+
+#if defined(__AVX2__)
+
+#include <immintrin.h>
+
+#define BENDY_LANES 8
+
+// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
+namespace bendy {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+using Lanes = float __attribute__((vector_size(32)));
+using Quad = float __attribute__((vector_size(16)));
+
+inline Lanes roots_of(Lanes squares) {
+    return _mm256_sqrt_ps(squares);
+}
+inline void stream(float* to, Quad quad) {
+    _mm_stream_ps(to, quad);
+}
+inline void end_streams() {
+    _mm_sfence();
+}
+
+#include "skin_lanes.h"
+
+}  // namespace
+
+void skin_avx2(const SkinBlock& block) {
+    skin_lanes(block);
+}
+
+}  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics)
+
+#endif

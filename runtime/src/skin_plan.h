@@ -1,0 +1,34 @@
+#pragma once
+
+#include <bendy/format/pool.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bendy {
+
+/// A pool's influences as kernels want them. Vertices that lie near each other follow much the same bones, so for each
+/// group of eight there is a list of the bones that any of them follows, each with eight weights: a matrix then is read
+/// once for eight vertices. Groups of too many bones have no list.
+struct SkinPlan {
+    static constexpr std::size_t kGroup = 8;
+    static constexpr std::size_t kMostBones = 8;  // from there on eight vertices cost as much one by one
+
+    struct alignas(32) Weights {
+        float of[kGroup];  // NOLINT(modernize-avoid-c-arrays): kernels read it
+    };
+
+    std::vector<std::uint32_t> first;      ///< in bones, of each group; one more than groups. Empty: no plan
+    std::vector<std::uint16_t> bones;      ///< into the palette
+    std::vector<Weights> weights;          ///< as bones
+    std::vector<glm::dmat4> inverse_bind;  ///< as the pool's palette
+    bool is_complete = false;              ///< every group has a list
+};
+
+/// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex, and 128 a palette entry.
+SkinPlan make_skin_plan(const PoolView& pool);
+
+}  // namespace bendy

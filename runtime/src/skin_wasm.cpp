@@ -1,0 +1,36 @@
+#include "skin_block.h"
+
+#if defined(__wasm_simd128__)
+
+#include <wasm_simd128.h>
+
+#define BENDY_LANES 4
+
+// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
+namespace bendy {
+namespace {
+
+constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(16)));
+using Quad = Lanes;
+
+inline Lanes roots_of(Lanes squares) {
+    return reinterpret_cast<Lanes>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(squares)));
+}
+inline void stream(float* to, Quad quad) {
+    __builtin_memcpy(to, &quad, sizeof quad);
+}
+inline void end_streams() {}
+
+#include "skin_lanes.h"
+
+}  // namespace
+
+void skin_wasm(const SkinBlock& block) {
+    skin_lanes(block);
+}
+
+}  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics)
+
+#endif

@@ -1,0 +1,513 @@
+#include <bendy/runtime/kernels.h>
+#include <bendy/runtime/skin.h>
+
+#include "runtime/build_model.h"
+#include "skin_kernel.h"
+#include "skin_plan.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+using test::Buffer;
+
+constexpr float kUntouched = -77.0f;
+constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
+
+/// Numbers that begin at no better boundary than their own, in memory that ends where they do.
+struct Unaligned {
+    explicit Unaligned(std::size_t count, float value = 0.0f) : memory(count + 1, value) {}
+    float* data() { return memory.data() + 1; }
+    std::vector<float> memory;
+};
+
+/// Vertices of `influences` bones at random.
+struct RandomBlock {
+    RandomBlock(std::size_t vertices, std::size_t influences, unsigned seed)
+        : positions(3 * vertices),
+          normals(3 * vertices),
+          tangents(4 * vertices),
+          weights(influences * vertices),
+          bones8(influences * vertices),
+          bones16(influences * vertices),
+          palette(40) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+        for (PaletteMatrix& entry : palette) {
+            const glm::quat turn = glm::normalize(glm::quat(number(random), number(random), number(random), 0.1f));
+            glm::mat3 m = glm::mat3_cast(turn);
+            for (int c = 0; c < 3; ++c) m[c] *= 1.0f + 0.5f * number(random);
+            if (seed % 2 == 1) m[0] = -m[0];  // mirrored
+            for (int row = 0; row < 3; ++row) {
+                for (int column = 0; column < 3; ++column) entry.rows[row][column] = m[column][row];
+                entry.rows[row][3] = 3.0f * number(random);
+            }
+        }
+        for (std::size_t v = 0; v < vertices; ++v) {
+            for (int c = 0; c < 3; ++c) positions.data()[3 * v + static_cast<std::size_t>(c)] = number(random);
+            for (int c = 0; c < 3; ++c) normals.data()[3 * v + static_cast<std::size_t>(c)] = number(random);
+            for (int c = 0; c < 3; ++c) tangents.data()[4 * v + static_cast<std::size_t>(c)] = number(random);
+            tangents.data()[4 * v + 3] = v % 3 == 0 ? -1.0f : 1.0f;
+            float sum = 0.0f;
+            const std::size_t used = random() % influences + 1;
+            for (std::size_t k = 0; k < influences; ++k) {
+                const std::size_t at = v * influences + k;
+                // Near joints, so that what is blended has a volume.
+                bones16[at] = bones8[at] =
+                    static_cast<std::uint8_t>(k == 0 ? random() % palette.size() : bones8[at - 1]);
+                if (k % 2 == 1) bones16[at] = bones8[at] = static_cast<std::uint8_t>(random() % palette.size());
+                const bool is_zero = k >= used || random() % 8 == 0;
+                sum += weights.data()[at] = is_zero ? 0.0f : std::abs(number(random));
+            }
+            if (sum > 0.0f) {
+                for (std::size_t k = 0; k < influences; ++k) weights.data()[v * influences + k] /= sum;
+            }
+        }
+        block.vertices = vertices;
+        block.influences = influences;
+        block.palette = palette.data();
+        block.positions = positions.data();
+        block.normals = normals.data();
+        block.tangents = tangents.data();
+        block.weights = weights.data();
+        block.bones8 = bones8.data();
+    }
+
+    Unaligned positions, normals, tangents, weights;
+    std::vector<std::uint8_t> bones8;
+    std::vector<std::uint16_t> bones16;
+    std::vector<PaletteMatrix> palette;
+    SkinBlock block{};
+};
+
+struct Output {
+    Output(SkinBlock& block, std::size_t position_stride, std::size_t normal_stride, std::size_t tangent_stride)
+        : positions(block.vertices * position_stride, kUntouched),
+          normals(block.vertices * normal_stride, kUntouched),
+          tangents(block.vertices * tangent_stride, kUntouched) {
+        block.out_positions = {position_stride == 0 ? nullptr : positions.data(), position_stride};
+        block.out_normals = {normal_stride == 0 ? nullptr : normals.data(), normal_stride};
+        block.out_tangents = {tangent_stride == 0 ? nullptr : tangents.data(), tangent_stride};
+    }
+    Unaligned positions, normals, tangents;
+};
+
+/// The blended linear part's volume against what it could be at most: how much of the cofactors cancels.
+double flatness(const RandomBlock& random, std::size_t vertex) {
+    const SkinBlock& b = random.block;
+    glm::dmat3 m(0.0);
+    for (std::size_t k = 0; k < b.influences; ++k) {
+        const std::size_t at = vertex * b.influences + k;
+        for (int row = 0; row < 3; ++row) {
+            for (int c = 0; c < 3; ++c)
+                m[c][row] += double{b.weights[at]} * random.palette[random.bones8[at]].rows[row][c];
+        }
+    }
+    return std::abs(glm::determinant(m));
+}
+
+void expect_same(Unaligned& found, Unaligned& expected, std::size_t vertex, std::size_t stride, std::size_t numbers,
+                 double tolerance, const std::string& what) {
+    for (std::size_t c = 0; c < stride; ++c) {
+        const float is = found.data()[vertex * stride + c];
+        const float should = expected.data()[vertex * stride + c];
+        if (c >= numbers) {
+            EXPECT_EQ(is, kUntouched) << what;
+        } else {
+            EXPECT_NEAR(is, should, tolerance) << what << ", vertex " << vertex << ", number " << c;
+        }
+    }
+}
+
+void compare(RandomBlock& random, Kernel kernel, std::size_t positions, std::size_t normals, std::size_t tangents) {
+    SkinBlock plain = random.block;
+    Output expected(plain, positions, normals, tangents);
+    skin_plain(plain);
+    SkinBlock block = random.block;
+    Output found(block, positions, normals, tangents);
+    skin_kernel(kernel)(block);
+    const std::string what = std::string(kernel_name(kernel)) + ", " + std::to_string(block.vertices) +
+                             " vertices of " + std::to_string(block.influences);
+    for (std::size_t v = 0; v < block.vertices; ++v) {
+        // A row times a vector of the cube, and the translation: at most 1.5 * sqrt(3) * sqrt(3) + 3.
+        expect_same(found.positions, expected.positions, v, positions, 3, 8 * 7.5 * kEpsilon, what + ", positions");
+        const bool is_rigid = block.bones8 == nullptr && block.bones16 == nullptr;
+        const double volume = is_rigid ? 0.1 : flatness(random, v);
+        if (volume < 1e-2) continue;  // what is left of the cofactors is rounding
+        expect_same(found.normals, expected.normals, v, normals, 3, 32 * kEpsilon / volume, what + ", normals");
+        expect_same(found.tangents, expected.tangents, v, tangents, 4, 32 * kEpsilon / volume, what + ", tangents");
+    }
+    EXPECT_EQ(found.positions.memory.front(), kUntouched);
+}
+
+TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
+    for (const Kernel kernel : kernels()) {
+        for (const std::size_t vertices : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 15u, 16u, 17u, 31u, 64u, 101u}) {
+            for (std::size_t influences = 1; influences <= 10; ++influences) {
+                RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
+                compare(random, kernel, 3, 3, 4);
+            }
+        }
+    }
+}
+
+TEST(SkinKernels, WideBonesAndOneMatrix) {
+    for (const Kernel kernel : kernels()) {
+        for (const std::size_t influences : {1u, 3u, 4u, 8u, 9u}) {
+            RandomBlock random(45, influences, 7);
+            random.block.bones8 = nullptr;
+            random.block.bones16 = random.bones16.data();
+            compare(random, kernel, 3, 3, 4);
+            random.block.bones16 = nullptr;
+            random.block.weights = nullptr;
+            compare(random, kernel, 3, 3, 4);
+        }
+    }
+}
+
+TEST(SkinKernels, AnyStrideAndAnySubset) {
+    for (const Kernel kernel : kernels()) {
+        for (const std::size_t positions : {0u, 3u, 4u, 5u, 12u}) {
+            for (const std::size_t normals : {0u, 3u, 4u, 11u}) {
+                for (const std::size_t tangents : {0u, 4u, 5u, 9u}) {
+                    RandomBlock random(29, 4, 11);
+                    if (positions == 0) random.block.positions = nullptr;
+                    if (normals == 0) random.block.normals = nullptr;
+                    if (tangents == 0) random.block.tangents = nullptr;
+                    compare(random, kernel, positions, normals, tangents);
+                }
+            }
+        }
+    }
+}
+
+/// The block's lists as a pool, for make_skin_plan.
+Pool as_pool(const RandomBlock& random) {
+    const auto stream = [&](ComponentType type, Bytes data) {
+        StreamView view;
+        view.type = type;
+        view.components = static_cast<std::uint32_t>(random.block.influences);
+        view.elements = static_cast<std::uint32_t>(random.block.vertices);
+        view.data = data;
+        return view;
+    };
+    Pool pool;
+    pool.vertices = static_cast<std::uint32_t>(random.block.vertices);
+    pool.bones = stream(ComponentType::u8, std::as_bytes(std::span(random.bones8)));
+    pool.weights = stream(ComponentType::f32, std::as_bytes(std::span(random.weights.memory).subspan(1)));
+    return pool;
+}
+
+TEST(SkinKernels, SharedBonesGiveTheSame) {
+    for (const Kernel kernel : kernels()) {
+        for (const std::size_t vertices : {1u, 5u, 8u, 9u, 40u, 133u}) {
+            for (const std::size_t influences : {1u, 2u, 4u, 8u}) {
+                RandomBlock random(vertices, influences, static_cast<unsigned>(vertices + influences));
+                // By turns groups that share six bones, one bone, and too many for a list.
+                for (std::size_t at = 0; at < random.bones8.size(); ++at) {
+                    const std::size_t group = at / influences / 8;
+                    if (group % 3 != 2)
+                        random.bones8[at] = static_cast<std::uint8_t>(random.bones8[at] % (group % 3 == 0 ? 6 : 1));
+                    random.bones16[at] = random.bones8[at];
+                }
+                const SkinPlan plan = make_skin_plan(as_pool(random));
+                ASSERT_EQ(plan.first.size(), (vertices + 7) / 8 + 1);
+                ASSERT_EQ(plan.bones.size(), plan.weights.size());
+                EXPECT_EQ(plan.first.back(), plan.bones.size());
+                random.block.plan_first = plan.first.data();
+                random.block.plan_bones = plan.bones.data();
+                random.block.plan_weights = plan.weights.empty() ? nullptr : plan.weights.front().of;
+                compare(random, kernel, 3, 3, 4);
+                compare(random, kernel, 5, 0, 0);
+                random.block.bones16 = random.bones16.data();
+                random.block.bones8 = nullptr;
+                compare(random, kernel, 3, 3, 0);
+            }
+        }
+    }
+}
+
+TEST(SkinPlan, ListsWhatAGroupFollows) {
+    RandomBlock random(19, 2, 1);
+    for (std::size_t v = 0; v < 19; ++v) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            random.weights.data()[2 * v + k] = v < 8 ? static_cast<float>(k) : 0.5f;
+            random.bones8[2 * v + k] = static_cast<std::uint8_t>(v < 8 ? 3 + k : v < 16 ? 2 * v + k : 7);
+        }
+    }
+    const SkinPlan plan = make_skin_plan(as_pool(random));
+    EXPECT_EQ(plan.first, (std::vector<std::uint32_t>{0, 1, 1, 2}));  // bone 4 alone; sixteen; 7 twice
+    EXPECT_EQ(plan.bones, (std::vector<std::uint16_t>{4, 7}));
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+        EXPECT_EQ(plan.weights[0].of[lane], 1.0f);
+        EXPECT_EQ(plan.weights[1].of[lane], lane < 3 ? 1.0f : 0.0f);
+    }
+    EXPECT_FALSE(plan.is_complete);
+    EXPECT_TRUE(make_skin_plan(Pool{}).first.empty());
+}
+
+TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
+    for (const Kernel kernel : kernels()) {
+        RandomBlock random(77, 4, 3);
+        std::vector<glm::vec4> near(77), past(77);  // aligned
+        for (auto* out : {&near, &past}) {
+            SkinBlock block = random.block;
+            block.streams = out == &past;
+            block.out_positions = {&out->front().x, 3};
+            skin_kernel(kernel)(block);
+        }
+        EXPECT_EQ(near, past);
+    }
+}
+
+TEST(SkinKernels, DirectionsWithoutLengthStayZero) {
+    for (const Kernel kernel : kernels()) {
+        RandomBlock random(24, 4, 5);
+        for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
+        for (std::size_t k = 0; k < 4 * 24; ++k) random.tangents.data()[k] = 0.0f;
+        Output out(random.block, 0, 3, 4);
+        skin_kernel(kernel)(random.block);
+        for (std::size_t k = 0; k < 3 * 24; ++k) EXPECT_EQ(out.normals.data()[k], 0.0f);
+        for (std::size_t k = 0; k < 4 * 24; ++k) EXPECT_EQ(out.tangents.data()[k], 0.0f);
+    }
+}
+
+TEST(Kernels, OneIsChosenAndOthersCanBeForced) {
+    const Kernel first = kernel();
+    ASSERT_FALSE(kernels().empty());
+    EXPECT_EQ(kernels().back(), Kernel::plain);
+    for (const Kernel each : kernels()) {
+        EXPECT_TRUE(set_kernel(each));
+        EXPECT_EQ(kernel(), each);
+        EXPECT_FALSE(kernel_name(each).empty());
+    }
+    const bool has_neon = std::find(kernels().begin(), kernels().end(), Kernel::neon) != kernels().end();
+    const Kernel foreign = has_neon ? Kernel::avx2 : Kernel::neon;
+    EXPECT_FALSE(set_kernel(foreign));
+    EXPECT_EQ(kernel(), Kernel::plain);
+    EXPECT_TRUE(set_kernel(first));
+}
+
+// --- every kind of stream, through a model
+
+/// One component type of weights; `box` instead of normalising.
+template <class Weight>
+test::Node weights_leaf(std::uint16_t influences, const std::vector<Weight>& weights) {
+    return test::make_leaf(FourCC("WGHT"),
+                           test::stream_payload<Weight>(influences, weights, !std::is_same_v<Weight, float>));
+}
+
+/// Integers that stand for minimum + step * integer.
+template <class T>
+test::Node boxed_leaf(FourCC id, const std::vector<T>& numbers, const std::vector<StreamBox>& boxes) {
+    Buffer payload = test::stream_payload<T>(static_cast<std::uint16_t>(boxes.size()), numbers);
+    StreamRecord record;
+    std::memcpy(&record, payload.data(), sizeof record);
+    record.normalised = static_cast<std::uint8_t>(Numbers::boxed);
+    std::memcpy(payload.data(), &record, sizeof record);
+    Buffer between(padded(boxes.size() * sizeof(StreamBox)));
+    std::memcpy(between.data(), boxes.data(), boxes.size() * sizeof(StreamBox));
+    payload.insert(payload.begin() + sizeof record, between.begin(), between.end());
+    return test::make_leaf(id, payload);
+}
+
+/// Makes a pool's streams narrow: boxed positions and weights, directions on the octahedron.
+void narrow(test::PoolSpec& pool) {
+    std::vector<std::uint16_t> positions;
+    std::vector<std::int8_t> normals;
+    std::vector<std::int16_t> tangents;
+    for (std::size_t v = 0; v < pool.positions.size(); ++v) {
+        for (int c = 0; c < 3; ++c) positions.push_back(static_cast<std::uint16_t>((pool.positions[v][c] + 1) * 20000));
+        for (int c = 0; c < 2; ++c) normals.push_back(static_cast<std::int8_t>(pool.normals[v][c] * 100));
+        for (int c = 0; c < 2; ++c) tangents.push_back(static_cast<std::int16_t>(pool.tangents[v][c] * 30000));
+        tangents.push_back(v % 2 == 0 ? 32767 : -32767);
+    }
+    const std::vector<std::uint8_t> weights = [&] {
+        std::vector<std::uint8_t> four;
+        for (std::size_t v = 0; v < pool.positions.size(); ++v) four.insert(four.end(), {0, 64, 128, 64});
+        return four;
+    }();
+    std::erase_if(pool.more, [](const test::Node& node) { return node.id == FourCC("WGHT"); });
+    pool.more.push_back(boxed_leaf<std::uint16_t>(FourCC("POSI"), positions, {{-1, 5e-5f}, {-1, 5e-5f}, {-1, 5e-5f}}));
+    pool.more.push_back(test::make_leaf(FourCC("NORM"), test::stream_payload<std::int8_t>(2, normals, true)));
+    pool.more.push_back(test::make_leaf(FourCC("TANG"), test::stream_payload<std::int16_t>(3, tangents, true)));
+    pool.more.push_back(boxed_leaf<std::uint8_t>(
+        FourCC("WGHT"), weights, {{0.0f, 0.1f}, {0.0f, 1 / 256.0f}, {0.0f, 1 / 256.0f}, {0.0f, 1 / 256.0f}}));
+    pool.normals.clear();
+    pool.tangents.clear();
+}
+
+/// 300 vertices of four bones, in a form of each stream; with targets, dense and sparse.
+template <class Bone, class Weight>
+Buffer file_of(bool has_targets, bool is_narrow = false) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    const auto vector = [&] { return glm::vec3(number(random), number(random), number(random)); };
+    test::ModelSpec spec;
+    spec.joints.resize(20);
+    std::vector<std::uint32_t> joints;
+    std::vector<glm::mat4> bind;
+    for (std::uint32_t joint = 0; joint < 20; ++joint) {
+        if (joint > 0) spec.joints[joint].parent = joint - 1;
+        spec.joints[joint].rest.translation = {number(random), number(random), number(random)};
+        const glm::quat q = glm::normalize(glm::quat(1.0f, 0.3f * vector()));
+        spec.joints[joint].rest.rotation = {q.x, q.y, q.z, q.w};
+        joints.push_back(19 - joint);
+        bind.push_back(glm::mat4(1.0f));
+        bind.back()[3] = glm::vec4(vector(), 1.0f);
+    }
+    spec.pools.resize(1);
+    test::PoolSpec& pool = spec.pools[0];
+    std::vector<Bone> bones;
+    std::vector<Weight> weights;
+    std::vector<float> shifts;
+    std::vector<std::uint32_t> touched;
+    for (std::uint32_t v = 0; v < 300; ++v) {
+        pool.positions.push_back(vector());
+        pool.normals.push_back(glm::normalize(vector()));
+        pool.tangents.push_back(glm::vec4(glm::normalize(vector()), 1.0f));
+        for (int k = 0; k < 4; ++k) {
+            bones.push_back(static_cast<Bone>(random() % 20));
+            constexpr float kOne = std::is_same_v<Weight, float> ? 1.0f : std::numeric_limits<Weight>::max();
+            weights.push_back(static_cast<Weight>((k == 0 ? 0.4f : 0.2f) * kOne));
+        }
+        if (v % 7 == 3) touched.push_back(v);
+    }
+    for (std::uint32_t k = 0; k < 900; ++k) shifts.push_back(number(random));
+    pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(4, bones)),
+                 weights_leaf<Weight>(4, weights), test::palette_leaf(joints, bind)};
+    if (has_targets) {
+        TargetRecord rest;
+        rest.rest_weight = 0.5f;
+        test::Node dense = test::make_container(FourCC("TARG"));
+        dense.children = {test::make_leaf(FourCC("TINF"), bytes_of(rest)),
+                          test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, shifts)),
+                          test::make_leaf(FourCC("NORM"), test::stream_payload<float>(3, shifts))};
+        shifts.resize(touched.size() * 3);
+        test::Node sparse = test::make_container(FourCC("TARG"));
+        sparse.children = {test::make_leaf(FourCC("TINF"), bytes_of(rest)),
+                           test::make_leaf(FourCC("INDX"), test::stream_payload<std::uint32_t>(1, touched)),
+                           test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, shifts)),
+                           test::make_leaf(FourCC("TANG"), test::stream_payload<float>(3, shifts))};
+        pool.more.push_back(dense);
+        pool.more.push_back(sparse);
+    }
+    if (is_narrow) narrow(pool);
+    return test::build_file(spec);
+}
+
+/// What skin() says it does, by the streams' own readers and in doubles.
+void expect_as_defined(const Buffer& file) {
+    const test::Owned model{Buffer(file)};
+    Pose pose(*model);
+    const Pool& pool = model->pools()[0];
+    std::vector<glm::vec3> base(pool.vertices), base_normals(pool.vertices);
+    std::vector<glm::vec4> base_tangents(pool.vertices);
+    ASSERT_TRUE(inbetween(pool, pose.target_weights(), {base, base_normals, base_tangents}));
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        std::vector<glm::vec3> positions(pool.vertices), normals(pool.vertices);
+        std::vector<glm::vec4> tangents(pool.vertices);
+        ASSERT_TRUE(skin(*model, pose, Vertices{positions, normals, tangents}));
+        for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+            glm::dmat4 matrix(0.0);
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const std::uint32_t bone = pool.bones->index(v, k);
+                matrix +=
+                    double{pool.weights->number(v, k)} * (glm::dmat4(pose.model_space()[pool.palette.joints[bone]]) *
+                                                          glm::dmat4(pool.palette.inverse_bind()[bone]));
+            }
+            const glm::dvec4 expected = matrix * glm::dvec4(base[v], 1.0);
+            const glm::dmat3 cofactors = glm::determinant(matrix) * glm::transpose(glm::inverse(glm::dmat3(matrix)));
+            const double volume = glm::determinant(glm::dmat3(matrix));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(positions[v][c], expected[c], 2e-5) << kernel_name(each);
+            if (std::abs(volume) < 1e-2) continue;
+            const glm::dvec3 normal =
+                (volume < 0.0 ? -1.0 : 1.0) * glm::normalize(cofactors * glm::dvec3(base_normals[v]));
+            const glm::dvec3 tangent = glm::normalize(glm::dmat3(matrix) * glm::dvec3(base_tangents[v]));
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(normals[v][c], (volume < 0.0 ? -1.0 : 1.0) * normal[c], 1e-4) << kernel_name(each);
+                EXPECT_NEAR(tangents[v][c], tangent[c], 1e-4) << kernel_name(each);
+            }
+            EXPECT_EQ(tangents[v].w, volume < 0.0 ? -base_tangents[v].w : base_tangents[v].w);
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+TEST(SkinStreams, BonesAndWeightsOfEveryType) {
+    expect_as_defined(file_of<std::uint8_t, float>(false));
+    expect_as_defined(file_of<std::uint16_t, float>(false));
+    expect_as_defined(file_of<std::uint8_t, std::uint8_t>(false));
+    expect_as_defined(file_of<std::uint16_t, std::uint16_t>(false));
+}
+
+TEST(SkinStreams, TargetsMoveBlockByBlock) {
+    expect_as_defined(file_of<std::uint8_t, float>(true));
+    expect_as_defined(file_of<std::uint16_t, std::uint16_t>(true));
+}
+
+TEST(SkinStreams, BoxesAndTheOctahedron) {
+    expect_as_defined(file_of<std::uint8_t, float>(false, true));
+    expect_as_defined(file_of<std::uint16_t, float>(true, true));
+}
+
+// --- the caller's layout
+
+TEST(SkinBuffer, InterleavedIsAsApart) {
+    const test::Owned model(file_of<std::uint8_t, float>(true));
+    Pose pose(*model);
+    const std::size_t count = model->vertex_count();
+    std::vector<glm::vec3> positions(count), normals(count);
+    std::vector<glm::vec4> tangents(count);
+    ASSERT_TRUE(skin(*model, pose, Vertices{positions, normals, tangents}));
+    std::vector<float> buffer(count * 13,
+                              kUntouched);  // position, 2 of the caller's, normal, tangent, 1 of the caller's
+    const auto from = [&](std::size_t at) { return StridedFloats{std::span(buffer).subspan(at), 13}; };
+    ASSERT_TRUE(skin_into(*model, pose, VertexBuffer{from(0), from(5), from(8)}));
+    for (std::size_t v = 0; v < count; ++v) {
+        const float* const vertex = &buffer[v * 13];
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(vertex[c], positions[v][c]);
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(vertex[5 + c], normals[v][c]);
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(vertex[8 + c], tangents[v][c]);
+        for (const int c : {3, 4, 12}) EXPECT_EQ(vertex[c], kUntouched);
+    }
+}
+
+TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
+    const test::Owned model(file_of<std::uint8_t, float>(false));
+    Pose pose(*model);
+    const std::size_t count = model->vertex_count();
+    std::vector<float> buffer(count * 8, kUntouched);
+    const auto attempt = [&](std::size_t size, std::size_t stride) {
+        const StridedFloats memory{std::span(buffer).first(size), stride};
+        return skin_into(*model, pose, VertexBuffer{memory, {}, {}}) ||
+               skin_into(*model, pose, VertexBuffer{{}, memory, {}}) ||
+               skin_into(*model, 0, pose, VertexBuffer{{}, {}, memory});
+    };
+    EXPECT_FALSE(attempt((count - 1) * 8 + 2, 8));
+    EXPECT_FALSE(attempt(count * 8, 2));
+    EXPECT_FALSE(attempt(count * 8, 0));
+    EXPECT_FALSE(attempt(count * 8, 9));
+    EXPECT_FALSE(attempt(count * 8, std::numeric_limits<std::size_t>::max() / 2));
+    EXPECT_FALSE(attempt(2, 8));
+    EXPECT_EQ(buffer, std::vector<float>(count * 8, kUntouched));
+    const StridedFloats exact{std::span(buffer).first((count - 1) * 8 + 3), 8};
+    EXPECT_TRUE(skin_into(*model, pose, VertexBuffer{exact, {}, {}}));
+}
+
+}  // namespace
+}  // namespace bendy
