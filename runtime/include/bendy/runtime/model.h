@@ -116,10 +116,10 @@ public:
     [[nodiscard]] std::uint32_t largest_palette() const { return data_->largest_palette; }
     /// The joint that moves a vertex of a rigid pool, or kNone.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
-    /// How a packed cycle is played; null if it is not packed, or of another model.
-    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
     /// Whether that is the same for all vertices of the pool.
     [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
+    /// How a packed cycle is played; null if it is not packed, or of another model.
+    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
 
 private:
     friend class Pose;
