@@ -54,20 +54,6 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-void dump(const Cycle& cycle, std::ofstream& out, std::size_t joints) {
-    Faults faults;
-    const auto view = read_packed(cycle.packed, static_cast<std::uint32_t>(joints), 0, faults);
-    if (!view) return;
-    const PackedSamples samples = packed_samples(*view);
-    out << "clip " << cycle.name << ' ' << samples.frames << ' ' << joints << '\n';
-    for (const PackedTrack& track : samples.tracks) {
-        out << int(track.path) << ' ' << track.joint << ' ' << track.components << ' ' << track.animated;
-        for (const auto step : track.steps) out << ' ' << int(step);
-        for (const auto number : track.numbers) out << ' ' << number;
-        out << '\n';
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,7 +61,6 @@ int main(int argc, char** argv) {
     double error = 1e-4;
     double unit = 1.0;
     Peers peers;
-    std::ofstream dumped;
     std::uint64_t source = 0;
     std::uint64_t memory = 0;
     std::uint64_t disk = 0;
@@ -92,8 +77,6 @@ int main(int argc, char** argv) {
             unit = std::atof(value());
         } else if (argument == "--peers") {
             peers.read(value());
-        } else if (argument == "--dump") {
-            dumped.open(value());
         } else {
             Report report;
             auto scene = import_gltf(argument, {}, report);
@@ -121,7 +104,6 @@ int main(int argc, char** argv) {
                             peers.number(row.name, "probe_disk_bytes"), seconds[number],
                             row.kept_bytes > 0 ? " (keys kept)" : "");
                 std::fflush(stdout);
-                if (dumped.is_open()) dump(scene->cycles[number], dumped, scene->joints.size());
                 ++number;
                 source += row.source_bytes;
                 memory += row.packed_bytes;

@@ -20,7 +20,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
     std::filesystem::path input;
     std::filesystem::path output;
     std::string scene;
@@ -97,7 +97,7 @@ void print_compact(const converter::CompactReport& report) {
     std::cout << '\n';
 }
 
-auto convert_with_bar(const Arguments& arguments, converter::ConvertOptions options, converter::Report& report) {
+auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptions options, converter::Report& report) {
     ProgressBar bar("compacting");
     std::uint64_t shown = 0;
     if (!arguments.quiet) {
@@ -109,7 +109,7 @@ auto convert_with_bar(const Arguments& arguments, converter::ConvertOptions opti
     return converter::convert(arguments.input, options, report);
 }
 
-void print_summary(const Arguments& arguments, Bytes bytes) {
+void print_summary(const ConvertArguments& arguments, Bytes bytes) {
     const Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(arguments.output, model.error(), bytes);
     std::uint64_t triangles = 0;
@@ -157,7 +157,7 @@ void print_summary(const Arguments& arguments, Bytes bytes) {
               << counted(model->textures().size(), "texture", "textures") << '\n';
 }
 
-void run(Arguments arguments) {
+void run(ConvertArguments arguments) {
     if (arguments.output.empty()) arguments.output = std::filesystem::path(arguments.input).replace_extension(".bendy");
     converter::ConvertOptions options;
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
@@ -188,7 +188,7 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_convert(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ConvertArguments>();
     CLI::App* command = program.add_subcommand(
         "convert", "Convert a glTF 2.0 character (.gltf, .glb), or a bendy file, to a bendy file");
     command->add_option("IN", arguments->input, "a .gltf, .glb or bendy file, told apart by content")->required();

@@ -150,21 +150,18 @@ std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
 }
 
 /// Where the joint is, what moves with it, what limits it, and whether the author left data on it.
-std::string joint_text(const ChunkTree& tree, std::uint32_t number) {
+std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    const std::uint32_t rest = pivot == kNone ? kNone : tree.find(pivot, FourCC("REST"));
-    if (rest != kNone) text.append("at ").append(brief(record_at<RestRecord>(tree, rest).translation));
+    if (const JointView* joint = rigs.joint_of(number)) text.append("at ").append(brief(joint->rest.translation));
     std::array<std::uint64_t, kTopologies> polygons{};
+    for (const PolygonView& range : rigs.polygons_of(number))
+        polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
     bool has_extras = false;
     bool has_extensions = false;
     for (const std::uint32_t child : tree.children(number)) {
         has_extras = has_extras || (tree[child].id == FourCC("EXTR") && tree[child].size != 0);
         has_extensions = has_extensions || (tree[child].id == FourCC("EXTN") && tree[child].size != 0);
-        if (!(tree[child].id == FourCC("POLY"))) continue;
-        const auto record = record_at<PolygonRecord>(tree, child);
-        if (record.topology < kTopologies)
-            polygons[record.topology] += record.count / corners(static_cast<Topology>(record.topology));
     }
     for (std::size_t topology = 0; topology < kTopologies; ++topology) {
         if (polygons[topology] != 0)
@@ -265,7 +262,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (record_of(chunk.id) == "StreamRecord") return stream_text(tree, number);
     if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
     if (chunk.id == FourCC("BNDS")) return bound_text(record_at<BoundRecord>(tree, number));
-    if (chunk.id == FourCC("SKIN")) return joint_text(tree, number);
+    if (chunk.id == FourCC("SKIN")) return joint_text(tree, number, rigs);
     if (chunk.id == FourCC("JNTS")) {
         const auto table = record_at<JointsRecord>(tree, number);
         return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
@@ -326,7 +323,11 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const Ri
     };
     if (tree[number].is_container()) {
         const std::uint32_t name = tree.find(number, FourCC("NAME"));
-        if (name != kNone) add(quoted(as_text(tree.payload(name))), " ");
+        if (name != kNone) {
+            add(quoted(as_text(tree.payload(name))), " ");
+        } else if (const JointView* joint = rigs.joint_of(number); joint != nullptr && !joint->name.empty()) {
+            add(quoted(joint->name), " ");
+        }
     }
     const bool is_readable = !tree.encoding_fault(number);
     if (is_readable) add(content_text(tree, number, rigs), "  ");

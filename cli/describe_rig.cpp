@@ -133,6 +133,9 @@ RigIndex::RigIndex(const ChunkTree& tree) : tree_(&tree) {
         Object& object = objects_.emplace_back();
         object.chunk = number;
         object.skeleton = read_skeleton(tree, number, ignored);
+        // POLY may stand behind a child's.
+        std::stable_sort(object.skeleton.polygons.begin(), object.skeleton.polygons.end(),
+                         [](const PolygonView& x, const PolygonView& y) { return x.joint < y.joint; });
         object.depths.reserve(object.skeleton.joints.size());
         for (const JointView& joint : object.skeleton.joints)
             object.depths.push_back(joint.parent == kNone ? 0 : object.depths[joint.parent] + 1);
@@ -153,6 +156,29 @@ const RigIndex::Object* RigIndex::object_of(std::uint32_t chunk) const {
     if (after == objects_.begin()) return nullptr;
     const Object& object = *std::prev(after);
     return chunk < (*tree_)[object.chunk].end ? &object : nullptr;
+}
+
+const JointView* RigIndex::joint_of(std::uint32_t chunk) const {
+    const Object* object = object_of(chunk);
+    if (object == nullptr) return nullptr;
+    const auto& joints = object->skeleton.joints;
+    const auto joint =
+        std::lower_bound(joints.begin(), joints.end(), chunk,
+                         [](const JointView& view, std::uint32_t number) { return view.chunk < number; });
+    return joint != joints.end() && joint->chunk == chunk ? &*joint : nullptr;
+}
+
+std::span<const PolygonView> RigIndex::polygons_of(std::uint32_t chunk) const {
+    const JointView* joint = joint_of(chunk);
+    if (joint == nullptr) return {};
+    const SkeletonView& skeleton = object_of(chunk)->skeleton;
+    const auto number = static_cast<std::uint32_t>(joint - skeleton.joints.data());
+    const auto first =
+        std::lower_bound(skeleton.polygons.begin(), skeleton.polygons.end(), number,
+                         [](const PolygonView& view, std::uint32_t other) { return view.joint < other; });
+    const auto last =
+        std::find_if(first, skeleton.polygons.end(), [&](const PolygonView& view) { return view.joint != number; });
+    return {first, last};
 }
 
 std::string RigIndex::links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const {

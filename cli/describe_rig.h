@@ -3,6 +3,7 @@
 #include <bendy/format/joint.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace bendy::cli {
 /// A constraint in few words, angles in degrees: "hinge 0 to 150 deg, IK only, proposed".
 std::string limit_text(const LimitRecord& limit);
 
-/// The names behind the numbers in IKCH, KINF and PULL. Works on any tree, whatever its records hold, in time linear in
-/// it; the tree must outlive this.
+/// The joints, and the names behind the numbers in IKCH, KINF and PULL. Works on any tree, whatever its records hold,
+/// in time linear in it; the tree must outlive this.
 class RigIndex {
 public:
     explicit RigIndex(const ChunkTree& tree);
@@ -22,6 +23,10 @@ public:
     [[nodiscard]] std::string chain_text(std::uint32_t chunk) const;
     /// Of a KINF: the same, and every number that is not its default.
     [[nodiscard]] std::string chain_info_text(std::uint32_t chunk) const;
+    /// A SKIN as it is read, with what JNAM and JNTS say of it; null if there is none.
+    [[nodiscard]] const JointView* joint_of(std::uint32_t chunk) const;
+    /// A SKIN's ranges of polygons, wherever they are stored.
+    [[nodiscard]] std::span<const PolygonView> polygons_of(std::uint32_t chunk) const;
     /// Of a PULL: "0.5 in LeftArm".
     [[nodiscard]] std::string pull_text(std::uint32_t chunk) const;
 

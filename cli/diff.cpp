@@ -1,6 +1,7 @@
 #include "brief.h"
 #include "commands.h"
 #include "compare_files.h"
+#include "diff_characters.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -13,7 +14,9 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace bendy::cli {
 namespace {
@@ -26,8 +29,8 @@ constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands retur
 
 struct Arguments {
     std::array<std::filesystem::path, 2> files;
-    double tolerance = 0.0;
-    bool has_tolerance = false;
+    std::optional<double> tolerance;             // of numbers, chunk by chunk
+    std::optional<converter::ErrorBound> bound;  // of places
     bool json = false;
 };
 
@@ -159,7 +162,7 @@ Json to_json(const Arguments& arguments, const ReadFile& a, const ReadFile& b, c
     Json report{{"a", arguments.files[0].string()},
                 {"b", arguments.files[1].string()},
                 {"same", differences.count() == 0},
-                {"tolerance", arguments.has_tolerance ? Json(arguments.tolerance) : Json(nullptr)}};
+                {"tolerance", arguments.tolerance ? Json(*arguments.tolerance) : Json(nullptr)}};
     report["differences"] = std::move(list);
     report["differencesLeftOut"] = differences.left_out();
     return report;
@@ -173,6 +176,7 @@ std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFi
 }
 
 bool are_same(const Arguments& arguments) {
+    if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
     std::array<MappedFile, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -181,8 +185,7 @@ bool are_same(const Arguments& arguments) {
         files[i] = *std::move(mapped);
         read[i] = open(arguments.files[i], files[i]);
     }
-    const auto tolerance = arguments.has_tolerance ? std::optional(arguments.tolerance) : std::nullopt;
-    const Differences differences = compare_files(*read[0], *read[1], tolerance);
+    const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);
     if (arguments.json) {
         std::cout
             << to_json(arguments, *read[0], *read[1], differences).dump(2, ' ', false, Json::error_handler_t::replace)
@@ -212,24 +215,43 @@ void run(const Arguments& arguments) {
     if (!same) throw Failed{kDiffers};
 }
 
+/// A number, or a length or share as `convert --max-error` takes it.
+void read_tolerance(std::string_view text, Arguments& arguments) {
+    double number = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure == std::errc() && end == text.data() + text.size()) {
+        if (!(std::isfinite(number) && number >= 0.0))
+            throw CLI::ValidationError("--tolerance", "must be a finite number, 0 or more");
+        arguments.tolerance = number;
+        return;
+    }
+    const auto bound = converter::parse_error_bound(text);
+    if (!bound) throw CLI::ValidationError("--tolerance", bound.error());
+    arguments.bound = *bound;
+}
+
 }  // namespace
 
 void add_diff(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("diff", "Say in what two bendy files differ, chunk by chunk");
+    const auto tolerance = std::make_shared<std::string>();
+    CLI::App* command = program.add_subcommand(
+        "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");
     command->add_option("A", arguments->files[0], "a bendy file")->required();
     command->add_option("B", arguments->files[1], "another")->required();
-    CLI::Option* tolerance = command->add_option("--tolerance", arguments->tolerance,
-                                                 "compare what is meant, however it is stored; numbers may be so far "
-                                                 "apart: floats, vertex streams, sampled cycles");
+    CLI::Option* given = command->add_option(
+        "--tolerance", *tolerance,
+        "a number: compare what chunks mean, however it is stored; floats, vertex streams and sampled "
+        "cycles may be so far apart. A length (0.1mm) or a share of the height (0.005%): compare the "
+        "characters, as an exact file and its compact twin; no point of the skin may be so far from "
+        "where it should be, in any cycle");
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
         "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"
-        "Example: bendy diff fox.bendy build/fox.bendy --tolerance 1e-4");
-    command->callback([arguments, tolerance] {
-        arguments->has_tolerance = tolerance->count() != 0;
-        if (!(std::isfinite(arguments->tolerance) && arguments->tolerance >= 0.0))
-            throw CLI::ValidationError("--tolerance", "must be a finite number, 0 or more");
+        "Example: bendy diff fox.bendy build/fox.bendy --tolerance 1e-4\n"
+        "Example: bendy diff fox.bendy compact.bendy --tolerance 0.005%");
+    command->callback([arguments, tolerance, given] {
+        if (given->count() != 0) read_tolerance(*tolerance, *arguments);
         run(*arguments);
     });
 }

@@ -19,7 +19,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct InspectArguments {
     std::filesystem::path file;
     std::string chunk;
     bool json = false;
@@ -131,7 +131,7 @@ void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Byt
 }
 
 /// \returns its size, bytes
-std::size_t write_page(const Arguments& arguments, const InspectedFile& file) {
+std::size_t write_page(const InspectArguments& arguments, const InspectedFile& file) {
     const std::string page = inspect_page(file);
     if (const auto written = write_file(arguments.html, as_byte_span(page)); !written)
         fail(arguments.html, describe(written.error()));
@@ -139,7 +139,7 @@ std::size_t write_page(const Arguments& arguments, const InspectedFile& file) {
 }
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
-void run_html(const Arguments& arguments) {
+void run_html(const InspectArguments& arguments) {
     const Result<MappedFile> mapped = MappedFile::open(arguments.file);
     if (!mapped) fail(arguments.file, mapped.error(), {});
     InspectedFile file;
@@ -162,7 +162,7 @@ void run_html(const Arguments& arguments) {
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
-void run(const Arguments& arguments) {
+void run(const InspectArguments& arguments) {
     if (!arguments.html.empty()) {
         run_html(arguments);
         return;
@@ -199,7 +199,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_inspect(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command =
         program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
     command->add_option("FILE", arguments->file, "a bendy file")->required();

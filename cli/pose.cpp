@@ -19,7 +19,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct PoseArguments {
     std::filesystem::path file;
     std::string clip;
     bool has_clip = false;
@@ -52,7 +52,7 @@ void add_elements(const Model& model, const Pose& pose, const Lod& lod, std::vec
     }
 }
 
-PosedObject pose_object(const Arguments& arguments, const Model& model) {
+PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     PosedObject object;
     object.file = arguments.file.filename().string();
     Pose pose(model);
@@ -90,7 +90,7 @@ PosedObject pose_object(const Arguments& arguments, const Model& model) {
     return object;
 }
 
-void run(const Arguments& arguments) {
+void run(const PoseArguments& arguments) {
     const std::string extension = arguments.output.extension().string();
     const auto writer = extension == ".json" ? write_json : extension == ".ply" ? write_ply : write_obj;
     if (!arguments.output.empty() && extension != ".obj" && extension != ".ply" && extension != ".json") {
@@ -112,7 +112,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_pose(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<PoseArguments>();
     CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a cycle");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     CLI::Option* clip =

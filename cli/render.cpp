@@ -26,7 +26,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
     std::filesystem::path file;
     std::filesystem::path output;
     std::string clip;
@@ -127,14 +127,14 @@ std::uint32_t sheet_columns(unsigned frames) {
 }
 
 /// A sheet is one picture, and made in memory.
-void check_sheet(const Arguments& arguments) {
+void check_sheet(const RenderArguments& arguments) {
     constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
     const std::uint64_t columns = sheet_columns(arguments.frames);
     if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
         fail_option("--frames", "so many pictures of this --size are too large for one");
 }
 
-std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const Arguments& arguments) {
+std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const RenderArguments& arguments) {
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
     const Cycle& cycle = *arguments.render.cycle;
@@ -145,7 +145,7 @@ std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const Arguments& 
     return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames)));
 }
 
-std::vector<std::byte> draw_animation(viewer::PictureMaker& maker, const Arguments& arguments, bool is_gif) {
+std::vector<std::byte> draw_animation(viewer::PictureMaker& maker, const RenderArguments& arguments, bool is_gif) {
     const viewer::RenderOptions& render = arguments.render;
     const auto file =
         is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
@@ -167,7 +167,7 @@ unsigned default_frames(const Cycle& cycle) {
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
-std::vector<std::byte> draw_all(Arguments& arguments, const Model& model, const std::string& extension) {
+std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& extension) {
     const bool is_animation = extension != ".png";
     viewer::RenderOptions& render = arguments.render;
     if (arguments.has_clip) render.cycle = &find_cycle(arguments.clip, arguments.file, model);
@@ -184,7 +184,7 @@ std::vector<std::byte> draw_all(Arguments& arguments, const Model& model, const 
     return viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
 }
 
-void run(Arguments arguments) {
+void run(RenderArguments arguments) {
     const std::string extension = arguments.output.extension().string();
     if (extension != ".png" && extension != ".gif" && extension != ".webp")
         fail_option("--output", "must end in .png, .gif or .webp");
@@ -218,7 +218,7 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_render(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = program.add_subcommand("render", "Make a picture or an animation, without a display");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "OUT.png; or OUT.gif, OUT.webp: an animation")->required();

@@ -14,12 +14,12 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct RigArguments {
     std::filesystem::path file;
     std::filesystem::path output;
 };
 
-void run(const Arguments& arguments) {
+void run(const RigArguments& arguments) {
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Bytes bytes = file->bytes();
@@ -46,7 +46,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_rig(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RigArguments>();
     CLI::App* command = program.add_subcommand("rig", "Write a file's joint constraints and IK chains as JSON");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");

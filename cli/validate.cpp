@@ -13,7 +13,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct ValidateArguments {
     std::vector<std::filesystem::path> files;
     bool json = false;
 };
@@ -53,7 +53,7 @@ nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, 
     return {{"file", file.string()}, {"valid", faults.empty()}, {"faults", list}, {"faultsLeftOut", faults.left_out()}};
 }
 
-void run(const Arguments& arguments) {
+void run(const ValidateArguments& arguments) {
     bool all_good = true;
     nlohmann::json report = nlohmann::json::array();
     for (const std::filesystem::path& file : arguments.files) {
@@ -82,7 +82,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_validate(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ValidateArguments>();
     CLI::App* command = program.add_subcommand("validate", "Say everything that is wrong with files, and where");
     command->add_option("FILE", arguments->files, "bendy files")->required();
     command->add_flag("--json", arguments->json, "print a JSON report");

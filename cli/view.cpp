@@ -19,7 +19,7 @@
 namespace bendy::cli {
 namespace {
 
-struct Arguments {
+struct ViewArguments {
     std::filesystem::path file;
     viewer::ViewOptions view;
 };
@@ -49,7 +49,7 @@ std::vector<std::byte> open_any(const std::filesystem::path& file) {
     return *std::move(converted);
 }
 
-void run(Arguments arguments) {
+void run(ViewArguments arguments) {
     viewer::ViewOptions& options = arguments.view;
     options.file = arguments.file;
     options.open = open_any;
@@ -69,7 +69,7 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_view(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ViewArguments>();
     CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
     command->add_option("FILE", arguments->file, "a bendy file, or a .glb or .gltf, which is converted on the fly");
     command->add_flag("-v,--verbose", arguments->view.verbose, "say which OpenGL draws");

@@ -6,7 +6,8 @@ function(bendy_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;TABLES")
   add_library(bendy_${name} ${arg_SOURCES})
   add_library(bendy::${name} ALIAS bendy_${name})
-  set_target_properties(bendy_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(bendy_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+    VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY HEADERS)
   target_sources(bendy_${name}
     PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS}
     PUBLIC FILE_SET tables TYPE HEADERS BASE_DIRS include FILES ${arg_TABLES})
@@ -15,8 +16,7 @@ endfunction()
 
 function(bendy_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF VERIFY_INTERFACE_HEADER_SETS ON
-    INTERFACE_HEADER_SETS_TO_VERIFY HEADERS)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string's own operator+: GCC bug 105651, mended in 13.

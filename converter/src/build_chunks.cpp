@@ -2,6 +2,7 @@
 
 #include "compact/compact_geometry.h"
 #include "compact/leaf_writer.h"
+#include "cycle_span.h"
 #include "passes/assign_polygons.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
@@ -480,12 +481,13 @@ void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
 void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
+    const CycleSpan span = span_of(cycle);
+    info.start = span.start;
+    info.end = span.end;
     FloatPool times;
     FloatPool values;
     std::vector<TrackRecord> tracks;
     for (const Track& track : cycle.tracks) {
-        info.start = tracks.empty() ? track.times.front() : std::min(info.start, track.times.front());
-        info.end = tracks.empty() ? track.times.back() : std::max(info.end, track.times.back());
         TrackRecord record;
         record.target = track.target;
         record.path = static_cast<std::uint8_t>(track.path);

@@ -171,11 +171,15 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
 std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& target_weights,
                                           const std::vector<glm::dmat4>& joints) {
     std::vector<glm::dvec3> vertices(mesh.positions.begin(), mesh.positions.end());
-    for (std::size_t number = 0; number < mesh.targets.size(); ++number) {
+    for (std::size_t number = 0; number < target_weights.size(); ++number) {
+        if (target_weights[number] == 0.0) continue;
         const std::vector<glm::vec3>& displacements = mesh.targets[number].positions;
         for (std::size_t vertex = 0; vertex < displacements.size(); ++vertex)
             vertices[vertex] += target_weights[number] * glm::dvec3(displacements[vertex]);
     }
+    std::vector<glm::dmat4> palette;
+    for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry)
+        palette.push_back(joints[mesh.palette.joints[entry]] * glm::dmat4(mesh.palette.inverse_bind[entry]));
     for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
         const glm::dvec4 point(vertices[vertex], 1.0);
         if (mesh.influences == 0) {
@@ -183,11 +187,9 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& targe
             continue;
         }
         glm::dvec4 sum(0.0);
-        for (std::size_t k = 0; k < mesh.influences; ++k) {
-            const std::size_t place = vertex * mesh.influences + k;
-            const std::uint32_t entry = mesh.bones[place];
-            const glm::dvec4 in_joint = glm::dmat4(mesh.palette.inverse_bind[entry]) * point;
-            sum += double{mesh.weights[place]} * (joints[mesh.palette.joints[entry]] * in_joint);
+        for (std::size_t place = vertex * mesh.influences; place < (vertex + 1) * mesh.influences; ++place) {
+            if (mesh.weights[place] == 0.0f) continue;
+            sum += double{mesh.weights[place]} * (palette[mesh.bones[place]] * point);
         }
         vertices[vertex] = glm::dvec3(sum);
     }

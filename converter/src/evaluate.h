@@ -27,6 +27,7 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value);
 
 /// A mesh's vertices in model space: displaced by its targets, then moved by its bones, or by its joint if it is rigid.
+/// \param target_weights  one per target, or none: not displaced
 std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& target_weights,
                                           const std::vector<glm::dmat4>& joints);
 

@@ -3,6 +3,8 @@
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
 
+#include "zstd_frame.h"
+
 #include <zstd.h>
 
 #include <algorithm>
@@ -328,8 +330,7 @@ bool decode_cycle(Bytes body, std::span<std::byte> out) {
     std::vector<std::byte> frame(magic.begin(), magic.end());
     frame.insert(frame.end(), body.begin() + sizeof size, body.end());
     std::vector<std::byte> plain(size);
-    const std::size_t found = ZSTD_decompress(plain.data(), plain.size(), frame.data(), frame.size());
-    if (ZSTD_isError(found) != 0 || found != size) return false;
+    if (!take_zstd(frame, plain)) return false;
     const auto payload = PlainReader(plain).payload();
     if (!payload || payload->size() != out.size()) return false;
     std::copy(payload->begin(), payload->end(), out.begin());

@@ -138,6 +138,15 @@ void set_joint(const TrackView& track, std::span<const float> value, JointTransf
     }
 }
 
+void unpack(const Cycle& cycle, float seconds, Pose& pose) {
+    const std::span<JointTransform> local = pose.change_local();
+    if (const UnpackPlan* plan = pose.model().unpack_plan(cycle)) {
+        best_unpack()(*plan, seconds, local);
+    } else {
+        unpack_plain({&*cycle.packed, {}, {}, {}, {}}, seconds, local);  // a cycle of another model
+    }
+}
+
 }  // namespace
 
 namespace {
@@ -206,7 +215,7 @@ bool sample(const Cycle* cycle, float seconds, Pose& pose) {
         sample_between(track, at, std::span(value).first(track.components));
         set_joint(track, value, local[track.target]);
     }
-    if (cycle->packed) best_unpack()(*cycle->packed, seconds, local);
+    if (cycle->packed) unpack(*cycle, seconds, pose);
     return true;
 }
 

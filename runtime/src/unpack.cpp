@@ -7,7 +7,9 @@ std::array<double, 3> numbers_of(const std::array<std::array<float, kPackedGroup
     return {numbers[0][track], numbers[1][track], numbers[2][track]};
 }
 
-void set_joint(const PackedGroup& group, std::uint32_t track, double u, JointTransform& joint) {
+}  // namespace
+
+void set_unpacked(const PackedGroup& group, std::uint32_t track, double u, JointTransform& joint) {
     const std::array<double, 3> left = numbers_of(group.left, track);
     const std::array<double, 3> right = numbers_of(group.right, track);
     if (group.kind.path == TrackPath::rotation) {
@@ -24,15 +26,14 @@ void set_joint(const PackedGroup& group, std::uint32_t track, double u, JointTra
     }
 }
 
-}  // namespace
-
-void unpack_plain(const PackedView& packed, float seconds, std::span<JointTransform> local) {
+void unpack_plain(const UnpackPlan& plan, float seconds, std::span<JointTransform> local) {
+    const PackedView& packed = *plan.packed;
     if (packed.record.joints > local.size()) return;
     const PackedMoment moment = packed_moment(packed, seconds);
     PackedWalk walk(packed, moment.frame);
     for (PackedGroup group; walk.next(group);) {
         for (std::uint32_t track = 0; track < group.count; ++track)
-            set_joint(group, track, moment.fraction, local[group.joints[track]]);
+            set_unpacked(group, track, moment.fraction, local[group.joints[track]]);
     }
 }
 

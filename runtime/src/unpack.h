@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bendy/format/packed_cycle.h>
-#include <bendy/runtime/transform.h>
+#include <bendy/runtime/unpack_plan.h>
 
 #include <span>
 
@@ -10,9 +9,9 @@ namespace bendy {
 
 /// Sets what the tracks animate to its value at `seconds`. Nothing happens if they are of a model with more joints.
 /// \param local  at rest where a track animates
-using Unpack = void(const PackedView& packed, float seconds, std::span<JointTransform> local);
+using Unpack = void(const UnpackPlan& plan, float seconds, std::span<JointTransform> local);
 
-/// In double precision, on any machine: what a packed cycle means.
+/// In double precision, on any machine: what a packed cycle means. Looks at nothing of the plan but `packed`.
 Unpack unpack_plain;
 
 #if defined(__x86_64__)
@@ -23,5 +22,9 @@ Unpack unpack_avx2;
 
 /// The quickest one that this machine has.
 Unpack* best_unpack();
+
+/// As the plain decoder sets it: one track's value at a joint that is at rest.
+/// \param fraction  [0, 1), from the group's left numbers to its right ones
+void set_unpacked(const PackedGroup& group, std::uint32_t track, double fraction, JointTransform& joint);
 
 }  // namespace bendy

@@ -1320,6 +1320,40 @@ class Diff(Case):
             "kind": "value", "pathInA": "HEAD/OBJE/SKIN/PIVO/REST", "pathInB": "HEAD/OBJE/SKIN/PIVO/REST",
             "name": "Mannequin", "part": "translation", "a": [0.0, 0.0, 0.0], "b": [0.125, 0.0, 0.0]}])
 
+    def twins(self):
+        """The mannequin exactly and compactly, and the worst error in millimetres that the converter has printed."""
+        exact = self.convert()
+        text = self.done("convert", SOURCE / "examples/mannequin.glb", "--compact", "-o", "compact.bendy").decode()
+        return exact, self.folder / "compact.bendy", text
+
+    def test_a_compact_file_is_its_exact_twin_within_the_printed_bound(self):
+        exact, compact, text = self.twins()
+        bound, worst = re.search(r"error +at most (\S+ mm); worst met (\S+) mm", text).groups()
+        self.differ(exact, compact, "--tolerance", "1e-9")
+        for pair in ((exact, compact), (compact, exact)):
+            self.assertIn("; worst met ", self.done("diff", *pair, "--tolerance", bound).decode())
+        report = json.loads(self.done("diff", exact, compact, "--tolerance", "0.005%", "--json"))
+        self.assertTrue(report["same"])
+        self.assertAlmostEqual(1000 * report["worst"], float(worst), delta=0.01 * float(worst))
+        self.assertIn('mesh "Body"', report["worstPlace"])
+        lines = self.differ(exact, compact, "--tolerance", f"{float(worst) / 10}mm")
+        self.assertTrue(lines[0].startswith('! mesh "Body", vertex '), lines)
+        self.done("convert", compact, "-o", "decoded.bendy")
+        self.done("diff", exact, "decoded.bendy", "--tolerance", bound)
+
+    def test_characters_differ_by_what_is_named(self):
+        def rest(root):
+            self.set_bytes("HEAD/OBJE/SKIN/SKIN/PIVO/REST", 16, struct.pack("<f", 0.125))(root)
+        path = self.edited(rest)
+        lines = self.differ(self.convert(), path, "--tolerance", "1mm")
+        self.assertTrue(any(re.match(r'! joint ".*", at rest: .* mm apart', line) for line in lines), lines)
+        def vertex(root):
+            self.set_bytes("HEAD/OBJE/VECT/POSI", 16 + 12 * 5 + 4, struct.pack("<f", 0.9))(root)
+        lines = self.differ(self.convert(), self.edited(vertex), "--tolerance", "1mm")
+        self.assertTrue(lines[0].startswith('! mesh "Body", vertex 5, at rest: '), lines)
+        report = json.loads(self.bendy("diff", self.convert(), path, "--tolerance", "1mm", "--json").stdout)
+        self.assertEqual((report["same"], report["differences"][0]["kind"]), (False, "distance"))
+
     def test_damaged_files_and_wrong_command_lines_are_trouble(self):
         good = self.convert()
         data = bytearray(good.read_bytes())
@@ -1330,7 +1364,7 @@ class Diff(Case):
         self.assertIn("missing.bendy", self.trouble(good, "missing.bendy"))
         self.assertIn("not a bendy file", self.trouble(SOURCE / "README.md", good))
         self.misused("diff", good)
-        for wrong in ("-1", "nan", "inf", "much"):
+        for wrong in ("-1", "nan", "inf", "much", "1 parsec", "-1mm", ""):
             self.misused("diff", good, good, "--tolerance", wrong)
 
     def test_many_differences_are_counted(self):

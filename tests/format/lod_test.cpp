@@ -140,7 +140,7 @@ TEST(Lod, RefusesNumbersInGapsAndSpareBits) {
     const Buffer good = collapse_payload<std::uint16_t>(0, 3, {1}, {{0.0f, 4}});
     ASSERT_EQ(faults_with(good), Lines{});
     // levels at 32, targets at 48, bits at 64
-    for (const std::size_t gap : {40, 47, 50, 63, 65, 79}) {
+    for (const std::size_t gap : {40u, 47u, 50u, 63u, 65u, 79u}) {
         Buffer payload = good;
         payload[gap] = std::byte{1};
         EXPECT_EQ(faults_with(payload), said("RESERVED_FIELD")) << gap;

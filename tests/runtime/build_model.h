@@ -62,7 +62,7 @@ struct ModelSpec {
     std::vector<JointSpec> joints;  ///< pre-order
     std::vector<PoolSpec> pools;
     std::vector<ChainRecord> chains{};  ///< named by their numbers
-    std::vector<Node> more{};           ///< LODD
+    std::vector<Node> more{};           ///< LODD, CYCL
 };
 
 template <class Vector>

@@ -60,7 +60,8 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
         case LimitModel::euler_box: {
             constexpr std::array<std::array<int, 3>, 6> kOrders{
                 {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-            const auto [i, j, k] = kOrders[limit.euler_order];
+            const std::array<int, 3> order = kOrders[limit.euler_order];
+            const int i = order[0], j = order[1], k = order[2];
             const double sign = (j - i + 3) % 3 == 1 ? 1.0 : -1.0;
             const glm::dmat3 m = glm::mat3_cast(R);  // m[column][row]; R = K J I
             // In row k of K J I only J and I are left: its entry i is -sign sin(j), j sin(i) cos(j) sign, k cos cos.

@@ -1,6 +1,7 @@
 #include <bendy/runtime.h>
 
 #include "runtime/build_model.h"
+#include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
 
@@ -116,6 +117,28 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         }
         reach_all(pose);
         is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
+    }
+    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_TRUE(is_good);
+}
+
+TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
+    const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
+    const test::Owned other(test::build_file(test::packed_spec(40, 50, 16)));
+    Pose pose(*model);
+    const Cycle* cycle = model->cycle("packed");
+    ASSERT_NE(model->unpack_plan(*cycle), nullptr);
+    const Cycle* of_other = other->cycle("packed");
+    ASSERT_EQ(model->unpack_plan(*of_other), nullptr);
+    std::uint32_t random = 1;
+
+    const std::uint64_t before = allocations;
+    bool is_good = true;
+    for (int frame = 0; frame < 200; ++frame) {
+        random = random * 1664525u + 1013904223u;
+        is_good = sample(cycle, 0.4f + 0.013f * static_cast<float>(frame), pose) && is_good;
+        is_good = sample(cycle, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f, pose) && is_good;
+        is_good = sample(of_other, 0.4f + 0.013f * static_cast<float>(frame), pose) && is_good;
     }
     EXPECT_EQ(allocations - before, 0u);
     EXPECT_TRUE(is_good);

@@ -1,6 +1,7 @@
 #include "unpack.h"
 
 #include "format/packed_samples.h"
+#include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ std::vector<JointTransform> rest_pose() {
 
 std::vector<JointTransform> played(Unpack* unpack, const PackedView& view, float seconds) {
     std::vector<JointTransform> local = rest_pose();
-    unpack(view, seconds, local);
+    unpack(make_unpack_plan(view, local), seconds, local);
     return local;
 }
 
@@ -117,7 +118,7 @@ TEST(Unpack, BetweenFramesIsSlerp) {
     const double turn = steps * double{packed_step(124)};  // about y: 1.95 radians
     for (const Kernel& kernel : kernels()) {
         std::vector<JointTransform> local(kJoints);
-        kernel.unpack(view, 0.25f, local);
+        kernel.unpack(make_unpack_plan(view, local), 0.25f, local);
         EXPECT_NEAR(local[0].rotation.y, std::sin(turn / 8), 2e-6) << kernel.name;
         EXPECT_NEAR(local[0].rotation.w, std::cos(turn / 8), 2e-6) << kernel.name;
     }
@@ -139,10 +140,36 @@ TEST(Unpack, TimesOutsideAreHeldAndNoTimeIsTheStart) {
 TEST(Unpack, APoseWithFewerJointsStaysAsItIs) {
     const auto payload = write_packed(make_samples(kJoints, 20, 0)).value();
     const PackedView view = view_of(payload);
+    const UnpackPlan plan = make_unpack_plan(view, rest_pose());
     for (const Kernel& kernel : kernels()) {
         std::vector<JointTransform> local(view.record.joints - 1u);
-        kernel.unpack(view, 0.7f, local);
+        kernel.unpack(plan, 0.7f, local);
         for (const JointTransform& joint : local) EXPECT_EQ(joint.translation, glm::vec3(0.0f));
+    }
+}
+
+TEST(Unpack, ConstantsAreInThePlan) {
+    PackedSamples samples = make_samples(kJoints, 20, 0);
+    std::erase_if(samples.tracks, [](const PackedTrack& track) { return track.animated; });
+    const auto payload = write_packed(samples).value();
+    const UnpackPlan plan = make_unpack_plan(view_of(payload), rest_pose());
+    EXPECT_EQ(plan.constants.size(), samples.tracks.size());
+    EXPECT_TRUE(plan.groups.empty());
+    const PackedView view = view_of(payload);
+    for (const Kernel& kernel : kernels())
+        EXPECT_LT(difference(played(kernel.unpack, view, 0.7f), played(unpack_plain, view, 0.7f)), 1e-7) << kernel.name;
+}
+
+TEST(Unpack, SamplePlaysCyclesOfItsModelAndOfAnother) {
+    const Owned model(build_file(packed_spec(30, 50, 16)));
+    const Owned other(build_file(packed_spec(30, 50, 16)));
+    Pose pose(*model);
+    for (float seconds = 0.4f; seconds < 2.7f; seconds += 0.0631f) {
+        ASSERT_TRUE(sample(model->cycle("packed"), seconds, pose));
+        const std::vector<JointTransform> own(pose.local().begin(), pose.local().end());
+        ASSERT_TRUE(sample(other->cycle("packed"), seconds, pose));
+        const std::vector<JointTransform> of_other(pose.local().begin(), pose.local().end());
+        EXPECT_LT(difference(own, of_other), 2e-6);
     }
 }
 

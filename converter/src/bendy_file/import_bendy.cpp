@@ -3,6 +3,7 @@
 #include "bendy_file/left_out.h"
 #include "bendy_file/mesh.h"
 #include "bendy_file/source_facts.h"
+#include "cycle_span.h"
 #include "failure.h"
 
 #include <bendy/format/check_sums.h>
@@ -117,13 +118,8 @@ private:
     }
 
     void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {
-        float start = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::max();
-        float end = cycle.tracks.empty() ? 0.0f : std::numeric_limits<float>::lowest();
-        for (const Track& track : cycle.tracks) {
-            start = std::min(start, track.times.front());
-            end = std::max(end, track.times.back());
-        }
-        if (view.start == start && view.end == end) return;
+        const CycleSpan span = span_of(cycle);
+        if (view.start == span.start && view.end == span.end) return;
         report_.warn("cycle that is longer than its keys is written as long as they are", place);
     }
 

@@ -26,18 +26,9 @@ std::vector<float> read_numbers(const StreamView& stream) {
 }
 
 template <class Vector>
-Vector read_vector(const StreamView& stream, std::uint32_t element) {
-    Vector vector(0.0f);
-    for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(Vector::length()); ++c)
-        vector[static_cast<int>(c)] = stream.number(element, c);
-    return vector;
-}
-
-template <class Vector>
 std::vector<Vector> read_vectors(const StreamView& stream) {
-    std::vector<Vector> vectors;
-    vectors.reserve(stream.elements);
-    for (std::uint32_t e = 0; e < stream.elements; ++e) vectors.push_back(read_vector<Vector>(stream, e));
+    std::vector<Vector> vectors(stream.elements);
+    stream.decode(vectors);
     return vectors;
 }
 
@@ -117,7 +108,7 @@ private:
         std::vector<glm::vec3> displacements(pool_.vertices, glm::vec3(0.0f));
         for (std::uint32_t entry = 0; entry < stream->elements; ++entry) {
             const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
-            displacements[vertex] = read_vector<glm::vec3>(*stream, entry);
+            displacements[vertex] = stream->vec3(entry);
         }
         return displacements;
     }

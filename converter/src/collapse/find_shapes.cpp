@@ -1,8 +1,9 @@
 #include "collapse/find_shapes.h"
 
-#include "collapse/sample_pose.h"
+#include "sample_poses.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,10 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::size_t kMostPoses = 4;
+constexpr std::size_t kMostPoses = 8;
+constexpr std::size_t kMostSamples = 120;  // poses to choose from
+constexpr std::size_t kSamplesOfCycle = 12;
+constexpr int kMadeUpPoses = 3;
 constexpr std::size_t kMostTargetGroups = 6;
 constexpr std::size_t kMostShapeVertices = 6'000'000;  // shapes times vertices: what memory and time allow
 
@@ -22,48 +26,59 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Displaced by the targets' weights, then moved by the pose.
-Shape pose_mesh(const Mesh& mesh, const ScenePose& pose, const std::vector<float>& weights) {
-    std::vector<glm::dmat4> palette;
-    for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry)
-        palette.push_back(pose.model_space[mesh.palette.joints[entry]] * glm::dmat4(mesh.palette.inverse_bind[entry]));
-    const glm::dmat4 rigid = mesh.joint == kNone ? glm::dmat4(1.0) : pose.model_space[mesh.joint];
+/// As floats; what is no place stays where the file has it.
+Shape pose_mesh(const Mesh& mesh, const std::vector<double>& target_weights, const EvaluatedPose& pose) {
+    const std::vector<glm::dvec3> vertices = evaluate_vertices(mesh, target_weights, pose.joints);
     Shape shape;
-    shape.reserve(mesh.positions.size());
-    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        glm::dvec3 position(mesh.positions[vertex]);
-        for (std::size_t target = 0; target < weights.size(); ++target) {
-            if (weights[target] != 0.0f && !mesh.targets[target].positions.empty())
-                position += double{weights[target]} * glm::dvec3(mesh.targets[target].positions[vertex]);
-        }
-        glm::dvec3 posed(0.0);
-        if (mesh.influences == 0) posed = glm::dvec3(rigid * glm::dvec4(position, 1.0));
-        for (std::uint32_t k = 0; k < mesh.influences; ++k) {
-            const std::size_t at = vertex * mesh.influences + k;
-            if (mesh.weights[at] == 0.0f) continue;
-            posed += double{mesh.weights[at]} * glm::dvec3(palette[mesh.bones[at]] * glm::dvec4(position, 1.0));
-        }
-        const glm::vec3 rounded(posed);
+    shape.reserve(vertices.size());
+    for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
+        const glm::vec3 rounded(vertices[vertex]);
         shape.push_back(is_finite(rounded) ? rounded : mesh.positions[vertex]);
     }
     return shape;
 }
 
-double distance(const ScenePose& a, const ScenePose& b) {
+/// Poses of a scene without cycles: every joint turned by some tens of degrees, the same in each run.
+std::vector<EvaluatedPose> make_up_poses(const Scene& scene, const EvaluatedPose& rest) {
+    constexpr float kTurn = 0.35f;  // of a quaternion whose w is 1: up to some 60 degrees
+    std::vector<EvaluatedPose> poses;
+    std::uint32_t state = 1;
+    const auto random = [&state] {
+        state = state * 1664525u + 1013904223u;  // Numerical Recipes' generator
+        return static_cast<float>(state >> 8) / 8388608.0f - 1.0f;
+    };
+    for (int number = 0; number < kMadeUpPoses && !scene.joints.empty(); ++number) {
+        Scene turned;
+        turned.joints = scene.joints;
+        for (Joint& joint : turned.joints) {
+            const glm::vec4& q = joint.rest.rotation;
+            const float x = kTurn * random();
+            const float y = kTurn * random();
+            const float z = kTurn * random();
+            const glm::quat r = glm::normalize(glm::quat(q.w, q.x, q.y, q.z) * glm::quat(1.0f, x, y, z));
+            joint.rest.rotation = {r.x, r.y, r.z, r.w};
+        }
+        evaluate_rest(turned, poses.emplace_back());
+        poses.back().target_weights = rest.target_weights;
+    }
+    return poses;
+}
+
+double distance(const EvaluatedPose& a, const EvaluatedPose& b) {
     double sum = 0.0;
-    for (std::size_t joint = 0; joint < a.model_space.size(); ++joint) {
-        const glm::dvec3 apart = glm::dvec3(a.model_space[joint][3] - b.model_space[joint][3]);
+    for (std::size_t joint = 0; joint < a.joints.size(); ++joint) {
+        const glm::dvec3 apart = glm::dvec3(a.joints[joint][3] - b.joints[joint][3]);
         if (is_finite(apart)) sum += glm::dot(apart, apart);
     }
     return sum;
 }
 
 /// The poses that are farthest from one another and from `rest`, the farthest first; each moves something.
-std::vector<ScenePose> choose_poses(const ScenePose& rest, std::vector<ScenePose> candidates) {
-    std::vector<ScenePose> chosen;
+std::vector<EvaluatedPose> choose_poses(const EvaluatedPose& rest, std::vector<EvaluatedPose> candidates) {
+    std::vector<EvaluatedPose> chosen;
     std::vector<double> nearest;
     nearest.reserve(candidates.size());
-    for (const ScenePose& candidate : candidates) nearest.push_back(distance(rest, candidate));
+    for (const EvaluatedPose& candidate : candidates) nearest.push_back(distance(rest, candidate));
     while (chosen.size() < kMostPoses && !candidates.empty()) {
         const auto farthest = std::max_element(nearest.begin(), nearest.end());
         if (!(*farthest > 0.0)) break;
@@ -75,33 +90,34 @@ std::vector<ScenePose> choose_poses(const ScenePose& rest, std::vector<ScenePose
 }
 
 /// Weights by which the targets are shown in `groups` groups, every target in one.
-std::vector<std::vector<float>> group_targets(const Mesh& mesh, std::size_t most) {
+std::vector<std::vector<double>> group_targets(const Mesh& mesh, std::size_t most) {
     const std::size_t groups = std::min(mesh.targets.size(), most);
-    std::vector<std::vector<float>> weights(groups, std::vector<float>(mesh.targets.size(), 0.0f));
+    std::vector<std::vector<double>> weights(groups, std::vector<double>(mesh.targets.size(), 0.0));
     for (std::size_t target = 0; target < mesh.targets.size() && groups != 0; ++target)
-        weights[target % groups][target] = 1.0f;
+        weights[target % groups][target] = 1.0;
     return weights;
 }
 
 }  // namespace
 
 std::vector<std::vector<Shape>> find_shapes(const Scene& scene) {
-    const ScenePose rest = rest_pose(scene);
-    std::vector<ScenePose> poses = choose_poses(rest, sample_cycles(scene));
-    if (poses.empty()) poses = made_up_poses(scene);
+    std::vector<EvaluatedPose> candidates = sample_poses(scene, kMostSamples, kSamplesOfCycle);
+    const EvaluatedPose rest = candidates.front();
+    std::vector<EvaluatedPose> poses = choose_poses(rest, std::move(candidates));
+    if (poses.empty()) poses = make_up_poses(scene, rest);
     std::vector<std::vector<Shape>> shapes;
     shapes.reserve(scene.meshes.size());
     for (std::size_t number = 0; number < scene.meshes.size(); ++number) {
         const Mesh& mesh = scene.meshes[number];
         const std::size_t most = kMostShapeVertices / std::max<std::size_t>(mesh.positions.size(), 1);
         std::vector<Shape>& list = shapes.emplace_back();
-        list.push_back(pose_mesh(mesh, rest, rest.target_weights[number]));
-        for (const std::vector<float>& weights : group_targets(mesh, kMostTargetGroups)) {
-            if (list.size() < most) list.push_back(pose_mesh(mesh, rest, weights));
+        list.push_back(pose_mesh(mesh, rest.target_weights[number], rest));
+        for (const std::vector<double>& weights : group_targets(mesh, kMostTargetGroups)) {
+            if (list.size() < most) list.push_back(pose_mesh(mesh, weights, rest));
         }
-        for (const ScenePose& pose : poses) {
+        for (const EvaluatedPose& pose : poses) {
             if (mesh.influences != 0 && list.size() < most)
-                list.push_back(pose_mesh(mesh, pose, pose.target_weights[number]));
+                list.push_back(pose_mesh(mesh, pose.target_weights[number], pose));
         }
     }
     return shapes;

@@ -12,7 +12,7 @@ namespace bendy::converter {
 using Shape = std::vector<glm::vec3>;
 
 /// For each mesh the shapes in which its simplification is measured. The first is the rest pose. Then, for skinned
-/// meshes, up to four poses of the cycles, those that are farthest from one another, or made-up ones if there are no
+/// meshes, up to eight poses of the cycles, those that are farthest from one another, or made-up ones if there are no
 /// cycles; then groups of inbetweening targets at full weight. Large meshes get fewer.
 std::vector<std::vector<Shape>> find_shapes(const Scene& scene);
 

@@ -1,6 +1,7 @@
 #include "collapse/sequence.h"
 
 #include "collapse/closest_point.h"
+#include "collapse/original.h"
 #include "collapse/quadric.h"
 #include "collapse/samples.h"
 
@@ -21,7 +22,7 @@ constexpr float kImpossible = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kMostCorners = 100;
 /// Of the edges at a point, so many are measured: those that the quadrics like best.
 constexpr std::size_t kMeasured = 3;
-/// On a mesh with fewer points, all.
+/// On a mesh with fewer points, all; and when so few are left, how far the new surface is from the old.
 constexpr std::uint32_t kSmall = 20'000;
 /// Above so many samples round a point every other one is dropped, but for the worst: keeps the work near linear.
 constexpr std::size_t kMostHeld = 160;
@@ -31,9 +32,9 @@ constexpr float kLeastCosine = 0.2f;
 constexpr float kPosedFactor = 0.2f;
 /// What looks wrong where a vertex leaves its side of a seam counts for so much more.
 constexpr double kSeamFactor = 8.0;
-constexpr float kBorderFactor = 2.0f;   // of the squared distance from a border
-constexpr float kQuadricFactor = 1.0f;  // of the mean squared distance from the planes, beside the largest distance
-constexpr float kLengthFactor = 1e-7f;  // of the squared length of the edge: decides on flat ground
+constexpr float kBorderFactor = 2.0f;    // of the squared distance from a border
+constexpr float kQuadricFactor = 0.25f;  // of the mean squared distance from the planes, beside the largest distance
+constexpr float kLengthFactor = 1e-7f;   // of the squared length of the edge: decides on flat ground
 
 /// The shapes at a common scale, each round the origin.
 struct Scaled {
@@ -60,7 +61,7 @@ Scaled scale(std::span<const Shape> shapes) {
     return scaled;
 }
 
-/// Greedy half-edge collapses by the largest distance that any sample gets from the surface, in any shape.
+/// Greedy half-edge collapses by the largest distance between the surface and the original one, in any shape.
 class Simplifier {
 public:
     Simplifier(const Mesh& mesh, std::span<const Shape> shapes, Surface surface)
@@ -68,6 +69,8 @@ public:
           scaled_(scale(shapes)),
           appearance_(make_appearance(mesh, surface_, scaled_.places.front())),
           samples_(make_samples(surface_, scaled_.places, appearance_)),
+          original_(surface_, scaled_.places),
+          alive_(surface_.points()),
           corner_count_(surface_.points(), 0),
           changed_(surface_.points(), 0),
           measured_(surface_.points(), 0),
@@ -439,6 +442,29 @@ private:
         return known;
     }
 
+    /// The squared distance of the triangles of left_ from the original surface: exact where it is above `known`.
+    /// Samples alone would not notice a triangle that bridges a hollow.
+    float distance_from_original(float known, float limit) const {
+        if (alive_ > kSmall) return known;
+        for (std::size_t s = 0; s < scaled_.places.size() && known <= limit; ++s) {
+            const float factor = s == 0 ? 1.0f : kPosedFactor;
+            const auto look = [&](const glm::vec3& p) {
+                known = std::max(known, factor * original_.distance_squared(s, p, known / factor));
+            };
+            for (const auto& [number, triangle] : left_) {
+                const glm::vec3& a = place(s, triangle.points[0]);
+                const glm::vec3& b = place(s, triangle.points[1]);
+                const glm::vec3& c = place(s, triangle.points[2]);
+                look((a + b + c) / 3.0f);
+                look(0.5f * (a + b));
+                look(0.5f * (b + c));
+                look(0.5f * (c + a));
+                if (known > limit) break;
+            }
+        }
+        return known;
+    }
+
     /// What moving the point to the target costs, by fan_ and left_; stops where it is above `limit`.
     Costs measure(std::uint32_t point, std::uint32_t target, float limit) const {
         const float guess = kQuadricFactor * estimate(point, target);
@@ -456,6 +482,8 @@ private:
                 ++count;
             }
         }
+        largest = distance_from_original(largest, limit - guess);
+        if (largest + guess > limit) return {};
         if (count != 0) appearance /= static_cast<double>(count);
         if (crosses_seam_) appearance *= kSeamFactor;
         return {largest + static_cast<float>(appearance) + guess, largest};
@@ -509,6 +537,7 @@ private:
         hold_samples(costs.distance_squared);
         move_triangles(target);
         is_gone_[point] = true;
+        --alive_;
         const std::size_t shapes = scaled_.places.size();
         for (std::size_t s = 0; s < shapes; ++s) quadrics_[target * shapes + s].add(quadrics_[point * shapes + s]);
         rims_[target].add(rims_[point]);
@@ -584,6 +613,8 @@ private:
     Scaled scaled_;
     Appearance appearance_;
     Samples samples_;
+    Original original_;
+    std::uint32_t alive_;            // points
     std::vector<Quadric> quadrics_;  // by point, then shape
     std::vector<Quadric> rims_;      // by point: of borders, of the surface and of materials
     std::vector<std::uint32_t> corner_count_;

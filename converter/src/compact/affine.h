@@ -4,7 +4,11 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+
+#include <cmath>
+#include <vector>
 
 namespace bendy::converter {
 
@@ -12,6 +16,11 @@ namespace bendy::converter {
 struct Affine {
     glm::dmat3 linear{1.0};
     glm::dvec3 origin{0.0};
+
+    Affine() = default;
+    Affine(const glm::dmat3& linear_part, const glm::dvec3& shift) : linear(linear_part), origin(shift) {}
+    /// Of a matrix whose fourth row is 0 0 0 1.
+    explicit Affine(const glm::dmat4& matrix) : linear(matrix), origin(matrix[3]) {}
 
     [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return linear * point + origin; }
 };
@@ -26,6 +35,26 @@ struct Local {
     glm::dvec3 translation{0.0};
     glm::dvec3 scale{1.0};
 };
+
+/// Sets what a track animates to its value at a time, as evaluate_track gives it. Not for weights.
+inline void set_property(TrackPath path, const std::vector<double>& value, Local& local) {
+    switch (path) {
+        case TrackPath::translation:
+            local.translation = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::rotation: {
+            const double length =
+                std::sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2] + value[3] * value[3]);
+            if (length > 0.0) local.rotation = glm::dquat(value[3], value[0], value[1], value[2]) / length;
+            break;
+        }
+        case TrackPath::scale:
+            local.scale = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::weights:
+            break;
+    }
+}
 
 inline Local local_of(const Transform& rest) {
     const glm::vec4& q = rest.rotation;

@@ -2,6 +2,7 @@
 
 #include "compact/compact_geometry.h"
 #include "compact/pack_cycles.h"
+#include "error_place.h"
 #include "measure_error.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -43,26 +44,6 @@ MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
     return measure_error(exact, *decoded, maps, progress);
-}
-
-std::string named(const std::string& name, std::uint32_t number) {
-    return name.empty() ? '#' + std::to_string(number) : '"' + name + '"';
-}
-
-/// Where the worst error is, in words.
-std::string place_of(const Scene& scene, const MeasuredError& error) {
-    std::string place;
-    if (error.mesh != kNone) {
-        place = "mesh " + named(scene.meshes[error.mesh].name, error.mesh) + ", vertex " + std::to_string(error.vertex);
-    } else if (error.joint != kNone) {
-        place = "joint " + named(scene.joints[error.joint].name, error.joint);
-    } else {
-        return {};
-    }
-    if (error.cycle == kNone) return place + ", at rest";
-    std::string seconds = std::to_string(error.seconds);
-    seconds.resize(seconds.size() - 3);  // milliseconds
-    return place + ", cycle " + named(scene.cycles[error.cycle].name, error.cycle) + " at " + seconds + " s";
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "compact/compact_geometry.h"
 
 #include "compact/image_size.h"
+#include "compact/largest_stretch.h"
 #include "compact/merge_vertices.h"
 #include "compact/quantise.h"
-#include "compact/sample_poses.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
+#include "sample_poses.h"
 
 #include <bendy/format/bind_palette.h>
 
@@ -28,25 +29,28 @@ constexpr double kPaletteShare = 0.1;
 constexpr double kWeightShare = 0.4;      // of what a mesh's points may move, at most
 constexpr double kBetweenSamples = 1.25;  // poses between the sampled ones may be a little worse
 
-using Poses = std::vector<std::vector<glm::dmat4>>;
+constexpr std::size_t kMostPoses = 48;
+
+using Poses = std::vector<EvaluatedPose>;
 
 /// Matrices from a mesh's space to model space: one per palette entry, or the one of a rigid mesh; pose after pose.
-Poses skin_matrices(const Mesh& mesh, const Poses& poses) {
-    Poses matrices;
-    for (const auto& pose : poses) {
+using SkinMatrices = std::vector<std::vector<glm::dmat4>>;
+SkinMatrices skin_matrices(const Mesh& mesh, const Poses& poses) {
+    SkinMatrices matrices;
+    for (const EvaluatedPose& pose : poses) {
         auto& palette = matrices.emplace_back();
         if (mesh.influences == 0) {
-            palette.push_back(mesh.joint == kNone ? glm::dmat4(1.0) : pose[mesh.joint]);
+            palette.push_back(mesh.joint == kNone ? glm::dmat4(1.0) : pose.joints[mesh.joint]);
             continue;
         }
         for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry)
-            palette.push_back(pose[mesh.palette.joints[entry]] * glm::dmat4(mesh.palette.inverse_bind[entry]));
+            palette.push_back(pose.joints[mesh.palette.joints[entry]] * glm::dmat4(mesh.palette.inverse_bind[entry]));
     }
     return matrices;
 }
 
 /// By how much a pose lengthens a displacement in the mesh's space, at most; 1 where nothing can be said.
-double stretch_of(const Poses& matrices) {
+double stretch_of(const SkinMatrices& matrices) {
     double largest = 0.0;
     for (const auto& palette : matrices) {
         for (const glm::dmat4& matrix : palette) largest = std::max(largest, largest_stretch(matrix));
@@ -110,7 +114,8 @@ void sort_influences(Mesh& mesh) {
 }
 
 /// Metres: by how much other weights move points of the skin in the sampled poses.
-double effect_of(const Mesh& mesh, std::span<const std::uint32_t> weights, double largest, const Poses& matrices) {
+double effect_of(const Mesh& mesh, std::span<const std::uint32_t> weights, double largest,
+                 const SkinMatrices& matrices) {
     double worst = 0.0;
     std::vector<double> change(mesh.influences);
     for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
@@ -133,7 +138,7 @@ double effect_of(const Mesh& mesh, std::span<const std::uint32_t> weights, doubl
 }
 
 /// Weights in as few whole numbers as move nothing further than `most_error`; returns by how much they do, in metres.
-double compact_weights(Mesh& mesh, CompactMesh& compact, double most_error, const Poses& matrices) {
+double compact_weights(Mesh& mesh, CompactMesh& compact, double most_error, const SkinMatrices& matrices) {
     constexpr std::uint32_t kFewest = 0xff;
     constexpr std::uint32_t kMost = 0xffff;
     constexpr double kMore = 1.2;  // levels for the next attempt
@@ -186,10 +191,10 @@ std::vector<glm::dmat4> rests_of(const Scene& scene) {
 double effect_of(const Mesh& mesh, std::span<const glm::mat4> binds, const Poses& poses) {
     double worst = 0.0;
     std::vector<glm::dmat4> changes;
-    for (const auto& pose : poses) {
+    for (const EvaluatedPose& pose : poses) {
         changes.clear();
         for (std::size_t entry = 0; entry < binds.size(); ++entry) {
-            changes.push_back(pose[mesh.palette.joints[entry]] *
+            changes.push_back(pose.joints[mesh.palette.joints[entry]] *
                               (glm::dmat4(binds[entry]) - glm::dmat4(mesh.palette.inverse_bind[entry])));
         }
         for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
@@ -281,7 +286,7 @@ struct Budget {
     const Poses& poses;
 };
 
-void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const Poses& matrices, double texels) {
+void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const SkinMatrices& matrices, double texels) {
     double left = budget.model;
     if (mesh.influences != 0) {
         sort_influences(mesh);
@@ -324,21 +329,12 @@ bool is_order_fixed(const Mesh& mesh) {
 }
 
 double height_at_rest(const Scene& scene) {
-    Scene still;
-    still.joints = scene.joints;
-    const Poses rest = sample_poses(still);
+    EvaluatedPose rest;
+    evaluate_rest(scene, rest);
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(std::numeric_limits<double>::lowest());
     for (const Mesh& mesh : scene.meshes) {
-        const Poses matrices = skin_matrices(mesh, rest);
-        for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-            const glm::dvec4 position(glm::dvec3(mesh.positions[vertex]), 1.0);
-            glm::dvec3 posed(0.0);
-            if (mesh.influences == 0) posed = glm::dvec3(matrices[0][0] * position);
-            for (std::size_t k = 0; k < mesh.influences; ++k) {
-                const std::size_t at = vertex * mesh.influences + k;
-                posed += double{mesh.weights[at]} * glm::dvec3(matrices[0][mesh.bones[at]] * position);
-            }
+        for (const glm::dvec3& posed : evaluate_vertices(mesh, {}, rest.joints)) {
             for (int c = 0; c < 3; ++c) {
                 low[c] = std::min(low[c], posed[c]);
                 high[c] = std::max(high[c], posed[c]);
@@ -355,13 +351,13 @@ double height_at_rest(const Scene& scene) {
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress) {
     CompactGeometry geometry;
     geometry.error = most_error;
-    const Poses poses = sample_poses(scene);
+    const Poses poses = sample_poses(scene, kMostPoses);
     const std::vector<glm::dmat4> rests = rests_of(scene);
     const double texels = texels_per_unit(scene);
     for (std::uint32_t number = 0; number < scene.meshes.size(); ++number) {
         Mesh& mesh = scene.meshes[number];
         CompactMesh& compact = geometry.meshes.emplace_back();
-        const Poses matrices = skin_matrices(mesh, poses);
+        const SkinMatrices matrices = skin_matrices(mesh, poses);
         const Budget budget{most_error, stretch_of(matrices), target_weight_of(scene, number), rests, poses};
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);

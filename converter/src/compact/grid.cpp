@@ -1,5 +1,7 @@
 #include "compact/grid.h"
 
+#include "cycle_span.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -55,16 +57,14 @@ struct Tracks {
     std::vector<std::uint32_t> still;   // numbers of tracks that never change
     std::vector<std::uint32_t> moving;  // numbers of those that do, and can be packed
     const Track* densest = nullptr;     // of these
-    float start = 0.0f;                 // seconds: the first key of all
-    float end = 0.0f;
+    CycleSpan span;
 };
 
 Tracks sort_tracks(const Cycle& cycle) {
     Tracks tracks;
+    tracks.span = span_of(cycle);
     for (std::uint32_t number = 0; number < cycle.tracks.size(); ++number) {
         const Track& track = cycle.tracks[number];
-        tracks.start = number == 0 ? track.times.front() : std::min(tracks.start, track.times.front());
-        tracks.end = number == 0 ? track.times.back() : std::max(tracks.end, track.times.back());
         if (!is_packable(track)) continue;
         if (is_constant(track)) {
             tracks.still.push_back(number);
@@ -78,9 +78,9 @@ Tracks sort_tracks(const Cycle& cycle) {
 
 /// One frame, or two that span the cycle: for tracks that never change.
 Grid still_grid(const Tracks& tracks) {
-    const bool lasts = tracks.end > tracks.start;
-    return {tracks.start, lasts ? static_cast<float>(1.0 / (double{tracks.end} - tracks.start)) : 1.0f,
-            lasts ? 2u : 1u};
+    const auto [start, end] = tracks.span;
+    const bool lasts = end > start;
+    return {start, lasts ? static_cast<float>(1.0 / (double{end} - start)) : 1.0f, lasts ? 2u : 1u};
 }
 
 /// The even grid that holds most of the moving tracks, and these.
@@ -91,7 +91,7 @@ GridTracks even_grid(const Cycle& cycle, const Tracks& tracks) {
     for (std::uint32_t denser = 1; denser <= kDenser; ++denser) {
         const double rate = *base * denser;
         const double first = tracks.densest->times.front();
-        const double origin = first - std::nearbyint((first - tracks.start) * rate) / rate;
+        const double origin = first - std::nearbyint((first - tracks.span.start) * rate) / rate;
         std::vector<std::uint32_t> held;
         double last = origin;
         for (const std::uint32_t number : tracks.moving) {

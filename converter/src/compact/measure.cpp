@@ -1,6 +1,7 @@
 #include "compact/measure.h"
 
-#include "compact/evaluate_track.h"
+#include "cycle_span.h"
+#include "evaluate.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,21 +17,18 @@ constexpr double kRate = 240.0;  // per second
 
 std::vector<float> times_of(const Cycle& cycle) {
     std::vector<float> times;
-    float start = 0.0f;
-    float end = 0.0f;
+    const CycleSpan span = span_of(cycle);
     for (const Track& track : cycle.tracks) {
         if (track.path == TrackPath::weights) continue;
-        start = times.empty() ? track.times.front() : std::min(start, track.times.front());
-        end = times.empty() ? track.times.back() : std::max(end, track.times.back());
         const std::size_t before = times.size();
         times.insert(times.end(), track.times.begin(), track.times.end());
         std::inplace_merge(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(before), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
     }
-    const auto count = static_cast<std::size_t>(std::min((double{end} - start) * kRate, 1e8));
+    const auto count = static_cast<std::size_t>(std::min((double{span.end} - span.start) * kRate, 1e8));
     const std::size_t before = times.size();
     for (std::size_t k = 1; k <= count; ++k)
-        times.push_back(static_cast<float>(start + static_cast<double>(k) / kRate));
+        times.push_back(static_cast<float>(span.start + static_cast<double>(k) / kRate));
     std::inplace_merge(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(before), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
@@ -97,14 +95,16 @@ WorstError measure_packed(const Scene& scene, const Cycle& source, const std::ve
     std::vector<Affine> found_pose(joints);
     PackedPlayer player(scene, packed);
     WorstError worst;
+    std::vector<double> value;
     for (const float time : times_of(source)) {
         right = rest;
         found = rest;
         for (std::size_t k = 0; k < source.tracks.size(); ++k) {
             const Track& track = source.tracks[k];
             if (track.path == TrackPath::weights) continue;
-            evaluate_track(track, time, 0.0, right[track.target]);
-            if (!is_replaced[k]) evaluate_track(track, time, 0.0, found[track.target]);
+            evaluate_track(track, time, value);
+            set_property(track.path, value, right[track.target]);
+            if (!is_replaced[k]) set_property(track.path, value, found[track.target]);
         }
         player.set(time, found);
         for (std::size_t j = 0; j < joints; ++j) {

@@ -1,5 +1,7 @@
 #include "compact/probes.h"
 
+#include "evaluate.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -52,13 +54,9 @@ private:
 };
 
 std::vector<Affine> rest_pose(const Scene& scene) {
-    std::vector<Affine> pose(scene.joints.size());
-    for (std::size_t j = 0; j < pose.size(); ++j) {
-        const Joint& joint = scene.joints[j];
-        const Affine local = to_affine(local_of(joint.rest), joint.rest.shear);
-        pose[j] = joint.parent == kNone ? local : pose[joint.parent] * local;
-    }
-    return pose;
+    EvaluatedPose rest;
+    evaluate_rest(scene, rest);
+    return {rest.joints.begin(), rest.joints.end()};
 }
 
 /// Calls `visit` with each vertex and, displaced by each target alone, its other places.

@@ -1,6 +1,6 @@
 #include "compact/quantise_cycle.h"
 
-#include "compact/evaluate_track.h"
+#include "evaluate.h"
 
 #include <bendy/format/trig.h>
 
@@ -73,6 +73,14 @@ glm::dvec3 log_near(const glm::dquat& q, const glm::dvec3& near) {
     return glm::dot(a, a) <= glm::dot(b, b) ? v : other;
 }
 
+/// The time of the track's last key that is not farther than `snap` seconds from a time; or that time itself.
+double snapped(const Track& track, double seconds, double snap) {
+    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds + snap);
+    if (after == track.times.begin()) return seconds;
+    const double key = *(after - 1);
+    return seconds - key <= snap ? key : seconds;
+}
+
 /// The points of a set that stick out along the axes: at most six.
 std::vector<glm::dvec3> outer_points(const std::vector<glm::dvec3>& points) {
     std::vector<glm::dvec3> outer;
@@ -129,10 +137,13 @@ private:
         for (std::size_t f = 0; f < grid_.frames; ++f)
             std::copy(rest_.begin(), rest_.end(), locals_.begin() + static_cast<std::ptrdiff_t>(f * joints));
         const double snap = grid_.snap();
+        std::vector<double> value;
         for (const Track& track : cycle_.tracks) {
             if (track.path == TrackPath::weights) continue;
-            for (std::uint32_t f = 0; f < grid_.frames; ++f)
-                evaluate_track(track, grid_.time_of(f), snap, locals_[f * joints + track.target]);
+            for (std::uint32_t f = 0; f < grid_.frames; ++f) {
+                evaluate_track(track, snapped(track, grid_.time_of(f), snap), value);
+                set_property(track.path, value, locals_[f * joints + track.target]);
+            }
         }
         for (std::size_t j = 0; j < joints; ++j) {
             glm::dvec3 before(0.0);

@@ -29,9 +29,9 @@ std::string media_type_of(std::span<const std::byte> bytes) {
     return {};
 }
 
-class Importer {
+class ImageImporter {
 public:
-    Importer(const Document& document, bool embed) : document_(document), embed_(embed) {}
+    ImageImporter(const Document& document, bool embed) : document_(document), embed_(embed) {}
 
     Image import(std::size_t index) const {
         const Json& source = document_.json["images"][index];
@@ -81,7 +81,7 @@ private:
 }  // namespace
 
 void import_images(const Document& document, bool embed, Scene& scene) {
-    const Importer importer(document, embed);
+    const ImageImporter importer(document, embed);
     for (std::size_t i = 0; i < array_of(document.json, "images").size(); ++i)
         scene.images.push_back(importer.import(i));
 }

@@ -2,6 +2,7 @@
 #include "measure_error.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
@@ -118,6 +119,33 @@ TEST(CompactGeometry, ThePosedSkinKeepsTheBoundAtEveryScale) {
                 }
             }
         }
+    }
+}
+
+TEST(CompactGeometry, DirectionsAreTheSourcesWhenTheFileIsImported) {
+    Scene exact = bent_grid(1.0f, 2, 5);
+    Mesh& mesh = exact.meshes[0];
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+        const float turn = 0.3f * static_cast<float>(v);
+        mesh.normals[v] = {0.6f * std::cos(turn), 0.6f * std::sin(turn), v % 2 == 0 ? 0.8f : -0.8f};
+        mesh.tangents.emplace_back(-std::sin(turn), std::cos(turn), 0.0f, v % 3 == 0 ? -1.0f : 1.0f);
+    }
+    Scene scene = exact;
+    CompactGeometry geometry;
+    const auto bytes = compact_file(scene, 1e-3, geometry);
+    Report report;
+    const auto imported = import_bendy(bytes, report);
+    ASSERT_TRUE(imported) << imported.error().message;
+    const Mesh& found = imported->meshes[0];
+    ASSERT_EQ(found.normals.size(), found.positions.size());
+    ASSERT_EQ(found.tangents.size(), found.positions.size());
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+        const std::uint32_t place = geometry.meshes[0].vertex_of[v];
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(found.normals[place][c], mesh.normals[v][c], 0.02) << v;
+            EXPECT_NEAR(found.tangents[place][c], mesh.tangents[v][c], 0.02) << v;
+        }
+        EXPECT_EQ(found.tangents[place].w, mesh.tangents[v].w) << v;
     }
 }
 

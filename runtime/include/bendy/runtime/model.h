@@ -5,6 +5,7 @@
 #include <bendy/format/result.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
+#include <bendy/runtime/unpack_plan.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -115,6 +116,8 @@ public:
     [[nodiscard]] std::uint32_t largest_palette() const { return data_->largest_palette; }
     /// The joint that moves a vertex of a rigid pool, or kNone.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
+    /// How a packed cycle is played; null if it is not packed, or of another model.
+    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
     /// Whether that is the same for all vertices of the pool.
     [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
 
@@ -136,7 +139,8 @@ private:
         Document document;
         ObjectView object;
         std::vector<Joint> joints;
-        std::vector<std::uint32_t> parents;  // as joints
+        std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
+        std::vector<std::uint32_t> parents;    // as joints
         bool is_sheared = false;
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
@@ -160,12 +164,13 @@ private:
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
+    static void plan_cycles(Data& data);
     /// What skinning needs beside the file's own streams: made once, before it is asked for.
     void make_plans() const;
     [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
-    std::unique_ptr<const Data, DeleteData>
-        data_;  // behind a pointer, so that views into it survive a move of the Model
+    // Behind a pointer, so that views into it survive a move of the Model.
+    std::unique_ptr<const Data, DeleteData> data_;
 };
 
 }  // namespace bendy
