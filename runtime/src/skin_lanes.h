@@ -5,6 +5,7 @@
 // are turned so that a lane is a vertex, and what follows goes by lanes.
 
 // NOLINTBEGIN(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic): see skin_block.h
+// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
 struct Matrix {
     Lanes at[3][4];
@@ -492,3 +493,4 @@ void skin_lanes(const SkinBlock& block) {
     skin_packed<false>(block, wanted);
 }
 // NOLINTEND(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic)
+// NOLINTEND(misc-definitions-in-headers)

@@ -20,7 +20,7 @@ StreamView part_of(const StreamView& stream, std::size_t first, std::size_t coun
 template <class Vector>
 void shift(const TargetView& target, const StreamView& shifts, float weight, std::size_t first,
            std::span<Vector> vectors) {
-    std::uint32_t entry = static_cast<std::uint32_t>(first);
+    auto entry = static_cast<std::uint32_t>(first);
     if (target.vertices) {  // they ascend
         std::uint32_t last = shifts.elements;
         for (entry = 0; entry < last;) {
@@ -87,7 +87,7 @@ Staging::Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> 
 template <class Vector>
 const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
                             std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const {
-    constexpr std::size_t kNumbersEach = static_cast<std::size_t>(Vector::length());
+    constexpr auto kNumbersEach = static_cast<std::size_t>(Vector::length());
     if (in_place) return stream->as<float>().data() + first * kNumbersEach;
     assert(count * kNumbersEach <= scratch.size());
     const std::span<Vector> vectors(reinterpret_cast<Vector*>(scratch.data()), count);  // NOLINT(*-reinterpret-cast)
@@ -110,15 +110,18 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
     block.out_positions = moved_on(wanted.out_positions, first);
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);
-    if (wanted.out_positions.data != nullptr)
+    if (wanted.out_positions.data != nullptr) {
         block.positions =
             bring<glm::vec3>(positions_, &TargetView::positions, first, count, positions_in_place_, positions_scratch_);
-    if (wanted.out_normals.data != nullptr)
+    }
+    if (wanted.out_normals.data != nullptr) {
         block.normals =
             bring<glm::vec3>(pool_.normals, &TargetView::normals, first, count, normals_in_place_, normals_scratch_);
-    if (wanted.out_tangents.data != nullptr)
+    }
+    if (wanted.out_tangents.data != nullptr) {
         block.tangents = bring<glm::vec4>(pool_.tangents, &TargetView::tangents, first, count, tangents_in_place_,
                                           tangents_scratch_);
+    }
     if (!pool_.bones) return;
     const StreamView& bones = *pool_.bones;
     const StreamView& weights = *pool_.weights;

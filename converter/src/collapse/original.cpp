@@ -35,12 +35,12 @@ glm::vec3 Original::centre(std::uint32_t triangle) const {
 
 /// Halves; so it goes no deeper than the logarithm of the triangles.
 void Original::build() {
-    struct Part {
+    struct Range {
         std::uint32_t first, count, parent;  // parent: whose right child it is; kNone: a left one
     };
-    std::vector<Part> open{{0, static_cast<std::uint32_t>(order_.size()), kNone}};
+    std::vector<Range> open{{0, static_cast<std::uint32_t>(order_.size()), kNone}};
     while (!open.empty()) {
-        const Part part = open.back();
+        const Range part = open.back();
         open.pop_back();
         const auto number = static_cast<std::uint32_t>(nodes_.size());
         if (part.parent != kNone) nodes_[part.parent].right = number;
