@@ -153,7 +153,7 @@ std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
 std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (const JointView* joint = rigs.joint_of(number)) text.append("at ").append(brief(joint->rest.translation));
+    if (rigs.has_rest(number)) text.append("at ").append(brief(rigs.joint_of(number)->rest.translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     for (const PolygonView& range : rigs.polygons_of(number))
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);

@@ -168,6 +168,13 @@ const JointView* RigIndex::joint_of(std::uint32_t chunk) const {
     return joint != joints.end() && joint->chunk == chunk ? &*joint : nullptr;
 }
 
+bool RigIndex::has_rest(std::uint32_t chunk) const {
+    if (joint_of(chunk) == nullptr) return false;
+    const std::uint32_t pivot = tree_->find(chunk, FourCC("PIVO"));
+    if (pivot != kNone && tree_->find(pivot, FourCC("REST")) != kNone) return true;
+    return tree_->find(object_of(chunk)->chunk, FourCC("JNTS")) != kNone;
+}
+
 std::span<const PolygonView> RigIndex::polygons_of(std::uint32_t chunk) const {
     const JointView* joint = joint_of(chunk);
     if (joint == nullptr) return {};

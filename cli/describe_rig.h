@@ -25,6 +25,8 @@ public:
     [[nodiscard]] std::string chain_info_text(std::uint32_t chunk) const;
     /// A SKIN as it is read, with what JNAM and JNTS say of it; null if there is none.
     [[nodiscard]] const JointView* joint_of(std::uint32_t chunk) const;
+    /// Whether anything says where a SKIN rests.
+    [[nodiscard]] bool has_rest(std::uint32_t chunk) const;
     /// A SKIN's ranges of polygons, wherever they are stored.
     [[nodiscard]] std::span<const PolygonView> polygons_of(std::uint32_t chunk) const;
     /// Of a PULL: "0.5 in LeftArm".

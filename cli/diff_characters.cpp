@@ -124,12 +124,14 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
             if (percent > shown) bar.show(shown = percent, 100);
         });
     }
-    if (comparison.gave_up)
+    if (comparison.gave_up) {
         fail(files[0], "too many polygons lie within " + length_text(comparison.tolerance) +
                            " of one another; a smaller tolerance can tell them apart");
-    if (a.rig != b.rig)
+    }
+    if (a.rig != b.rig) {
         comparison.differences.push_back(
             {Kind::value, "rig", "constraints or IK chains differ; `bendy rig` writes them", 0.0});
+    }
     if (as_json) {
         std::cout << to_json(files, comparison).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     } else {

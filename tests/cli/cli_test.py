@@ -520,6 +520,15 @@ def chain(start, effector, name=None, target=NONE, pole=NONE, solver=0, flags=0,
 def pull(number, weight):
     return Chunk("PULL", struct.pack("<If", number, weight))
 
+    def test_joints_of_compact_files_have_their_names(self):
+        self.done("convert", SOURCE / "examples/mannequin.glb", "--compact", "-q", "-o", "compact.bendy")
+        joints = [re.search(r'SKIN .*?(?=, limits|, extras|$)', line).group()
+                  for line in self.done("inspect", "compact.bendy").decode().splitlines() if " SKIN " in line]
+        exact = [re.search(r'SKIN .*?(?=, limits|, extras|$)', line).group()
+                 for line in self.done("inspect", self.convert()).decode().splitlines() if " SKIN " in line]
+        self.assertEqual(joints, exact)
+        self.assertTrue(any('SKIN 3  "mixamorig:Hips"  at ' in line for line in joints))
+
 
 class InspectRig(Case):
     """Constraints and IK chains, as inspect shows them."""

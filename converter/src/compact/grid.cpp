@@ -129,6 +129,13 @@ Grid uneven_grid(const Cycle& cycle, const Tracks& tracks) {
 
 }  // namespace
 
+double snapped(const Track& track, double seconds, double snap) {
+    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds + snap);
+    if (after == track.times.begin()) return seconds;
+    const double key = *(after - 1);
+    return seconds - key <= snap ? key : seconds;
+}
+
 double Grid::snap() const {
     return rate != 0.0f ? kGridTolerance / rate : 0.0;
 }

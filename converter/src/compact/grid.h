@@ -22,6 +22,9 @@ struct Grid {
     [[nodiscard]] double snap() const;
 };
 
+/// The time of the track's last key that is not farther than `snap` seconds from a time; or that time itself.
+double snapped(const Track& track, double seconds, double snap);
+
 /// The coarsest grid that holds the keys of as many tracks as possible, and the numbers of those tracks: linear ones of
 /// joints. If no even grid holds them all, all the times at which there are keys, where those are few. Tracks that
 /// never change need no grid. Nothing if there is nothing to pack.

@@ -73,14 +73,6 @@ glm::dvec3 log_near(const glm::dquat& q, const glm::dvec3& near) {
     return glm::dot(a, a) <= glm::dot(b, b) ? v : other;
 }
 
-/// The time of the track's last key that is not farther than `snap` seconds from a time; or that time itself.
-double snapped(const Track& track, double seconds, double snap) {
-    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds + snap);
-    if (after == track.times.begin()) return seconds;
-    const double key = *(after - 1);
-    return seconds - key <= snap ? key : seconds;
-}
-
 /// The points of a set that stick out along the axes: at most six.
 std::vector<glm::dvec3> outer_points(const std::vector<glm::dvec3>& points) {
     std::vector<glm::dvec3> outer;

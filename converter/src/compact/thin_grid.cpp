@@ -1,7 +1,7 @@
 #include "compact/thin_grid.h"
 
 #include "compact/affine.h"
-#include "compact/evaluate_track.h"
+#include "evaluate.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,11 +34,16 @@ Local between(const Local& a, const Local& b, double u) {
 
 double error_of(const Track& track, const Local& rest, const Grid& from, const Grid& to, double reach, double most) {
     std::vector<Local> kept(to.frames, rest);
-    for (std::uint32_t f = 0; f < to.frames; ++f) evaluate_track(track, to.time_of(f), 0.0, kept[f]);
+    std::vector<double> value;
+    for (std::uint32_t f = 0; f < to.frames; ++f) {
+        evaluate_track(track, to.time_of(f), value);
+        set_property(track.path, value, kept[f]);
+    }
     double worst = 0.0;
     for (std::uint32_t f = 0; f < from.frames && worst <= most; ++f) {
         Local exact = rest;
-        evaluate_track(track, from.time_of(f), from.snap(), exact);
+        evaluate_track(track, snapped(track, from.time_of(f), from.snap()), value);
+        set_property(track.path, value, exact);
         const double at = std::max(0.0, (from.time_of(f) - to.start) * to.rate);
         const auto left = std::min(static_cast<std::uint32_t>(at), to.frames - 2);
         const Local found = between(kept[left], kept[left + 1], std::min(at - left, 1.0));
