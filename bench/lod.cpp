@@ -45,11 +45,33 @@ public:
     Surface(std::span<const glm::vec3> places, const Indices& indices) : places_(places), indices_(indices) {
         order_.resize(indices.size() / 3);
         std::iota(order_.begin(), order_.end(), 0u);
-        if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+        if (!order_.empty()) build();
     }
 
     [[nodiscard]] float distance_squared(const glm::vec3& p, float best) const {
-        return nodes_.empty() ? best : search(0, p, best);
+        struct Far {
+            std::uint32_t node;
+            float distance;
+        };
+        std::array<Far, 64> open;  // one for each halving of the triangles, and they are fewer than 2^32
+        std::size_t waiting = 0;
+        if (!nodes_.empty()) open[waiting++] = {0, 0.0f};
+        while (waiting != 0) {
+            const Far next = open[--waiting];
+            if (next.distance >= best) continue;
+            const Node& node = nodes_[next.node];
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+                const std::uint32_t t = order_[i];
+                best = std::min(best, closest_point(p, corner(t, 0), corner(t, 1), corner(t, 2)).distance_squared);
+            }
+            if (node.count != 0) continue;
+            const Far left{node.left, box_distance(nodes_[node.left], p)};
+            const Far right{node.right, box_distance(nodes_[node.right], p)};
+            const bool is_left_first = left.distance <= right.distance;
+            open[waiting++] = is_left_first ? right : left;
+            open[waiting++] = is_left_first ? left : right;
+        }
+        return best;
     }
 
     /// Every used vertex, and points spread by area.
@@ -66,7 +88,9 @@ public:
         float u = 0.5f;
         float v = 0.5f;
         for (std::uint32_t t = 0; t < order_.size(); ++t) {
-            for (owed += kSamples * area(t) / whole; owed >= 1.0; owed -= 1.0) {
+            owed += kSamples * area(t) / whole;
+            while (owed >= 1.0) {
+                owed -= 1.0;
                 u = std::fmod(u + 0.7548776662f, 1.0f);
                 v = std::fmod(v + 0.5698402909f, 1.0f);
                 const float x = u + v > 1.0f ? 1.0f - u : u;
@@ -92,8 +116,32 @@ private:
     }
     [[nodiscard]] glm::vec3 centre(std::uint32_t t) const { return corner(t, 0) + corner(t, 1) + corner(t, 2); }
 
-    std::uint32_t build(std::uint32_t first, std::uint32_t count) {
-        const auto number = static_cast<std::uint32_t>(nodes_.size());
+    /// Halves the triangles until few are left: no deeper than their number's logarithm.
+    void build() {
+        struct Range {
+            std::uint32_t first, count, parent;
+        };
+        std::vector<Range> open{{0, static_cast<std::uint32_t>(order_.size()), 0}};
+        while (!open.empty()) {
+            const auto [first, count, parent] = open.back();
+            open.pop_back();
+            const auto number = static_cast<std::uint32_t>(nodes_.size());
+            if (number != 0) (nodes_[parent].left == 0 ? nodes_[parent].left : nodes_[parent].right) = number;
+            const Node node = around(first, count);
+            nodes_.push_back(node);
+            if (count <= 4) continue;
+            nodes_.back().count = 0;
+            const glm::vec3 size = node.high - node.low;
+            const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+            const auto begin = order_.begin() + first;
+            std::nth_element(begin, begin + count / 2, begin + count,
+                             [&](std::uint32_t a, std::uint32_t b) { return centre(a)[axis] < centre(b)[axis]; });
+            open.push_back({first + count / 2, count - count / 2, number});
+            open.push_back({first, count / 2, number});
+        }
+    }
+
+    [[nodiscard]] Node around(std::uint32_t first, std::uint32_t count) const {
         Node node{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest()), first,
                   count};
         for (std::uint32_t i = first; i < first + count; ++i) {
@@ -102,41 +150,12 @@ private:
                 node.high = glm::max(node.high, corner(order_[i], k));
             }
         }
-        nodes_.push_back(node);
-        if (count <= 4) return number;
-        const glm::vec3 size = node.high - node.low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto begin = order_.begin() + first;
-        std::nth_element(begin, begin + count / 2, begin + count,
-                         [&](std::uint32_t a, std::uint32_t b) { return centre(a)[axis] < centre(b)[axis]; });
-        const std::uint32_t left = build(first, count / 2);
-        const std::uint32_t right = build(first + count / 2, count - count / 2);
-        nodes_[number].count = 0;
-        nodes_[number].left = left;
-        nodes_[number].right = right;
-        return number;
+        return node;
     }
 
     [[nodiscard]] float box_distance(const Node& node, const glm::vec3& p) const {
         const glm::vec3 out = glm::max(glm::max(node.low - p, p - node.high), glm::vec3(0.0f));
         return glm::dot(out, out);
-    }
-
-    float search(std::uint32_t number, const glm::vec3& p, float best) const {
-        const Node& node = nodes_[number];
-        if (node.count != 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const std::uint32_t t = order_[i];
-                best = std::min(best, closest_point(p, corner(t, 0), corner(t, 1), corner(t, 2)).distance_squared);
-            }
-            return best;
-        }
-        const float left = box_distance(nodes_[node.left], p);
-        const float right = box_distance(nodes_[node.right], p);
-        const bool left_first = left <= right;
-        if (std::min(left, right) < best) best = search(left_first ? node.left : node.right, p, best);
-        if (std::max(left, right) < best) best = search(left_first ? node.right : node.left, p, best);
-        return best;
     }
 
     std::span<const glm::vec3> places_;
@@ -220,7 +239,7 @@ Indices simplify(const bendy::Model& model, const bendy::Lod& full, float share)
             indices.insert(indices.end(), part.begin(), part.end());
         }
         if (indices.empty()) continue;
-        const auto goal = static_cast<std::size_t>(share * static_cast<float>(indices.size() / 3)) * 3;
+        const auto goal = static_cast<std::size_t>(share * static_cast<float>(indices.size()) / 3.0f) * 3;
         // Not as posed: rounding would part vertices that lie at one place.
         const auto places =
             bendy::view_at<glm::vec3>(model.pools()[pool].positions.data, 0, model.pools()[pool].vertices);
@@ -308,7 +327,7 @@ void measure(const char* path) {
     const std::string name = std::filesystem::path(path).stem().string();
     std::printf("| %s | %zu | %.2f s of processor, at least %llu, switch %.3f ms per 100,000 | | | | | |\n",
                 name.c_str(), full.size() / 3, taken, static_cast<unsigned long long>(fewest),
-                1e3 * switching_time(lod) * 1e5 / static_cast<double>(full.size() / 3));
+                1e3 * switching_time(lod) * 1e5 / (static_cast<double>(full.size()) / 3.0));
     for (const float share : {0.5f, 0.25f, 0.1f}) {
         lod.set_share(1.0f);
         const Indices theirs = simplify(*model, lod, share);

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
@@ -837,6 +838,10 @@ class PoseCommand(Case):
         return document
 
     def test_levels_of_detail(self):
+        # Wide kernels add up a vertex's bones in an order that depends on its neighbours; the plain one does not.
+        environment = unittest.mock.patch.dict(os.environ, BENDY_KERNEL="plain")
+        environment.start()
+        self.addCleanup(environment.stop)
         path = self.shared / "levels.bendy"
         summary = self.done("convert", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path).decode()
         self.assertRegex(summary, r"detail +from [\d,]+ triangles down to [\d,]+\n")
