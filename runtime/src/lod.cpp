@@ -38,8 +38,12 @@ void Lod::prepare(std::uint32_t pool) {
         for (std::uint32_t k = 0; k < state.all.size(); ++k) state.all[k] = source.indices->index(k, 0);
     }
     state.indices = state.all;
+    state.corners = state.all.size();
     if (state.collapse == nullptr) return;
     state.now.resize(source.vertices);
+    state.targets.reserve(source.vertices - state.collapse->base);
+    for (std::uint32_t v = state.collapse->base; v < source.vertices; ++v)
+        state.targets.push_back(state.collapse->target(v));
     std::iota(state.now.begin(), state.now.begin() + state.collapse->base, 0u);
     state.counts.assign(std::size_t{source.vertices} - state.collapse->base + 1, 0);
     std::vector<std::uint32_t> corners;
@@ -120,9 +124,9 @@ void Lod::make_list(std::uint32_t pool) {
     const PoolCollapseView& collapse = *state.collapse;
     const std::uint32_t alive = state.vertices;
     for (std::uint32_t v = collapse.base; v < alive; ++v) state.now[v] = v;
-    for (std::uint32_t v = alive; v < collapse.vertices; ++v) state.now[v] = state.now[collapse.target(v)];
+    for (std::uint32_t v = alive; v < collapse.vertices; ++v)
+        state.now[v] = state.now[state.targets[v - collapse.base]];
 
-    state.indices.resize(state.all.size());  // never above what the constructor has allocated
     std::uint32_t* out = state.indices.data();
     const std::uint32_t* death = state.deaths.data();
     for (std::uint32_t k = first_draw_[pool]; k < first_draw_[pool + 1]; ++k) {
@@ -142,7 +146,7 @@ void Lod::make_list(std::uint32_t pool) {
         }
         draw.count = static_cast<std::uint32_t>(out - state.indices.data()) - draw.first;
     }
-    state.indices.resize(static_cast<std::size_t>(out - state.indices.data()));
+    state.corners = static_cast<std::size_t>(out - state.indices.data());
 }
 
 }  // namespace bendy

@@ -349,11 +349,12 @@ private:
     }
 
     void compare_looks(const Looks& looks, std::span<const MatchedPolygons::Corner> corners, const std::string& place) {
-        for (const std::string& name : looks.only_in_a()) add(Kind::only_in_a, place + ", " + name);
-        for (const std::string& name : looks.only_in_b()) add(Kind::only_in_b, place + ", " + name);
+        const std::string before = place + ", ";
+        for (const std::string& name : looks.only_in_a()) add(Kind::only_in_a, before + name);
+        for (const std::string& name : looks.only_in_b()) add(Kind::only_in_b, before + name);
         for (const Looks::Paired& stream : looks.streams()) {
             const std::string unit = stream.kind == Looks::Kind::numbers ? "" : "degrees";
-            LookDifference look{place + ", " + stream.name, 0.0, stream.allowed, unit};
+            LookDifference look{before + stream.name, 0.0, stream.allowed, unit};
             std::uint32_t vertex = 0;
             for (const MatchedPolygons::Corner& corner : corners) {
                 const double apart = Looks::apart(stream, corner.a, corner.b);

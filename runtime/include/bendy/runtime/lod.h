@@ -23,7 +23,9 @@ public:
     /// The first so many vertices of a pool are alive, and all that `indices` names.
     [[nodiscard]] std::uint32_t vertices(std::uint32_t pool) const { return pools_[pool].vertices; }
     /// The pool's index list at this level; `draws` are ranges of it.
-    [[nodiscard]] std::span<const std::uint32_t> indices(std::uint32_t pool) const { return pools_[pool].indices; }
+    [[nodiscard]] std::span<const std::uint32_t> indices(std::uint32_t pool) const {
+        return std::span(pools_[pool].indices).first(pools_[pool].corners);
+    }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
 
     /// How far, in metres, the surface may be from the full one at this level, by the file; 0 at full detail and for a
@@ -33,10 +35,12 @@ public:
 private:
     struct PoolLevel {
         std::uint32_t vertices = 0;
-        std::vector<std::uint32_t> indices;  // at this level
+        std::vector<std::uint32_t> indices;  // at this level the first `corners`
+        std::size_t corners = 0;
         std::vector<std::uint32_t> all;      // at full detail
         std::vector<std::uint32_t> deaths;   // of each triangle drawn: there while more vertices than that are alive
         std::vector<std::uint32_t> counts;   // triangles alive at base vertices, base + 1, ...
+        std::vector<std::uint32_t> targets;  // of each vertex from base on the one that it collapses to
         std::vector<std::uint32_t> now;      // for each vertex the one that stands for it
         const PoolCollapseView* collapse = nullptr;
     };
