@@ -136,7 +136,7 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
         assert(first % SkinPlan::kGroup == 0);
         block.plan_first = plan_->first.data() + first / SkinPlan::kGroup;
         block.plan_bones = plan_->bones.data();
-        block.plan_weights = plan_->weights.data()->of;
+        block.plan_weights = plan_->weights.empty() ? nullptr : plan_->weights.front().of;
         if (plan_->is_complete) return;
     }
     block.weights = weights_scratch_.data();

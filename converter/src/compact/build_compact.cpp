@@ -50,11 +50,13 @@ MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
                                      Report& report, const std::function<void(double)>& progress) {
-    constexpr int kAttempts = 5;
+    constexpr int kAttempts = 6;            // the last leaves the cycles as they are
     constexpr double kGeometryDone = 0.05;  // of the whole work
     constexpr double kPackingDone = 0.6;
     constexpr double kOvershoot = 1.1;  // of what is taken off the cycles, for what is too much
     constexpr double kLeast = 0.2;      // of their share, from one attempt to the next
+    constexpr double kStep =
+        0.02;  // taken off at least, twice as much at each attempt: small changes may change nothing
 
     CompactReport result;
     result.height = height_at_rest(exact);
@@ -71,7 +73,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
     Attempt attempt;
     for (int number = 0; number < kAttempts; ++number) {
         Scene scene = geometry_scene;
-        pack_cycles(scene, result.max_error * cycle_share, part_of(progress, kGeometryDone, kPackingDone));
+        if (number + 1 < kAttempts)
+            pack_cycles(scene, result.max_error * cycle_share, part_of(progress, kGeometryDone, kPackingDone));
         BuildOptions options;
         options.compact = true;
         options.geometry = &geometry;
@@ -84,7 +87,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
             break;
         }
         const double excess = attempt.error.metres / result.max_error - 1.0;
-        cycle_share = std::max(cycle_share - kOvershoot * excess, kLeast * cycle_share);
+        const double less = std::max(kOvershoot * excess, kStep * (1 << number));
+        cycle_share = std::max(cycle_share - less, kLeast * cycle_share);
     }
     if (!(attempt.error.metres <= result.max_error)) {
         report.warn("cannot be kept inside the error that was asked for: written exactly");
