@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     for (int a = 1; a < argc; ++a) {
         for (const Clip& clip : clips_of(argv[a])) {
-            const auto add = [&](const char* kernel, Unpack* unpack) {
+            const auto add = [&](const char* kernel, [[maybe_unused]] Unpack* unpack) {
                 constexpr std::pair<const char*, Order> kOrders[] = {
                     {"next", Order::next_frame}, {"random", Order::random}, {"cold", Order::cold}};
                 for (const auto& [name, order] : kOrders) {

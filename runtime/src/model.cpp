@@ -215,7 +215,7 @@ const Cycle* Model::cycle(std::string_view name) const {
 const UnpackPlan* Model::unpack_plan(const Cycle& cycle) const {
     if (data_->unpack_plans.empty()) return nullptr;
     const auto& cycles = data_->object.cycles;
-    const std::less<const Cycle*> is_before;
+    const std::less<> is_before;
     if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return nullptr;
     const UnpackPlan& plan = data_->unpack_plans[static_cast<std::size_t>(&cycle - cycles.data())];
     return plan.packed != nullptr ? &plan : nullptr;

@@ -2,7 +2,6 @@
 
 #if defined(__AVX2__)
 
-// NOLINTBEGIN(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic): see skin_block.h
 namespace bendy {
 namespace {
 
@@ -133,6 +132,5 @@ bool palette_avx2(const PaletteBlock& block) {
 }
 
 }  // namespace bendy
-// NOLINTEND(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic)
 
 #endif

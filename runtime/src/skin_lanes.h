@@ -4,7 +4,6 @@
 // Some vertices at a time: matrices are blended vertex by vertex, as rows, since each vertex reads others; then they
 // are turned so that a lane is a vertex, and what follows goes by lanes.
 
-// NOLINTBEGIN(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic): see skin_block.h
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
 struct Matrix {
@@ -492,5 +491,4 @@ void skin_lanes(const SkinBlock& block) {
     }
     skin_packed<false>(block, wanted);
 }
-// NOLINTEND(modernize-avoid-c-arrays,cppcoreguidelines-pro-bounds-pointer-arithmetic)
 // NOLINTEND(misc-definitions-in-headers)

@@ -18,7 +18,7 @@ struct SkinPlan {
     static constexpr std::size_t kMostBones = 8;  // from there on eight vertices cost as much one by one
 
     struct alignas(32) Weights {
-        float of[kGroup];  // NOLINT(modernize-avoid-c-arrays): kernels read it
+        float of[kGroup];  // an array, since kernels read it
     };
 
     std::vector<std::uint32_t> first;      ///< in bones, of each group; one more than groups. Empty: no plan

@@ -24,7 +24,7 @@ Unpack unpack_avx2;
 Unpack* best_unpack();
 
 /// As the plain decoder sets it: one track's value at a joint that is at rest.
-/// \param fraction  [0, 1), from the group's left numbers to its right ones
-void set_unpacked(const PackedGroup& group, std::uint32_t track, double fraction, JointTransform& joint);
+/// \param u  [0, 1), from the group's left numbers to its right ones
+void set_unpacked(const PackedGroup& group, std::uint32_t track, double u, JointTransform& joint);
 
 }  // namespace bendy

@@ -35,8 +35,8 @@ UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, cons
 
 /// Rest values by lane; rotations of unit length.
 glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
-    if (path == TrackPath::translation) return glm::vec4(rest.translation, 0.0f);
-    if (path == TrackPath::scale) return glm::vec4(rest.scale, 0.0f);
+    if (path == TrackPath::translation) return {rest.translation, 0.0f};
+    if (path == TrackPath::scale) return {rest.scale, 0.0f};
     const glm::dvec4 q(rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w);
     const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
     return square > 0.0 ? glm::vec4(q / std::sqrt(square)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);

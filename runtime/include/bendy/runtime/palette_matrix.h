@@ -5,8 +5,8 @@ namespace bendy {
 /// Rows of a 3x4 matrix, pool space to model space: what a bone does to a vertex. As long as a cache line. Nothing but
 /// numbers, since kernels for other processors include this.
 struct alignas(64) PaletteMatrix {
-    float rows[3][4];  // NOLINT(modernize-avoid-c-arrays): an std::array's functions would be compiled there
-    float unused[4];   // NOLINT(modernize-avoid-c-arrays)
+    float rows[3][4];
+    float unused[4];
 };
 
 }  // namespace bendy
