@@ -70,7 +70,7 @@ TEST(GltfMaterial, CoreFieldsAndTheirDefaults) {
 
 TEST(GltfMaterial, TextureTransform) {
     Gltf gltf = make_triangle();
-    gltf.json["textures"] = {Json::object()};
+    gltf.json["textures"] = Json::array({Json::object()});
     Json texture = {{"index", 0}, {"texCoord", 1}};
     texture["extensions"]["KHR_texture_transform"] = {
         {"offset", {0.5, 0.25}}, {"rotation", 1.5}, {"scale", {2, -1}}, {"texCoord", 3}};
@@ -88,7 +88,7 @@ TEST(GltfMaterial, TextureTransform) {
 
 TEST(GltfMaterial, UnlitIsAFieldOtherExtensionsStayAsJson) {
     Gltf gltf = make_triangle();
-    gltf.json["materials"] = {Json::object()};
+    gltf.json["materials"] = Json::array({Json::object()});
     gltf.json["materials"][0]["extensions"] = {{"KHR_materials_unlit", Json::object()},
                                                {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}};
     const Import import = gltf.import();
@@ -139,7 +139,7 @@ TEST(GltfMaterial, WrongReferencesNameTheirPlace) {
     EXPECT_EQ(gltf.import().place(), "textures[0].source");
     gltf.json["textures"] = {{{"sampler", 0}}};
     EXPECT_EQ(gltf.import().place(), "textures[0].sampler");
-    gltf.json["textures"] = {Json::object()};
+    gltf.json["textures"] = Json::array({Json::object()});
     EXPECT_TRUE(gltf.import().result);
     gltf.primitive()["material"] = 1;
     EXPECT_EQ(gltf.import().place(), "meshes[0].primitives[0].material");
