@@ -14,7 +14,7 @@ TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
     Report unheard;
     const auto scene = import_gltf(std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / "tentacle.glb", {}, unheard);
     ASSERT_TRUE(scene) << scene.error().message;
-    for (const double share : {1e-5, 5e-5, 2e-4, 1e-3, 3e-3, 1e-2}) {
+    for (const double share : {5e-5, 1e-3, 1e-2}) {
         Report report;
         const auto bytes = build_compact(*scene, {share, true}, "test", report, {});
         ASSERT_TRUE(report.compact) << share;
