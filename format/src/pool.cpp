@@ -73,6 +73,28 @@ std::uint64_t box_size(const StreamRecord& record) {
     return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
+template <class T>
+std::uint32_t largest_of(const StreamView& stream) {
+    std::uint32_t largest = 0;
+    const std::uint64_t numbers = std::uint64_t{stream.elements} * stream.components;
+    for (std::uint64_t at = 0; at < numbers; ++at) largest = std::max<std::uint32_t>(largest, load<T>(stream.data, at));
+    return largest;
+}
+
+/// 0 for a stream without indices.
+std::uint32_t largest_index(const StreamView& stream) {
+    switch (stream.type) {
+        case ComponentType::u8:
+            return largest_of<std::uint8_t>(stream);
+        case ComponentType::u16:
+            return largest_of<std::uint16_t>(stream);
+        case ComponentType::u32:
+            return largest_of<std::uint32_t>(stream);
+        default:
+            return 0;
+    }
+}
+
 class PoolReader {
 public:
     PoolReader(const ChunkTree& tree, Faults& faults) : tree_(tree), faults_(faults) {}
@@ -148,10 +170,7 @@ public:
     /// Every index of the stream must be below `limit`.
     void check_indices(const std::optional<StreamView>& stream, std::uint64_t limit, ErrorCode code) {
         if (!stream) return;
-        std::uint32_t largest = 0;
-        for (std::uint32_t e = 0; e < stream->elements; ++e) {
-            for (std::uint32_t c = 0; c < stream->components; ++c) largest = std::max(largest, stream->index(e, c));
-        }
+        const std::uint32_t largest = largest_index(*stream);
         if (!stream->empty() && largest >= limit) faults_.add({code, tree_[stream->chunk].offset, largest, limit});
     }
 
