@@ -37,6 +37,7 @@ if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need clang++ clang
+    compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format
     need clang-tidy clang-tidy
     need git git
