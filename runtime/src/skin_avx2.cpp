@@ -24,6 +24,7 @@ inline void end_streams() {
     _mm_sfence();
 }
 
+#include "lanes.h"
 #include "skin_lanes.h"
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The body of the skinning kernels, included by one source for each instruction set, which defines BENDY_LANES (4 or
-// 8), roots_of(Lanes) and stream(float*, Quad), and is compiled with that set's options.
+// The body of the skinning kernels, included after lanes.h by one source for each instruction set, which also defines
+// roots_of(Lanes) and stream(float*, Quad), and is compiled with that set's options.
 //
 // Some vertices at a time: matrices are blended vertex by vertex, as rows, since each vertex reads others; then they
 // are turned so that a lane is a vertex, and what follows goes by lanes.
@@ -9,94 +9,6 @@
 struct Matrix {
     Lanes at[3][4];
 };
-struct Three {
-    Lanes x, y, z;
-};
-
-inline Lanes splat(float number) {
-#if BENDY_LANES == 8
-    return Lanes{number, number, number, number, number, number, number, number};
-#else
-    return Lanes{number, number, number, number};
-#endif
-}
-
-inline Quad load_quad(const float* from) {
-    Quad quad;
-    __builtin_memcpy(&quad, from, sizeof quad);
-    return quad;
-}
-
-inline void store_quad(float* to, Quad quad) {
-    __builtin_memcpy(to, &quad, sizeof quad);
-}
-
-/// In each group of four lanes: numbers a and b of x, c and d of y.
-template <int a, int b, int c, int d>
-inline Lanes shuffle(Lanes x, Lanes y) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(x, y, a, b, 8 + c, 8 + d, 4 + a, 4 + b, 12 + c, 12 + d);
-#else
-    return __builtin_shufflevector(x, y, a, b, 4 + c, 4 + d);
-#endif
-}
-
-/// Lanes that lie one after another.
-inline Lanes load_lanes(const float* from) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-}
-
-/// Four numbers at `from`; in the upper lanes, if there are any, those `apart` floats on.
-inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(load_quad(from), load_quad(from + apart), 0, 1, 2, 3, 4, 5, 6, 7);
-#else
-    return load_quad(from);
-#endif
-}
-
-inline Quad low(Lanes lanes) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
-#else
-    return lanes;
-#endif
-}
-#if BENDY_LANES == 8
-inline Quad high(Lanes lanes) {
-    return __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
-}
-#endif
-
-/// Turns four numbers of each of four vertices (and of four more in the upper lanes): to[c] is every vertex's number c.
-inline void transpose(Lanes a, Lanes b, Lanes c, Lanes d, Lanes* to) {
-    const Lanes ab_low = shuffle<0, 1, 0, 1>(a, b);
-    const Lanes ab_high = shuffle<2, 3, 2, 3>(a, b);
-    const Lanes cd_low = shuffle<0, 1, 0, 1>(c, d);
-    const Lanes cd_high = shuffle<2, 3, 2, 3>(c, d);
-    to[0] = shuffle<0, 2, 0, 2>(ab_low, cd_low);
-    to[1] = shuffle<1, 3, 1, 3>(ab_low, cd_low);
-    to[2] = shuffle<0, 2, 0, 2>(ab_high, cd_high);
-    to[3] = shuffle<1, 3, 1, 3>(ab_high, cd_high);
-}
-
-/// kLanes times x, y, z.
-inline Three load_three(const float* from) {
-    const Lanes a = load_quads(from, 12);
-    const Lanes b = load_quads(from + 4, 12);
-    const Lanes c = load_quads(from + 8, 12);
-    const Lanes xy = shuffle<2, 3, 1, 2>(b, c);
-    const Lanes yz = shuffle<1, 2, 0, 1>(a, b);
-    return {shuffle<0, 3, 0, 2>(a, xy), shuffle<0, 2, 1, 3>(yz, xy), shuffle<1, 3, 0, 3>(yz, c)};
-}
-
-/// kLanes times x, y, z, w.
-inline void load_four(const float* from, Lanes* to) {
-    transpose(load_quads(from, 16), load_quads(from + 4, 16), load_quads(from + 8, 16), load_quads(from + 12, 16), to);
-}
-
 template <bool streams>
 inline void put_quad(float* to, Quad quad) {
     if constexpr (streams) {

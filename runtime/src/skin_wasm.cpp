@@ -22,6 +22,7 @@ inline void stream(float* to, Quad quad) {
 }
 inline void end_streams() {}
 
+#include "lanes.h"
 #include "skin_lanes.h"
 
 }  // namespace
