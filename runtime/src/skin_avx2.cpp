@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 using Lanes = float __attribute__((vector_size(32)));
+using Eight = Lanes;
 using Quad = float __attribute__((vector_size(16)));
 
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {

@@ -377,7 +377,6 @@ void skin_rigid(const SkinBlock& block) {
 }
 
 #if BENDY_LANES >= 8
-using Eight = float __attribute__((vector_size(32)));
 
 inline Eight load_eight(const float* from) {
     Eight eight;
@@ -387,7 +386,7 @@ inline Eight load_eight(const float* from) {
 
 /// sum(weight * matrix) for eight vertices at once, of `count` bones that they share.
 inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const PaletteMatrix* palette,
-                                                                   const std::uint16_t* bones, const float* weights,
+                                                                   const std::uint16_t* bones, const Number* weights,
                                                                    std::size_t count) {
     const float* matrix = &palette[bones[0]].rows[0][0];
     Eight weight = load_eight(weights);
@@ -425,14 +424,9 @@ __attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t v
     matrix = turn(rows.of);
 }
 
-inline __attribute__((always_inline)) MatrixOf<Eight> blend_list(const SkinBlock& block, std::size_t first,
-                                                                 std::size_t end) {
-    return blend_shared(block.palette, block.plan_bones + first, block.plan_weights + 8 * first, end - first);
-}
-
 #if BENDY_LANES == 16
 /// Two lists of eight side by side; the second one may be behind the last vertex.
-inline Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
+inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
     const std::uint32_t* const first = block.plan_first + vertex / 8;
     const bool has_two = block.vertices - vertex > 8;
     Matrix matrix;
@@ -440,8 +434,12 @@ inline Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
         blend_apart(block, vertex, matrix);
         return matrix;
     }
-    const MatrixOf<Eight> lower = blend_list(block, first[0], first[1]);
-    const MatrixOf<Eight> upper = has_two ? blend_list(block, first[1], first[2]) : MatrixOf<Eight>{};
+    const MatrixOf<Eight> lower = blend_shared(block.palette, block.plan_bones + first[0],
+                                               block.plan_weights + std::size_t{8} * first[0], first[1] - first[0]);
+    const MatrixOf<Eight> upper =
+        has_two ? blend_shared(block.palette, block.plan_bones + first[1],
+                               block.plan_weights + std::size_t{8} * first[1], first[2] - first[1])
+                : MatrixOf<Eight>{};
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t column = 0; column < 4; ++column)
             matrix.at[row][column] = __builtin_shufflevector(lower.at[row][column], upper.at[row][column], 0, 1, 2, 3,
@@ -452,7 +450,9 @@ inline Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
 #else
 inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
     const std::uint32_t* const first = block.plan_first + vertex / 8;
-    if (first[1] != first[0]) return blend_list(block, first[0], first[1]);
+    if (first[1] != first[0])
+        return blend_shared(block.palette, block.plan_bones + first[0], block.plan_weights + std::size_t{8} * first[0],
+                            first[1] - first[0]);
     Matrix matrix;
     blend_apart(block, vertex, matrix);
     return matrix;
