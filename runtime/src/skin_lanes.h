@@ -386,7 +386,7 @@ inline Eight load_eight(const float* from) {
 
 /// sum(weight * matrix) for eight vertices at once, of `count` bones that they share.
 inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const PaletteMatrix* palette,
-                                                                   const std::uint16_t* bones, const Number* weights,
+                                                                   const std::uint16_t* bones, const float* weights,
                                                                    std::size_t count) {
     const float* matrix = &palette[bones[0]].rows[0][0];
     Eight weight = load_eight(weights);
