@@ -44,6 +44,7 @@ SkinKernel skin_plain;
 /// tangents that do not cancel).
 SkinKernel skin_sse4;
 SkinKernel skin_avx2;
+SkinKernel skin_avx512;
 SkinKernel skin_neon;
 SkinKernel skin_wasm;
 

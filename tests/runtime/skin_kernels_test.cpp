@@ -19,6 +19,9 @@
 #include <vector>
 
 namespace bendy {
+
+SkinKernel skin_sixteen;  // skin_sixteen.cpp
+
 namespace {
 
 using test::Buffer;
@@ -131,15 +134,33 @@ void expect_same(Unaligned& found, Unaligned& expected, std::size_t vertex, std:
     }
 }
 
-void compare(RandomBlock& random, Kernel kernel, std::size_t positions, std::size_t normals, std::size_t tangents) {
+/// A kernel that is tested.
+struct Tried {
+    std::string name;
+    SkinKernel* run;
+};
+
+/// All that this machine has, and the sixteen lanes of AVX-512 in halves if it has none.
+std::vector<Tried> tried() {
+    std::vector<Tried> all;
+    for (const Kernel kernel : kernels()) all.push_back({std::string(kernel_name(kernel)), skin_kernel(kernel)});
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0)
+        all.push_back({"sixteen lanes in halves", skin_sixteen});
+#endif
+    return all;
+}
+
+void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, std::size_t normals,
+             std::size_t tangents) {
     SkinBlock plain = random.block;
     Output expected(plain, positions, normals, tangents);
     skin_plain(plain);
     SkinBlock block = random.block;
     Output found(block, positions, normals, tangents);
-    skin_kernel(kernel)(block);
-    const std::string what = std::string(kernel_name(kernel)) + ", " + std::to_string(block.vertices) +
-                             " vertices of " + std::to_string(block.influences);
+    kernel.run(block);
+    const std::string what =
+        kernel.name + ", " + std::to_string(block.vertices) + " vertices of " + std::to_string(block.influences);
     for (std::size_t v = 0; v < block.vertices; ++v) {
         // A row times a vector of the cube, and the translation: at most 1.5 * sqrt(3) * sqrt(3) + 3.
         expect_same(found.positions, expected.positions, v, positions, 3, 8 * 7.5 * kEpsilon, what + ", positions");
@@ -153,7 +174,7 @@ void compare(RandomBlock& random, Kernel kernel, std::size_t positions, std::siz
 }
 
 TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t vertices : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 15u, 16u, 17u, 31u, 64u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
@@ -164,7 +185,7 @@ TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
 }
 
 TEST(SkinKernels, WideBonesAndOneMatrix) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t influences : {1u, 3u, 4u, 8u, 9u}) {
             RandomBlock random(45, influences, 7);
             random.block.bones8 = nullptr;
@@ -178,7 +199,7 @@ TEST(SkinKernels, WideBonesAndOneMatrix) {
 }
 
 TEST(SkinKernels, AnyStrideAndAnySubset) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t positions : {0u, 3u, 4u, 5u, 12u}) {
             for (const std::size_t normals : {0u, 3u, 4u, 11u}) {
                 for (const std::size_t tangents : {0u, 4u, 5u, 9u}) {
@@ -211,7 +232,7 @@ Pool as_pool(const RandomBlock& random) {
 }
 
 TEST(SkinKernels, SharedBonesGiveTheSame) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t vertices : {1u, 5u, 8u, 9u, 40u, 133u}) {
             for (const std::size_t influences : {1u, 2u, 4u, 8u}) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices + influences));
@@ -259,26 +280,26 @@ TEST(SkinPlan, ListsWhatAGroupFollows) {
 }
 
 TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         RandomBlock random(77, 4, 3);
         std::vector<glm::vec4> near(77), past(77);  // aligned
         for (auto* out : {&near, &past}) {
             SkinBlock block = random.block;
             block.streams = out == &past;
             block.out_positions = {&out->front().x, 3};
-            skin_kernel(kernel)(block);
+            kernel.run(block);
         }
         EXPECT_EQ(near, past);
     }
 }
 
 TEST(SkinKernels, DirectionsWithoutLengthStayZero) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         RandomBlock random(24, 4, 5);
         for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
         for (std::size_t k = 0; k < 4 * 24; ++k) random.tangents.data()[k] = 0.0f;
         Output out(random.block, 0, 3, 4);
-        skin_kernel(kernel)(random.block);
+        kernel.run(random.block);
         for (std::size_t k = 0; k < 3 * 24; ++k) EXPECT_EQ(out.normals.data()[k], 0.0f);
         for (std::size_t k = 0; k < 4 * 24; ++k) EXPECT_EQ(out.tangents.data()[k], 0.0f);
     }
