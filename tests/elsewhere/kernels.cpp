@@ -1,0 +1,80 @@
+// The skinning kernels of another processor against the plain one: a program that needs nothing but the C++ library, to
+// be run by an emulator. Prints the worst errors; 0 if they are within bounds.
+
+#include "runtime/skin_comparison.h"
+
+#include <cstdio>
+
+namespace bendy {
+namespace {
+
+#if defined(__aarch64__)
+constexpr const char* kName = "neon";
+constexpr auto* kKernel = skin_neon;
+#elif defined(__wasm_simd128__)
+constexpr const char* kName = "wasm";
+constexpr auto* kKernel = skin_wasm;
+#endif
+
+test::SkinErrors errors_of_any_counts() {
+    test::SkinErrors errors;
+    for (const std::size_t vertices : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 9U, 31U, 64U, 101U}) {
+        for (std::size_t influences = 1; influences <= 10; ++influences) {
+            test::RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
+            errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+        }
+    }
+    return errors;
+}
+
+test::SkinErrors errors_of_any_strides() {
+    test::SkinErrors errors;
+    for (const std::size_t positions : {0U, 3U, 4U, 12U}) {
+        for (const std::size_t normals : {0U, 3U, 11U}) {
+            for (const std::size_t tangents : {0U, 4U, 9U}) {
+                test::RandomBlock random(29, 4, 11);
+                errors.add(test::errors_of(random, kKernel, positions, normals, tangents));
+            }
+        }
+    }
+    return errors;
+}
+
+test::SkinErrors errors_of_wide_bones_and_one_matrix() {
+    test::SkinErrors errors;
+    for (const std::size_t influences : {1U, 3U, 4U, 8U, 9U}) {
+        test::RandomBlock random(45, influences, 7);
+        random.block.bones8 = nullptr;
+        random.block.bones16 = random.bones16.data();
+        errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+        random.block.bones16 = nullptr;
+        random.block.weights = nullptr;
+        errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+    }
+    return errors;
+}
+
+bool keeps_zeros() {
+    test::RandomBlock random(24, 4, 5);
+    for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
+    test::Output out(random.block, 0, 3, 0);
+    kKernel(random.block);
+    bool are_zero = true;
+    for (std::size_t k = 0; k < 3 * 24; ++k) are_zero = are_zero && out.normals.data()[k] == 0.0f;
+    return are_zero;
+}
+
+}  // namespace
+}  // namespace bendy
+
+int main() {
+    bendy::test::SkinErrors errors = bendy::errors_of_any_counts();
+    errors.add(bendy::errors_of_any_strides());
+    errors.add(bendy::errors_of_wide_bones_and_one_matrix());
+    const bool keeps_zeros = bendy::keeps_zeros();
+    std::printf("%s: positions %.2f of %.0f, directions %.2f of %.0f units in the last place%s%s\n", bendy::kName,
+                errors.positions, bendy::test::SkinErrors::kMostForPositions, errors.directions,
+                bendy::test::SkinErrors::kMostForDirections, errors.has_strayed ? "; memory of others written" : "",
+                keeps_zeros ? "" : "; zeros did not stay zero");
+    return errors.are_small() && keeps_zeros ? 0 : 1;
+}
