@@ -173,16 +173,33 @@ inline __attribute__((always_inline)) void move(const Matrix& matrix, const Skin
     }
 }
 
-/// The second step.
-template <class F>
-inline __attribute__((always_inline)) void finish(const Moved& moved, const SkinBlock& block, std::size_t vertex) {
-    if (wants<F, 1>(block.out_positions)) store_three<F>(moved.positions, block.out_positions, vertex);
-    if (wants<F, 2>(block.out_normals)) store_three<F>(normalised(moved.normals), block.out_normals, vertex);
-    if (wants<F, 4>(block.out_tangents)) {
-        const Three t = normalised(moved.tangents);
-        const std::size_t stride = F::packed ? 4 : block.out_tangents.stride;
-        store_apart<4, F::streams>(t.x, t.y, t.z, moved.sides, block.out_tangents.data + stride * vertex, stride);
+/// The second step of those of the attributes `parts` (1, 2, 4) that are wanted.
+template <class F, int parts>
+inline __attribute__((always_inline)) void finish(const Moved* moved, const SkinBlock& block, std::size_t vertex,
+                                                  std::size_t count) {
+    for (const std::size_t end = vertex + count; vertex < end; vertex += kLanes, ++moved) {
+        if ((parts & 1) != 0 && wants<F, 1>(block.out_positions))
+            store_three<F>(moved->positions, block.out_positions, vertex);
+        if ((parts & 2) != 0 && wants<F, 2>(block.out_normals))
+            store_three<F>(normalised(moved->normals), block.out_normals, vertex);
+        if ((parts & 4) != 0 && wants<F, 4>(block.out_tangents)) {
+            const Three t = normalised(moved->tangents);
+            const std::size_t stride = F::packed ? 4 : block.out_tangents.stride;
+            store_apart<4, F::streams>(t.x, t.y, t.z, moved->sides, block.out_tangents.data + stride * vertex, stride);
+        }
     }
+}
+
+/// What the chunk after the next one wants of a group. The processor foresees that by itself, but not across pages.
+template <class F>
+inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
+    const auto fetch = [&](const float* from, std::size_t numbers) {
+        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk));
+        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk) + 16);
+    };
+    fetch(block.positions, 3);
+    if (wants<F, 2>(block.out_normals)) fetch(block.normals, 3);
+    if (wants<F, 4>(block.out_tangents)) fetch(block.tangents, 4);
 }
 
 /// Whole groups, `count` vertices of them from `vertex` on; matrix_of(vertex) is a group's.
@@ -191,9 +208,17 @@ inline __attribute__((always_inline)) void transform(const SkinBlock& block, std
                                                      const Blend& matrix_of) {
     Moved moved[kChunk / kLanes];
     if constexpr (F::wanted == 0) __builtin_memset(&moved, 0, sizeof moved);
-    for (std::size_t k = 0; k < count; k += kLanes)
+    for (std::size_t k = 0; k < count; k += kLanes) {
+        if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
         move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
-    for (std::size_t k = 0; k < count; k += kLanes) finish<F>(moved[k / kLanes], block, vertex + k);
+    }
+    if constexpr (F::streams) {  // one attribute after another, so that whole cache lines are written
+        finish<F, 1>(moved, block, vertex, count);
+        finish<F, 2>(moved, block, vertex, count);
+        finish<F, 4>(moved, block, vertex, count);
+    } else {
+        finish<F, 7>(moved, block, vertex, count);
+    }
 }
 
 /// Fewer than kLanes vertices: with copies around them that are as long as a group.
