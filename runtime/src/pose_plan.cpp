@@ -38,33 +38,60 @@ double longest_axis(const glm::dmat4& matrix) {
     return std::sqrt(square);
 }
 
+/// The box around some points.
+class Box {
+public:
+    void add(const glm::dvec3& point) {
+        low_ = glm::min(low_, point);
+        high_ = glm::max(high_, point);
+    }
+    /// Negative if there is no point.
+    [[nodiscard]] double diagonal() const { return low_.x <= high_.x ? glm::length(high_ - low_) : -1.0; }
+
+private:
+    glm::dvec3 low_{INFINITY};
+    glm::dvec3 high_{-INFINITY};
+};
+
+/// Of a pool's vertices, by no more than some thousands of them, in pool space.
+double length_of(const PoolView& pool) {
+    constexpr std::uint32_t kLooks = 4096;
+    const std::uint32_t step = pool.vertices / kLooks + 1;
+    Box box;
+    for (std::uint32_t vertex = 0; vertex < pool.vertices; vertex += step) box.add(pool.positions.vec3(vertex));
+    return box.diagonal();
+}
+
 /// Whether the rest pose's numbers are of the character's own size. Rounding is relative to the largest of them.
 bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
-    constexpr double kLargest = 32.0;  // extents: 2e-6 of one for a rounding
+    constexpr double kLargest = 8.0;  // lengths of the character: 5e-7 of one for a rounding
     constexpr std::uint32_t kDeepest = 64;
     const std::vector<std::uint32_t> depths = depths_of(joints);
     if (joints.empty() || *std::max_element(depths.begin(), depths.end()) > kDeepest) return false;
     std::vector<glm::dmat4> model(joints.size());
-    glm::dvec3 low(INFINITY);
-    glm::dvec3 high(-INFINITY);
+    Box places;
     double largest = 0.0;
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
         if (joints[joint].shear != glm::vec3(0.0f)) return false;
         const glm::dmat4 local = to_matrix(joints[joint].rest, joints[joint].shear);
         model[joint] = joints[joint].parent == kNone ? local : model[joints[joint].parent] * local;
-        const glm::dvec3 place(model[joint][3]);
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-        largest = std::max(largest, glm::length(place));
+        places.add(model[joint][3]);
+        largest = std::max(largest, glm::length(glm::dvec3(model[joint][3])));
     }
+    double length = -1.0;
     for (const PoolView& pool : object.pools) {
+        double scale = pool.joint < joints.size() ? longest_axis(model[pool.joint]) : 0.0;
         const auto inverse_bind = pool.palette.inverse_bind();
         for (std::size_t entry = 0; entry < inverse_bind.size(); ++entry) {
-            const glm::dvec3 moved(inverse_bind[entry][3]);
-            largest = std::max(largest, longest_axis(model[pool.palette.joints[entry]]) * glm::length(moved));
+            const glm::dmat4& joint = model[pool.palette.joints[entry]];
+            const glm::dmat4 bind(inverse_bind[entry]);
+            largest = std::max(largest, longest_axis(joint) * glm::length(glm::dvec3(bind[3])));
+            scale = std::max(scale, longest_axis(joint * bind));
         }
+        length = std::max(length, scale * length_of(pool));
     }
-    return largest <= kLargest * glm::length(high - low);  // false where it is not a number
+    if (object.pools.empty()) length = places.diagonal();
+    return largest <= kLargest * length;  // false where it is not a number
 }
 
 bool is_for_kernels(const TrackView& track) {
