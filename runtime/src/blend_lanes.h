@@ -1,5 +1,5 @@
-// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also defines
-// roots_of(Lanes).
+// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also
+// defines roots_of(Lanes).
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
@@ -84,7 +84,8 @@ inline void blend_lanes(const BlendBlock& block) {
     float local[10 * kLanes]{};
     float other[10 * kLanes]{};
     Lanes weight{};
-    for (std::size_t k = 0; k < count; ++k) weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[joint + k]);
+    for (std::size_t k = 0; k < count; ++k)
+        weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[joint + k]);
     __builtin_memcpy(local, block.local + 10 * joint, 10 * count * sizeof(float));
     __builtin_memcpy(other, block.other + 10 * joint, 10 * count * sizeof(float));
     blend_joints(local, other, weight);
