@@ -115,7 +115,6 @@ void list(const PoolView& pool, SkinPlan& plan) {
 SkinPlan make_skin_plan(const PoolView& pool) {
     SkinPlan plan;
     if (pool.is_rigid() || pool.bones->components == 0) return plan;
-    for (const glm::mat4& matrix : pool.palette.inverse_bind()) plan.inverse_bind.emplace_back(matrix);
     if (pool.bones->type == ComponentType::u8) {
         list<std::uint8_t>(pool, plan);
     } else {
