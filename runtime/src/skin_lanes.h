@@ -476,9 +476,10 @@ inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& bloc
 #else
 inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
     const std::uint32_t* const first = block.plan_first + vertex / 8;
-    if (first[1] != first[0])
+    if (first[1] != first[0]) {
         return blend_shared(block.palette, block.plan_bones + first[0], block.plan_weights + std::size_t{8} * first[0],
                             first[1] - first[0]);
+    }
     Matrix matrix;
     blend_apart(block, vertex, matrix);
     return matrix;
