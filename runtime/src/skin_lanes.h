@@ -467,9 +467,10 @@ inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& bloc
                                block.plan_weights + std::size_t{8} * first[1], first[2] - first[1])
                 : MatrixOf<Eight>{};
     for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t column = 0; column < 4; ++column) {
             matrix.at[row][column] = __builtin_shufflevector(lower.at[row][column], upper.at[row][column], 0, 1, 2, 3,
                                                              4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        }
     }
     return matrix;
 }
