@@ -1,6 +1,7 @@
-// The skinning kernels of another processor against the plain one: a program that needs nothing but the C++ library, to
+// The kernels of another processor against the plain ones: a program that needs nothing but the C++ library, to
 // be run by an emulator. Prints the worst errors; 0 if they are within bounds.
 
+#include "runtime/pose_comparison.h"
 #include "runtime/skin_comparison.h"
 
 #include <cstdio>
@@ -11,9 +12,11 @@ namespace {
 #if defined(__aarch64__)
 constexpr const char* kName = "neon";
 constexpr auto* kKernel = skin_neon;
+constexpr const PoseKernels& kPoseKernels = kPoseNeon;
 #elif defined(__wasm_simd128__)
 constexpr const char* kName = "wasm";
 constexpr auto* kKernel = skin_wasm;
+constexpr const PoseKernels& kPoseKernels = kPoseWasm;
 #endif
 
 test::SkinErrors errors_of_any_counts() {
@@ -54,6 +57,26 @@ test::SkinErrors errors_of_wide_bones_and_one_matrix() {
     return errors;
 }
 
+bool skins() {
+    test::SkinErrors errors = errors_of_any_counts();
+    errors.add(errors_of_any_strides());
+    errors.add(errors_of_wide_bones_and_one_matrix());
+    std::printf("%s: skinning: positions %.2f of %.0f, directions %.2f of %.0f units in the last place%s\n", kName,
+                errors.positions, test::SkinErrors::kMostForPositions, errors.directions,
+                test::SkinErrors::kMostForDirections, errors.has_strayed ? "; memory of others written" : "");
+    return errors.are_small();
+}
+
+bool poses() {
+    const test::PoseErrors errors = test::PoseComparison(kPoseKernels).run();
+    std::printf(
+        "%s: posing: pose %.2f, palette %.2f, sample %.2f, unpack %.2f, mix %.2f, add %.2f units in the last "
+        "place%s\n",
+        kName, errors.pose, errors.palette, errors.sample, errors.unpack, errors.mix, errors.add,
+        errors.finds_infinity ? "" : "; infinity not found");
+    return errors.are_small();
+}
+
 bool keeps_zeros() {
     test::RandomBlock random(24, 4, 5);
     for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
@@ -68,13 +91,9 @@ bool keeps_zeros() {
 }  // namespace bendy
 
 int main() {
-    bendy::test::SkinErrors errors = bendy::errors_of_any_counts();
-    errors.add(bendy::errors_of_any_strides());
-    errors.add(bendy::errors_of_wide_bones_and_one_matrix());
+    const bool skins = bendy::skins();
+    const bool poses = bendy::poses();
     const bool keeps_zeros = bendy::keeps_zeros();
-    std::printf("%s: positions %.2f of %.0f, directions %.2f of %.0f units in the last place%s%s\n", bendy::kName,
-                errors.positions, bendy::test::SkinErrors::kMostForPositions, errors.directions,
-                bendy::test::SkinErrors::kMostForDirections, errors.has_strayed ? "; memory of others written" : "",
-                keeps_zeros ? "" : "; zeros did not stay zero");
-    return errors.are_small() && keeps_zeros ? 0 : 1;
+    if (!keeps_zeros) std::puts("zeros did not stay zero");
+    return skins && poses && keeps_zeros ? 0 : 1;
 }
