@@ -52,7 +52,7 @@ inline void add_joints(float* local, const float* other, Lanes weight) {
     load_joint_rotations(local, q);
     load_joint_rotations(other, d);
     const Lanes by = d[3] < 0.0f ? -weight : weight;
-    for (std::size_t c = 0; c < 4; ++c) d[c] = by * d[c];
+    for (Lanes& each : d) each = by * each;
     d[3] = d[3] + (1.0f - weight);
     normalise_four(d);
     const Lanes product[4] = {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace bendy {
@@ -49,8 +50,8 @@ public:
     [[nodiscard]] double diagonal() const { return low_.x <= high_.x ? glm::length(high_ - low_) : -1.0; }
 
 private:
-    glm::dvec3 low_{INFINITY};
-    glm::dvec3 high_{-INFINITY};
+    glm::dvec3 low_{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
 };
 
 /// Of a pool's vertices, by no more than some thousands of them, in pool space.

@@ -14,7 +14,7 @@ struct Series {
     explicit Series(float time) : t(time) {
         const float square = time * time;
         for (int i = 0; i < kTerms; ++i) {
-            const float number = static_cast<float>(i + 1);
+            const auto number = static_cast<float>(i + 1);
             k[i] = (square * (1.0f / number) - number) * (1.0f / (2.0f * number + 1.0f));
         }
     }

@@ -1,0 +1,43 @@
+// lanes.h for 64-bit ARM, and what the kernels' bodies need of that instruction set. Has its own functions in each
+// source.
+
+#include <arm_neon.h>
+
+#include <cstddef>
+
+#define BENDY_LANES 4
+
+// NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): that is what this file is
+namespace bendy {
+namespace {
+
+constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(16)));
+using Quad = Lanes;
+
+inline Lanes roots_of(Lanes squares) {
+    return vsqrtq_f32(squares);
+}
+inline Lanes repeat(const float* quad) {
+    Lanes lanes;
+    __builtin_memcpy(&lanes, quad, sizeof lanes);
+    return lanes;
+}
+inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
+    return vminq_f32(vmaxq_f32(lanes, least), most);
+}
+inline Lanes inverse_roots_of(Lanes squares) {
+    const Lanes guess = vrsqrteq_f32(squares);  // 8 bits; each step of Newton's method doubles them
+    const Lanes better = guess * vrsqrtsq_f32(squares * guess, guess);
+    return better + 0.5f * better * (1.0f - squares * better * better);
+}
+inline void stream(float* to, Quad quad) {
+    vst1q_f32(to, quad);
+}
+inline void end_streams() {}
+
+#include "lanes.h"
+
+}  // namespace
+}  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)
