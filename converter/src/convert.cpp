@@ -46,7 +46,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         if (options.lod) collapse_vertices(*scene);
         std::vector<std::byte> bytes =
             options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
-                            : build_chunks(*scene, kGenerator, report);
+                            : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())

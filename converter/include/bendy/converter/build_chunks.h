@@ -29,4 +29,9 @@ struct BuildOptions {
 std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report,
                                     const BuildOptions& options = {});
 
+/// The same of a scene that is not needed any more: its long lists are given up on the way, and memory does not hold
+/// both them and the file.
+std::vector<std::byte> build_chunks(Scene&& scene, std::string_view generator, Report& report,
+                                    const BuildOptions& options = {});
+
 }  // namespace bendy::converter
