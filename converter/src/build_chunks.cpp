@@ -602,7 +602,6 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     });
     out.begin(FourCC("HEAD"));
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
-    if (options.bound) out.leaf(FourCC("BNDS"), bytes_of(*options.bound));
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
     if (!embeds) put_textures(out, scene);

@@ -6,7 +6,6 @@
 #include <bendy/format/records.h>
 
 #include <cstddef>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +18,6 @@ struct BuildOptions {
     /// Every leaf in the encoding that makes it smallest, joints as one table.
     bool compact = false;
     const CompactGeometry* geometry = nullptr;  ///< integers that take the place of the meshes' numbers; may be absent
-    std::optional<BoundRecord> bound;           ///< what the file says of its errors
 };
 
 /// Writes a scene as a file with one object: structure first, bulk after it, embedded images last. Exact: every number
