@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
 
 #if defined(__x86_64__)
 #include <nmmintrin.h>
@@ -58,9 +59,10 @@ std::uint32_t over_lane(std::uint32_t sum) {
            kOverLane[3][sum >> 24];
 }
 
-BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, Bytes bytes, std::size_t at) {
+/// `at` must have eight bytes.
+BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, const std::byte* at) {
     std::uint64_t word = 0;
-    copy_at(bytes, at, word);
+    std::memcpy(&word, at, sizeof word);
 #if defined(__x86_64__)
     return static_cast<std::uint32_t>(_mm_crc32_u64(sum, word));
 #else
@@ -92,14 +94,18 @@ BENDY_CRC32C std::uint32_t crc32c_instruction(Bytes bytes, std::uint32_t before)
     for (; bytes.size() >= 3 * kLane; bytes = bytes.subspan(3 * kLane)) {
         std::uint32_t second = 0;
         std::uint32_t third = 0;
-        for (std::size_t at = 0; at < kLane; at += kWord) {
-            sum = add_word(sum, bytes, at);
-            second = add_word(second, bytes, at + kLane);
-            third = add_word(third, bytes, at + 2 * kLane);
+        const std::byte* const end = bytes.data() + kLane;
+        for (const std::byte* at = bytes.data(); at != end; at += 2 * kWord) {
+            sum = add_word(sum, at);
+            second = add_word(second, at + kLane);
+            third = add_word(third, at + 2 * kLane);
+            sum = add_word(sum, at + kWord);
+            second = add_word(second, at + kWord + kLane);
+            third = add_word(third, at + kWord + 2 * kLane);
         }
         sum = over_lane(over_lane(sum) ^ second) ^ third;
     }
-    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) sum = add_word(sum, bytes, 0);
+    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) sum = add_word(sum, bytes.data());
     for (const std::byte byte : bytes) sum = add_byte(sum, byte);
     return ~sum;
 }

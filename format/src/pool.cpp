@@ -73,11 +73,11 @@ std::uint64_t box_size(const StreamRecord& record) {
     return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
+/// Plain enough for compilers to look at many numbers at once.
 template <class T>
 std::uint32_t largest_of(const StreamView& stream) {
-    std::uint32_t largest = 0;
-    const std::uint64_t numbers = std::uint64_t{stream.elements} * stream.components;
-    for (std::uint64_t at = 0; at < numbers; ++at) largest = std::max<std::uint32_t>(largest, load<T>(stream.data, at));
+    T largest = 0;
+    for (const T number : stream.as<T>()) largest = std::max(largest, number);
     return largest;
 }
 
