@@ -1,6 +1,6 @@
-// bench_accuracy FILE...: how far posed vertices are from a double-precision evaluation of the same file (the converter's,
-// which shares no code with the runtime), with every kernel that this machine has: the worst of all vertices, at rest and
-// at 41 times of every cycle, in millionths of the extent (the bounding box's diagonal at rest).
+// bench_accuracy FILE...: how far posed vertices are from a double-precision evaluation of the same file (the
+// converter's, which shares no code with the runtime), with every kernel that this machine has: the worst of all
+// vertices, at rest and at 41 times of every cycle, in millionths of the extent (the bounding box's diagonal at rest).
 #include "evaluate.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -37,8 +37,8 @@ double worst_of(const Scene& scene, const bendy::converter::EvaluatedPose& expec
     double worst = 0.0;
     std::size_t at = 0;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-        for (const glm::dvec3& place : bendy::converter::evaluate_vertices(
-                 scene.meshes[mesh], expected.target_weights[mesh], expected.joints))
+        for (const glm::dvec3& place :
+             bendy::converter::evaluate_vertices(scene.meshes[mesh], expected.target_weights[mesh], expected.joints))
             worst = std::max(worst, glm::distance(place, glm::dvec3(found[at++])));
     }
     return worst;

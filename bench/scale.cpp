@@ -1,6 +1,6 @@
-// bench_scale: what each joint and each vertex costs, from few to very many. Made-up characters: chains of ten joints on
-// one root, each joint with a rotation track of 31 keys; vertices on a sheet, four influences of bones that are near. The
-// least of some runs, in nanoseconds per joint or vertex.
+// bench_scale: what each joint and each vertex costs, from few to very many. Made-up characters: chains of ten joints
+// on one root, each joint with a rotation track of 31 keys; vertices on a sheet, four influences of bones that are
+// near. The least of some runs, in nanoseconds per joint or vertex.
 #include <bendy/format/chunk_writer.h>
 #include <bendy/format/codec.h>
 #include <bendy/format/records.h>
@@ -212,7 +212,8 @@ bool measure_vertices(std::uint32_t vertices) {
 
 int main() {
     bool is_good = true;
-    std::printf("| joints | open | sums later | next frame | random time | local to model |\n|---|---|---|---|---|---|\n");
+    std::printf(
+        "| joints | open | sums later | next frame | random time | local to model |\n|---|---|---|---|---|---|\n");
     for (const std::uint32_t joints : {10u, 100u, 1'000u, 10'000u}) is_good = is_good && measure_joints(joints);
     std::printf("\n| vertices | open | sums later | first pose | positions | + normals |\n|---|---|---|---|---|---|\n");
     for (const std::uint32_t vertices : {1'000u, 10'000u, 100'000u, 1'000'000u, 10'000'000u})

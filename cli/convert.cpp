@@ -210,23 +210,27 @@ void add_convert(CLI::App& program) {
                       "propose IK chains and joint limits by the joints' names, and list them");
     CLI::Option* compact =
         command
-            ->add_flag("--compact", arguments->compact,
-                       "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
+            ->add_flag(
+                "--compact", arguments->compact,
+                "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
             ->excludes(exact);
-    CLI::Option* max_error = command->add_option("--max-error", arguments->max_error,
-                     "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
-                     "character's height (0.005%); implies --compact")
-        ->check([](const std::string& text) {
-            const auto bound = converter::parse_error_bound(text);
-            return bound ? std::string() : bound.error();
-        });
+    CLI::Option* max_error =
+        command
+            ->add_option("--max-error", arguments->max_error,
+                         "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
+                         "character's height (0.005%); implies --compact")
+            ->check([](const std::string& text) {
+                const auto bound = converter::parse_error_bound(text);
+                return bound ? std::string() : bound.error();
+            });
     CLI::Option* lod = command->add_flag(
         "--lod", arguments->lod,
         "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its order");
     command
-        ->add_flag("--sort-vertices", arguments->sort_vertices,
-                   "put vertices that follow the same bones beside one another: less work in every frame. Else they keep "
-                   "the source's order; --lod and --compact have orders of their own")
+        ->add_flag(
+            "--sort-vertices", arguments->sort_vertices,
+            "put vertices that follow the same bones beside one another: less work in every frame. Else they keep "
+            "the source's order; --lod and --compact have orders of their own")
         ->excludes(lod)
         ->excludes(compact)
         ->excludes(max_error);

@@ -30,8 +30,7 @@ static_assert(sizeof(Header) == kChunkHeaderSize);
 /// A file that is removed at the end.
 class Temporary {
 public:
-    Temporary()
-        : path_(std::filesystem::temp_directory_path() / ("bendy_large_file_" + std::to_string(::getpid()))) {}
+    Temporary() : path_(std::filesystem::temp_directory_path() / ("bendy_large_file_" + std::to_string(::getpid()))) {}
     ~Temporary() {
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);

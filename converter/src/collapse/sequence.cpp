@@ -37,7 +37,7 @@ constexpr double kSeamFactor = 8.0;
 constexpr float kBorderFactor = 2.0f;    // of the squared distance from a border
 constexpr float kQuadricFactor = 0.25f;  // of the mean squared distance from the planes, beside the largest distance
 constexpr std::size_t kCornerFloats = 9 * kFour;  // of four triangles
-constexpr float kLengthFactor = 1e-7f;   // of the squared length of the edge: decides on flat ground
+constexpr float kLengthFactor = 1e-7f;            // of the squared length of the edge: decides on flat ground
 
 /// The shapes at a common scale, each round the origin.
 struct Scaled {
@@ -447,9 +447,9 @@ private:
         const std::uint32_t components = appearance_.components;
         if (components == 0) return 0.0f;
         const auto& p = triangle.points;
-        const glm::vec3 weights = closest_point(samples_.places.rest(sample), places_.rest(p[0]), places_.rest(p[1]),
-                                                places_.rest(p[2]))
-                                      .weights;
+        const glm::vec3 weights =
+            closest_point(samples_.places.rest(sample), places_.rest(p[0]), places_.rest(p[1]), places_.rest(p[2]))
+                .weights;
         const float* own = samples_.appearance.data() + std::size_t{sample} * components;
         const float* a = appearance_.of(triangle.vertices[0]);
         const float* b = appearance_.of(triangle.vertices[1]);

@@ -101,9 +101,9 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         attempt.bytes = build_chunks(scene, generator, unheard, options);
         attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, kPackingDone, 1.0));
         if (attempt.error.metres <= result.max_error) {
-            attempt.bytes = with_bound(attempt.bytes, {static_cast<float>(result.max_error),
-                                                       static_cast<float>(attempt.error.metres),
-                                                       static_cast<float>(result.height)});
+            attempt.bytes = with_bound(attempt.bytes,
+                                       {static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),
+                                        static_cast<float>(result.height)});
             break;
         }
         const double excess = attempt.error.metres / result.max_error - 1.0;

@@ -60,9 +60,9 @@ struct Chain {
 /// opened, and nothing is read or written out of bounds.
 enum class Sums : std::uint8_t {
     checked,  ///< when it is opened: every byte of it is read
-    /// When Model::check_sums is called, if ever: opening then reads no more than headers, joints and indices, and bulk is
-    /// read from the disk as it is used. Given up: until then numbers that an accident on the disk has changed are taken
-    /// for the author's.
+    /// When Model::check_sums is called, if ever: opening then reads no more than headers, joints and indices, and bulk
+    /// is read from the disk as it is used. Given up: until then numbers that an accident on the disk has changed are
+    /// taken for the author's.
     later,
 };
 
@@ -79,8 +79,8 @@ public:
     /// The same for bytes in memory, which must start on a 16-byte boundary and outlive the model.
     static Result<Model> from_memory(Bytes bytes, const OpenOptions& options = {});
 
-    /// Holds the bytes against their sums, for Sums::later: the first chunk that differs, with its offset. From any thread,
-    /// while others use the model; takes about as long as reading the file once.
+    /// Holds the bytes against their sums, for Sums::later: the first chunk that differs, with its offset. From any
+    /// thread, while others use the model; takes about as long as reading the file once.
     [[nodiscard]] Result<void> check_sums() const;
 
     [[nodiscard]] std::string_view name() const { return data_->object.name; }
