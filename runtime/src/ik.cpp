@@ -72,7 +72,7 @@ private:
         glm::dmat4 base(1.0);
         for (std::uint32_t joint = model_.joints()[chain_.start].parent; joint != kNone;
              joint = model_.joints()[joint].parent) {
-            if (!pose_.is_stale()) return pose_.exact_model_space_[joint] * base;
+            if (!pose_.is_stale()) return pose_.exact_model_space(joint) * base;
             base = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * base;
         }
         return base;

@@ -3,6 +3,7 @@
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 
+#include "pose_plan.h"
 #include "skin_plan.h"
 
 #include <algorithm>
@@ -125,18 +126,6 @@ std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
     return movers;
 }
 
-void Model::plan_cycles(Data& data) {
-    const auto& cycles = data.object.cycles;
-    if (std::none_of(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.packed.has_value(); })) return;
-    std::vector<JointTransform> rest;
-    rest.reserve(data.joints.size());
-    for (const Joint& joint : data.joints) rest.push_back(joint.rest);
-    data.unpack_plans.resize(cycles.size());
-    for (std::size_t k = 0; k < cycles.size(); ++k) {
-        if (cycles[k].packed) data.unpack_plans[k] = make_unpack_plan(*cycles[k].packed, rest);
-    }
-}
-
 Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& options) {
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) return tree.error();
@@ -167,7 +156,6 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
         data->is_sheared = data->is_sheared || joint.shear != glm::vec3(0.0f);
     }
     build_rig(*data);
-    plan_cycles(*data);
     data->draws = make_draws(object.skeleton.polygons);
     data->movers = find_movers(object);
     data->first_vertex.push_back(0);
@@ -186,6 +174,7 @@ void Model::DeleteData::operator()(const Data* data) const {
 
 void Model::make_plans() const {
     std::call_once(data_->plans_made, [this] {
+        data_->pose_plan = std::make_unique<const PosePlan>(make_pose_plan(data_->object, data_->joints));
         data_->plans.reserve(pools().size());
         for (const Pool& pool : pools()) data_->plans.push_back(make_skin_plan(pool));
     });
@@ -223,13 +212,11 @@ const Cycle* Model::cycle(std::string_view name) const {
     return found == cycles.end() ? nullptr : &*found;
 }
 
-const UnpackPlan* Model::unpack_plan(const Cycle& cycle) const {
-    if (data_->unpack_plans.empty()) return nullptr;
+std::size_t Model::number_of(const Cycle& cycle) const {
     const auto& cycles = data_->object.cycles;
     const std::less<> is_before;
-    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return nullptr;
-    const UnpackPlan& plan = data_->unpack_plans[static_cast<std::size_t>(&cycle - cycles.data())];
-    return plan.packed != nullptr ? &plan : nullptr;
+    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
+    return static_cast<std::size_t>(&cycle - cycles.data());
 }
 
 const Chain* Model::chain(std::string_view name) const {

@@ -5,7 +5,6 @@
 #include <bendy/format/result.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
-#include <bendy/runtime/unpack_plan.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +22,8 @@ using Pool = PoolView;
 using Material = MaterialView;
 using Texture = TextureView;
 
+class Pose;
+struct PosePlan;
 struct SkinPlan;
 
 struct Joint {
@@ -131,12 +132,12 @@ public:
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
     /// Whether that is the same for all vertices of the pool.
     [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
-    /// How a packed cycle is played; null if it is not packed, or of another model.
-    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
 
 private:
     friend class Pose;
+    friend class Sampling;
     friend class Skinning;
+    friend void local_to_model(Pose& pose);
 
     struct RigidMovers {
         std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
@@ -153,8 +154,7 @@ private:
         Document document;
         ObjectView object;
         std::vector<Joint> joints;
-        std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
-        std::vector<std::uint32_t> parents;    // as joints
+        std::vector<std::uint32_t> parents;  // as joints
         bool is_sheared = false;
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
@@ -167,8 +167,9 @@ private:
         std::vector<std::uint32_t> chain_order;
         std::vector<PullView> weights;  // by chain, then joint
         std::uint32_t longest_chain = 0;
-        mutable std::once_flag plans_made;
-        mutable std::vector<SkinPlan> plans;  // one per pool, from the first Pose on
+        mutable std::once_flag plans_made;  // by the first Pose
+        mutable std::unique_ptr<const PosePlan> pose_plan;
+        mutable std::vector<SkinPlan> plans;  // one per pool
     };
 
     struct DeleteData {
@@ -178,9 +179,11 @@ private:
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
-    static void plan_cycles(Data& data);
-    /// What skinning needs beside the file's own streams: made once, before it is asked for.
+    /// What posing and skinning need beside the file's own streams: made once, before it is asked for.
     void make_plans() const;
+    /// Of a cycle among cycles(); as many as there are, if it is not one of them.
+    [[nodiscard]] std::size_t number_of(const Cycle& cycle) const;
+    [[nodiscard]] const PosePlan& pose_plan() const { return *data_->pose_plan; }
     [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
     // Behind a pointer, so that views into it survive a move of the Model.
