@@ -334,6 +334,7 @@ glm::vec3 decode_octahedral(float x, float y) {
 
 glm::vec3 StreamView::vec3(std::uint32_t element) const {
     assert(element < elements && components >= (is_octahedral ? 2u : 3u));
+    if (type == f32) return load<glm::vec3>(data.subspan(std::size_t{element} * components * sizeof(float)), 0);
     return with_type(*this, [&](const auto& load) { return vector_at<glm::vec3>(*this, load, element); });
 }
 
