@@ -87,6 +87,7 @@ std::vector<Way> by_size(Bytes sample, std::span<const Way> ways) {
     }
     std::stable_sort(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Way> sorted;
+    sorted.reserve(sizes.size());
     for (const auto& [size, way] : sizes) sorted.push_back(way);
     return sorted;
 }
