@@ -31,6 +31,7 @@ struct ConvertArguments {
     bool compact = false;
     std::string max_error;
     bool lod = false;
+    bool sort_vertices = false;
     bool quiet = false;
 };
 
@@ -167,6 +168,7 @@ void run(ConvertArguments arguments) {
     if (arguments.compact) options.compact = converter::ErrorBound();
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
     options.lod = arguments.lod;
+    options.sort_vertices = arguments.sort_vertices;
     converter::Report report;
     const auto bytes = convert_with_bar(arguments, options, report);
     if (!bytes) {
@@ -206,21 +208,32 @@ void add_convert(CLI::App& program) {
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
+    CLI::Option* compact =
+        command
+            ->add_flag(
+                "--compact", arguments->compact,
+                "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
+            ->excludes(exact);
+    CLI::Option* max_error =
+        command
+            ->add_option("--max-error", arguments->max_error,
+                         "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
+                         "character's height (0.005%); implies --compact")
+            ->check([](const std::string& text) {
+                const auto bound = converter::parse_error_bound(text);
+                return bound ? std::string() : bound.error();
+            });
+    CLI::Option* lod = command->add_flag(
+        "--lod", arguments->lod,
+        "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its order");
     command
-        ->add_flag("--compact", arguments->compact,
-                   "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
-        ->excludes(exact);
-    command
-        ->add_option("--max-error", arguments->max_error,
-                     "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
-                     "character's height (0.005%); implies --compact")
-        ->check([](const std::string& text) {
-            const auto bound = converter::parse_error_bound(text);
-            return bound ? std::string() : bound.error();
-        });
-    command->add_flag("--lod", arguments->lod,
-                      "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its "
-                      "order");
+        ->add_flag(
+            "--sort-vertices", arguments->sort_vertices,
+            "put vertices that follow the same bones beside one another: less work in every frame. Else they keep "
+            "the source's order; --lod and --compact have orders of their own")
+        ->excludes(lod)
+        ->excludes(compact)
+        ->excludes(max_error);
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"

@@ -372,9 +372,8 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     for (const Stream& stream : mesh.attributes) {
         out.begin(FourCC("USER"));
         put_text(out, FourCC("NAME"), stream.name);
-        const auto bytes = std::as_bytes(std::span(stream.values));
-        put_stream(out, FourCC("VALS"), {ComponentType::f32, false, {bytes.begin(), bytes.end()}}, stream.components,
-                   vertices);
+        put_stream(out, FourCC("VALS"), {ComponentType::f32, false, std::as_bytes(std::span(stream.values))},
+                   stream.components, vertices);
         out.end();
     }
     if (mesh.influences != 0) {
@@ -549,23 +548,60 @@ void warn_of_unused_images(const Scene& scene, Report& report) {
     }
 }
 
-}  // namespace
+/// Bytes of the lists that can be long: about what a file of them takes, and hardly ever less.
+std::uint64_t bulk_of(const Mesh& mesh) {
+    const auto bytes = [](const auto& list) { return std::uint64_t{list.size()} * sizeof(list[0]); };
+    std::uint64_t sum = bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) +
+                        bytes(mesh.weights) + bytes(mesh.collapse) + bytes(mesh.joined);
+    for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
+        for (const Stream& stream : *streams) sum += bytes(stream.values);
+    }
+    for (const Target& target : mesh.targets)
+        sum += bytes(target.positions) + bytes(target.normals) + bytes(target.tangents);
+    for (const Part& part : mesh.parts) sum += bytes(part.indices);
+    return sum;
+}
 
-std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report,
-                                    const BuildOptions& options) {
+std::uint64_t bulk_of(const Scene& scene) {
+    std::uint64_t sum = 0;
+    for (const Mesh& mesh : scene.meshes) sum += bulk_of(mesh);
+    for (const Image& image : scene.images) sum += image.bytes.size();
+    for (const Cycle& cycle : scene.cycles) {
+        for (const Track& track : cycle.tracks) sum += (track.times.size() + track.values.size()) * sizeof(float);
+    }
+    return sum;
+}
+
+/// All that no later chunk asks for.
+void release_streams(Mesh& mesh) {
+    Mesh left;
+    left.collapse = std::move(mesh.collapse);
+    left.joined = std::move(mesh.joined);
+    left.base = mesh.base;
+    mesh = std::move(left);
+}
+
+/// \param spent `scene` again, if its long lists may be given up as soon as they are written; or null
+std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view generator, Report& report,
+                             const BuildOptions& options) {
     warn_of_unused_images(scene, report);
+    LeafWriter out(options.compact);
+    // A little more for headers. Memory that is never touched costs nothing.
+    constexpr std::uint64_t kRoundUp = 1 << 16;
+    if (!options.compact) out.reserve(bulk_of(scene) + kRoundUp);
     std::vector<AssignedPolygons> polygons;
     polygons.reserve(scene.meshes.size());
-    for (const Mesh& mesh : scene.meshes) polygons.push_back(assign_polygons(mesh));
+    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) {
+        polygons.push_back(assign_polygons(scene.meshes[pool]));
+        if (spent != nullptr) spent->meshes[pool].parts = {};
+    }
 
     const bool embeds = std::any_of(scene.textures.begin(), scene.textures.end(), [&](const Texture& texture) {
         return std::any_of(texture.images.begin(), texture.images.end(),
                            [&](std::uint32_t image) { return !scene.images[image].bytes.empty(); });
     });
-    LeafWriter out(options.compact);
     out.begin(FourCC("HEAD"));
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
-    if (options.bound) out.leaf(FourCC("BNDS"), bytes_of(*options.bound));
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
     if (!embeds) put_textures(out, scene);
@@ -579,6 +615,8 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) {
         const bool is_compact = options.geometry != nullptr;
         put_pool(out, scene.meshes[pool], polygons[pool].indices, is_compact ? options.geometry->meshes[pool] : exact);
+        polygons[pool].indices = {};
+        if (spent != nullptr) release_streams(spent->meshes[pool]);
     }
     put_collapse(out, scene);
     for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
@@ -586,6 +624,19 @@ std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generat
     if (embeds) put_textures(out, scene);
     out.end();
     return std::move(out).finish();
+}
+
+}  // namespace
+
+std::vector<std::byte> build_chunks(const Scene& scene, std::string_view generator, Report& report,
+                                    const BuildOptions& options) {
+    return build(scene, nullptr, generator, report, options);
+}
+
+std::vector<std::byte> build_chunks(Scene&& scene, std::string_view generator, Report& report,
+                                    const BuildOptions& options) {
+    Scene spent = std::move(scene);
+    return build(spent, &spent, generator, report, options);
 }
 
 }  // namespace bendy::converter

@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "passes/attach_rigs.h"
 #include "passes/collapse_vertices.h"
+#include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -11,6 +12,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -44,9 +46,11 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
         if (options.lod) collapse_vertices(*scene);
+        if (options.sort_vertices && !options.lod && !options.compact)
+            std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);
         std::vector<std::byte> bytes =
             options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
-                            : build_chunks(*scene, kGenerator, report);
+                            : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())

@@ -2,27 +2,47 @@
 
 #include <bendy/format/crc32c.h>
 
+#include <array>
+#include <cstddef>
+#include <cstring>
+
 namespace bendy {
+namespace {
+
+constexpr std::uint64_t kSumAt = 4;
+constexpr std::uint64_t kSizeAt = 8;
+
+/// Adds the stored sums of a container's children, some at a time.
+std::uint32_t add_children(Bytes payload, std::uint32_t sum) {
+    std::array<std::uint32_t, 64> sums;  // NOLINT(*-member-init): those that are used are set
+    std::size_t count = 0;
+    for (std::uint64_t at = 0; at < payload.size();) {
+        copy_at(payload, at + kSumAt, sums[count++]);
+        std::uint64_t child = 0;
+        copy_at(payload, at + kSizeAt, child);
+        at += kChunkHeaderSize + padded(child & kMaxPayload);
+        if (count < sums.size() && at < payload.size()) continue;
+        sum = crc32c(std::as_bytes(std::span(sums).first(count)), sum);
+        count = 0;
+    }
+    return sum;
+}
+
+}  // namespace
 
 std::uint32_t chunk_sum(Bytes chunk) {
-    constexpr std::uint64_t kSumAt = 4;
-    constexpr std::uint64_t kSizeAt = 8;
     std::uint64_t size_and_flags = 0;
     copy_at(chunk, kSizeAt, size_and_flags);
     const std::uint64_t size = size_and_flags & kMaxPayload;
     const bool is_container = (size_and_flags >> 48 & kContainerFlag) != 0;
 
-    std::uint32_t sum = crc32c(chunk.first(kSumAt));
-    sum = crc32c(chunk.subspan(kSizeAt, sizeof size_and_flags), sum);
+    // The id and what follows the sum, in one piece.
+    std::array<std::byte, sizeof(std::uint32_t) + sizeof size_and_flags> head;
+    std::memcpy(head.data(), chunk.data(), sizeof(std::uint32_t));
+    std::memcpy(head.data() + sizeof(std::uint32_t), &size_and_flags, sizeof size_and_flags);
+    const std::uint32_t sum = crc32c(head);
     const Bytes payload = chunk.subspan(kChunkHeaderSize, size);
-    if (!is_container) return crc32c(payload, sum);
-    for (std::uint64_t at = 0; at < payload.size();) {
-        sum = crc32c(payload.subspan(at + kSumAt, sizeof(std::uint32_t)), sum);
-        std::uint64_t child = 0;
-        copy_at(payload, at + kSizeAt, child);
-        at += kChunkHeaderSize + padded(child & kMaxPayload);
-    }
-    return sum;
+    return is_container ? add_children(payload, sum) : crc32c(payload, sum);
 }
 
 void check_sums(const ChunkTree& tree, Faults& faults) {

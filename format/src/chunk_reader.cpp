@@ -25,6 +25,9 @@ Chunk read_header(Bytes bytes, std::uint64_t offset) {
     return chunk;
 }
 
+/// Room for so many chunks from the start; files of one character mostly hold no more.
+constexpr std::uint64_t kUsualChunks = 256;
+
 /// What a header may say by itself, whatever follows it.
 Result<void> check_header(const Chunk& chunk) {
     if (!chunk.id.is_readable()) return Error{ErrorCode::kChunkIdNotLetters, chunk.offset};
@@ -54,7 +57,9 @@ Result<ChunkTree> read_chunk_tree(Bytes bytes) {
     if (root.size < available)
         return Error{ErrorCode::kTrailingBytes, root.size + kChunkHeaderSize, available - root.size};
 
-    std::vector<Chunk> chunks{root};
+    std::vector<Chunk> chunks;
+    chunks.reserve(std::min<std::uint64_t>(bytes.size() / kChunkHeaderSize, kUsualChunks));
+    chunks.push_back(root);
     std::vector<std::uint32_t> open{0};  // the containers that `at` is in, outermost first
     std::uint64_t at = kChunkHeaderSize;
     while (!open.empty()) {

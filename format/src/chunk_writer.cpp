@@ -29,6 +29,10 @@ void ChunkWriter::put_header(FourCC id, std::uint16_t flags) {
     open_.push_back(offset);
 }
 
+void ChunkWriter::reserve(std::uint64_t bytes) {
+    bytes_.reserve(bytes);
+}
+
 void ChunkWriter::begin(FourCC id, std::uint16_t flags) {
     put_header(id, static_cast<std::uint16_t>(flags | kContainerFlag));
 }

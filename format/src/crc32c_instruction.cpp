@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
 
 #if defined(__x86_64__)
 #include <nmmintrin.h>
@@ -20,7 +21,9 @@ namespace {
 // The instruction takes three cycles and a new one can start in each, so three stretches are summed side by side and
 // put together: what a sum becomes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al., "Fast
 // CRC Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.)
-constexpr std::size_t kLane = 1024;  // bytes
+// Long lanes first: memory is read ahead along each, and that takes a while to begin.
+constexpr std::size_t kLongLane = 16384;  // bytes
+constexpr std::size_t kLane = 1024;       // bytes
 
 using Columns = std::array<std::uint32_t, 32>;  // what each bit of a sum becomes
 
@@ -38,29 +41,34 @@ constexpr Columns twice(const Columns& columns) {
     return result;
 }
 
-/// Over kLane zero bytes, a table for each byte of the sum.
-constexpr std::array<std::array<std::uint32_t, 256>, 4> make_lane_tables() {
+using LaneTables = std::array<std::array<std::uint32_t, 256>, 4>;
+
+/// Over so many zero bytes, a power of two: a table for each byte of the sum.
+constexpr LaneTables make_lane_tables(std::size_t lane) {
     Columns columns{};  // over one zero bit
     columns[0] = 0x82f63b78u;
     for (std::size_t bit = 1; bit < 32; ++bit) columns[bit] = std::uint32_t{1} << (bit - 1);
-    for (std::size_t bits = 1; bits < kLane * 8; bits *= 2) columns = twice(columns);
-    std::array<std::array<std::uint32_t, 256>, 4> tables{};
+    for (std::size_t bits = 1; bits < lane * 8; bits *= 2) columns = twice(columns);
+    LaneTables tables{};
     for (std::uint32_t place = 0; place < 4; ++place) {
         for (std::uint32_t byte = 0; byte < 256; ++byte) tables[place][byte] = apply(columns, byte << (8 * place));
     }
     return tables;
 }
 
-constexpr auto kOverLane = make_lane_tables();
+template <std::size_t lane>
+constexpr LaneTables kOverLane = make_lane_tables(lane);
 
+template <std::size_t lane>
 std::uint32_t over_lane(std::uint32_t sum) {
-    return kOverLane[0][sum & 0xffu] ^ kOverLane[1][sum >> 8 & 0xffu] ^ kOverLane[2][sum >> 16 & 0xffu] ^
-           kOverLane[3][sum >> 24];
+    const LaneTables& tables = kOverLane<lane>;
+    return tables[0][sum & 0xffu] ^ tables[1][sum >> 8 & 0xffu] ^ tables[2][sum >> 16 & 0xffu] ^ tables[3][sum >> 24];
 }
 
-BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, Bytes bytes, std::size_t at) {
+/// `at` must have eight bytes.
+BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, const std::byte* at) {
     std::uint64_t word = 0;
-    copy_at(bytes, at, word);
+    std::memcpy(&word, at, sizeof word);
 #if defined(__x86_64__)
     return static_cast<std::uint32_t>(_mm_crc32_u64(sum, word));
 #else
@@ -76,6 +84,27 @@ BENDY_CRC32C inline std::uint32_t add_byte(std::uint32_t sum, std::byte byte) {
 #endif
 }
 
+/// As much of the bytes as fills three lanes again and again; they are taken off.
+template <std::size_t lane>
+BENDY_CRC32C std::uint32_t add_lanes(std::uint32_t sum, Bytes& bytes) {
+    constexpr std::size_t kWord = sizeof(std::uint64_t);
+    for (; bytes.size() >= 3 * lane; bytes = bytes.subspan(3 * lane)) {
+        std::uint32_t second = 0;
+        std::uint32_t third = 0;
+        const std::byte* const end = bytes.data() + lane;
+        for (const std::byte* at = bytes.data(); at != end; at += 2 * kWord) {
+            sum = add_word(sum, at);
+            second = add_word(second, at + lane);
+            third = add_word(third, at + 2 * lane);
+            sum = add_word(sum, at + kWord);
+            second = add_word(second, at + kWord + lane);
+            third = add_word(third, at + kWord + 2 * lane);
+        }
+        sum = over_lane<lane>(over_lane<lane>(sum) ^ second) ^ third;
+    }
+    return sum;
+}
+
 }  // namespace
 
 bool has_crc32c_instruction() {
@@ -88,18 +117,9 @@ bool has_crc32c_instruction() {
 
 BENDY_CRC32C std::uint32_t crc32c_instruction(Bytes bytes, std::uint32_t before) {
     constexpr std::size_t kWord = sizeof(std::uint64_t);
-    std::uint32_t sum = ~before;
-    for (; bytes.size() >= 3 * kLane; bytes = bytes.subspan(3 * kLane)) {
-        std::uint32_t second = 0;
-        std::uint32_t third = 0;
-        for (std::size_t at = 0; at < kLane; at += kWord) {
-            sum = add_word(sum, bytes, at);
-            second = add_word(second, bytes, at + kLane);
-            third = add_word(third, bytes, at + 2 * kLane);
-        }
-        sum = over_lane(over_lane(sum) ^ second) ^ third;
-    }
-    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) sum = add_word(sum, bytes, 0);
+    std::uint32_t sum = add_lanes<kLongLane>(~before, bytes);
+    sum = add_lanes<kLane>(sum, bytes);
+    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) sum = add_word(sum, bytes.data());
     for (const std::byte byte : bytes) sum = add_byte(sum, byte);
     return ~sum;
 }

@@ -30,6 +30,12 @@ std::optional<VersionRecord> read_version(const ChunkTree& tree, Faults& faults)
     return version;
 }
 
+std::size_t count_children(const ChunkTree& tree, std::uint32_t container, FourCC id) {
+    std::size_t count = 0;
+    for (const std::uint32_t number : tree.children(container)) count += tree[number].id == id ? 1 : 0;
+    return count;
+}
+
 /// Fills the palettes whose matrices follow from the rest pose. All of them together may take no more memory than
 /// encoded leaves may.
 void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) {
@@ -173,6 +179,8 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
         object.chains = read_chains(tree, number, object.skeleton, faults);
+        object.pools.reserve(count_children(tree, number, FourCC("VECT")));
+        object.cycles.reserve(count_children(tree, number, FourCC("CYCL")));
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("VECT") && tree[child].is_container())
                 object.pools.push_back(read_pool(tree, child, joints, faults));

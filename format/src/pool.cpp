@@ -73,11 +73,11 @@ std::uint64_t box_size(const StreamRecord& record) {
     return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
+/// Plain enough for compilers to look at many numbers at once.
 template <class T>
 std::uint32_t largest_of(const StreamView& stream) {
-    std::uint32_t largest = 0;
-    const std::uint64_t numbers = std::uint64_t{stream.elements} * stream.components;
-    for (std::uint64_t at = 0; at < numbers; ++at) largest = std::max<std::uint32_t>(largest, load<T>(stream.data, at));
+    T largest = 0;
+    for (const T number : stream.as<T>()) largest = std::max(largest, number);
     return largest;
 }
 
@@ -334,6 +334,7 @@ glm::vec3 decode_octahedral(float x, float y) {
 
 glm::vec3 StreamView::vec3(std::uint32_t element) const {
     assert(element < elements && components >= (is_octahedral ? 2u : 3u));
+    if (type == f32) return load<glm::vec3>(data.subspan(std::size_t{element} * components * sizeof(float)), 0);
     return with_type(*this, [&](const auto& load) { return vector_at<glm::vec3>(*this, load, element); });
 }
 

@@ -1,10 +1,28 @@
 #include <bendy/format/text.h>
 
+#include <bendy/format/byte_reader.h>
+
+#include <cstdint>
+
 namespace bendy {
+namespace {
+
+/// How many of the first characters are surely ASCII, eight at a time: most names are.
+std::size_t skip_ascii(std::string_view text) {
+    constexpr std::uint64_t kUpperBits = 0x8080808080808080u;
+    std::size_t at = 0;
+    for (std::uint64_t eight = 0; text.size() - at >= sizeof eight; at += sizeof eight) {
+        copy_at(as_byte_span(text), at, eight);
+        if ((eight & kUpperBits) != 0) break;
+    }
+    return at;
+}
+
+}  // namespace
 
 bool is_utf8(std::string_view text) {
     const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-    for (std::size_t at = 0; at < text.size();) {
+    for (std::size_t at = skip_ascii(text); at < text.size();) {
         const unsigned lead = byte(at++);
         if (lead < 0x80) continue;
         // Length, and the range of the second byte, which rules out overlong forms, surrogates and what lies past

@@ -130,7 +130,7 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) return tree.error();
     Faults faults;
-    if (options.check_sums) check_sums(*tree, faults);
+    if (options.sums == Sums::checked) bendy::check_sums(*tree, faults);
     std::unique_ptr<Data> data = std::make_unique<Data>();
     if (faults.empty()) {
         decode_leaves(*tree);
@@ -141,6 +141,7 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
         return Error{ErrorCode::kChunkMissing, 0, FourCC("OBJE").value};
     }
     data->file = std::move(file);
+    data->bytes = bytes;
     data->decoded = std::move(*tree).take_decoded();
     data->object = std::move(data->document.objects[options.object]);
     data->document.objects.clear();
@@ -192,6 +193,16 @@ Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& 
 
 Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) {
     return build({}, bytes, options);
+}
+
+Result<void> Model::check_sums() const {
+    // The tree of a good file is quickly made again; kept, it would take memory that hardly anybody asks for.
+    const Result<ChunkTree> tree = read_chunk_tree(data_->bytes);
+    if (!tree) return tree.error();  // the file was changed after it was opened
+    Faults faults;
+    bendy::check_sums(*tree, faults);
+    if (!faults.empty()) return faults.list().front();
+    return {};
 }
 
 const Cycle* Model::cycle(std::string_view name) const {

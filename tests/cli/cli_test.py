@@ -866,6 +866,22 @@ class PoseCommand(Case):
             self.assertLess(sum(len(mesh["positions"]) for mesh in some["meshes"]),
                             sum(len(mesh["positions"]) for mesh in whole["meshes"]))
 
+    def test_vertices_are_sorted_by_bones_when_asked(self):
+        environment = unittest.mock.patch.dict(os.environ, BENDY_KERNEL="plain")
+        environment.start()
+        self.addCleanup(environment.stop)
+        path = self.shared / "sorted.bendy"
+        self.done("convert", "--sort-vertices", SOURCE / "examples" / "mannequin.glb", "-o", path)
+        self.assertEqual(self.done("validate", path), b"")
+        moved = self.pose(path, "--clip", "Walk", "--time", "0.25")
+        exact = self.pose(self.convert(), "--clip", "Walk", "--time", "0.25")
+        self.assertNotEqual(moved["meshes"][0]["positions"], exact["meshes"][0]["positions"])
+        for ours, theirs in zip(moved["meshes"], exact["meshes"]):
+            places = [[mesh["positions"][3 * i:3 * i + 3] for i in mesh["indices"]] for mesh in (ours, theirs)]
+            self.assertEqual(*places)  # triangle by triangle
+        for other in ("--lod", "--compact", "--max-error=1mm"):
+            self.assertIn("--sort-vertices", self.misused("convert", "x.glb", "--sort-vertices", other))
+
     def test_levels_of_detail_must_be_shares(self):
         for share in ("-0.1", "1.5", "nan", "inf", "much"):
             self.assertIn("--lod", self.misused("pose", self.convert(), "--lod=" + share))

@@ -503,6 +503,15 @@ TEST(BuildChunks, AnEmptySceneIsAGoodFile) {
     EXPECT_EQ(built.model.vertex_count(), 0u);
 }
 
+TEST(BuildChunks, ASceneThatIsGivenUpGivesTheSameBytes) {
+    Report report;
+    const Scene kept = make_scene();
+    const Buffer once = build_chunks(kept, "g", report);
+    Scene given_up = kept;
+    EXPECT_EQ(build_chunks(std::move(given_up), "g", report), once);
+    EXPECT_EQ(build_chunks(kept, "g", report), once);
+}
+
 TEST(BuildChunks, TwiceTheSameBytes) {
     Report report;
     const Buffer once = build_chunks(make_scene(), "g", report);

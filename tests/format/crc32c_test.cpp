@@ -94,5 +94,23 @@ TEST(Crc32c, EveryKernelGivesThePlainSum) {
     EXPECT_GE(tried, 1u);
 }
 
+TEST(Crc32c, LongLanesGiveTheSameSum) {
+    constexpr std::size_t kLanes = std::size_t{3} * 16384;
+    std::vector<std::uint8_t> numbers(3 * kLanes);
+    std::uint32_t state = 11;
+    for (std::uint8_t& number : numbers) {
+        state = state * 1664525u + 1013904223u;
+        number = static_cast<std::uint8_t>(state >> 24);
+    }
+    const Bytes bytes = std::as_bytes(std::span(numbers));
+    for (const Crc32cKernel& kernel : crc32c_kernels()) {
+        if (!kernel.is_supported()) continue;
+        for (const std::size_t length : {kLanes - 1, kLanes, kLanes + 1, kLanes + 3079, 2 * kLanes, 3 * kLanes - 5}) {
+            const Bytes part = bytes.subspan(5, length);
+            ASSERT_EQ(kernel.sum(part, 0), plain_crc32c(part)) << kernel.name << ' ' << length;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace bendy

@@ -101,5 +101,16 @@ TEST(ReadText, IsEmptyWithAFaultWhereItIsNotUtf8OrEncoded) {
     EXPECT_EQ(loaded.document.objects.at(0).extras, "");
 }
 
+TEST(Utf8, AWrongByteIsFoundAtEveryPlaceOfALongText) {
+    for (std::size_t length = 1; length <= 40; ++length) {
+        for (std::size_t at = 0; at < length; ++at) {
+            std::string text(length, 'a');
+            EXPECT_TRUE(is_utf8(text));
+            text[at] = '\x80';
+            EXPECT_FALSE(is_utf8(text)) << at << " of " << length;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace bendy

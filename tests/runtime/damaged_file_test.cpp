@@ -165,7 +165,7 @@ TEST(DamagedFile, AnyFieldWithAnExtremeNumberIsRefusedOrHarmless) {
                                                      0x7f7f'ffff /* max */,
                                                      0x0001'0000};
     OpenOptions options;
-    options.check_sums = false;
+    options.sums = Sums::later;
     for (std::size_t at = 0; at + 4 <= good.size(); at += 4) {
         for (const std::uint32_t number : kNumbers) {
             Buffer file = good;
@@ -180,7 +180,7 @@ TEST(DamagedFile, ManyChangesAtOnceAreRefusedOrHarmless) {
     const Buffer good = test::sample_file();
     std::mt19937 random(5);
     OpenOptions options;
-    options.check_sums = false;
+    options.sums = Sums::later;
     int accepted = 0;
     for (int round = 0; round < 3000; ++round) {
         Buffer file = good;

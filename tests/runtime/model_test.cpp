@@ -246,9 +246,34 @@ TEST(Model, AWrongSumIsRefusedUnlessSumsAreNotAskedFor) {
     EXPECT_EQ(refused.error().code, ErrorCode::kSumMismatch);
     EXPECT_EQ(refused.error().offset, name);
     OpenOptions options;
-    options.check_sums = false;
+    options.sums = Sums::later;
     const Owned model(file, options);
     EXPECT_EQ(model->name(), "Fox");
+    const Result<void> checked = model->check_sums();
+    ASSERT_FALSE(checked.has_value());
+    EXPECT_EQ(checked.error().code, ErrorCode::kSumMismatch);
+    EXPECT_EQ(checked.error().offset, name);
+}
+
+TEST(Model, SumsCanBeCheckedAtAnyTime) {
+    const Buffer file = test::sample_file();
+    for (const Sums sums : {Sums::checked, Sums::later}) {
+        OpenOptions options;
+        options.sums = sums;
+        const Owned model(file, options);
+        EXPECT_TRUE(model->check_sums().has_value());
+    }
+}
+
+TEST(Model, SumsAreCheckedOverAFileThatWasChangedMeanwhile) {
+    Buffer file = test::sample_file();
+    const auto model = Model::from_memory(file);
+    ASSERT_TRUE(model.has_value());
+    EXPECT_TRUE(model->check_sums().has_value());
+    test::patch(file, 8, std::uint64_t{0});  // HEAD's own size
+    const auto checked = model->check_sums();
+    ASSERT_FALSE(checked.has_value());
+    EXPECT_NE(checked.error().code, ErrorCode::kSumMismatch);
 }
 
 TEST(Model, WithoutSumsWhatIsWrongIsStillRefused) {
@@ -256,7 +281,7 @@ TEST(Model, WithoutSumsWhatIsWrongIsStillRefused) {
     test::patch(file, test::place_of(file, "HEAD/OBJE/VECT/INDX") + kChunkHeaderSize + sizeof(StreamRecord),
                 std::uint16_t{4});
     OpenOptions options;
-    options.check_sums = false;
+    options.sums = Sums::later;
     EXPECT_EQ(refusal(file, options), ErrorCode::kIndexRange);
 }
 

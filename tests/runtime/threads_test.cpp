@@ -52,5 +52,19 @@ TEST(Threads, ShareAModelWithAPoseEach) {
     }
 }
 
+TEST(Threads, CheckSumsWhileOthersPose) {
+    OpenOptions options;
+    options.sums = Sums::later;
+    const test::Owned model(test::sample_file(), options);
+    bool is_good = false;
+    std::thread checker([&] {
+        for (int round = 0; round < 100; ++round) is_good = model->check_sums().has_value();
+    });
+    const Numbers posed = pose_all(*model);
+    checker.join();
+    EXPECT_TRUE(is_good);
+    EXPECT_EQ(posed, pose_all(*test::Owned(test::sample_file())));
+}
+
 }  // namespace
 }  // namespace bendy

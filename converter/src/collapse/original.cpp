@@ -91,10 +91,14 @@ void Original::fit_boxes() {
     }
 }
 
-float Original::distance_squared(std::size_t shape, const glm::vec3& place, float enough) const {
+float Original::distance_squared(std::size_t shape, const glm::vec3& place, float enough, std::uint32_t& near) const {
     if (nodes_.empty()) return 0.0f;
     const std::vector<glm::vec3>& places = places_[shape];
     const std::vector<Box>& boxes = boxes_[shape];
+    const auto distance_to = [&](std::uint32_t triangle) {
+        const auto& v = triangles_[triangle];
+        return closest_point(place, places[v[0]], places[v[1]], places[v[2]]).distance_squared;
+    };
     struct Open {
         float distance;
         std::uint32_t node;
@@ -102,22 +106,24 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
     std::array<Open, 64> open{};  // deeper than any tree of halves
     std::size_t size = 0;
     open[size++] = {0.0f, 0};
-    float best = std::numeric_limits<float>::infinity();
+    float best = distance_to(near);
     while (size != 0 && best > enough) {
         const Open next = open[--size];
         if (next.distance >= best) continue;
         const Node& node = nodes_[next.node];
         if (node.count == 0) {
-            Open near{outside(boxes[next.node + 1].low, boxes[next.node + 1].high, place), next.node + 1};
-            Open far{outside(boxes[node.right].low, boxes[node.right].high, place), node.right};
-            if (far.distance < near.distance) std::swap(near, far);
-            open[size++] = far;
-            open[size++] = near;
+            Open left{outside(boxes[next.node + 1].low, boxes[next.node + 1].high, place), next.node + 1};
+            Open right{outside(boxes[node.right].low, boxes[node.right].high, place), node.right};
+            if (right.distance < left.distance) std::swap(left, right);
+            if (right.distance < best) open[size++] = right;
+            if (left.distance < best) open[size++] = left;
             continue;
         }
         for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-            const auto& v = triangles_[order_[k]];
-            best = std::min(best, closest_point(place, places[v[0]], places[v[1]], places[v[2]]).distance_squared);
+            const float distance = distance_to(order_[k]);
+            if (!(distance < best)) continue;
+            best = distance;
+            near = order_[k];
         }
     }
     return best;

@@ -19,8 +19,10 @@ public:
     Original(const Surface& surface, std::span<const std::vector<glm::vec3>> places);
 
     /// The squared distance of a place from the surface in a shape, if it is above `enough`; else anything up to
-    /// `enough`.
-    [[nodiscard]] float distance_squared(std::size_t shape, const glm::vec3& place, float enough) const;
+    /// `enough`. \param near a triangle, by its number in the surface, to begin with: the nearer, the sooner done;
+    /// becomes the nearest that was met
+    [[nodiscard]] float distance_squared(std::size_t shape, const glm::vec3& place, float enough,
+                                         std::uint32_t& near) const;
 
 private:
     struct Box {

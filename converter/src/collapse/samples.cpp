@@ -44,8 +44,8 @@ float texture_scale(const Surface& surface, std::span<const glm::vec3> shape, co
 class Sampler {
 public:
     Sampler(const Surface& surface, std::span<const std::vector<glm::vec3>> places, const Appearance& appearance)
-        : surface_(surface), places_(places), appearance_(appearance) {
-        samples_.places.resize(places.size());
+        : surface_(surface), places_(places), appearance_(appearance), samples_(places.size()) {
+        samples_.places.reserve(std::max<std::size_t>(surface.points(), kFewestSamples));
         samples_.components = appearance.components;
         samples_.first.assign(surface.triangles.size(), kNone);
     }
@@ -59,10 +59,9 @@ public:
 private:
     void add(std::uint32_t triangle, const glm::vec3& weights) {
         const auto& v = surface_.triangles[triangle].vertices;
-        for (std::size_t s = 0; s < places_.size(); ++s) {
-            samples_.places[s].push_back(weights.x * places_[s][v[0]] + weights.y * places_[s][v[1]] +
-                                         weights.z * places_[s][v[2]]);
-        }
+        samples_.places.add([&](std::size_t s) {
+            return weights.x * places_[s][v[0]] + weights.y * places_[s][v[1]] + weights.z * places_[s][v[2]];
+        });
         for (std::uint32_t k = 0; k < appearance_.components; ++k) {
             samples_.appearance.push_back(weights.x * appearance_.of(v[0])[k] + weights.y * appearance_.of(v[1])[k] +
                                           weights.z * appearance_.of(v[2])[k]);

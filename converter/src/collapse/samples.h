@@ -2,6 +2,7 @@
 
 #include <bendy/converter/scene.h>
 
+#include "collapse/shaped_places.h"
 #include "collapse/surface.h"
 
 #include <glm/vec3.hpp>
@@ -29,7 +30,9 @@ Appearance make_appearance(const Mesh& mesh, const Surface& surface, std::span<c
 /// Points of the original surface that a simplified one is measured at: every vertex, and on a mesh with few vertices
 /// more of them, spread over the triangles by area. Each is held by the triangle that it is nearest to.
 struct Samples {
-    std::vector<std::vector<glm::vec3>> places;  ///< by shape, then sample
+    explicit Samples(std::size_t shapes) : places(shapes) {}
+
+    ShapedPlaces places;
     std::uint32_t components = 0;
     std::vector<float> appearance;           ///< components of each sample
     std::vector<std::uint32_t> first, next;  ///< lists: of each triangle, of each sample; kNone: end

@@ -1,9 +1,11 @@
 #include "collapse/sequence.h"
 
 #include "collapse/closest_point.h"
+#include "collapse/four_distances.h"
 #include "collapse/original.h"
 #include "collapse/quadric.h"
 #include "collapse/samples.h"
+#include "collapse/shaped_places.h"
 
 #include <algorithm>
 #include <array>
@@ -34,7 +36,8 @@ constexpr float kPosedFactor = 0.2f;
 constexpr double kSeamFactor = 8.0;
 constexpr float kBorderFactor = 2.0f;    // of the squared distance from a border
 constexpr float kQuadricFactor = 0.25f;  // of the mean squared distance from the planes, beside the largest distance
-constexpr float kLengthFactor = 1e-7f;   // of the squared length of the edge: decides on flat ground
+constexpr std::size_t kCornerFloats = 9 * kFour;  // of four triangles
+constexpr float kLengthFactor = 1e-7f;            // of the squared length of the edge: decides on flat ground
 
 /// The shapes at a common scale, each round the origin.
 struct Scaled {
@@ -61,12 +64,21 @@ Scaled scale(std::span<const Shape> shapes) {
     return scaled;
 }
 
+ShapedPlaces place_points(const Surface& surface, const Scaled& scaled) {
+    ShapedPlaces places(scaled.places.size());
+    places.reserve(surface.points());
+    for (std::uint32_t point = 0; point < surface.points(); ++point)
+        places.add([&](std::size_t shape) { return scaled.places[shape][surface.vertex_of(point)]; });
+    return places;
+}
+
 /// Greedy half-edge collapses by the largest distance between the surface and the original one, in any shape.
 class Simplifier {
 public:
     Simplifier(const Mesh& mesh, std::span<const Shape> shapes, Surface surface)
         : surface_(std::move(surface)),
           scaled_(scale(shapes)),
+          places_(place_points(surface_, scaled_)),
           appearance_(make_appearance(mesh, surface_, scaled_.places.front())),
           samples_(make_samples(surface_, scaled_.places, appearance_)),
           original_(surface_, scaled_.places),
@@ -131,9 +143,7 @@ private:
         std::uint32_t after = 0;   // and away from it
     };
 
-    const glm::vec3& place(std::size_t shape, std::uint32_t point) const {
-        return scaled_.places[shape][surface_.vertex_of(point)];
-    }
+    glm::vec3 place(std::size_t shape, std::uint32_t point) const { return places_.place(shape, point); }
 
     // --- quadrics: of the planes in every shape, and at rest of borders
 
@@ -397,25 +407,49 @@ private:
 
     // --- measuring
 
-    /// The triangle of left_ that is nearest to a sample at rest.
-    std::size_t nearest(std::uint32_t sample, ClosestPoint& closest) const {
-        const glm::vec3& p = samples_.places[0][sample];
-        std::size_t best = 0;
-        for (std::size_t k = 0; k < left_.size(); ++k) {
-            const ClosestPoint found = closest_on(0, left_[k].second, p);
-            if (k != 0 && !(found.distance_squared < closest.distance_squared)) continue;
-            closest = found;
-            best = k;
+    /// The corners of left_ at rest, in corners_: for each corner of four triangles x, y, z; then the next four.
+    void gather_left() {
+        const std::size_t fours = (left_.size() + kFour - 1) / kFour;
+        corners_.resize(fours * kCornerFloats);
+        for (std::size_t k = 0; k < fours * kFour; ++k) {
+            const Surface::Triangle& triangle = left_[k < left_.size() ? k : 0].second;  // the first once more
+            float* to = corners_.data() + k / kFour * kCornerFloats + k % kFour;
+            for (const std::uint32_t point : triangle.points) {
+                const glm::vec3 p = places_.rest(point);
+                for (int axis = 0; axis < 3; ++axis, to += kFour) *to = p[axis];
+            }
+        }
+    }
+
+    struct Nearest {
+        std::size_t triangle = 0;  // of left_
+        float distance_squared = 0.0f;
+    };
+
+    /// The triangle of left_ that is nearest to a sample at rest, the first of several. After gather_left.
+    Nearest nearest(std::uint32_t sample) const {
+        const glm::vec3 place = samples_.places.rest(sample);
+        const FourPlaces p{FourFloats{} + place.x, FourFloats{} + place.y, FourFloats{} + place.z};
+        Nearest best{0, std::numeric_limits<float>::infinity()};
+        const float* corners = corners_.data();
+        for (std::size_t first = 0; first < left_.size(); first += kFour, corners += kCornerFloats) {
+            const FourFloats distances =
+                four_distances(p, load_places(corners, kFour), load_places(corners + 3 * kFour, kFour),
+                               load_places(corners + 6 * kFour, kFour));
+            for (std::size_t k = 0; k < kFour; ++k) {
+                if ((first == 0 && k == 0) || distances[k] < best.distance_squared) best = {first + k, distances[k]};
+            }
         }
         return best;
     }
 
-    ClosestPoint closest_on(std::size_t shape, const Surface::Triangle& t, const glm::vec3& p) const {
-        return closest_point(p, place(shape, t.points[0]), place(shape, t.points[1]), place(shape, t.points[2]));
-    }
-
-    float appearance_error(std::uint32_t sample, const Surface::Triangle& triangle, const glm::vec3& weights) const {
+    float appearance_error(std::uint32_t sample, const Surface::Triangle& triangle) const {
         const std::uint32_t components = appearance_.components;
+        if (components == 0) return 0.0f;
+        const auto& p = triangle.points;
+        const glm::vec3 weights =
+            closest_point(samples_.places.rest(sample), places_.rest(p[0]), places_.rest(p[1]), places_.rest(p[2]))
+                .weights;
         const float* own = samples_.appearance.data() + std::size_t{sample} * components;
         const float* a = appearance_.of(triangle.vertices[0]);
         const float* b = appearance_.of(triangle.vertices[1]);
@@ -428,33 +462,51 @@ private:
         return sum;
     }
 
+    /// The squared distances of a sample from a triangle, in four of the other shapes.
+    FourFloats posed_distances(std::uint32_t sample, std::size_t four, const Surface::Triangle& triangle) const {
+        const std::size_t lanes = places_.lanes();
+        const auto corner = [&](std::size_t k) {
+            return load_places(places_.posed(triangle.points[k]) + four * kFour, lanes);
+        };
+        return four_distances(load_places(samples_.places.posed(sample) + four * kFour, lanes), corner(0), corner(1),
+                              corner(2));
+    }
+
     /// The squared distance of a sample from the triangles of left_, in the other shapes: exact where it is above
     /// `known`.
     float posed_distance(std::uint32_t sample, std::size_t guess, float known) const {
-        for (std::size_t s = 1; s < scaled_.places.size(); ++s) {
-            const glm::vec3& p = samples_.places[s][sample];
-            float least = closest_on(s, left_[guess].second, p).distance_squared;
-            for (std::size_t k = 0; k < left_.size() && kPosedFactor * least > known; ++k) {
-                if (k != guess) least = std::min(least, closest_on(s, left_[k].second, p).distance_squared);
+        for (std::size_t four = 0; four < places_.fours(); ++four) {
+            FourFloats least = posed_distances(sample, four, left_[guess].second);
+            for (std::size_t k = 0; k < left_.size() && kPosedFactor * largest_of(least) > known; ++k) {
+                if (k == guess) continue;
+                const FourFloats other = posed_distances(sample, four, left_[k].second);
+                least = other < least ? other : least;
             }
-            known = std::max(known, kPosedFactor * least);
+            known = std::max(known, kPosedFactor * largest_of(least));
         }
         return known;
     }
 
+    static float largest_of(const FourFloats& four) {
+        return std::max(std::max(four[0], four[1]), std::max(four[2], four[3]));
+    }
+
     /// The squared distance of the triangles of left_ from the original surface: exact where it is above `known`.
     /// Samples alone would not notice a triangle that bridges a hollow.
-    float distance_from_original(float known, float limit) const {
+    float distance_from_original(float known, float limit) {
         if (alive_ > kSmall) return known;
+        near_.clear();  // what is nearest in one shape is a good guess for the next
+        for (const auto& [number, triangle] : left_) near_.insert(near_.end(), 4, number);
         for (std::size_t s = 0; s < scaled_.places.size() && known <= limit; ++s) {
             const float factor = s == 0 ? 1.0f : kPosedFactor;
+            auto near = near_.begin();
             const auto look = [&](const glm::vec3& p) {
-                known = std::max(known, factor * original_.distance_squared(s, p, known / factor));
+                known = std::max(known, factor * original_.distance_squared(s, p, known / factor, *near++));
             };
             for (const auto& [number, triangle] : left_) {
-                const glm::vec3& a = place(s, triangle.points[0]);
-                const glm::vec3& b = place(s, triangle.points[1]);
-                const glm::vec3& c = place(s, triangle.points[2]);
+                const glm::vec3 a = place(s, triangle.points[0]);
+                const glm::vec3 b = place(s, triangle.points[1]);
+                const glm::vec3 c = place(s, triangle.points[2]);
                 look((a + b + c) / 3.0f);
                 look(0.5f * (a + b));
                 look(0.5f * (b + c));
@@ -466,19 +518,19 @@ private:
     }
 
     /// What moving the point to the target costs, by fan_ and left_; stops where it is above `limit`.
-    Costs measure(std::uint32_t point, std::uint32_t target, float limit) const {
+    Costs measure(std::uint32_t point, std::uint32_t target, float limit) {
         const float guess = kQuadricFactor * estimate(point, target);
         if (guess > limit) return {};
+        gather_left();
         float largest = kBorderFactor * rims_[point].mean_error(place(0, target));
         double appearance = 0.0;
         std::size_t count = 0;
         for (const std::uint32_t corner : fan_) {
             for (std::uint32_t sample = samples_.first[corner / 3]; sample != kNone; sample = samples_.next[sample]) {
-                ClosestPoint closest;
-                const std::size_t triangle = nearest(sample, closest);
-                largest = posed_distance(sample, triangle, std::max(largest, closest.distance_squared));
+                const Nearest closest = nearest(sample);
+                largest = posed_distance(sample, closest.triangle, std::max(largest, closest.distance_squared));
                 if (largest + guess > limit) return {};
-                appearance += appearance_error(sample, left_[triangle].second, closest.weights);
+                appearance += appearance_error(sample, left_[closest.triangle].second);
                 ++count;
             }
         }
@@ -576,10 +628,9 @@ private:
         }
         const float far = 0.25f * largest;
         for (std::size_t k = 0; k < held_.size(); ++k) {
-            ClosestPoint closest;
-            const std::size_t triangle = nearest(held_[k], closest);
+            const Nearest closest = nearest(held_[k]);
             if (held_.size() > kMostHeld && k % 2 == 1 && closest.distance_squared < far) continue;
-            samples_.hold(left_[triangle].first, held_[k]);
+            samples_.hold(left_[closest.triangle].first, held_[k]);
         }
     }
 
@@ -611,6 +662,7 @@ private:
 
     Surface surface_;
     Scaled scaled_;
+    ShapedPlaces places_;  // of the points
     Appearance appearance_;
     Samples samples_;
     Original original_;
@@ -634,6 +686,8 @@ private:
     std::vector<Choice> choices_;
     std::vector<Move> moves_;
     std::vector<std::pair<std::uint32_t, Surface::Triangle>> left_;
+    std::vector<float> corners_;  // of left_, at rest
+    std::vector<std::uint32_t> near_;
     std::vector<std::uint32_t> held_;
     Costs costs_;
     std::vector<std::uint32_t> marks_;  // by point

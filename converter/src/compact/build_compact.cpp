@@ -7,8 +7,12 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/chunk_writer.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -46,6 +50,22 @@ MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes
     return measure_error(exact, *decoded, maps, progress);
 }
 
+/// A file with BNDS after VERS, where build_chunks puts it: what it says is known only when the file has been measured.
+std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
+    const Result<ChunkTree> tree = read_chunk_tree(file);
+    assert(tree);
+    ChunkWriter out;
+    out.reserve(file.size() + kChunkHeaderSize + padded(sizeof bound));
+    out.begin(FourCC("HEAD"));
+    for (const std::uint32_t number : tree->children(0)) {
+        const Chunk& chunk = (*tree)[number];
+        out.copy(file.subspan(chunk.offset, kChunkHeaderSize + padded(chunk.size)));
+        if (chunk.id == FourCC("VERS")) out.leaf(FourCC("BNDS"), bytes_of(bound));
+    }
+    out.end();
+    return std::move(out).finish();
+}
+
 }  // namespace
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
@@ -81,9 +101,9 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         attempt.bytes = build_chunks(scene, generator, unheard, options);
         attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, kPackingDone, 1.0));
         if (attempt.error.metres <= result.max_error) {
-            options.bound = BoundRecord{static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),
-                                        static_cast<float>(result.height)};
-            attempt.bytes = build_chunks(scene, generator, unheard, options);
+            attempt.bytes = with_bound(attempt.bytes,
+                                       {static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),
+                                        static_cast<float>(result.height)});
             break;
         }
         const double excess = attempt.error.metres / result.max_error - 1.0;

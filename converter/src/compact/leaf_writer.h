@@ -18,6 +18,7 @@ public:
     explicit LeafWriter(bool is_compact) : is_compact_(is_compact) {}
 
     [[nodiscard]] bool is_compact() const { return is_compact_; }
+    void reserve(std::uint64_t bytes) { chunks_.reserve(bytes); }
     void begin(FourCC id) { chunks_.begin(id); }
     void end() { chunks_.end(); }
 

@@ -82,6 +82,8 @@ void trim_influences(Mesh& mesh) {
     }
     mesh.bones.resize(vertices * used);
     mesh.weights.resize(vertices * used);
+    mesh.bones.shrink_to_fit();
+    mesh.weights.shrink_to_fit();
     mesh.influences = static_cast<std::uint32_t>(used);
 }
 

@@ -187,8 +187,22 @@ private:
         report_loose_sets(bones.size());
         if (bones.empty()) return;
         Influences influences;
-        const std::size_t sets = bones.size();
-        influences.per_vertex = sets * 4;
+        influences.per_vertex = bones.size() * 4;
+        if (bones.size() == 1) {
+            influences.bones = std::move(bones.front());
+            influences.weights = std::move(weights.front().values);
+        } else {
+            join_sets(bones, weights, influences);
+        }
+        vertices.largest_bone = normalise_influences(influences, attribute_place("WEIGHTS_0"), document_.report);
+        vertices.mesh.influences = static_cast<std::uint32_t>(influences.per_vertex);
+        vertices.mesh.bones = std::move(influences.bones);
+        vertices.mesh.weights = std::move(influences.weights);
+    }
+
+    /// The sets' four influences of a vertex beside one another.
+    void join_sets(const std::vector<std::vector<std::uint32_t>>& bones, const std::vector<Attribute>& weights,
+                   Influences& influences) const {
         document_.budget.take(*count_, influences.per_vertex * 8, place_);
         influences.bones.resize(*count_ * influences.per_vertex);
         influences.weights.resize(*count_ * influences.per_vertex);
@@ -198,10 +212,6 @@ private:
                 influences.weights[v * influences.per_vertex + i] = weights[i / 4].values[v * 4 + i % 4];
             }
         }
-        vertices.largest_bone = normalise_influences(influences, attribute_place("WEIGHTS_0"), document_.report);
-        vertices.mesh.influences = static_cast<std::uint32_t>(influences.per_vertex);
-        vertices.mesh.bones = std::move(influences.bones);
-        vertices.mesh.weights = std::move(influences.weights);
     }
 
     std::vector<std::uint32_t> read_bones(const std::string& name) {

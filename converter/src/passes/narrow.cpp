@@ -41,20 +41,16 @@ bool as_fractions(std::span<const float> values, std::vector<std::byte>& bytes) 
 }  // namespace
 
 StoredNumbers narrow_fractions(std::span<const float> values) {
-    StoredNumbers stored;
-    stored.normalised = true;
-    stored.type = ComponentType::u8;
-    if (as_fractions<std::uint8_t>(values, stored.bytes)) return stored;
-    stored.type = ComponentType::u16;
-    if (as_fractions<std::uint16_t>(values, stored.bytes)) return stored;
-    const auto bytes = std::as_bytes(values);
-    return {ComponentType::f32, false, {bytes.begin(), bytes.end()}};
+    std::vector<std::byte> bytes;
+    if (as_fractions<std::uint8_t>(values, bytes)) return {ComponentType::u8, true, std::move(bytes)};
+    if (as_fractions<std::uint16_t>(values, bytes)) return {ComponentType::u16, true, std::move(bytes)};
+    return {ComponentType::f32, false, std::as_bytes(values)};
 }
 
 StoredNumbers narrow_indices(std::span<const std::uint32_t> values, std::uint64_t count, bool allow_bytes) {
     if (allow_bytes && count <= 0x100) return {ComponentType::u8, false, as_integers<std::uint8_t>(values)};
     if (count <= 0x10000) return {ComponentType::u16, false, as_integers<std::uint16_t>(values)};
-    return {ComponentType::u32, false, as_integers<std::uint32_t>(values)};
+    return {ComponentType::u32, false, std::as_bytes(values)};
 }
 
 }  // namespace bendy::converter

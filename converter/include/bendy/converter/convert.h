@@ -25,6 +25,9 @@ struct ConvertOptions {
     std::function<void(double)> progress;
     /// Compute the sequence in which vertices are collapsed (LODD), and order the vertices by it.
     bool lod = false;
+    /// Put vertices that follow the same bones beside one another, so that skinning takes less. Ignored with `lod` and
+    /// `compact`, which have orders of their own.
+    bool sort_vertices = false;
 };
 
 /// Converts a glTF file, or a bendy file (told by its content), to the bytes of a bendy file. The result passes

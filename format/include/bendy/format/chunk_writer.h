@@ -15,6 +15,8 @@ namespace bendy {
 /// too many, a payload of 2^48 bytes) is the caller's bug and is asserted.
 class ChunkWriter {
 public:
+    /// Room for a file of so many bytes: a large one is then not copied as it grows.
+    void reserve(std::uint64_t bytes);
     void begin(FourCC id, std::uint16_t flags = 0);
     void end();
 

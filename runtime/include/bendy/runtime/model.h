@@ -57,10 +57,19 @@ struct Chain {
     std::string_view extras;  ///< JSON of the author's, or empty
 };
 
+/// When a file's bytes are held against their integrity sums. Whatever is chosen, structure is checked when a file is
+/// opened, and nothing is read or written out of bounds.
+enum class Sums : std::uint8_t {
+    checked,  ///< when it is opened: every byte of it is read
+    /// When Model::check_sums is called, if ever: opening then reads no more than headers, joints and indices, and bulk
+    /// is read from the disk as it is used. Given up: until then numbers that an accident on the disk has changed are
+    /// taken for the author's.
+    later,
+};
+
 struct OpenOptions {
     std::uint32_t object = 0;  ///< which of the file's objects
-    bool check_sums =
-        true;  ///< false: skips the integrity sums; accidents on the disk then go unnoticed, safety does not
+    Sums sums = Sums::checked;
 };
 
 /// A character: the mapped file and a linear array of its joints, parents before children.
@@ -70,6 +79,10 @@ public:
     static Result<Model> open(const std::filesystem::path& path, const OpenOptions& options = {});
     /// The same for bytes in memory, which must start on a 16-byte boundary and outlive the model.
     static Result<Model> from_memory(Bytes bytes, const OpenOptions& options = {});
+
+    /// Holds the bytes against their sums, for Sums::later: the first chunk that differs, with its offset. From any
+    /// thread, while others use the model; takes about as long as reading the file once.
+    [[nodiscard]] Result<void> check_sums() const;
 
     [[nodiscard]] std::string_view name() const { return data_->object.name; }
     [[nodiscard]] std::span<const Joint> joints() const { return data_->joints; }
@@ -136,6 +149,7 @@ private:
     };
     struct Data {
         MappedFile file;
+        Bytes bytes;           // the whole file: of `file`, or the caller's
         AlignedBytes decoded;  // what the file has encoded; the document's views lie in either
         Document document;
         ObjectView object;
