@@ -54,9 +54,9 @@ private:
     glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
 };
 
-/// Of a pool's vertices, by no more than some thousands of them, in pool space.
+/// Of a pool's vertices, by some hundreds of them, in pool space.
 double length_of(const PoolView& pool) {
-    constexpr std::uint32_t kLooks = 4096;
+    constexpr std::uint32_t kLooks = 256;
     const std::uint32_t step = pool.vertices / kLooks + 1;
     Box box;
     for (std::uint32_t vertex = 0; vertex < pool.vertices; vertex += step) box.add(pool.positions.vec3(vertex));
