@@ -12,6 +12,7 @@
 // write out of bounds, whatever the file held. A Model is immutable: any number of threads may share it, a Pose each.
 
 #include <bendy/runtime/constrain.h>
+#include <bendy/runtime/crowd.h>
 #include <bendy/runtime/ik.h>
 #include <bendy/runtime/inbetween.h>
 #include <bendy/runtime/local_to_model.h>
