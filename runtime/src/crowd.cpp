@@ -50,19 +50,17 @@ bool Crowd::write(const CrowdMember& member, Pose& pose) const {
     return is_good;
 }
 
-void Crowd::write_palette(const Pose& pose, std::span<PaletteMatrix> palette) const {
-    const auto model_space = pose.model_space();
+void Crowd::write_palette(Pose& pose, std::span<PaletteMatrix> palette) const {
     for (std::uint32_t number = 0; number < model_->pools().size(); ++number) {
         const Pool& pool = model_->pools()[number];
         const auto entries = palette.subspan(first_entry_[number], first_entry_[number + 1] - first_entry_[number]);
         if (pool.is_rigid()) {
             const std::uint32_t joint = pool.vertices == 0 ? kNone : model_->rigid_mover(number, 0);
-            entries.front() = to_rows(joint == kNone ? glm::mat4(1.0f) : model_space[joint]);
-            continue;
+            entries.front() = to_rows(joint == kNone ? glm::mat4(1.0f) : pose.model_space()[joint]);
+        } else {
+            const auto bones = pose.palette(number);
+            std::copy(bones.begin(), bones.end(), entries.begin());
         }
-        const auto inverse_bind = pool.palette.inverse_bind();
-        for (std::size_t entry = 0; entry < entries.size(); ++entry)
-            entries[entry] = to_rows(model_space[pool.palette.joints[entry]] * inverse_bind[entry]);
     }
 }
 

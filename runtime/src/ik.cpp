@@ -43,7 +43,7 @@ public:
         const auto joints = pose.model().joints();
         glm::dmat4 matrix(1.0);
         for (; joint != kNone; joint = joints[joint].parent) {
-            if (!pose.is_stale()) return pose.exact_model_space_[joint] * matrix;
+            if (!pose.is_stale()) return pose.exact_model_space(joint) * matrix;
             matrix = to_matrix(pose.local()[joint], joints[joint].shear) * matrix;
         }
         return matrix;

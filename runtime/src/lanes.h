@@ -42,6 +42,10 @@ inline Lanes load_lanes(const float* from) {
     return lanes;
 }
 
+inline void store_lanes(float* to, Lanes lanes) {
+    __builtin_memcpy(to, &lanes, sizeof lanes);
+}
+
 /// Four numbers at `from`; in the upper lanes, if there are any, those `apart` floats on.
 inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
 #if BENDY_LANES == 8
@@ -89,6 +93,16 @@ inline Three load_three(const float* from) {
 /// kLanes times x, y, z, w.
 inline void load_four(const float* from, Lanes* to) {
     transpose(load_quads(from, 16), load_quads(from + 4, 16), load_quads(from + 8, 16), load_quads(from + 12, 16), to);
+}
+
+inline Lanes dot_of_four(const Lanes* a, const Lanes* b) {
+    return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
+}
+
+/// A number of each four, in all four places.
+template <int place>
+inline Lanes everywhere(Lanes lanes) {
+    return shuffle<place, place, place, place>(lanes, lanes);
 }
 
 // NOLINTEND(misc-definitions-in-headers)

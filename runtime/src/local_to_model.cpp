@@ -1,8 +1,7 @@
 #include <bendy/runtime/local_to_model.h>
 
-#include <bendy/runtime/kernels.h>
-
-#include "pose_block.h"
+#include "pose_kernels.h"
+#include "pose_plan.h"
 
 #include <cstddef>
 
@@ -17,20 +16,22 @@ static_assert(sizeof(JointTransform) == 10 * sizeof(float) && offsetof(JointTran
 void local_to_model(Pose& pose) {
     const Model& model = *pose.model_;
     pose.is_stale_ = false;
+    pose.palette_pool_ = kNone;
     if (model.joints().empty()) return;
-#if defined(__x86_64__)
-    if (kernel() == Kernel::avx2 && !model.is_sheared()) {
-        pose_avx2({pose.local_.size(), &pose.local_.front().rotation.x, model.parents().data(),
-                   &pose.exact_model_space_.front()[0].x, &pose.model_space_.front()[0].x});
+    const PoseKernels* const kernels = pose_kernels();
+    const PosePlan& plan = model.pose_plan();
+    pose.is_exact_ = kernels == nullptr || !plan.fits_floats;
+    if (!pose.is_exact_) {
+        kernels->pose({pose.local_.size(), &pose.local_.front().rotation.x, model.parents().data(), plan.order.data(),
+                       &pose.model_space_.front().matrix[0].x});
         return;
     }
-#endif
     const auto joints = model.joints();
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
         const glm::dmat4 local = to_matrix(pose.local_[joint], joints[joint].shear);
         const std::uint32_t parent = joints[joint].parent;
         pose.exact_model_space_[joint] = parent == kNone ? local : pose.exact_model_space_[parent] * local;
-        pose.model_space_[joint] = glm::mat4(pose.exact_model_space_[joint]);
+        pose.model_space_[joint].matrix = glm::mat4(pose.exact_model_space_[joint]);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 
+#include "pose_plan.h"
 #include "skin_plan.h"
 
 #include <algorithm>
@@ -185,6 +186,7 @@ void Model::DeleteData::operator()(const Data* data) const {
 
 void Model::make_plans() const {
     std::call_once(data_->plans_made, [this] {
+        data_->pose_plan = std::make_unique<const PosePlan>(make_pose_plan(data_->object, data_->joints));
         data_->plans.reserve(pools().size());
         for (const Pool& pool : pools()) data_->plans.push_back(make_skin_plan(pool));
     });
@@ -212,12 +214,17 @@ const Cycle* Model::cycle(std::string_view name) const {
     return found == cycles.end() ? nullptr : &*found;
 }
 
-const UnpackPlan* Model::unpack_plan(const Cycle& cycle) const {
-    if (data_->unpack_plans.empty()) return nullptr;
+std::size_t Model::number_of(const Cycle& cycle) const {
     const auto& cycles = data_->object.cycles;
     const std::less<> is_before;
-    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return nullptr;
-    const UnpackPlan& plan = data_->unpack_plans[static_cast<std::size_t>(&cycle - cycles.data())];
+    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
+    return static_cast<std::size_t>(&cycle - cycles.data());
+}
+
+const UnpackPlan* Model::unpack_plan(const Cycle& cycle) const {
+    const std::size_t number = number_of(cycle);
+    if (number >= data_->unpack_plans.size()) return nullptr;
+    const UnpackPlan& plan = data_->unpack_plans[number];
     return plan.packed != nullptr ? &plan : nullptr;
 }
 

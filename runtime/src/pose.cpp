@@ -2,6 +2,8 @@
 
 #include <bendy/runtime/local_to_model.h>
 
+#include "pose_plan.h"
+
 #include <algorithm>
 
 namespace bendy {
@@ -20,13 +22,10 @@ Pose::Pose(const Model& model)
 }
 
 void Pose::set_rest() {
-    const std::span<JointTransform> local = change_local();
-    const auto joints = model_->joints();
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) local[joint] = joints[joint].rest;
-    std::size_t weight = 0;
-    for (const Pool& pool : model_->pools()) {
-        for (const TargetView& target : pool.targets) target_weights_[weight++] = target.rest_weight;
-    }
+    const PosePlan& plan = model_->pose_plan();
+    is_stale_ = true;
+    std::copy(plan.rest.begin(), plan.rest.end(), local_.begin());
+    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), target_weights_.begin());
 }
 
 }  // namespace bendy

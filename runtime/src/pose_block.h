@@ -11,23 +11,17 @@ namespace bendy {
 struct PoseBlock {
     std::size_t joints;
     const float* local;            ///< ten a joint: rotation x y z w, translation, scale; no shear
-    const std::uint32_t* parents;  ///< smaller than the joint's own number, or 2^32 - 1
-    double* exact;                 ///< sixteen a joint, columns: joint space to model space
-    float* model;                  ///< the same, rounded
+    const std::uint32_t* parents;  ///< of each joint; 2^32 - 1: a root
+    const std::uint32_t* order;    ///< all joints, parents before children, a joint's neighbours not of its own line
+    float* model;                  ///< sixteen a joint, columns: joint space to model space
 };
 
 struct PaletteBlock {
     std::size_t entries;
-    const double* exact;          ///< as above
+    const float* model;           ///< as above
     const std::uint32_t* joints;  ///< of each entry
-    const double* inverse_bind;   ///< sixteen an entry, columns
+    const PaletteMatrix* inverse_bind;
     PaletteMatrix* palette;
 };
-
-/// What local_to_model does, within a few units in the last place of doubles.
-void pose_avx2(const PoseBlock& block);
-
-/// exact * inverse_bind of each entry. Whether all numbers are finite.
-bool palette_avx2(const PaletteBlock& block);
 
 }  // namespace bendy

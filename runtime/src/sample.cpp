@@ -1,5 +1,7 @@
 #include <bendy/runtime/sample.h>
 
+#include "pose_kernels.h"
+#include "pose_plan.h"
 #include "unpack.h"
 
 #include <algorithm>
@@ -190,31 +192,73 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
     sample_between(track, find_interval(track, cycle, seconds), value);
 }
 
+/// The work on a pose.
+class Sampling {
+public:
+    Sampling(const Cycle& cycle, float seconds, Pose& pose)
+        : cycle_(cycle),
+          seconds_(seconds),
+          model_(pose.model()),
+          local_(pose.change_local()),
+          weights_(pose.change_target_weights()) {}
+
+    void run() const {
+        const PoseKernels* const kernels = pose_kernels();
+        const std::size_t number = model_.number_of(cycle_);
+        if (kernels != nullptr && number < model_.cycles().size()) {
+            for (const SampleLine& line : model_.pose_plan().cycles[number].lines) sample_line(line, kernels->sample);
+            return;
+        }
+        // Neighbouring tracks mostly share their times.
+        const TrackView* same = nullptr;
+        Interval at;
+        for (const TrackView& track : cycle_.tracks) {
+            if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
+                at = find_interval(track, cycle_, seconds_);
+            same = &track;
+            sample_one(track, at);
+        }
+    }
+
+private:
+    void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
+        const Interval at = find_interval(*line.clock, cycle_, seconds_);
+        for (const TrackView* track : line.others) sample_one(*track, at);
+        if (line.rotations.empty() && line.vectors.empty()) return;
+        SampleBlock block{line.rotations.data(), line.rotations.size(), line.vectors.data(), line.vectors.size(),
+                          at.left, static_cast<float>(at.fraction), &local_.front().rotation.x};
+        if (at.left + 1 == line.clock->keys) {  // the last key: from the one before it all the way
+            block.left = at.left - 1;
+            block.fraction = 1.0f;
+        }
+        kernel(block);
+    }
+
+    void sample_one(const TrackView& track, const Interval& at) const {
+        if (track.path == TrackPath::weights) {
+            if (track.target >= model_.pools().size()) return;  // a cycle of another model
+            if (track.components != model_.pools()[track.target].targets.size()) return;
+            const std::size_t first = model_.first_target(track.target);
+            sample_between(track, at, weights_.subspan(first, track.components));
+            return;
+        }
+        if (track.target >= local_.size()) return;
+        std::array<float, 4> value{};
+        sample_between(track, at, std::span(value).first(track.components));
+        set_joint(track, value, local_[track.target]);
+    }
+
+    const Cycle& cycle_;
+    float seconds_;
+    const Model& model_;
+    std::span<JointTransform> local_;
+    std::span<float> weights_;
+};
+
 bool sample(const Cycle* cycle, float seconds, Pose& pose) {
     pose.set_rest();
     if (cycle == nullptr || std::isnan(seconds)) return false;
-    const Model& model = pose.model();
-    const std::span<JointTransform> local = pose.change_local();
-    const std::span<float> weights = pose.change_target_weights();
-    // Neighbouring tracks mostly share their times.
-    const TrackView* same = nullptr;
-    Interval at;
-    for (const TrackView& track : cycle->tracks) {
-        if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
-            at = find_interval(track, *cycle, seconds);
-        same = &track;
-        if (track.path == TrackPath::weights) {
-            if (track.target >= model.pools().size()) continue;  // a cycle of another model
-            if (track.components != model.pools()[track.target].targets.size()) continue;
-            const std::size_t first = model.first_target(track.target);
-            sample_between(track, at, weights.subspan(first, track.components));
-            continue;
-        }
-        if (track.target >= local.size()) continue;
-        std::array<float, 4> value{};
-        sample_between(track, at, std::span(value).first(track.components));
-        set_joint(track, value, local[track.target]);
-    }
+    Sampling(*cycle, seconds, pose).run();
     if (cycle->packed) unpack(*cycle, seconds, pose);
     return true;
 }

@@ -3,7 +3,6 @@
 #include <bendy/runtime/kernels.h>
 #include <bendy/runtime/local_to_model.h>
 
-#include "pose_block.h"
 #include "skin_kernel.h"
 #include "staging.h"
 
@@ -24,24 +23,6 @@ void copy_block(const SkinBlock& block) {
     copy(block.positions, block.out_positions, 3);
     copy(block.normals, block.out_normals, 3);
     copy(block.tangents, block.out_tangents, 4);
-}
-
-PaletteMatrix to_rows(const glm::dmat4& matrix) {
-    PaletteMatrix entry{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) entry.rows[row][column] = static_cast<float>(matrix[column][row]);
-    }
-    return entry;
-}
-
-bool is_finite(std::span<const PaletteMatrix> palette) {
-    float sum = 0.0f;
-    for (const PaletteMatrix& entry : palette) {
-        for (const auto& row : entry.rows) {
-            for (const float number : row) sum += 0.0f * number;
-        }
-    }
-    return sum == 0.0f;
 }
 
 bool fits(const StridedFloats& memory, std::size_t numbers, std::uint64_t vertices) {
@@ -91,31 +72,12 @@ public:
     }
 
 private:
-    /// Whether it is finite.
-    bool make_palette(std::uint32_t pool_number);
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
     void skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted);
 
     const Model& model_;
     Pose& pose_;
 };
-
-bool Skinning::make_palette(std::uint32_t pool_number) {
-    const PaletteView& palette = model_.pools()[pool_number].palette;
-    const auto inverse_bind = palette.inverse_bind();
-#if defined(__x86_64__)
-    if (kernel() == Kernel::avx2 && !palette.joints.empty() && !pose_.exact_model_space_.empty()) {
-        return palette_avx2({palette.joints.size(), &pose_.exact_model_space_.front()[0].x, palette.joints.data(),
-                             &model_.plan(pool_number).inverse_bind.front()[0].x, pose_.palette_.data()});
-    }
-#endif
-    for (std::size_t entry = 0; entry < palette.joints.size(); ++entry) {
-        // Large translations cancel here, which a product of floats would not survive.
-        pose_.palette_[entry] =
-            to_rows(pose_.exact_model_space_[palette.joints[entry]] * glm::dmat4(inverse_bind[entry]));
-    }
-    return is_finite(std::span(pose_.palette_).first(palette.joints.size()));
-}
 
 void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first,
                    std::size_t count) const {
@@ -138,9 +100,7 @@ void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock&
         if (joint == kNone) {
             run(copy_block, staging, wanted, first, end - first);
         } else {
-            pose_.palette_.front() = to_rows(pose_.exact_model_space_[joint]);
-            run(is_finite(std::span(pose_.palette_).first(1)) ? chosen : skin_plain, staging, wanted, first,
-                end - first);
+            run(pose_.make_rigid_palette(joint) ? chosen : skin_plain, staging, wanted, first, end - first);
         }
         first = end;
     }
@@ -167,7 +127,7 @@ bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std:
         return true;
     }
     // Lanes multiply by weights that are zero, too.
-    const Kernel chosen = make_palette(pool_number) ? kernel() : Kernel::plain;
+    const Kernel chosen = pose_.make_palette(pool_number) ? kernel() : Kernel::plain;
     Staging staging(pool, chosen == Kernel::avx2 ? &model_.plan(pool_number) : nullptr, weights, wanted);
     run(skin_kernel(chosen), staging, wanted, 0, vertices);
     return true;

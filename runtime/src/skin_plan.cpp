@@ -84,7 +84,6 @@ SkinPlan make_skin_plan(const PoolView& pool) {
     SkinPlan plan;
     if (pool.is_rigid() || pool.bones->components == 0) return plan;
     constexpr auto kGroup = static_cast<std::uint32_t>(SkinPlan::kGroup);
-    for (const glm::mat4& matrix : pool.palette.inverse_bind()) plan.inverse_bind.emplace_back(matrix);
     const Influences influences(pool);
     plan.first.reserve(pool.vertices / kGroup + std::size_t{2});
     plan.first.push_back(0);

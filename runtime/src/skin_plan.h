@@ -2,8 +2,6 @@
 
 #include <bendy/format/pool.h>
 
-#include <glm/mat4x4.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,11 +22,10 @@ struct SkinPlan {
     std::vector<std::uint32_t> first;      ///< in bones, of each group; one more than groups. Empty: no plan
     std::vector<std::uint16_t> bones;      ///< into the palette
     std::vector<Weights> weights;          ///< as bones
-    std::vector<glm::dmat4> inverse_bind;  ///< as the pool's palette
     bool is_complete = false;              ///< every group has a list
 };
 
-/// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex, and 128 a palette entry.
+/// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex.
 SkinPlan make_skin_plan(const PoolView& pool);
 
 }  // namespace bendy

@@ -126,23 +126,44 @@ test::ModelSpec random_joints(std::uint32_t count, float shear) {
     return spec;
 }
 
+/// What goes into a joint's matrix, summed up without signs, and how many products deep.
+struct Magnitude {
+    glm::dmat4 sums;
+    int depth = 0;
+};
+
+std::vector<Magnitude> magnitudes_of(const Model& model) {
+    std::vector<Magnitude> magnitudes;
+    for (const Joint& joint : model.joints()) {
+        glm::dmat4 local = to_matrix(joint.rest, joint.shear);
+        for (int c = 0; c < 4; ++c) local[c] = glm::abs(local[c]);
+        for (int c = 0; c < 3; ++c) local[c] += glm::dvec4(glm::dvec3(std::abs(joint.rest.scale[c])), 0.0);
+        const bool is_root = joint.parent == kNone;
+        magnitudes.push_back({is_root ? local : magnitudes[joint.parent].sums * local,
+                              is_root ? 1 : magnitudes[joint.parent].depth + 1});
+    }
+    return magnitudes;
+}
+
 TEST(LocalToModel, AllKernelsAgree) {
     const Kernel before = kernel();
     for (const float shear : {0.0f, 0.25f}) {
         for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 50u, 203u}) {
             const Owned model(test::build_file(random_joints(count, shear)));
             EXPECT_EQ(model->is_sheared(), shear != 0.0f);
+            const std::vector<Magnitude> magnitudes = magnitudes_of(*model);
             ASSERT_TRUE(set_kernel(Kernel::plain));
             const Pose expected(*model);
             for (const Kernel each : kernels()) {
                 ASSERT_TRUE(set_kernel(each));
                 const Pose found(*model);
                 for (std::uint32_t joint = 0; joint < count; ++joint) {
+                    const Magnitude& magnitude = magnitudes[joint];
                     for (int c = 0; c < 4; ++c) {
                         for (int r = 0; r < 4; ++r) {
-                            const float should = expected.model_space()[joint][c][r];
-                            // One unit in the last place of a float, of the longest sum on the way.
-                            EXPECT_NEAR(found.model_space()[joint][c][r], should, 1.3e-7f * std::abs(should) + 1e-9f)
+                            // Three units in the last place for each product on the way.
+                            EXPECT_NEAR(found.model_space()[joint][c][r], expected.model_space()[joint][c][r],
+                                        3.0 * magnitude.depth * 0x1p-24 * magnitude.sums[c][r])
                                 << kernel_name(each) << ", joint " << joint;
                         }
                     }

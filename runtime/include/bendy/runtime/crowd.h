@@ -71,7 +71,7 @@ private:
     };
 
     bool write(const CrowdMember& member, Pose& pose) const;
-    void write_palette(const Pose& pose, std::span<PaletteMatrix> palette) const;
+    void write_palette(Pose& pose, std::span<PaletteMatrix> palette) const;
 
     const Model* model_;
     std::vector<Worker> workers_;

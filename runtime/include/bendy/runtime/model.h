@@ -23,6 +23,8 @@ using Pool = PoolView;
 using Material = MaterialView;
 using Texture = TextureView;
 
+class Pose;
+struct PosePlan;
 struct SkinPlan;
 
 struct Joint {
@@ -123,7 +125,9 @@ public:
 
 private:
     friend class Pose;
+    friend class Sampling;
     friend class Skinning;
+    friend void local_to_model(Pose& pose);
 
     struct RigidMovers {
         std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
@@ -153,8 +157,9 @@ private:
         std::vector<std::uint32_t> chain_order;
         std::vector<PullView> weights;  // by chain, then joint
         std::uint32_t longest_chain = 0;
-        mutable std::once_flag plans_made;
-        mutable std::vector<SkinPlan> plans;  // one per pool, from the first Pose on
+        mutable std::once_flag plans_made;  // by the first Pose
+        mutable std::unique_ptr<const PosePlan> pose_plan;
+        mutable std::vector<SkinPlan> plans;  // one per pool
     };
 
     struct DeleteData {
@@ -165,8 +170,11 @@ private:
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
     static void plan_cycles(Data& data);
-    /// What skinning needs beside the file's own streams: made once, before it is asked for.
+    /// What posing and skinning need beside the file's own streams: made once, before it is asked for.
     void make_plans() const;
+    /// Of a cycle among cycles(); as many as there are, if it is not one of them.
+    [[nodiscard]] std::size_t number_of(const Cycle& cycle) const;
+    [[nodiscard]] const PosePlan& pose_plan() const { return *data_->pose_plan; }
     [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
 
     // Behind a pointer, so that views into it survive a move of the Model.

@@ -1,0 +1,94 @@
+// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also defines
+// roots_of(Lanes).
+
+// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+
+/// kLanes joints' rotations, a number of each in each lane.
+inline void load_joint_rotations(const float* local, Lanes* to) {
+    transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
+              to);
+}
+
+inline void store_joint_rotations(const Lanes* numbers, float* local) {
+    Lanes rotations[4];
+    transpose(numbers[0], numbers[1], numbers[2], numbers[3], rotations);
+    for (std::size_t k = 0; k < 4; ++k) {
+        store_quad(local + 10 * k, low(rotations[k]));
+#if BENDY_LANES == 8
+        store_quad(local + 10 * (k + 4), high(rotations[k]));
+#endif
+    }
+}
+
+inline void normalise_four(Lanes* q) {
+    const Lanes scale = 1.0f / roots_of(dot_of_four(q, q));
+    for (std::size_t c = 0; c < 4; ++c) q[c] = q[c] * scale;
+}
+
+/// kLanes joints.
+inline void mix_joints(float* local, const float* other, Lanes weight) {
+    Lanes a[4];
+    Lanes b[4];
+    load_joint_rotations(local, a);
+    load_joint_rotations(other, b);
+    const Lanes by_b = dot_of_four(a, b) < 0.0f ? -weight : weight;
+    const Lanes by_a = 1.0f - weight;
+    for (std::size_t c = 0; c < 4; ++c) a[c] = by_a * a[c] + by_b * b[c];
+    normalise_four(a);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const Lanes by = splat(weight[k]);
+        for (std::size_t c = 2; c < 10; c += kLanes) {  // the rotation's second half, too, until it is stored
+            float* const to = local + 10 * k + c;
+            store_lanes(to, (1.0f - by) * load_lanes(to) + by * load_lanes(other + 10 * k + c));
+        }
+    }
+    store_joint_rotations(a, local);
+}
+
+/// kLanes joints; `other` is a difference.
+inline void add_joints(float* local, const float* other, Lanes weight) {
+    Lanes q[4];
+    Lanes d[4];
+    load_joint_rotations(local, q);
+    load_joint_rotations(other, d);
+    const Lanes by = d[3] < 0.0f ? -weight : weight;
+    for (std::size_t c = 0; c < 4; ++c) d[c] = by * d[c];
+    d[3] = d[3] + (1.0f - weight);
+    normalise_four(d);
+    const Lanes product[4] = {
+        (q[3] * d[0] + q[0] * d[3]) + (q[1] * d[2] - q[2] * d[1]),
+        (q[3] * d[1] + q[1] * d[3]) + (q[2] * d[0] - q[0] * d[2]),
+        (q[3] * d[2] + q[2] * d[3]) + (q[0] * d[1] - q[1] * d[0]),
+        (q[3] * d[3] - q[0] * d[0]) - (q[1] * d[1] + q[2] * d[2]),
+    };
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        float* const to = local + 10 * k;
+        const float* const from = other + 10 * k;
+        for (std::size_t c = 4; c < 7; ++c) to[c] += weight[k] * from[c];
+        for (std::size_t c = 7; c < 10; ++c) to[c] *= (1.0f - weight[k]) + weight[k] * from[c];
+    }
+    store_joint_rotations(product, local);
+}
+
+using BlendJoints = void(float* local, const float* other, Lanes weight);
+
+template <BlendJoints blend_joints>
+inline void blend_lanes(const BlendBlock& block) {
+    std::size_t joint = 0;
+    for (; block.joints - joint >= kLanes; joint += kLanes) {
+        const Lanes mask = block.mask == nullptr ? splat(1.0f) : load_lanes(block.mask + joint);
+        blend_joints(block.local + 10 * joint, block.other + 10 * joint, block.weight * mask);
+    }
+    const std::size_t count = block.joints - joint;
+    if (count == 0) return;
+    float local[10 * kLanes]{};
+    float other[10 * kLanes]{};
+    Lanes weight{};
+    for (std::size_t k = 0; k < count; ++k) weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[joint + k]);
+    __builtin_memcpy(local, block.local + 10 * joint, 10 * count * sizeof(float));
+    __builtin_memcpy(other, block.other + 10 * joint, 10 * count * sizeof(float));
+    blend_joints(local, other, weight);
+    __builtin_memcpy(block.local + 10 * joint, local, 10 * count * sizeof(float));
+}
+
+// NOLINTEND(misc-definitions-in-headers)

@@ -1,0 +1,162 @@
+#include "pose_plan.h"
+
+#include <bendy/runtime/model.h>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+namespace bendy {
+namespace {
+
+constexpr std::uint32_t kFloats = sizeof(JointTransform) / sizeof(float);
+
+std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
+    std::vector<std::uint32_t> depths(joints.size());
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        const std::uint32_t parent = joints[joint].parent;
+        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
+    }
+    return depths;
+}
+
+PaletteMatrix to_rows(const glm::mat4& matrix) {
+    PaletteMatrix entry{};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) entry.rows[row][column] = matrix[column][row];
+    }
+    return entry;
+}
+
+double longest_axis(const glm::dmat4& matrix) {
+    double square = 0.0;
+    for (int c = 0; c < 3; ++c) square = std::max(square, glm::dot(glm::dvec3(matrix[c]), glm::dvec3(matrix[c])));
+    return std::sqrt(square);
+}
+
+/// The box around some points.
+class Box {
+public:
+    void add(const glm::dvec3& point) {
+        low_ = glm::min(low_, point);
+        high_ = glm::max(high_, point);
+    }
+    /// Negative if there is no point.
+    [[nodiscard]] double diagonal() const { return low_.x <= high_.x ? glm::length(high_ - low_) : -1.0; }
+
+private:
+    glm::dvec3 low_{INFINITY};
+    glm::dvec3 high_{-INFINITY};
+};
+
+/// Of a pool's vertices, by no more than some thousands of them, in pool space.
+double length_of(const PoolView& pool) {
+    constexpr std::uint32_t kLooks = 4096;
+    const std::uint32_t step = pool.vertices / kLooks + 1;
+    Box box;
+    for (std::uint32_t vertex = 0; vertex < pool.vertices; vertex += step) box.add(pool.positions.vec3(vertex));
+    return box.diagonal();
+}
+
+/// Whether the rest pose's numbers are of the character's own size. Rounding is relative to the largest of them.
+bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
+    constexpr double kLargest = 8.0;  // lengths of the character: 5e-7 of one for a rounding
+    constexpr std::uint32_t kDeepest = 64;
+    const std::vector<std::uint32_t> depths = depths_of(joints);
+    if (joints.empty() || *std::max_element(depths.begin(), depths.end()) > kDeepest) return false;
+    std::vector<glm::dmat4> model(joints.size());
+    Box places;
+    double largest = 0.0;
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        if (joints[joint].shear != glm::vec3(0.0f)) return false;
+        const glm::dmat4 local = to_matrix(joints[joint].rest, joints[joint].shear);
+        model[joint] = joints[joint].parent == kNone ? local : model[joints[joint].parent] * local;
+        places.add(model[joint][3]);
+        largest = std::max(largest, glm::length(glm::dvec3(model[joint][3])));
+    }
+    double length = -1.0;
+    for (const PoolView& pool : object.pools) {
+        double scale = pool.joint < joints.size() ? longest_axis(model[pool.joint]) : 0.0;
+        const auto inverse_bind = pool.palette.inverse_bind();
+        for (std::size_t entry = 0; entry < inverse_bind.size(); ++entry) {
+            const glm::dmat4& joint = model[pool.palette.joints[entry]];
+            const glm::dmat4 bind(inverse_bind[entry]);
+            largest = std::max(largest, longest_axis(joint) * glm::length(glm::dvec3(bind[3])));
+            scale = std::max(scale, longest_axis(joint * bind));
+        }
+        length = std::max(length, scale * length_of(pool));
+    }
+    if (object.pools.empty()) length = places.diagonal();
+    return largest <= kLargest * length;  // false where it is not a number
+}
+
+bool is_for_kernels(const TrackView& track) {
+    return track.interpolation == Interpolation::linear && track.keys >= 2 && track.path != TrackPath::weights;
+}
+
+void add_rotation(const TrackView& track, SampleLine& line) {
+    const std::size_t lane = line.rotation_tracks++ % RotationTracks::kMost;
+    if (lane == 0) line.rotations.emplace_back();
+    for (std::size_t k = lane; k < RotationTracks::kMost; ++k) {
+        line.rotations.back().keys[k] = track.values.data();
+        line.rotations.back().places[k] = kFloats * track.target;
+    }
+}
+
+/// The line of a track's times: one of the last few, or a new one.
+SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
+    constexpr std::ptrdiff_t kLast = 8;
+    const auto first = lines.end() - std::min<std::ptrdiff_t>(kLast, std::ssize(lines));
+    const auto found = std::find_if(first, lines.end(), [&](const SampleLine& line) {
+        return line.clock->times.data() == track.times.data() && line.clock->keys == track.keys;
+    });
+    if (found != lines.end()) return *found;
+    lines.emplace_back().clock = &track;
+    return lines.back();
+}
+
+SamplePlan make_sample_plan(const CycleView& cycle) {
+    SamplePlan plan;
+    for (const TrackView& track : cycle.tracks) {
+        SampleLine& line = line_of(track, plan.lines);
+        if (!is_for_kernels(track)) {
+            line.others.push_back(&track);
+        } else if (track.path == TrackPath::rotation) {
+            add_rotation(track, line);
+        } else {
+            const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
+            line.vectors.push_back({track.values.data(), kFloats * track.target + place});
+        }
+    }
+    return plan;
+}
+
+}  // namespace
+
+PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints) {
+    PosePlan plan;
+    plan.rest.reserve(joints.size());
+    for (const Joint& joint : joints) plan.rest.push_back(joint.rest);
+    for (const PoolView& pool : object.pools) {
+        for (const TargetView& target : pool.targets) plan.rest_weights.push_back(target.rest_weight);
+        const auto inverse_bind = pool.palette.inverse_bind();
+        std::vector<PaletteMatrix>& rows = plan.inverse_bind.emplace_back();
+        rows.reserve(inverse_bind.size());
+        std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), to_rows);
+    }
+    plan.order.resize(joints.size());
+    std::iota(plan.order.begin(), plan.order.end(), 0u);
+    const std::vector<std::uint32_t> depths = depths_of(joints);
+    std::stable_sort(plan.order.begin(), plan.order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
+    plan.cycles.reserve(object.cycles.size());
+    for (const CycleView& cycle : object.cycles) plan.cycles.push_back(make_sample_plan(cycle));
+    plan.fits_floats = fits_floats(object, joints);
+    return plan;
+}
+
+}  // namespace bendy
