@@ -2,7 +2,7 @@
 // `bendy bench` knows and crowds of it; then pools of four influences from 1,000 vertices to 1,000,000, and chains.
 // Single stages: --benchmark_filter=REGEX; two builds or kernels beside each other: BENDY_KERNEL=plain, or `bendy bench
 // --kernel`, which measures by turns.
-#include "runtime/build_model.h"
+#include "made_models.h"
 #include "stages.h"
 
 #include <bendy/format/diagnostics.h>
@@ -148,52 +148,15 @@ void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
 
 // --- pools of any size
 
-/// Vertices of four influences among 64 joints, near ones together, as characters have them.
-test::Buffer make_pool_file(std::uint32_t vertices) {
-    constexpr std::uint32_t kJoints = 64;
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-    test::ModelSpec spec;
-    std::vector<std::uint32_t> joints;
-    for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
-        test::JointSpec own;
-        own.parent = joint == 0 ? kNone : (joint - 1) / 2;
-        own.rest = test::turned(30.0 * number(random), joint % 3);
-        own.rest.translation = {number(random), number(random), number(random)};
-        spec.joints.push_back(own);
-        joints.push_back(joint);
-    }
-    test::PoolSpec pool;
-    const glm::vec3 normal(0.0f, 0.6f, 0.8f);
-    std::vector<std::uint8_t> bones;
-    std::vector<float> weights;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        pool.positions.emplace_back(number(random), number(random), number(random));
-        pool.normals.push_back(normal);
-        pool.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
-        const auto near = static_cast<std::uint32_t>(std::uint64_t{v} * kJoints / vertices);
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            bones.push_back(static_cast<std::uint8_t>((near + random() % 6) % kJoints));
-            weights.push_back(0.25f);
-        }
-    }
-    pool.more.push_back(test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(4, bones)));
-    pool.more.push_back(test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(4, weights)));
-    pool.more.push_back(test::palette_leaf(joints, std::vector<glm::mat4>(kJoints, glm::mat4(1.0f))));
-    spec.pools.push_back(pool);
-    return test::build_file(spec);
-}
-
 /// Made when it is first measured, and kept while it is: pools are large.
 void measure_pool(benchmark::State& state, std::uint32_t vertices, int attributes) {
-    static std::unique_ptr<const test::Owned> model;
-    if (!model || model->operator->()->vertex_count() != vertices)
-        model = std::make_unique<const test::Owned>(make_pool_file(vertices));
-    Pose pose(**model);
+    static std::unique_ptr<const bench::MadeModel> made;
+    if (!made || made->model.vertex_count() != vertices) made = bench::make_pool(vertices);
+    Pose pose(made->model);
     std::vector<glm::vec3> positions(vertices), normals(attributes > 1 ? vertices : 0);
     std::vector<glm::vec4> tangents(attributes > 2 ? vertices : 0);
     while (state.KeepRunning()) {
-        skin(**model, pose, {positions, normals, tangents});
+        skin(made->model, pose, {positions, normals, tangents});
         benchmark::ClobberMemory();
     }
     per_item(state, "vertex", vertices);
@@ -211,41 +174,16 @@ void add_pools() {
 
 // --- chains
 
-/// Two bones, or one joint that looks, below a root that stands still.
-test::Buffer make_chain_file(Solver solver, bool is_limited) {
-    test::ModelSpec spec;
-    for (std::uint32_t joint = 0; joint < 3; ++joint) {
-        test::JointSpec own;
-        own.parent = joint == 0 ? kNone : joint - 1;
-        own.rest = test::turned(joint == 1 ? 25.0 : 5.0, 0);
-        own.rest.translation = {0.0f, joint == 0 ? 0.0f : 0.5f, 0.0f};
-        if (is_limited && joint == 1) {
-            LimitRecord limit;
-            limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
-            limit.rotation_min[0] = -0.5f;
-            limit.rotation_max[0] = 2.6f;
-            own.limits.push_back(limit);
-        }
-        spec.joints.push_back(own);
-    }
-    ChainRecord chain;
-    chain.solver = static_cast<std::uint8_t>(solver);
-    chain.effector = solver == Solver::aim ? 0 : 2;
-    chain.pole_vector = {0.0f, 0.0f, 1.0f};
-    spec.chains.push_back(chain);
-    return test::build_file(spec);
-}
-
 void measure_chain(benchmark::State& state, Solver solver, bool is_limited) {
-    const test::Owned model(make_chain_file(solver, is_limited));
-    Pose pose(*model);
+    const auto made = bench::make_chain(solver, is_limited);
+    Pose pose(made->model);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
     std::vector<glm::vec3> targets;
     for (int k = 0; k < 256; ++k)
         targets.emplace_back(0.2f * number(random), 0.7f + 0.15f * number(random), 0.35f + 0.2f * number(random));
     std::size_t k = 0;
-    while (state.KeepRunning()) benchmark::DoNotOptimize(reach(model->chains().data(), targets[k++ % 256], pose));
+    while (state.KeepRunning()) benchmark::DoNotOptimize(reach(made->model.chains().data(), targets[k++ % 256], pose));
     per_item(state, "solve", 1.0);
 }
 
