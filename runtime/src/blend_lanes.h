@@ -1,5 +1,5 @@
-// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also defines
-// roots_of(Lanes).
+// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also
+// defines roots_of(Lanes).
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
@@ -72,23 +72,38 @@ inline void add_joints(float* local, const float* other, Lanes weight) {
 
 using BlendJoints = void(float* local, const float* other, Lanes weight);
 
+/// kLanes joints from `joint` on.
 template <BlendJoints blend_joints>
-inline void blend_lanes(const BlendBlock& block) {
-    std::size_t joint = 0;
-    for (; block.joints - joint >= kLanes; joint += kLanes) {
-        const Lanes mask = block.mask == nullptr ? splat(1.0f) : load_lanes(block.mask + joint);
-        blend_joints(block.local + 10 * joint, block.other + 10 * joint, block.weight * mask);
-    }
-    const std::size_t count = block.joints - joint;
-    if (count == 0) return;
+inline void blend_group(const BlendBlock& block, std::size_t joint, float* local) {
+    const Lanes mask = block.mask == nullptr ? splat(1.0f) : load_lanes(block.mask + joint);
+    blend_joints(local, block.other + 10 * joint, block.weight * mask);
+}
+
+/// Fewer joints than lanes.
+template <BlendJoints blend_joints>
+__attribute__((noinline)) void blend_few(const BlendBlock& block) {
     float local[10 * kLanes]{};
     float other[10 * kLanes]{};
     Lanes weight{};
-    for (std::size_t k = 0; k < count; ++k) weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[joint + k]);
-    __builtin_memcpy(local, block.local + 10 * joint, 10 * count * sizeof(float));
-    __builtin_memcpy(other, block.other + 10 * joint, 10 * count * sizeof(float));
+    for (std::size_t k = 0; k < block.joints; ++k)
+        weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[k]);
+    __builtin_memcpy(local, block.local, 10 * block.joints * sizeof(float));
+    __builtin_memcpy(other, block.other, 10 * block.joints * sizeof(float));
     blend_joints(local, other, weight);
-    __builtin_memcpy(block.local + 10 * joint, local, 10 * count * sizeof(float));
+    __builtin_memcpy(block.local, local, 10 * block.joints * sizeof(float));
+}
+
+template <BlendJoints blend_joints>
+inline void blend_lanes(const BlendBlock& block) {
+    if (block.joints < kLanes) return blend_few<blend_joints>(block);
+    // The last group, some of it twice: read before the others are written.
+    const std::size_t last = block.joints - kLanes;
+    float local[10 * kLanes];
+    __builtin_memcpy(local, block.local + 10 * last, sizeof local);
+    blend_group<blend_joints>(block, last, local);
+    for (std::size_t joint = 0; joint < last; joint += kLanes)
+        blend_group<blend_joints>(block, joint, block.local + 10 * joint);
+    __builtin_memcpy(block.local + 10 * last, local, sizeof local);
 }
 
 // NOLINTEND(misc-definitions-in-headers)

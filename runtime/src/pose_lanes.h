@@ -131,8 +131,8 @@ inline bool palette_lanes(const PaletteBlock& block) {
         const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
         const float* const bind = block.inverse_bind[entry].rows[0];
         const Product rows =
-            plus(outer(joint, repeat(bind)),
-                 plus(outer(joint + 4, repeat(bind + 4)), plus(outer(joint + 8, repeat(bind + 8)), outer(joint + 12, last))));
+            plus(outer(joint, repeat(bind)), plus(outer(joint + 4, repeat(bind + 4)),
+                                                  plus(outer(joint + 8, repeat(bind + 8)), outer(joint + 12, last))));
         store_lanes(block.palette[entry].rows[0], rows.upper);
         store_quad(block.palette[entry].rows[2], rows.lower);
         upper_sum += 0.0f * rows.upper;
@@ -145,9 +145,9 @@ inline bool palette_lanes(const PaletteBlock& block) {
         const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
         const float* const bind = block.inverse_bind[entry].rows[0];
         for (std::size_t row = 0; row < 3; ++row) {
-            const Quad numbers = joint[row] * load_quad(bind) +
-                                 (joint[row + 4] * load_quad(bind + 4) +
-                                  (joint[row + 8] * load_quad(bind + 8) + joint[row + 12] * last));
+            const Quad numbers =
+                joint[row] * load_quad(bind) + (joint[row + 4] * load_quad(bind + 4) +
+                                                (joint[row + 8] * load_quad(bind + 8) + joint[row + 12] * last));
             store_quad(block.palette[entry].rows[row], numbers);
             sum += 0.0f * numbers;
         }

@@ -225,8 +225,13 @@ private:
         const Interval at = find_interval(*line.clock, cycle_, seconds_);
         for (const TrackView* track : line.others) sample_one(*track, at);
         if (line.rotations.empty() && line.vectors.empty()) return;
-        SampleBlock block{line.rotations.data(), line.rotations.size(), line.vectors.data(), line.vectors.size(),
-                          at.left, static_cast<float>(at.fraction), &local_.front().rotation.x};
+        SampleBlock block{line.rotations.data(),
+                          line.rotations.size(),
+                          line.vectors.data(),
+                          line.vectors.size(),
+                          at.left,
+                          static_cast<float>(at.fraction),
+                          &local_.front().rotation.x};
         if (at.left + 1 == line.clock->keys) {  // the last key: from the one before it all the way
             block.left = at.left - 1;
             block.fraction = 1.0f;

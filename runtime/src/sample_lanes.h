@@ -42,7 +42,8 @@ inline void load_rotations(const float* const* keys, std::size_t at, Lanes* to) 
     Lanes quads[4];
     for (std::size_t k = 0; k < 4; ++k) {
 #if BENDY_LANES == 8
-        quads[k] = __builtin_shufflevector(load_quad(keys[k] + at), load_quad(keys[k + 4] + at), 0, 1, 2, 3, 4, 5, 6, 7);
+        quads[k] =
+            __builtin_shufflevector(load_quad(keys[k] + at), load_quad(keys[k + 4] + at), 0, 1, 2, 3, 4, 5, 6, 7);
 #else
         quads[k] = load_quad(keys[k] + at);
 #endif
@@ -87,7 +88,8 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
     const Lanes x = (cosine > 1.0f ? splat(1.0f) : cosine) - 1.0f;
     const bool is_near = least_of(cosine) >= Series::kNearCosine;
     const Shares shares = is_near ? shares_of<Series::kNearTerms>(left, right, x) : far_shares(left, right, x);
-    const Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
+    Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
+    if (block.fraction == 1.0f) by_b = splat(1.0f);  // the key itself, sign included
     for (std::size_t c = 0; c < 4; ++c) a[c] = shares.left * a[c] + by_b * b[c];
     store_rotations(a, tracks.places + first, block.local);
 }

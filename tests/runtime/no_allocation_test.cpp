@@ -84,6 +84,7 @@ TEST(NoAllocation, TheCountCounts) {
 TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     const test::Owned model(test::sample_file());
     Pose pose(*model);
+    Pose other(*model);
     std::vector<glm::vec3> positions(model->vertex_count());
     std::vector<glm::vec3> normals(model->vertex_count());
     std::vector<glm::vec4> tangents(model->vertex_count());
@@ -96,6 +97,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     bool is_good = true;
     for (int frame = -2; frame < 20; ++frame) {
         is_good = sample(run, 0.5f + 0.03f * static_cast<float>(frame), pose) && is_good;
+        is_good = blend(pose, other, 0.5f) && make_additive(other, pose) && add(pose, other, 0.5f) && is_good;
         local_to_model(pose);
         is_good = skin(*model, pose, vertices) && is_good;
         is_good = skin(*model, 0, pose, vertices) && is_good;

@@ -79,5 +79,29 @@ TEST(Pose, CopiesAreTheirOwn) {
     EXPECT_EQ(glm::vec3(copy.model_space()[0][3]), glm::vec3(9, 9, 9));
 }
 
+TEST(Pose, PalettesAreThoseOfTheirPoolsInThePoseAsItIs) {
+    const Owned model(test::sample_file());
+    Pose pose(*model);
+    for (const float seconds : {0.6f, 0.9f}) {
+        ASSERT_TRUE(sample(model->cycle("run"), seconds, pose));
+        std::uint32_t entries = 0;
+        for (const std::uint32_t number : {0u, 1u, 0u}) {
+            const Pool& pool = model->pools()[number];
+            const std::span<const PaletteMatrix> palette = pose.palette(number);
+            EXPECT_FALSE(pose.is_stale());
+            ASSERT_EQ(palette.size(), pool.palette.joints.size());
+            for (std::size_t entry = 0; entry < palette.size(); ++entry, ++entries) {
+                const glm::dmat4 expected = glm::dmat4(pose.model_space()[pool.palette.joints[entry]]) *
+                                            glm::dmat4(pool.palette.inverse_bind()[entry]);
+                for (int row = 0; row < 3; ++row) {
+                    for (int column = 0; column < 4; ++column)
+                        EXPECT_NEAR(palette[entry].rows[row][column], expected[column][row], 1e-5);
+                }
+            }
+        }
+        EXPECT_GT(entries, 0u);
+    }
+}
+
 }  // namespace
 }  // namespace bendy

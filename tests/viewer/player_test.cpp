@@ -1,6 +1,7 @@
 #include "player.h"
 
-#include "blend_poses.h"
+#include <bendy/runtime/blend.h>
+
 #include "overlay.h"
 #include "viewer/example_model.h"
 
@@ -46,11 +47,11 @@ TEST_F(PlayerTest, BlendIsOneCycleAtEachEndAndBetweenThemInTheMiddle) {
     sample(&model->cycles()[0], 0.2f, a);
     sample(&model->cycles()[1], 0.4f, b);
     Pose at_a = a;
-    blend_poses(b, 0.0f, at_a);
+    blend(at_a, b, 0.0f);
     Pose at_b = a;
-    blend_poses(b, 1.0f, at_b);
+    blend(at_b, b, 1.0f);
     Pose middle = a;
-    blend_poses(b, 0.5f, middle);
+    blend(middle, b, 0.5f);
     const auto closeness = [](const glm::quat& p, const glm::quat& q) { return std::abs(glm::dot(p, q)); };
     for (std::size_t j = 0; j < a.local().size(); ++j) {
         EXPECT_NEAR(closeness(at_a.local()[j].rotation, a.local()[j].rotation), 1.0f, 1e-5f);

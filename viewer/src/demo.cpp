@@ -1,6 +1,7 @@
 #include "demo.h"
 
-#include "blend_poses.h"
+#include <bendy/runtime/blend.h>
+
 #include "overlay.h"
 
 #include <glm/common.hpp>
@@ -247,7 +248,7 @@ void Demo::step(double seconds) {
         if (since_other_way_ < kOtherWay) {
             const double share = since_other_way_ / kOtherWay;
             pose_ = before_;
-            blend_poses(other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)), pose_);
+            blend(pose_, other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)));
         } else {
             pull_time_ += seconds;
             pull();
@@ -261,7 +262,7 @@ void Demo::step(double seconds) {
             state_.time = std::fmod(state_.time, length);
             sample(cycle_, cycle_->start + static_cast<float>(state_.time), pose_);
         }
-        if (since_mode_ < kEase) blend_poses(before_, static_cast<float>(1.0 - since_mode_ / kEase), pose_);
+        if (since_mode_ < kEase) blend(pose_, before_, static_cast<float>(1.0 - since_mode_ / kEase));
     }
     hold_limits();
     local_to_model(pose_);

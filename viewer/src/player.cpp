@@ -1,6 +1,7 @@
 #include "player.h"
 
-#include "blend_poses.h"
+#include <bendy/runtime/blend.h>
+
 #include "overlay.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ void Player::update() {
         sample_at_phase(cycle, pose_);
         if (other < model_->cycles().size()) {
             sample_at_phase(other, mixed_in_);
-            blend_poses(mixed_in_, share, pose_);
+            blend(pose_, mixed_in_, share);
         }
     } else {
         pose_.set_rest();

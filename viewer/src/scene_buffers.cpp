@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 namespace bendy::viewer {
@@ -206,12 +207,10 @@ void SceneBuffers::set_pose(Pose& pose) {
     const auto joints = pose.model_space();
     for (std::size_t joint = 0; joint < joints.size(); ++joint) put_rows(joints[joint], &rows_[3 * (1 + joint)]);
     for (std::size_t number = 0; number < model_->pools().size(); ++number) {
-        const PaletteView& palette = model_->pools()[number].palette;
-        for (std::size_t entry = 0; entry < palette.joints.size(); ++entry) {
-            // Large translations cancel here, which a product of floats would not survive.
-            const glm::dmat4 product =
-                glm::dmat4(joints[palette.joints[entry]]) * glm::dmat4(palette.inverse_bind()[entry]);
-            put_rows(glm::mat4(product), &rows_[3 * (first_palette_[number] + entry)]);
+        glm::vec4* to = rows_.data() + std::size_t{3} * first_palette_[number];
+        for (const PaletteMatrix& matrix : pose.palette(static_cast<std::uint32_t>(number))) {
+            std::memcpy(to, matrix.rows, sizeof matrix.rows);
+            to += 3;
         }
     }
     palette_.fill(rows_.data(), bytes_of(rows_), GL_STREAM_DRAW);

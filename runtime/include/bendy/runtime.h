@@ -5,12 +5,14 @@
 //     auto model = bendy::Model::open("fox.bendy");           // maps and checks the file
 //     bendy::Pose pose(*model);                               // all the memory that posing needs
 //     bendy::sample(model->cycle("Run"), seconds, pose);      // joints and target weights at a time
+//     bendy::blend(pose, other, 0.5f);                        // half of another pose of the model
 //     bendy::reach(model->chain("LeftArm"), target, pose);    // IK, inside the joints' constraints
 //     bendy::skin(*model, pose, vertices);                    // vertices into the caller's memory
 //
 // Nothing here throws, logs, or allocates after the Pose is made. After a Model has loaded, no call on it can read or
 // write out of bounds, whatever the file held. A Model is immutable: any number of threads may share it, a Pose each.
 
+#include <bendy/runtime/blend.h>
 #include <bendy/runtime/constrain.h>
 #include <bendy/runtime/crowd.h>
 #include <bendy/runtime/ik.h>

@@ -35,9 +35,9 @@ public:
         if (model_space_.empty()) return {};
         return {&model_space_.front().matrix, model_space_.size()};
     }
-    /// What each bone of a skinned pool does to its vertices, for skinning elsewhere: model space * inverse bind matrix,
-    /// one for each entry of the pool's palette; empty for a rigid pool. Brings a stale pose up to date first. Holds
-    /// until the pose changes, or is asked for another pool's or skinned.
+    /// What each bone of a skinned pool does to its vertices, for skinning elsewhere: model space * inverse bind
+    /// matrix, one for each entry of the pool's palette; empty for a rigid pool. Brings a stale pose up to date first.
+    /// Holds until the pose changes, or is asked for another pool's or skinned.
     [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t pool);
     /// True when a local transform may have changed since local_to_model.
     [[nodiscard]] bool is_stale() const { return is_stale_; }

@@ -1,0 +1,130 @@
+#include <bendy/runtime/kernels.h>
+#include <bendy/runtime/sample.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+// Whole cycles with each kernel, against sample_track in double precision.
+namespace bendy {
+namespace {
+
+using test::Owned;
+
+constexpr std::uint32_t kJoints = 21;  // no multiple of any number of lanes
+constexpr std::uint32_t kKeys = 5;
+
+/// Joints with a track for each property, some on time lines of their own, some of one key, some in fixed frames, some
+/// steps; rotations turn by up to `angle` radians from key to key.
+test::ModelSpec animated(float angle) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    test::ModelSpec spec;
+    spec.joints.resize(kJoints);
+    for (std::uint32_t joint = 1; joint < kJoints; ++joint) spec.joints[joint].parent = joint - 1;
+    const std::vector<float> times{0.0f, 0.25f, 0.5f, 0.625f, 1.0f, 0.0f, 0.1f, 0.2f, 0.9f, 1.0f};
+    std::vector<float> values;
+    std::vector<TrackRecord> tracks;
+    for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
+        for (const TrackPath path : {TrackPath::translation, TrackPath::rotation, TrackPath::scale}) {
+            if (joint % 5 == 3 && path == TrackPath::scale) continue;  // at rest
+            const bool is_rotation = path == TrackPath::rotation;
+            TrackRecord track;
+            track.target = joint;
+            track.path = static_cast<std::uint8_t>(path);
+            track.interpolation = static_cast<std::uint8_t>(joint == 6 ? Interpolation::step : Interpolation::linear);
+            track.components = is_rotation ? 4 : 3;
+            track.keys = joint == 4 ? 1 : kKeys;
+            track.first_time = joint == 9 ? kNone : (joint % 3 == 0 ? 5 : 0);
+            track.first_value = values.size();
+            tracks.push_back(track);
+            glm::quat q = glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
+            for (std::uint32_t key = 0; key < track.keys; ++key) {
+                const float sign = number(random) < 0.0f ? -1.0f : 1.0f;  // a key's sign means nothing
+                if (is_rotation) {
+                    values.insert(values.end(), {sign * q.x, sign * q.y, sign * q.z, sign * q.w});
+                } else {
+                    values.insert(values.end(), {number(random), number(random), number(random)});
+                }
+                const glm::vec3 axis(number(random), number(random), number(random));
+                q = glm::normalize(q * glm::angleAxis(angle * number(random), glm::normalize(axis)));
+            }
+        }
+    }
+    CycleRecord info;
+    info.end = 1.0f;
+    info.frame_rate = 4.0f;
+    spec.more.push_back(test::make_container(
+        FourCC("CYCL"),
+        {test::make_leaf(FourCC("CINF"), bytes_of(info)), test::make_leaf(FourCC("TRAK"), test::bytes_of_all(tracks)),
+         test::make_leaf(FourCC("TIME"), test::bytes_of_all(times)),
+         test::make_leaf(FourCC("KEYV"), test::bytes_of_all(values))}));
+    return spec;
+}
+
+void expect_track(const TrackView& track, const Cycle& cycle, float seconds, const Pose& pose, float tolerance) {
+    std::vector<float> expected(track.components);
+    sample_track(track, cycle, seconds, expected);
+    const JointTransform& joint = pose.local()[track.target];
+    const auto& q = joint.rotation;
+    const glm::vec3& vector = track.path == TrackPath::translation ? joint.translation : joint.scale;
+    const std::vector<float> found = track.path == TrackPath::rotation
+                                         ? std::vector<float>{q.x, q.y, q.z, q.w}
+                                         : std::vector<float>{vector.x, vector.y, vector.z};
+    for (std::size_t c = 0; c < found.size(); ++c)
+        EXPECT_NEAR(found[c], expected[c], tolerance) << "joint " << track.target << " at " << seconds;
+}
+
+TEST(SampleKernels, AgreeWithEachTrackByItself) {
+    const Kernel before = kernel();
+    for (const float angle : {0.0f, 0.01f, 0.5f, 1.5f, 3.1f}) {
+        const Owned model(test::build_file(animated(angle)));
+        const Cycle& cycle = model->cycles().front();
+        ASSERT_EQ(cycle.tracks.size(), 3 * kJoints - 4);
+        for (const Kernel each : kernels()) {
+            ASSERT_TRUE(set_kernel(each));
+            SCOPED_TRACE(kernel_name(each));
+            Pose pose(*model);
+            std::mt19937 random(1);
+            std::uniform_real_distribution<float> anywhere(-0.1f, 1.1f);
+            for (int k = 0; k < 200; ++k) {
+                const float seconds = k == 0 ? 1.0f : k == 1 ? 0.0f : anywhere(random);
+                ASSERT_TRUE(sample(&cycle, seconds, pose));
+                // Numbers are at most 1: four units in its last place, and more terms for wider turns.
+                const float units = angle < 1.0f ? 4.0f : 12.0f;
+                for (const TrackView& track : cycle.tracks) expect_track(track, cycle, seconds, pose, units * 0x1p-24f);
+                EXPECT_EQ(pose.local()[3].scale, glm::vec3(1.0f));
+            }
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+TEST(SampleKernels, KeysComeOutExactly) {
+    const Kernel before = kernel();
+    const Owned model(test::build_file(animated(0.5f)));
+    const Cycle& cycle = model->cycles().front();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        SCOPED_TRACE(kernel_name(each));
+        Pose pose(*model);
+        for (const float seconds : {-1.0f, 0.0f, 0.25f, 0.5f, 1.0f, 2.0f}) {
+            ASSERT_TRUE(sample(&cycle, seconds, pose));
+            for (const TrackView& track : cycle.tracks) {
+                const auto is_key = [&](float time) { return time == seconds; };
+                const bool is_at_key =
+                    seconds <= 0.0f || seconds >= 1.0f || std::any_of(track.times.begin(), track.times.end(), is_key);
+                if (is_at_key) expect_track(track, cycle, seconds, pose, 0.0f);
+            }
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+}  // namespace
+}  // namespace bendy
