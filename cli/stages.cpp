@@ -24,6 +24,7 @@ Stages::Stages(const std::filesystem::path& file, const Model& model, const Cycl
     : model_(model),
       cycle_(cycle),
       pose_(model),
+      other_(model),
       lod_(model),
       seconds_(cycle == nullptr ? 0.0f : cycle->start),
       positions_(model.vertex_count()),
@@ -74,6 +75,8 @@ void Stages::add_posing() {
             sample(cycle_, cycle_->start + share * (cycle_->end - cycle_->start), pose_);
         });
     }
+    if (cycle_ != nullptr) sample(cycle_, 0.5f * (cycle_->start + cycle_->end), other_);
+    add("blend two poses", "joint", joints, [this] { (void)blend(pose_, other_, 0.5f); });
     add("local to model", "joint", joints, [this] {
         (void)pose_.change_local();
         local_to_model(pose_);

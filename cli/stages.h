@@ -52,7 +52,7 @@ private:
 
     const Model& model_;
     const Cycle* cycle_;
-    Pose pose_;
+    Pose pose_, other_;
     Lod lod_;
     float seconds_ = 0.0f;
     std::mt19937 random_{1};

@@ -1,7 +1,6 @@
 #include <bendy/runtime/ik.h>
 
 #include <bendy/runtime/constrain.h>
-#include <bendy/runtime/local_to_model.h>
 
 #include "ik_problem.h"
 #include "ik_quick.h"
@@ -358,10 +357,9 @@ void reach_all(Pose& pose) {
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
         if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
-        if (pose.is_stale()) local_to_model(pose);
-        const glm::mat4& followed = pose.model_space()[chain.target];
+        const glm::dmat4 followed = joint_to_model(pose, chain.target);
         ReachTarget target{glm::vec3(followed[3])};
-        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(glm::dmat4(followed)));
+        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(followed));
         ReachOptions options;
         options.influence = chain.record.influence;
         reach(&chain, target, pose, options);
