@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Counts what a processor does, which no other program disturbs: bench/instructions.sh FILE.bendy...
 # Instructions for each stage by callgrind, for one joint, vertex, ...; then the cache misses of a crowd by cachegrind,
-# for one character. Needs valgrind, which knows AVX2 and no AVX-512. BENDY_KERNEL=plain counts another kernel.
+# for one character, of caches of 32 kB and 8 MB. Needs valgrind, which knows AVX2 and no AVX-512. BENDY_KERNEL=plain counts another kernel.
 set -euo pipefail
 build=${BUILD:-$(dirname "$0")/../build/release}
 repeat=$build/bench/bendy_bench_repeat
@@ -12,7 +12,7 @@ count() { # count TIMES FILE STAGE: instructions of the whole program
 }
 
 misses() { # misses FRAMES FILE: instructions, misses of the first and of the last data cache
-    valgrind --tool=cachegrind --cache-sim=yes --cachegrind-out-file=/dev/null "$build/examples/bendy_crowd" "$2" 500 "$1" 2>&1 |
+    valgrind --tool=cachegrind --cache-sim=yes --D1=32768,8,64 --LL=8388608,16,64 --cachegrind-out-file=/dev/null "$build/examples/bendy_crowd" "$2" 500 "$1" 2>&1 |
         tr -d , | awk '/ I +refs/ {i = $4} / D1 +misses/ {d = $4} / LLd misses/ {l = $4} END {print i, d, l}'
 }
 
