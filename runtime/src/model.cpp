@@ -126,18 +126,6 @@ std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
     return movers;
 }
 
-void Model::plan_cycles(Data& data) {
-    const auto& cycles = data.object.cycles;
-    if (std::none_of(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.packed.has_value(); })) return;
-    std::vector<JointTransform> rest;
-    rest.reserve(data.joints.size());
-    for (const Joint& joint : data.joints) rest.push_back(joint.rest);
-    data.unpack_plans.resize(cycles.size());
-    for (std::size_t k = 0; k < cycles.size(); ++k) {
-        if (cycles[k].packed) data.unpack_plans[k] = make_unpack_plan(*cycles[k].packed, rest);
-    }
-}
-
 Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& options) {
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) return tree.error();
@@ -167,7 +155,6 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
         data->is_sheared = data->is_sheared || joint.shear != glm::vec3(0.0f);
     }
     build_rig(*data);
-    plan_cycles(*data);
     data->draws = make_draws(object.skeleton.polygons);
     data->movers = find_movers(object);
     data->first_vertex.push_back(0);
@@ -219,13 +206,6 @@ std::size_t Model::number_of(const Cycle& cycle) const {
     const std::less<> is_before;
     if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
     return static_cast<std::size_t>(&cycle - cycles.data());
-}
-
-const UnpackPlan* Model::unpack_plan(const Cycle& cycle) const {
-    const std::size_t number = number_of(cycle);
-    if (number >= data_->unpack_plans.size()) return nullptr;
-    const UnpackPlan& plan = data_->unpack_plans[number];
-    return plan.packed != nullptr ? &plan : nullptr;
 }
 
 const Chain* Model::chain(std::string_view name) const {

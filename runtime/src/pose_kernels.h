@@ -2,6 +2,7 @@
 
 #include "pose_block.h"
 #include "sample_block.h"
+#include "unpack_block.h"
 
 // The functions of an instruction set. Nothing but plain numbers: see skin_block.h.
 namespace bendy {
@@ -10,8 +11,10 @@ struct PoseKernels {
     void (*pose)(const PoseBlock& block);        ///< local_to_model
     bool (*palette)(const PaletteBlock& block);  ///< model * inverse_bind of each entry; whether all are finite
     void (*sample)(const SampleBlock& block);    ///< slerp of rotations, the short way round; lerp of vectors
-    void (*mix)(const BlendBlock& block);        ///< towards the other, rotations normalised
-    void (*add)(const BlendBlock& block);        ///< the other is a difference
+    /// Within 2e-6 of the plain decoder in each component of a rotation.
+    void (*unpack)(const UnpackBlock& block);
+    void (*mix)(const BlendBlock& block);  ///< towards the other, rotations normalised
+    void (*add)(const BlendBlock& block);  ///< the other is a difference
 };
 
 /// Of the kernel in use; null: the plain one, in double precision.

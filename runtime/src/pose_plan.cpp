@@ -119,8 +119,9 @@ SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
     return lines.back();
 }
 
-SamplePlan make_sample_plan(const CycleView& cycle) {
+SamplePlan make_sample_plan(const CycleView& cycle, std::span<const JointTransform> rest) {
     SamplePlan plan;
+    if (cycle.packed) plan.packed = make_unpack_plan(*cycle.packed, rest);
     for (const TrackView& track : cycle.tracks) {
         SampleLine& line = line_of(track, plan.lines);
         if (!is_for_kernels(track)) {
@@ -154,7 +155,7 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
     plan.cycles.reserve(object.cycles.size());
-    for (const CycleView& cycle : object.cycles) plan.cycles.push_back(make_sample_plan(cycle));
+    for (const CycleView& cycle : object.cycles) plan.cycles.push_back(make_sample_plan(cycle, plan.rest));
     plan.fits_floats = fits_floats(object, joints);
     return plan;
 }

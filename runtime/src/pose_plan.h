@@ -5,6 +5,7 @@
 #include <bendy/runtime/transform.h>
 
 #include "sample_block.h"
+#include "unpack_plan.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +27,10 @@ struct SampleLine {
     std::vector<const TrackView*> others;
 };
 
-/// Of a cycle. About 13 bytes a rotation track, 16 a translation or scale.
+/// Of a cycle. About 12 bytes for each rotation track, 16 for each translation or scale.
 struct SamplePlan {
     std::vector<SampleLine> lines;
+    UnpackPlan packed;  ///< if it is packed
 };
 
 struct PosePlan {

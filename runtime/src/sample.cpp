@@ -140,19 +140,6 @@ void set_joint(const TrackView& track, std::span<const float> value, JointTransf
     }
 }
 
-void unpack(const Cycle& cycle, float seconds, Pose& pose) {
-    const std::span<JointTransform> local = pose.change_local();
-    if (const UnpackPlan* plan = pose.model().unpack_plan(cycle)) {
-        best_unpack()(*plan, seconds, local);
-    } else {
-        unpack_plain({&*cycle.packed, {}, {}, {}, {}}, seconds, local);  // a cycle of another model
-    }
-}
-
-}  // namespace
-
-namespace {
-
 Interval find_interval(const TrackView& track, const Cycle& cycle, float seconds) {
     return track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
 }
@@ -205,10 +192,22 @@ public:
     void run() const {
         const PoseKernels* const kernels = pose_kernels();
         const std::size_t number = model_.number_of(cycle_);
-        if (kernels != nullptr && number < model_.cycles().size()) {
-            for (const SampleLine& line : model_.pose_plan().cycles[number].lines) sample_line(line, kernels->sample);
+        if (number >= model_.cycles().size()) {  // of another model
+            sample_tracks();
+            if (cycle_.packed) unpack_plain({&*cycle_.packed, {}, {}, {}, {}}, seconds_, local_);
             return;
         }
+        const SamplePlan& plan = model_.pose_plan().cycles[number];
+        if (kernels == nullptr) {
+            sample_tracks();
+        } else {
+            for (const SampleLine& line : plan.lines) sample_line(line, kernels->sample);
+        }
+        if (cycle_.packed) unpack(plan.packed, seconds_, local_);
+    }
+
+private:
+    void sample_tracks() const {
         // Neighbouring tracks mostly share their times.
         const TrackView* same = nullptr;
         Interval at;
@@ -220,7 +219,6 @@ public:
         }
     }
 
-private:
     void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
         const Interval at = find_interval(*line.clock, cycle_, seconds_);
         for (const TrackView* track : line.others) sample_one(*track, at);
@@ -264,7 +262,6 @@ bool sample(const Cycle* cycle, float seconds, Pose& pose) {
     pose.set_rest();
     if (cycle == nullptr || std::isnan(seconds)) return false;
     Sampling(*cycle, seconds, pose).run();
-    if (cycle->packed) unpack(*cycle, seconds, pose);
     return true;
 }
 

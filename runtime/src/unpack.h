@@ -1,10 +1,10 @@
 #pragma once
 
-#include <bendy/runtime/unpack_plan.h>
+#include "unpack_plan.h"
 
 #include <span>
 
-// Playing packed tracks: one plain decoder, and quicker ones that are held against it.
+// Playing packed tracks: one plain decoder, and the quicker kernels that are held against it.
 namespace bendy {
 
 /// Sets what the tracks animate to its value at `seconds`. Nothing happens if they are of a model with more joints.
@@ -14,14 +14,8 @@ using Unpack = void(const UnpackPlan& plan, float seconds, std::span<JointTransf
 /// In double precision, on any machine: what a packed cycle means. Looks at nothing of the plan but `packed`.
 Unpack unpack_plain;
 
-#if defined(__x86_64__)
-/// Eight tracks at a time, single precision: within 2e-6 of the plain one in each component of a rotation. For
-/// machines with AVX2 and FMA only.
-Unpack unpack_avx2;
-#endif
-
-/// The quickest one that this machine has.
-Unpack* best_unpack();
+/// With the kernel in use.
+Unpack unpack;
 
 /// As the plain decoder sets it: one track's value at a joint that is at rest.
 /// \param u  [0, 1), from the group's left numbers to its right ones

@@ -1,4 +1,4 @@
-#include <bendy/runtime/unpack_plan.h>
+#include "unpack_plan.h"
 
 #include "unpack.h"
 
@@ -12,6 +12,8 @@ namespace bendy {
 namespace {
 
 constexpr std::uint32_t kFloats = sizeof(JointTransform) / sizeof(float);
+static_assert(UnpackGroup::kLanes == kPackedGroup &&
+              UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
 static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
 
 /// Floats from a joint's transform to one of its properties.
@@ -44,14 +46,14 @@ glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
 
 UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> rest) {
     UnpackGroup group;
-    group.path = walked.kind.path;
+    group.is_rotation = walked.kind.path == TrackPath::rotation;
     group.components = walked.kind.components;
     group.count = walked.count;
     for (std::uint32_t lane = 0; lane < kPackedGroup; ++lane) {
         const std::uint32_t joint = walked.joints[lane < walked.count ? lane : walked.count - 1];
-        group.places[lane] = joint * kFloats + place_in_joint(group.path);
-        const glm::vec4 at_rest = rest_of(group.path, rest[joint]);
-        for (int c = 0; c < 4; ++c) group.rest[static_cast<std::size_t>(c)][lane] = at_rest[c];
+        group.places[lane] = joint * kFloats + place_in_joint(walked.kind.path);
+        const glm::vec4 at_rest = rest_of(walked.kind.path, rest[joint]);
+        for (int c = 0; c < 4; ++c) group.rest[c][lane] = at_rest[c];
     }
     return group;
 }

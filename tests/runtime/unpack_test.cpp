@@ -1,5 +1,7 @@
 #include "unpack.h"
 
+#include <bendy/runtime/kernels.h>
+
 #include "format/packed_samples.h"
 #include "runtime/packed_model.h"
 
@@ -10,6 +12,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace bendy {
@@ -19,15 +23,22 @@ using namespace test;
 
 constexpr std::uint32_t kJoints = 70;
 
-struct Kernel {
-    const char* name;
-    Unpack* unpack;
+/// unpack with one of the kernels.
+struct Unpacking {
+    Kernel kernel;
+    std::string_view name;
+    void operator()(const UnpackPlan& plan, float seconds, std::span<JointTransform> local) const {
+        const Kernel before = bendy::kernel();
+        set_kernel(kernel);
+        unpack(plan, seconds, local);
+        set_kernel(before);
+    }
 };
 
-std::vector<Kernel> kernels() {
-    std::vector<Kernel> found{{"plain", unpack_plain}};
-    if (best_unpack() != unpack_plain) found.push_back({"best", best_unpack()});
-    return found;
+std::vector<Unpacking> each_kernel() {
+    std::vector<Unpacking> each;
+    for (const Kernel kernel : kernels()) each.push_back({kernel, kernel_name(kernel)});
+    return each;
 }
 
 std::vector<JointTransform> rest_pose() {
@@ -41,9 +52,10 @@ std::vector<JointTransform> rest_pose() {
     return rest;
 }
 
-std::vector<JointTransform> played(Unpack* unpack, const PackedView& view, float seconds) {
+template <class How>
+std::vector<JointTransform> played(const How& how, const PackedView& view, float seconds) {
     std::vector<JointTransform> local = rest_pose();
-    unpack(make_unpack_plan(view, local), seconds, local);
+    how(make_unpack_plan(view, local), seconds, local);
     return local;
 }
 
@@ -87,8 +99,8 @@ TEST(Unpack, KernelsAgree) {
             const PackedView view = view_of(payload);
             for (float seconds = 0.4f; seconds < 1.5f; seconds += 0.0137f) {
                 const auto expected = played(unpack_plain, view, seconds);
-                for (const Kernel& kernel : kernels())
-                    EXPECT_LT(difference(played(kernel.unpack, view, seconds), expected), 2e-6) << kernel.name << turn;
+                for (const Unpacking& kernel : each_kernel())
+                    EXPECT_LT(difference(played(kernel, view, seconds), expected), 2e-6) << kernel.name << turn;
             }
         }
     }
@@ -102,8 +114,8 @@ TEST(Unpack, KernelsAgreeInSegmentsAndWithTimes) {
     const PackedView view = view_of(payload);
     for (float seconds = 0.4f; seconds < 26.0f; seconds += 0.0937f) {
         const auto expected = played(unpack_plain, view, seconds);
-        for (const Kernel& kernel : kernels())
-            EXPECT_LT(difference(played(kernel.unpack, view, seconds), expected), 2e-6) << kernel.name;
+        for (const Unpacking& kernel : each_kernel())
+            EXPECT_LT(difference(played(kernel, view, seconds), expected), 2e-6) << kernel.name;
     }
 }
 
@@ -116,9 +128,9 @@ TEST(Unpack, BetweenFramesIsSlerp) {
     const auto payload = write_packed(samples).value();
     const PackedView view = view_of(payload);
     const double turn = steps * double{packed_step(124)};  // about y: 1.95 radians
-    for (const Kernel& kernel : kernels()) {
+    for (const Unpacking& kernel : each_kernel()) {
         std::vector<JointTransform> local(kJoints);
-        kernel.unpack(make_unpack_plan(view, local), 0.25f, local);
+        kernel(make_unpack_plan(view, local), 0.25f, local);
         EXPECT_NEAR(local[0].rotation.y, std::sin(turn / 8), 2e-6) << kernel.name;
         EXPECT_NEAR(local[0].rotation.w, std::cos(turn / 8), 2e-6) << kernel.name;
     }
@@ -128,11 +140,10 @@ TEST(Unpack, TimesOutsideAreHeldAndNoTimeIsTheStart) {
     const auto payload = write_packed(make_samples(kJoints, 20, 0)).value();
     const PackedView view = view_of(payload);
     const float end = static_cast<float>(view.time_of(19));
-    for (const Kernel& kernel : kernels()) {
-        EXPECT_LT(difference(played(kernel.unpack, view, -5.0f), played(kernel.unpack, view, 0.5f)), 1e-9);
-        EXPECT_LT(difference(played(kernel.unpack, view, 1e30f), played(kernel.unpack, view, end + 1.0f)), 1e-9);
-        EXPECT_LT(difference(played(kernel.unpack, view, std::numeric_limits<float>::quiet_NaN()),
-                             played(kernel.unpack, view, 0.5f)),
+    for (const Unpacking& kernel : each_kernel()) {
+        EXPECT_LT(difference(played(kernel, view, -5.0f), played(kernel, view, 0.5f)), 1e-9);
+        EXPECT_LT(difference(played(kernel, view, 1e30f), played(kernel, view, end + 1.0f)), 1e-9);
+        EXPECT_LT(difference(played(kernel, view, std::numeric_limits<float>::quiet_NaN()), played(kernel, view, 0.5f)),
                   1e-9);
     }
 }
@@ -141,9 +152,9 @@ TEST(Unpack, APoseWithFewerJointsStaysAsItIs) {
     const auto payload = write_packed(make_samples(kJoints, 20, 0)).value();
     const PackedView view = view_of(payload);
     const UnpackPlan plan = make_unpack_plan(view, rest_pose());
-    for (const Kernel& kernel : kernels()) {
+    for (const Unpacking& kernel : each_kernel()) {
         std::vector<JointTransform> local(view.record.joints - 1u);
-        kernel.unpack(plan, 0.7f, local);
+        kernel(plan, 0.7f, local);
         for (const JointTransform& joint : local) EXPECT_EQ(joint.translation, glm::vec3(0.0f));
     }
 }
@@ -156,8 +167,8 @@ TEST(Unpack, ConstantsAreInThePlan) {
     EXPECT_EQ(plan.constants.size(), samples.tracks.size());
     EXPECT_TRUE(plan.groups.empty());
     const PackedView view = view_of(payload);
-    for (const Kernel& kernel : kernels())
-        EXPECT_LT(difference(played(kernel.unpack, view, 0.7f), played(unpack_plain, view, 0.7f)), 1e-7) << kernel.name;
+    for (const Unpacking& kernel : each_kernel())
+        EXPECT_LT(difference(played(kernel, view, 0.7f), played(unpack_plain, view, 0.7f)), 1e-7) << kernel.name;
 }
 
 TEST(Unpack, SamplePlaysCyclesOfItsModelAndOfAnother) {
@@ -184,9 +195,8 @@ TEST(Unpack, DamageStaysInBounds) {
             Faults faults;
             const auto view = read_packed(bad, kJoints, 0, faults);
             if (!view) continue;
-            for (const Kernel& kernel : kernels()) {
-                for (const float seconds : {0.5f, 0.6f, 9.0f})
-                    sum += played(kernel.unpack, *view, seconds)[1].rotation.x;
+            for (const Unpacking& kernel : each_kernel()) {
+                for (const float seconds : {0.5f, 0.6f, 9.0f}) sum += played(kernel, *view, seconds)[1].rotation.x;
             }
         }
     }

@@ -53,7 +53,8 @@ struct ReachResult {
 
 /// Moves a chain of the pose's model so that its tip (the effector's tip offset) reaches the target. The incoming pose
 /// is the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are. Allocates
-/// nothing; the same numbers give the same pose on every machine.
+/// nothing. The same numbers give the same pose on every machine with the plain kernel (kernels.h); others find the
+/// joint matrices that it begins with to their own last digit.
 ///     pull           Anderson's and Elias' force; one step a call, so it takes frames to arrive
 ///     two_bone       closed form; of a longer chain, start and middle joint turn; where constraints keep it from the
 ///                    target, least squares goes on

@@ -5,7 +5,6 @@
 #include <bendy/format/result.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
-#include <bendy/runtime/unpack_plan.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -120,8 +119,6 @@ public:
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
     /// Whether that is the same for all vertices of the pool.
     [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
-    /// How a packed cycle is played; null if it is not packed, or of another model.
-    [[nodiscard]] const UnpackPlan* unpack_plan(const Cycle& cycle) const;
 
 private:
     friend class Pose;
@@ -143,8 +140,7 @@ private:
         Document document;
         ObjectView object;
         std::vector<Joint> joints;
-        std::vector<UnpackPlan> unpack_plans;  // one per cycle, if one is packed
-        std::vector<std::uint32_t> parents;    // as joints
+        std::vector<std::uint32_t> parents;  // as joints
         bool is_sheared = false;
         std::vector<Draw> draws;
         std::vector<std::uint64_t> first_vertex;  // one more than pools
@@ -169,7 +165,6 @@ private:
     static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
     static std::vector<RigidMovers> find_movers(const ObjectView& object);
     static void build_rig(Data& data);
-    static void plan_cycles(Data& data);
     /// What posing and skinning need beside the file's own streams: made once, before it is asked for.
     void make_plans() const;
     /// Of a cycle among cycles(); as many as there are, if it is not one of them.

@@ -1,0 +1,49 @@
+// Reading a packed cycle's numbers one by one, for instruction sets without shifts by lane. Included after lanes.h.
+
+// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+
+using Integers = std::int32_t __attribute__((vector_size(4 * BENDY_LANES)));
+
+/// A number of `size` bytes, little-endian as everything in the file; zeros past the payload's end.
+template <class Number, bool is_near_end>
+inline Number read_number(const unsigned char* from, const unsigned char* end) {
+    Number number = 0;
+    if (is_near_end && end - from < static_cast<std::ptrdiff_t>(sizeof number)) {
+        if (end > from) __builtin_memcpy(&number, from, static_cast<std::size_t>(end - from));
+    } else {
+        __builtin_memcpy(&number, from, sizeof number);
+    }
+    return number;
+}
+
+template <bool is_near_end>
+inline std::uint32_t read_bits(const unsigned char* frame, const UnpackWindows& windows, std::size_t lane,
+                               const unsigned char* end) {
+    if (windows.right[lane] == 32) return 0;
+    const unsigned char* const window = frame + (lane < 4 ? windows.low : windows.high);
+    const auto word = read_number<std::uint32_t, is_near_end>(window + windows.bytes[lane], end);
+    return word << windows.left[lane] >> windows.right[lane];
+}
+
+/// One component of kLanes tracks at both frames. Lanes past the group's tracks hold zeros.
+template <bool is_near_end>
+inline void read_component(const UnpackGroup& group, std::size_t component, std::size_t first,
+                           const UnpackWindows& windows, const UnpackBlock& block, Lanes& left, Lanes& right) {
+    const unsigned char* const bases = block.tables + group.bases + component * group.stride;
+    Integers a;
+    Integers b;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const std::size_t lane = first + k;
+        const unsigned char* const from = bases + lane * group.base_bytes;
+        const std::int32_t base = group.base_bytes == 2 ? read_number<std::int16_t, is_near_end>(from, block.end)
+                                                        : read_number<std::int32_t, is_near_end>(from, block.end);
+        const auto from_base = static_cast<std::uint32_t>(base);
+        a[k] = static_cast<std::int32_t>(from_base + read_bits<is_near_end>(block.left, windows, lane, block.end));
+        b[k] = static_cast<std::int32_t>(from_base + read_bits<is_near_end>(block.right, windows, lane, block.end));
+    }
+    const Lanes step = load_lanes(group.steps[component] + first);
+    left = __builtin_convertvector(a, Lanes) * step;
+    right = __builtin_convertvector(b, Lanes) * step;
+}
+
+// NOLINTEND(misc-definitions-in-headers)

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// What the kernels for packed cycles work on: plain numbers only, as in skin_block.h.
+namespace bendy {
+
+/// Up to eight animated tracks that stand together in each frame, one in a lane. Lanes past `count` stand for the last
+/// track's joint and decode to anything, so they are stored first.
+struct UnpackGroup {
+    static constexpr std::uint32_t kLanes = 8;
+    float rest[4][kLanes]{};         ///< rotation: x y z w, unit; otherwise three numbers
+    float steps[3][kLanes]{};        ///< by component; 0 past `count`
+    std::uint32_t places[kLanes]{};  ///< floats from the first joint's transform to what the track animates
+    bool is_rotation = true;
+    std::uint32_t count = 0;       ///< tracks
+    std::uint32_t components = 3;  ///< 1 or 3
+    std::uint32_t bases = 0;       ///< bytes from the segment's tables to the first component's first base
+    std::uint32_t stride = 0;      ///< bytes from there to the next component's
+    std::uint32_t base_bytes = 2;  ///< 2 or 4
+};
+
+/// Where one component of a group lies in the frames of a segment: four numbers in each of two windows of sixteen
+/// bytes. Lane by lane a number is the 32 bits from byte `bytes` of its window on, shifted left and then right.
+struct UnpackWindows {
+    std::uint32_t low = 0;  ///< bytes from the frame's start to the window of lanes 0 to 3
+    std::uint32_t high = 0;
+    std::uint8_t bytes[UnpackGroup::kLanes]{};
+    std::uint8_t left[UnpackGroup::kLanes]{};
+    std::uint8_t right[UnpackGroup::kLanes]{};  ///< 32: the number has no bits
+};
+
+/// A packed cycle at one moment.
+struct UnpackBlock {
+    const UnpackGroup* groups;
+    std::size_t group_count;
+    const UnpackWindows* windows;  ///< by group, component
+    const unsigned char* tables;
+    const unsigned char* left;   ///< frames
+    const unsigned char* right;  ///< the same one at the end
+    const unsigned char* end;    ///< of the payload
+    float fraction;
+    bool is_near_end;  ///< reading kReadPast past a frame or a table may leave the payload
+    float* local;      ///< ten a joint, at rest where a track animates
+    static constexpr std::size_t kReadPast = 32;
+    static constexpr float kMaxHalfTurnSquare = 10.89f;  ///< of a rotation vector
+};
+
+}  // namespace bendy

@@ -1,0 +1,159 @@
+// The body of the kernels for packed cycles, included after lanes.h and sample_lanes.h by one source for each
+// instruction set, which also defines roots_of(Lanes) and read_component<is_near_end>(...): see read_lanes.h.
+
+// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+
+/// Coefficients of a polynomial.
+template <int terms>
+struct Terms {
+    float of[terms];
+};
+
+/// Taylor's series of sin(a) / 2a, if `first` is 1, and cos(a), if it is 0, by the square of a.
+template <int terms>
+constexpr Terms<terms> taylor(double scale, int first) {
+    Terms<terms> series{};
+    double value = scale;
+    for (int n = 1; n <= first; ++n) value /= n;
+    for (int k = 0; k < terms; ++k) {
+        series.of[k] = static_cast<float>(k % 2 == 0 ? value : -value);
+        value /= static_cast<double>((2 * k + first + 1) * (2 * k + first + 2));
+    }
+    return series;
+}
+constexpr Terms<10> kSine = taylor<10>(0.5, 1);
+constexpr Terms<10> kCosine = taylor<10>(1.0, 0);
+
+/// The sum of c[k] h^k: even and odd ones side by side, since each step waits for the one before.
+template <int terms>
+inline Lanes polynomial(Lanes h, Lanes square, const Terms<10>& c) {
+    constexpr int kOdd = (terms - 2) / 2 * 2 + 1;
+    constexpr int kEven = (terms - 1) / 2 * 2;
+    Lanes odd = splat(c.of[kOdd]);
+    Lanes even = splat(c.of[kEven]);
+    for (int k = kOdd; k > 1; k -= 2) odd = odd * square + c.of[k - 2];
+    for (int k = kEven; k > 0; k -= 2) even = even * square + c.of[k - 2];
+    return odd * h + even;
+}
+
+constexpr float kNearHalfTurnSquare = 2.5f;  // few rotations are farther from rest
+
+struct Rotations {
+    Lanes of[4];
+};
+
+/// exp of rotation vectors v, given h = |v|^2 / 4.
+inline Rotations near_exp(const Lanes* v, Lanes h) {
+    const Lanes square = h * h;
+    const Lanes sine = polynomial<6>(h, square, kSine);
+    return {{v[0] * sine, v[1] * sine, v[2] * sine, polynomial<7>(h, square, kCosine)}};
+}
+
+/// The same, however long the vectors are.
+__attribute__((noinline)) Rotations far_exp(const Lanes* v, Lanes h) {
+    const Lanes most = splat(UnpackBlock::kMaxHalfTurnSquare);
+    const Lanes held = h < most ? h : most;
+    const Lanes square = held * held;
+    const Lanes sine = polynomial<10>(held, square, kSine);
+    Rotations q{{v[0] * sine, v[1] * sine, v[2] * sine, polynomial<10>(held, square, kCosine)}};
+    const Lanes scale = 1.0f / roots_of(dot_of_four(q.of, q.of));
+    for (Lanes& number : q.of) number = number * scale;
+    return q;
+}
+
+inline Lanes half_turn_square(const Lanes* v) {
+    return 0.25f * (v[0] * v[0] + (v[1] * v[1] + v[2] * v[2]));
+}
+
+__attribute__((noinline)) Shares middle_shares(const Series& left, const Series& right, Lanes x) {
+    return shares_of<9>(left, right, x);
+}
+
+/// As many terms as the largest angle needs.
+inline Shares shares_at(const Series& left, const Series& right, Lanes x) {
+    const float least = least_of(x);
+    if (least >= 0.9f - 1.0f) return shares_of<4>(left, right, x);
+    return least >= 0.55f - 1.0f ? middle_shares(left, right, x) : far_shares(left, right, x);
+}
+
+/// Between rotation vectors, relative to rest, at the group's lanes from `first` on.
+inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
+                             const Series& by_left, const Series& by_right, float* local) {
+    const Lanes of_v = half_turn_square(v);
+    const Lanes of_w = half_turn_square(w);
+    const bool is_near = -least_of(-(of_v > of_w ? of_v : of_w)) <= kNearHalfTurnSquare;
+    const Rotations a = is_near ? near_exp(v, of_v) : far_exp(v, of_v);
+    const Rotations b = is_near ? near_exp(w, of_w) : far_exp(w, of_w);
+    const Lanes dot = dot_of_four(a.of, b.of);
+    const Lanes cosine = dot < 0.0f ? -dot : dot;
+    const Shares shares = shares_at(by_left, by_right, (cosine > 1.0f ? splat(1.0f) : cosine) - 1.0f);
+    const Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
+    Lanes q[4];
+    for (std::size_t c = 0; c < 4; ++c) q[c] = shares.left * a.of[c] + by_b * b.of[c];
+    Lanes r[4];
+    for (std::size_t c = 0; c < 4; ++c) r[c] = load_lanes(group.rest[c] + first);
+    Lanes out[4] = {(r[3] * q[0] + r[0] * q[3]) + (r[1] * q[2] - r[2] * q[1]),
+                    (r[3] * q[1] + r[1] * q[3]) + (r[2] * q[0] - r[0] * q[2]),
+                    (r[3] * q[2] + r[2] * q[3]) + (r[0] * q[1] - r[1] * q[0]),
+                    (r[3] * q[3] - r[0] * q[0]) - (r[1] * q[1] + r[2] * q[2])};
+    const Lanes scale = 1.5f - 0.5f * dot_of_four(out, out);  // one step of Newton towards 1 / length
+    for (Lanes& number : out) number = number * scale;
+    Lanes quads[4];
+    transpose(out[0], out[1], out[2], out[3], quads);
+#if BENDY_LANES == 8
+    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k + 4], high(quads[k]));
+#endif
+    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k], low(quads[k]));
+}
+
+/// rest + value, to the joints' translations or scales.
+inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w, float u,
+                           float* local) {
+    Lanes at[3];
+    for (std::size_t c = 0; c < 3; ++c) at[c] = load_lanes(group.rest[c] + first) + ((w[c] - v[c]) * u + v[c]);
+    Lanes quads[4];
+    transpose(at[0], at[1], at[2], Lanes{}, quads);
+    for (std::size_t k = 0; k < kLanes && first + k < group.count; ++k) {
+#if BENDY_LANES == 8
+        const Quad quad = k < 4 ? low(quads[k]) : high(quads[k - 4]);
+#else
+        const Quad quad = quads[k];
+#endif
+        store_three_of(local + group.places[first + k], quad);
+    }
+}
+
+template <bool is_near_end>
+inline void unpack_groups(const UnpackBlock& block) {
+    const Series by_left(1.0f - block.fraction);
+    const Series by_right(block.fraction);
+    const UnpackWindows* windows = block.windows;
+    for (std::size_t number = 0; number < block.group_count; ++number) {
+        const UnpackGroup& group = block.groups[number];
+        for (std::size_t first = UnpackGroup::kLanes; first > 0;) {  // the lanes past the last track first
+            first -= kLanes;
+            if (first != 0 && first >= group.count) continue;
+            Lanes v[3];
+            Lanes w[3];
+            for (std::size_t c = 0; c < group.components; ++c)
+                read_component<is_near_end>(group, c, first, windows[c], block, v[c], w[c]);
+            if (group.components == 1) {
+                v[1] = v[2] = v[0];
+                w[1] = w[2] = w[0];
+            }
+            if (group.is_rotation) {
+                unpack_rotations(group, first, v, w, by_left, by_right, block.local);
+            } else {
+                unpack_vectors(group, first, v, w, block.fraction, block.local);
+            }
+        }
+        windows += group.components;
+    }
+}
+
+inline void unpack_lanes(const UnpackBlock& block) {
+    if (block.is_near_end) return unpack_groups<true>(block);
+    unpack_groups<false>(block);
+}
+
+// NOLINTEND(misc-definitions-in-headers)
