@@ -55,20 +55,30 @@ struct File {
 
 // --- crowds
 
-void play(Crowd& crowd, std::span<const CrowdMember> members) {
+/// As many threads as a crowd has workers.
+class Threads {
+public:
 #ifdef BENDY_HAS_TBB
-    if (crowd.workers() > 1) {
-        tbb::task_arena(static_cast<int>(crowd.workers())).execute([&] {
+    explicit Threads(const Crowd& crowd) : arena_(static_cast<int>(crowd.workers())) {}
+
+    void play(Crowd& crowd, std::span<const CrowdMember> members) {
+        arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 4), [&](const auto& range) {
                 crowd.play(members.subspan(range.begin(), range.size()),
                            static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
             });
         });
-        return;
+    }
+
+private:
+    tbb::task_arena arena_;
+#else
+    explicit Threads(const Crowd& /*crowd*/) {}
+    static void play(Crowd& crowd, std::span<const CrowdMember> members) {
+        crowd.play(members);
     }
 #endif
-    crowd.play(members);
-}
+};
 
 bool has_normals(const Model& model) {
     return std::any_of(model.pools().begin(), model.pools().end(),
@@ -98,9 +108,10 @@ void measure_crowd(benchmark::State& state, const Model& model, std::size_t coun
         members[k].out.positions = {own, each};
         if (each == 6) members[k].out.normals = {own.subspan(3), each};
     }
-    play(crowd, members);
+    Threads pool(crowd);
+    pool.play(crowd, members);
     while (state.KeepRunning()) {
-        play(crowd, members);
+        pool.play(crowd, members);
         benchmark::ClobberMemory();
     }
     state.counters["characters/ms"] = benchmark::Counter(
