@@ -1,0 +1,328 @@
+#pragma once
+
+#include "pose_kernels.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <vector>
+
+// The kernels for posing against doubles, for tests here and on other processors: no GoogleTest, no exceptions.
+namespace bendy::test {
+
+/// Worst errors, in units in the last place of the largest number that goes into one.
+struct PoseErrors {
+    double pose = 0.0, palette = 0.0, sample = 0.0, unpack = 0.0, mix = 0.0, add = 0.0;
+    bool finds_infinity = true;  ///< the palette kernel's answer
+
+    static constexpr double kMostForPose = 2.0;  // for each joint on the way
+    static constexpr double kMostForPalette = 3.0;
+    static constexpr double kMostForSample = 4.0;
+    static constexpr double kMostForUnpack = 8.0;
+    static constexpr double kMostForBlends = 4.0;
+    [[nodiscard]] bool are_small() const {
+        return pose <= kMostForPose && palette <= kMostForPalette && sample <= kMostForSample &&
+               unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends && finds_infinity;
+    }
+};
+
+class PoseComparison {
+public:
+    explicit PoseComparison(const PoseKernels& kernels) : kernels_(kernels) {}
+
+    PoseErrors run() {
+        for (const std::size_t joints : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 31u}) {
+            compare_matrices(joints);
+            compare_blends(joints);
+        }
+        for (const float angle : {0.0f, 0.3f, 1.5f, 3.0f}) {
+            compare_samples(angle);
+            for (const std::uint32_t tracks : {1u, 3u, 4u, 5u, 8u}) compare_unpacking(angle, tracks);
+        }
+        return errors_;
+    }
+
+private:
+    static constexpr double kUnit = 0x1p-24;
+    using Floats = std::vector<float>;
+
+    float number() { return numbers_(random_); }
+    glm::quat rotation() { return glm::normalize(glm::quat(number(), number(), number(), number())); }
+    static void note(double& worst, double found, double expected, double largest) {
+        const double error = std::abs(found - expected) / (kUnit * largest);
+        if (!std::isnan(worst) && !(error <= worst)) worst = error;  // what is not a number stays
+    }
+
+    /// Ten numbers a joint.
+    Floats random_pose(std::size_t joints) {
+        Floats local;
+        for (std::size_t k = 0; k < joints; ++k) {
+            const glm::quat q = rotation();
+            local.insert(local.end(), {q.x, q.y, q.z, q.w, number(), number(), number(), 1.0f + 0.3f * number(),
+                                       1.0f + 0.3f * number(), -1.0f + 0.3f * number()});
+        }
+        return local;
+    }
+    static glm::dquat rotation_at(const float* at) { return {at[3], at[0], at[1], at[2]}; }
+    static glm::dmat4 matrix_at(const float* local) {
+        glm::dmat4 matrix = glm::mat4_cast(rotation_at(local));
+        for (int c = 0; c < 3; ++c) matrix[c] *= double{local[7 + c]};
+        matrix[3] = glm::dvec4(local[4], local[5], local[6], 1.0);
+        return matrix;
+    }
+    /// The largest a number of the product can be before signs cancel.
+    static glm::dmat4 without_signs(glm::dmat4 matrix) {
+        for (int c = 0; c < 4; ++c) matrix[c] = glm::abs(matrix[c]);
+        return matrix;
+    }
+
+    void compare_matrices(std::size_t joints) {
+        const Floats local = random_pose(joints);
+        std::vector<std::uint32_t> parents(joints, 0xffff'ffffu), order(joints), entries(joints);
+        for (std::uint32_t k = 0; k < joints; ++k) {
+            order[k] = k;
+            entries[k] = static_cast<std::uint32_t>(joints) - 1 - k;
+            if (k % 7 != 0) parents[k] = k - 1 - (k % 3 == 2 ? 1 : 0);
+        }
+        Floats model(16 * joints);
+        kernels_.pose({joints, local.data(), parents.data(), order.data(), model.data()});
+        std::vector<glm::dmat4> expected(joints), sums(joints);
+        std::vector<double> depth(joints, 1.0);
+        for (std::size_t k = 0; k < joints; ++k) {
+            expected[k] = matrix_at(&local[10 * k]);
+            sums[k] = without_signs(expected[k]);
+            for (int c = 0; c < 3; ++c) sums[k][c] += glm::dvec4(glm::dvec3(1.3), 0.0);
+            if (parents[k] != 0xffff'ffffu) {
+                expected[k] = expected[parents[k]] * expected[k];
+                sums[k] = sums[parents[k]] * sums[k];
+                depth[k] = depth[parents[k]] + 1.0;
+            }
+            for (int c = 0; c < 4; ++c) {
+                for (int r = 0; r < 3; ++r)
+                    note(errors_.pose, model[16 * k + 4 * std::size_t(c) + std::size_t(r)], expected[k][c][r],
+                         depth[k] * sums[k][c][r]);
+            }
+        }
+        compare_palette(model, entries);
+    }
+
+    void compare_palette(Floats& model, const std::vector<std::uint32_t>& joints) {
+        std::vector<PaletteMatrix> bind(joints.size()), palette(joints.size());
+        for (PaletteMatrix& entry : bind) {
+            for (auto& row : entry.rows) {
+                for (float& each : row) each = number();
+            }
+        }
+        const PaletteBlock block{joints.size(), model.data(), joints.data(), bind.data(), palette.data()};
+        errors_.finds_infinity = kernels_.palette(block) && errors_.finds_infinity;
+        for (std::size_t k = 0; k < joints.size(); ++k) {
+            const float* const m = &model[16 * std::size_t{joints[k]}];
+            for (std::size_t row = 0; row < 3; ++row) {
+                for (std::size_t column = 0; column < 4; ++column) {
+                    double sum = column == 3 ? m[12 + row] : 0.0f;
+                    double largest = std::abs(sum);
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        const double product = double{m[4 * i + row]} * bind[k].rows[i][column];
+                        sum += product;
+                        largest += std::abs(product);
+                    }
+                    note(errors_.palette, palette[k].rows[row][column], sum, largest);
+                }
+            }
+        }
+        model[16 * std::size_t{joints.back()} + 13] = INFINITY;
+        errors_.finds_infinity = !kernels_.palette(block) && errors_.finds_infinity;
+    }
+
+    static glm::dquat slerp(const glm::dquat& a, glm::dquat b, double u) {
+        double dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+        if (dot < 0.0) b = -b;
+        const double angle = std::acos(std::min(std::abs(dot), 1.0));
+        if (angle < 1e-7) return a * (1.0 - u) + b * u;
+        return a * (std::sin(angle * (1.0 - u)) / std::sin(angle)) + b * (std::sin(angle * u) / std::sin(angle));
+    }
+    static void note_rotation(double& worst, const float* found, const glm::dquat& expected) {
+        note(worst, found[0], expected.x, 1.0);
+        note(worst, found[1], expected.y, 1.0);
+        note(worst, found[2], expected.z, 1.0);
+        note(worst, found[3], expected.w, 1.0);
+    }
+
+    /// Two groups of rotations, and three vectors; a turn of `angle` between keys.
+    void compare_samples(float angle) {
+        constexpr std::size_t kTracks = 11, kKeys = 3;
+        std::vector<Floats> rotations(kTracks), vectors(3);
+        for (Floats& keys : rotations) {
+            glm::quat q = rotation();
+            for (std::size_t key = 0; key < kKeys; ++key, q = -q) {
+                keys.insert(keys.end(), {q.x, q.y, q.z, q.w});
+                q = glm::normalize(q * glm::angleAxis(angle * number(), glm::normalize(glm::vec3(1, number(), 0.5))));
+            }
+        }
+        for (Floats& keys : vectors) {
+            for (std::size_t k = 0; k < 3 * kKeys; ++k) keys.push_back(number());
+        }
+        std::vector<RotationTracks> groups(2);
+        for (std::size_t k = 0; k < 16; ++k) {
+            const std::size_t track = std::min(k, kTracks - 1);
+            groups[k / 8].keys[k % 8] = rotations[track].data();
+            groups[k / 8].places[k % 8] = static_cast<std::uint32_t>(10 * track);
+        }
+        std::vector<VectorTrack> straight{{vectors[0].data(), 4}, {vectors[1].data(), 7}, {vectors[2].data(), 104}};
+        for (const float u : {0.0f, 0.125f, 0.7f, 1.0f}) {
+            Floats local(10 * kTracks, -9.0f);
+            kernels_.sample({groups.data(), 2, straight.data(), 3, 1, u, local.data()});
+            for (std::size_t k = 0; k < kTracks; ++k) {
+                const glm::dquat left = rotation_at(&rotations[k][4]), right = rotation_at(&rotations[k][8]);
+                note_rotation(errors_.sample, &local[10 * k], u == 1.0f ? right : slerp(left, right, u));
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    note(errors_.sample, local[straight[k].place + c],
+                         (1.0 - double{u}) * vectors[k][3 + c] + double{u} * vectors[k][6 + c], 1.0);
+            }
+            note(errors_.sample, local[17], -9.0, 1e-9);  // what has no track
+        }
+    }
+
+    void compare_blends(std::size_t joints) {
+        const Floats from = random_pose(joints), other = random_pose(joints);
+        Floats mask(joints);
+        for (float& each : mask) each = std::abs(number());
+        Floats mixed = from, added = from;
+        kernels_.mix({joints, mixed.data(), other.data(), 0.75f, mask.data()});
+        kernels_.add({joints, added.data(), other.data(), 0.75f, mask.data()});
+        for (std::size_t k = 0; k < joints; ++k) {
+            const double u = 0.75 * mask[k];
+            const float* const a = &from[10 * k];
+            const float* const b = &other[10 * k];
+            note_rotation(errors_.mix, &mixed[10 * k], nlerp(rotation_at(a), rotation_at(b), u));
+            note_rotation(errors_.add, &added[10 * k],
+                          rotation_at(a) * nlerp(glm::dquat(1, 0, 0, 0), rotation_at(b), u));
+            for (std::size_t c = 4; c < 10; ++c) {
+                note(errors_.mix, mixed[10 * k + c], (1.0 - u) * a[c] + u * b[c], 1.3);
+                note(errors_.add, added[10 * k + c], c < 7 ? a[c] + u * b[c] : a[c] * (1.0 - u + u * b[c]), 2.0);
+            }
+        }
+    }
+    static glm::dquat nlerp(const glm::dquat& a, const glm::dquat& b, double u) {
+        const double dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+        return glm::normalize(a * (1.0 - u) + b * (dot < 0.0 ? -u : u));
+    }
+
+    /// One group of rotations and one of vectors, twelve bits a number, in two frames.
+    void compare_unpacking(float angle, std::uint32_t tracks) {
+        constexpr std::uint32_t kBits = 12;
+        const float step = angle / 4096.0f;
+        std::vector<UnpackGroup> groups(2);
+        std::vector<UnpackWindows> windows(6);
+        // The tables, a frame, the next frame.
+        const std::size_t size_of_tables = std::size_t{2} * 6 * tracks, size_of_frame = (6 * kBits * tracks + 7) / 8;
+        std::vector<unsigned char> payload(size_of_tables + 2 * size_of_frame);
+        unsigned char* const left = payload.data() + size_of_tables;
+        unsigned char* const right = left + size_of_frame;
+        std::array<std::array<std::array<std::int32_t, 8>, 6>, 2> numbers{};  // [frame][component][lane]
+        std::uint32_t bit = 0;
+        for (std::uint32_t component = 0; component < 6; ++component) {
+            UnpackGroup& group = groups[component / 3];
+            for (std::uint32_t lane = 0; lane < 8; ++lane) {
+                const std::uint32_t width = lane < tracks ? kBits : 0;
+                if (lane == 0) windows[component].low = bit / 8;
+                if (lane == 4) windows[component].high = bit / 8;
+                const std::uint32_t window = lane < 4 ? windows[component].low : windows[component].high;
+                windows[component].bytes[lane] = static_cast<std::uint8_t>(bit / 8 - window);
+                windows[component].left[lane] = static_cast<std::uint8_t>(32 - bit % 8 - width);
+                windows[component].right[lane] = static_cast<std::uint8_t>(32 - width);
+                const auto base = static_cast<std::int16_t>(number() * 3000.0f);
+                if (lane < tracks) {
+                    std::memcpy(&payload[2 * (component * tracks + lane)], &base, sizeof base);
+                    numbers[0][component][lane] = base + put(left, bit);
+                    numbers[1][component][lane] = base + put(right, bit);
+                    group.steps[component % 3][lane] = step;
+                }
+                bit += width;
+            }
+        }
+        for (std::uint32_t k = 0; k < 2; ++k) {
+            UnpackGroup& group = groups[k];
+            group.is_rotation = k == 0;
+            group.count = tracks;
+            group.bases = k * 3 * tracks * 2;
+            group.stride = tracks * 2;
+            for (std::uint32_t lane = 0; lane < 8; ++lane) {
+                const std::uint32_t track = std::min(lane, tracks - 1);
+                group.places[lane] = 10 * track + (k == 0 ? 0 : 4);
+                const glm::quat q = rotation();
+                for (int c = 0; c < 4; ++c) group.rest[c][lane] = q[c];
+            }
+        }
+        for (const bool is_near_end : {true, false}) {
+            if (!is_near_end) payload.resize(payload.size() + UnpackBlock::kReadPast);
+            for (const float u : {0.0f, 0.3f, 0.9f}) {
+                Floats local(std::size_t{10} * tracks);
+                UnpackBlock block{};
+                block.groups = groups.data();
+                block.group_count = 2;
+                block.windows = windows.data();
+                block.tables = payload.data();
+                block.left = payload.data() + size_of_tables;
+                block.right = block.left + size_of_frame;
+                block.end = payload.data() + payload.size();
+                block.fraction = u;
+                block.is_near_end = is_near_end;
+                block.local = local.data();
+                kernels_.unpack(block);
+                for (std::uint32_t lane = 0; lane < tracks; ++lane) expect_unpacked(groups, numbers, lane, u, local);
+            }
+        }
+    }
+    std::int32_t put(unsigned char* frame, std::uint32_t bit) {
+        const auto value = static_cast<std::uint32_t>(random_() % 4096);
+        for (std::uint32_t k = 0; k < 12; ++k) {
+            if ((value >> k & 1u) != 0) frame[(bit + k) / 8] |= static_cast<unsigned char>(1u << (bit + k) % 8);
+        }
+        return static_cast<std::int32_t>(value);
+    }
+    static glm::dquat exp(const glm::dvec3& v) {
+        const double length = glm::length(v);
+        if (length < 1e-9) return {1.0, v.x / 2, v.y / 2, v.z / 2};
+        return {std::cos(length / 2), v * (std::sin(length / 2) / length)};
+    }
+    void expect_unpacked(const std::vector<UnpackGroup>& groups,
+                         const std::array<std::array<std::array<std::int32_t, 8>, 6>, 2>& numbers, std::uint32_t lane,
+                         double u, const Floats& local) {
+        std::array<std::array<glm::dvec3, 2>, 2> at{};  // [group][frame]
+        for (std::size_t k = 0; k < 2; ++k) {
+            for (std::size_t frame = 0; frame < 2; ++frame) {
+                const auto value = [&](std::size_t c) {
+                    return double{groups[k].steps[c][lane]} * numbers[frame][3 * k + c][lane];
+                };
+                at[k][frame] = {value(0), value(1), value(2)};
+            }
+        }
+        const auto& rest = groups[0].rest;
+        const glm::dquat q = glm::dquat(rest[3][lane], rest[0][lane], rest[1][lane], rest[2][lane]) *
+                             slerp(exp(at[0][0]), exp(at[0][1]), u);
+        note_rotation(errors_.unpack, &local[std::size_t{10} * lane], q);
+        const glm::dvec3 moved = (1.0 - u) * at[1][0] + u * at[1][1];
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const double expected = groups[1].rest[c][lane] + moved[static_cast<int>(c)];
+            note(errors_.unpack, local[10 * lane + 4 + c], expected, 2.0 + std::abs(expected));
+        }
+    }
+
+    const PoseKernels& kernels_;
+    std::mt19937 random_{12};
+    std::uniform_real_distribution<float> numbers_{-1.0f, 1.0f};
+    PoseErrors errors_;
+};
+
+}  // namespace bendy::test

@@ -1,0 +1,39 @@
+#include "runtime/pose_comparison.h"
+
+#include <bendy/runtime/kernels.h>
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace bendy {
+namespace {
+
+TEST(PoseKernels, AreWithinTheirBoundsOfDoubles) {
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        const PoseKernels* const functions = pose_kernels();
+        if (each == Kernel::plain) {
+            EXPECT_EQ(functions, nullptr);  // in doubles itself
+            continue;
+        }
+        ASSERT_NE(functions, nullptr) << kernel_name(each);
+        SCOPED_TRACE(kernel_name(each));
+        const test::PoseErrors errors = test::PoseComparison(*functions).run();
+        EXPECT_LE(errors.pose, test::PoseErrors::kMostForPose);
+        EXPECT_LE(errors.palette, test::PoseErrors::kMostForPalette);
+        EXPECT_LE(errors.sample, test::PoseErrors::kMostForSample);
+        EXPECT_LE(errors.unpack, test::PoseErrors::kMostForUnpack);
+        EXPECT_LE(errors.mix, test::PoseErrors::kMostForBlends);
+        EXPECT_LE(errors.add, test::PoseErrors::kMostForBlends);
+        EXPECT_TRUE(errors.finds_infinity);
+        std::cout << kernel_name(each) << ": units in the last place: pose " << errors.pose << ", palette "
+                  << errors.palette << ", sample " << errors.sample << ", unpack " << errors.unpack << ", mix "
+                  << errors.mix << ", add " << errors.add << '\n';
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+}  // namespace
+}  // namespace bendy
