@@ -1,5 +1,6 @@
-// One stage of a file so many times, for tools that count what a program does: bendy_bench_repeat FILE lists the stages,
-// bendy_bench_repeat FILE STAGE TIMES runs the one of that number and says what it deals with. See instructions.sh.
+// One stage of a file so many times, for tools that count what a program does: bendy_bench_repeat FILE lists the
+// stages, bendy_bench_repeat FILE STAGE TIMES runs the one of that number and says what it deals with. See
+// instructions.sh.
 #include "stages.h"
 
 #include <bendy/format/diagnostics.h>

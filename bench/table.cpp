@@ -191,6 +191,7 @@ void measure_chain(benchmark::State& state, Solver solver, bool is_limited) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
     std::vector<glm::vec3> targets;
+    targets.reserve(256);
     for (int k = 0; k < 256; ++k)
         targets.emplace_back(0.2f * number(random), 0.7f + 0.15f * number(random), 0.35f + 0.2f * number(random));
     std::size_t k = 0;

@@ -48,6 +48,12 @@ if [ "${1:-build}" = test ]; then
     need chromium chromium
     need Xvfb xvfb
     need xdotool xdotool
+    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+    need qemu-aarch64 qemu-user
+    need /usr/lib/wasm32-wasi/libc.a wasi-libc
+    need /usr/lib/wasm32-wasi/libc++.a libc++-dev-wasm32
+    compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a' >/dev/null || missing+=(libclang-rt-dev-wasm32)
+    need wasm-ld lld
 fi
 [ ${#missing[@]} -gt 0 ] || exit 0
 

@@ -23,6 +23,11 @@ if [ "${1:-}" != quick ]; then
     cmake --preset no-exceptions >/dev/null
     cmake --build --preset no-exceptions
 
+    step "kernels of other processors: NEON under qemu, WebAssembly under node"
+    for processor in aarch64 wasm32; do
+        (cd tests/elsewhere && cmake --workflow --preset "$processor")
+    done
+
     step "built by clang; tests under AddressSanitizer and UndefinedBehaviorSanitizer"
     cmake --preset asan-ubsan >/dev/null
     cmake --build --preset asan-ubsan

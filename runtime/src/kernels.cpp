@@ -9,7 +9,7 @@
 namespace bendy {
 namespace {
 
-constexpr std::array<std::string_view, 5> kNames{"plain", "sse4", "avx2", "neon", "wasm"};
+constexpr std::array<std::string_view, 6> kNames{"plain", "sse4", "avx2", "neon", "wasm", "avx512"};
 
 struct Available {
     std::array<Kernel, kNames.size()> kernels{};
@@ -21,6 +21,9 @@ Available find_available() {
     Available found;
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) found.add(Kernel::avx2);
+    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+        __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("fma") != 0)
+        found.add(Kernel::avx512);
     if (__builtin_cpu_supports("sse4.1") != 0) found.add(Kernel::sse4);
 #elif defined(__aarch64__)
     found.add(Kernel::neon);

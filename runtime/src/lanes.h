@@ -1,5 +1,5 @@
-// Vectors of four or eight floats, one number of several vertices or joints in each. Included by one source for each
-// instruction set, which defines BENDY_LANES (4 or 8), Lanes and Quad (four floats).
+// Vectors of four, eight or sixteen floats, one number of several vertices or joints in each. Included by one source
+// for each instruction set, which defines BENDY_LANES (4, 8 or 16), Lanes and Quad (four floats).
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
@@ -8,7 +8,10 @@ struct Three {
 };
 
 inline Lanes splat(float number) {
-#if BENDY_LANES == 8
+#if BENDY_LANES == 16
+    return Lanes{number, number, number, number, number, number, number, number,
+                 number, number, number, number, number, number, number, number};
+#elif BENDY_LANES == 8
     return Lanes{number, number, number, number, number, number, number, number};
 #else
     return Lanes{number, number, number, number};
@@ -28,7 +31,10 @@ inline void store_quad(float* to, Quad quad) {
 /// In each group of four lanes: numbers a and b of x, c and d of y.
 template <int a, int b, int c, int d>
 inline Lanes shuffle(Lanes x, Lanes y) {
-#if BENDY_LANES == 8
+#if BENDY_LANES == 16
+    return __builtin_shufflevector(x, y, a, b, 16 + c, 16 + d, 4 + a, 4 + b, 20 + c, 20 + d, 8 + a, 8 + b, 24 + c,
+                                   24 + d, 12 + a, 12 + b, 28 + c, 28 + d);
+#elif BENDY_LANES == 8
     return __builtin_shufflevector(x, y, a, b, 8 + c, 8 + d, 4 + a, 4 + b, 12 + c, 12 + d);
 #else
     return __builtin_shufflevector(x, y, a, b, 4 + c, 4 + d);
@@ -46,29 +52,40 @@ inline void store_lanes(float* to, Lanes lanes) {
     __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
-/// Four numbers at `from`; in the upper lanes, if there are any, those `apart` floats on.
+/// Four numbers at `from`; in the upper lanes, if there are any, those `apart` floats on, and so on.
 inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
-#if BENDY_LANES == 8
+#if BENDY_LANES == 16
+    const auto lower = __builtin_shufflevector(load_quad(from), load_quad(from + apart), 0, 1, 2, 3, 4, 5, 6, 7);
+    from += 2 * apart;
+    const auto upper = __builtin_shufflevector(load_quad(from), load_quad(from + apart), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(lower, upper, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#elif BENDY_LANES == 8
     return __builtin_shufflevector(load_quad(from), load_quad(from + apart), 0, 1, 2, 3, 4, 5, 6, 7);
 #else
     return load_quad(from);
 #endif
 }
 
-inline Quad low(Lanes lanes) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
-#else
+/// The four lanes from 4 * part on.
+template <int part>
+inline Quad quad_of(Lanes lanes) {
+#if BENDY_LANES == 4
     return lanes;
+#else
+    return __builtin_shufflevector(lanes, lanes, 4 * part, 4 * part + 1, 4 * part + 2, 4 * part + 3);
 #endif
+}
+inline Quad low(Lanes lanes) {
+    return quad_of<0>(lanes);
 }
 #if BENDY_LANES == 8
 inline Quad high(Lanes lanes) {
-    return __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+    return quad_of<1>(lanes);
 }
 #endif
 
-/// Turns four numbers of each of four vertices (and of four more in the upper lanes): to[c] is every vertex's number c.
+/// Turns four numbers of each of four vertices (and of four more in each four lanes further up): to[c] is every
+/// vertex's number c.
 inline void transpose(Lanes a, Lanes b, Lanes c, Lanes d, Lanes* to) {
     const Lanes ab_low = shuffle<0, 1, 0, 1>(a, b);
     const Lanes ab_high = shuffle<2, 3, 2, 3>(a, b);
@@ -82,9 +99,18 @@ inline void transpose(Lanes a, Lanes b, Lanes c, Lanes d, Lanes* to) {
 
 /// kLanes times x, y, z.
 inline Three load_three(const float* from) {
+#if BENDY_LANES == 8  // whole vectors, since the processor loads as many of these as of halves
+    const Lanes ab = load_lanes(from);
+    const Lanes ca = load_lanes(from + 8);
+    const Lanes bc = load_lanes(from + 16);
+    const Lanes a = __builtin_shufflevector(ab, ca, 0, 1, 2, 3, 12, 13, 14, 15);
+    const Lanes b = __builtin_shufflevector(ab, bc, 4, 5, 6, 7, 8, 9, 10, 11);
+    const Lanes c = __builtin_shufflevector(ca, bc, 0, 1, 2, 3, 12, 13, 14, 15);
+#else
     const Lanes a = load_quads(from, 12);
     const Lanes b = load_quads(from + 4, 12);
     const Lanes c = load_quads(from + 8, 12);
+#endif
     const Lanes xy = shuffle<2, 3, 1, 2>(b, c);
     const Lanes yz = shuffle<1, 2, 0, 1>(a, b);
     return {shuffle<0, 3, 0, 2>(a, xy), shuffle<0, 2, 1, 3>(yz, xy), shuffle<1, 3, 0, 3>(yz, c)};

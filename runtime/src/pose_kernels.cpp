@@ -10,6 +10,7 @@ const PoseKernels* pose_kernels() {
         case Kernel::sse4:
             return &kPoseSse4;
         case Kernel::avx2:
+        case Kernel::avx512:  // whose machines have AVX2, too
             return &kPoseAvx2;
 #elif defined(__aarch64__)
         case Kernel::neon:

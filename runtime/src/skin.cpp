@@ -128,7 +128,8 @@ bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std:
     }
     // Lanes multiply by weights that are zero, too.
     const Kernel chosen = pose_.make_palette(pool_number) ? kernel() : Kernel::plain;
-    Staging staging(pool, chosen == Kernel::avx2 ? &model_.plan(pool_number) : nullptr, weights, wanted);
+    const bool has_use_for_plan = chosen == Kernel::avx2 || chosen == Kernel::avx512;
+    Staging staging(pool, has_use_for_plan ? &model_.plan(pool_number) : nullptr, weights, wanted);
     run(skin_kernel(chosen), staging, wanted, 0, vertices);
     return true;
 }

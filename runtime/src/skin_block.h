@@ -25,7 +25,7 @@ struct SkinBlock {
     const float* weights;          ///< as bones
     std::size_t influences;
     /// Or null: for each group of eight vertices, where its bones begin in plan_bones; one more than groups. A group
-    /// without any goes by the lists above. Only kernels of eight lanes look at it.
+    /// without any goes by the lists above. Kernels of four lanes do not look at it.
     const std::uint32_t* plan_first;
     const std::uint16_t* plan_bones;
     const float* plan_weights;  ///< eight for each of plan_bones, on 32 bytes
@@ -44,6 +44,7 @@ SkinKernel skin_plain;
 /// tangents that do not cancel).
 SkinKernel skin_sse4;
 SkinKernel skin_avx2;
+SkinKernel skin_avx512;
 SkinKernel skin_neon;
 SkinKernel skin_wasm;
 

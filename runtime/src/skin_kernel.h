@@ -14,6 +14,8 @@ inline SkinKernel* skin_kernel(Kernel kernel) {
             return skin_sse4;
         case Kernel::avx2:
             return skin_avx2;
+        case Kernel::avx512:
+            return skin_avx512;
 #elif defined(__aarch64__)
         case Kernel::neon:
             return skin_neon;

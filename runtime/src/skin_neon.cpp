@@ -14,8 +14,13 @@ constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(16)));
 using Quad = Lanes;
 
-inline Lanes roots_of(Lanes squares) {
-    return vsqrtq_f32(squares);
+inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
+    return vminq_f32(vmaxq_f32(lanes, least), most);
+}
+inline Lanes inverse_roots_of(Lanes squares) {
+    const Lanes guess = vrsqrteq_f32(squares);  // 8 bits; each step of Newton's method doubles them
+    const Lanes better = guess * vrsqrtsq_f32(squares * guess, guess);
+    return better + 0.5f * better * (1.0f - squares * better * better);
 }
 inline void stream(float* to, Quad quad) {
     vst1q_f32(to, quad);

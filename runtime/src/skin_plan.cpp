@@ -1,81 +1,113 @@
 #include "skin_plan.h"
 
 #include <algorithm>
-#include <array>
+#include <limits>
 
 namespace bendy {
 namespace {
 
-/// The bones that a group follows.
-class Group {
+constexpr std::uint32_t kAbsent = ~std::uint32_t{0};
+constexpr std::uint32_t kMostBones = SkinPlan::kMostBones;
+
+/// Appends the lists of one group after another.
+template <class Bone>
+class Lists {
 public:
-    Group() {}  // NOLINT(*-member-init,*-use-equals-default): what is not used is not set, for speed
-    /// False if there are too many.
-    bool add(std::uint32_t vertex, std::uint32_t bone, float weight) {
-        std::size_t at = 0;
-        while (at < count_ && bones_[at] != bone) ++at;
-        if (at == count_) {
-            if (count_ == bones_.size()) return false;
-            bones_[count_] = static_cast<std::uint16_t>(bone);
-            weights_[count_] = {};
-            ++count_;
-        }
-        weights_[at].of[vertex] += weight;
-        return true;
+    Lists(std::span<const Bone> bones, std::size_t influences, SkinPlan& plan)
+        : bones_(bones), influences_(influences), plan_(plan) {
+        Bone most = 0;
+        for (const Bone bone : bones) most = std::max(most, bone);
+        places_.resize(most + std::size_t{1}, kAbsent);
     }
-    void append_to(SkinPlan& plan) const {
-        const auto count = static_cast<std::ptrdiff_t>(count_);
-        plan.bones.insert(plan.bones.end(), bones_.begin(), bones_.begin() + count);
-        plan.weights.insert(plan.weights.end(), weights_.begin(), weights_.begin() + count);
+
+    /// `count` vertices from `first` on. Bones that no weight goes to are left out, but for one; nothing is appended if
+    /// there are too many. weight_at(number of the influence).
+    template <class WeightAt>
+    void append(std::size_t first, std::size_t count, const WeightAt& weight_at) {
+        const std::size_t begin = plan_.bones.size();
+        plan_.bones.resize(begin + kMostBones + 1);
+        plan_.weights.resize(begin + kMostBones + 1);  // zeros
+        std::uint16_t* const bones = plan_.bones.data() + begin;
+        SkinPlan::Weights* const weights = plan_.weights.data() + begin;
+        std::uint32_t* const places = places_.data();
+        std::uint32_t listed = 0;
+        for (std::size_t vertex = 0; vertex < count && listed <= kMostBones; ++vertex) {
+            std::size_t at = (first + vertex) * influences_;
+            for (const std::size_t end = at + influences_; at < end && listed <= kMostBones; ++at) {
+                const float weight = weight_at(at);
+                if (weight == 0.0f) continue;
+                // Without branches: whether a bone is new to a group cannot be foreseen.
+                const std::size_t bone = bones_[at];
+                const std::uint32_t place = std::min(places[bone], listed);
+                places[bone] = place;
+                bones[place] = static_cast<std::uint16_t>(bone);
+                weights[place].of[vertex] += weight;
+                listed = std::max(listed, place + 1);
+            }
+        }
+        for (std::size_t k = 0; k < listed; ++k) places[bones[k]] = kAbsent;
+        if (listed == 0) bones[listed++] = bones_[first * influences_];
+        if (listed > kMostBones) {
+            listed = 0;
+            plan_.is_complete = false;
+        }
+        plan_.bones.resize(begin + listed);
+        plan_.weights.resize(begin + listed);
     }
 
 private:
-    std::size_t count_ = 0;
-    std::array<std::uint16_t, SkinPlan::kMostBones> bones_;        // the first count_ are set
-    std::array<SkinPlan::Weights, SkinPlan::kMostBones> weights_;  // as bones_
+    std::span<const Bone> bones_;
+    std::size_t influences_;
+    SkinPlan& plan_;
+    std::vector<std::uint32_t> places_;  // of each bone in the group's list
 };
 
-/// A pool's bones and weights, of the types that most files have without a look at the type each time.
-struct Influences {
-    explicit Influences(const PoolView& pool)
-        : bones(*pool.bones),
-          weights(*pool.weights),
-          count(bones.components),
-          is_narrow(bones.type == ComponentType::u8),
-          is_float(weights.type == ComponentType::f32),
-          bones8(is_narrow ? bones.as<std::uint8_t>() : std::span<const std::uint8_t>{}),
-          bones16(is_narrow ? std::span<const std::uint16_t>{} : bones.as<std::uint16_t>()),
-          floats(is_float ? weights.as<float>() : std::span<const float>{}) {}
-
-    [[nodiscard]] float weight(std::uint32_t vertex, std::uint32_t k) const {
-        return is_float ? floats[std::size_t{vertex} * count + k] : weights.number(vertex, k);
-    }
-    [[nodiscard]] std::uint32_t bone(std::uint32_t vertex, std::uint32_t k) const {
-        const std::size_t at = std::size_t{vertex} * count + k;
-        return is_narrow ? bones8[at] : bones16[at];
-    }
-
-    const StreamView& bones;
-    const StreamView& weights;
-    std::uint32_t count;
-    bool is_narrow, is_float;
-    std::span<const std::uint8_t> bones8;
-    std::span<const std::uint16_t> bones16;
-    std::span<const float> floats;
-};
-
-/// Vertices [first, end). Bones that no weight goes to are left out, but for one.
-bool fill_group(const Influences& influences, std::uint32_t first, std::uint32_t end, Group& group) {
-    bool is_empty = true;
-    for (std::uint32_t vertex = first; vertex < end; ++vertex) {
-        for (std::uint32_t k = 0; k < influences.count; ++k) {
-            const float weight = influences.weight(vertex, k);
-            if (weight == 0.0f) continue;
-            is_empty = false;
-            if (!group.add(vertex - first, influences.bone(vertex, k), weight)) return false;
+template <class Bone, class WeightAt>
+void list(const PoolView& pool, SkinPlan& plan, const WeightAt& weight_at) {
+    constexpr std::size_t kProbe = 64;
+    const std::size_t groups = (std::size_t{pool.vertices} + SkinPlan::kGroup - 1) / SkinPlan::kGroup;
+    plan.first.reserve(groups + 1);
+    plan.first.push_back(0);
+    plan.is_complete = true;
+    Lists<Bone> lists(pool.bones->as<Bone>(), pool.bones->components, plan);
+    for (std::size_t group = 0; group < groups; ++group) {
+        const std::size_t first = group * SkinPlan::kGroup;
+        lists.append(first, std::min(SkinPlan::kGroup, pool.vertices - first), weight_at);
+        plan.first.push_back(static_cast<std::uint32_t>(plan.bones.size()));
+        if (group + 1 == kProbe) {  // the others are much like these
+            plan.bones.reserve(plan.bones.size() * (groups / kProbe + 1));
+            plan.weights.reserve(plan.bones.capacity());
         }
     }
-    return !is_empty || group.add(0, influences.bone(first, 0), 0.0f);
+}
+
+template <class Bone, class Integer>
+void list_normalised(const PoolView& pool, SkinPlan& plan) {
+    const auto numbers = pool.weights->as<Integer>();
+    list<Bone>(pool, plan, [=](std::size_t at) {
+        constexpr auto kOne = static_cast<float>(std::numeric_limits<Integer>::max());
+        return static_cast<float>(numbers[at]) / kOne;
+    });
+}
+
+template <class Bone>
+void list(const PoolView& pool, SkinPlan& plan) {
+    const StreamView& weights = *pool.weights;
+    const bool is_boxed = !weights.boxes.empty();
+    if (weights.type == ComponentType::f32) {
+        const auto numbers = weights.as<float>();
+        list<Bone>(pool, plan, [=](std::size_t at) { return numbers[at]; });
+    } else if (weights.type == ComponentType::u8 && !is_boxed) {
+        list_normalised<Bone, std::uint8_t>(pool, plan);
+    } else if (weights.type == ComponentType::u16 && !is_boxed) {
+        list_normalised<Bone, std::uint16_t>(pool, plan);
+    } else {
+        const std::uint32_t influences = weights.components;
+        list<Bone>(pool, plan, [&](std::size_t at) {
+            return weights.number(static_cast<std::uint32_t>(at / influences),
+                                  static_cast<std::uint32_t>(at % influences));
+        });
+    }
 }
 
 }  // namespace
@@ -83,21 +115,10 @@ bool fill_group(const Influences& influences, std::uint32_t first, std::uint32_t
 SkinPlan make_skin_plan(const PoolView& pool) {
     SkinPlan plan;
     if (pool.is_rigid() || pool.bones->components == 0) return plan;
-    constexpr auto kGroup = static_cast<std::uint32_t>(SkinPlan::kGroup);
-    const Influences influences(pool);
-    plan.first.reserve(pool.vertices / kGroup + std::size_t{2});
-    plan.first.push_back(0);
-    plan.is_complete = true;
-    for (std::uint32_t first = 0; first < pool.vertices;) {
-        const std::uint32_t end = first + std::min(kGroup, pool.vertices - first);
-        Group group;
-        if (fill_group(influences, first, end, group)) {
-            group.append_to(plan);
-        } else {
-            plan.is_complete = false;
-        }
-        plan.first.push_back(static_cast<std::uint32_t>(plan.bones.size()));
-        first = end;
+    if (pool.bones->type == ComponentType::u8) {
+        list<std::uint8_t>(pool, plan);
+    } else {
+        list<std::uint16_t>(pool, plan);
     }
     return plan;
 }

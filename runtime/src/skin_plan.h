@@ -19,10 +19,10 @@ struct SkinPlan {
         float of[kGroup];  // an array, since kernels read it
     };
 
-    std::vector<std::uint32_t> first;      ///< in bones, of each group; one more than groups. Empty: no plan
-    std::vector<std::uint16_t> bones;      ///< into the palette
-    std::vector<Weights> weights;          ///< as bones
-    bool is_complete = false;              ///< every group has a list
+    std::vector<std::uint32_t> first;  ///< in bones, of each group; one more than groups. Empty: no plan
+    std::vector<std::uint16_t> bones;  ///< into the palette
+    std::vector<Weights> weights;      ///< as bones
+    bool is_complete = false;          ///< every group has a list
 };
 
 /// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex.

@@ -2,6 +2,7 @@
 #include <bendy/runtime/skin.h>
 
 #include "runtime/build_model.h"
+#include "runtime/skin_comparison.h"
 #include "skin_kernel.h"
 #include "skin_plan.h"
 
@@ -19,141 +20,44 @@
 #include <vector>
 
 namespace bendy {
+
+SkinKernel skin_sixteen;  // skin_sixteen.cpp
+
 namespace {
 
 using test::Buffer;
+using test::kUntouched;
+using test::Output;
+using test::RandomBlock;
 
-constexpr float kUntouched = -77.0f;
-constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
-
-/// Numbers that begin at no better boundary than their own, in memory that ends where they do.
-struct Unaligned {
-    explicit Unaligned(std::size_t count, float value = 0.0f) : memory(count + 1, value) {}
-    float* data() { return memory.data() + 1; }
-    std::vector<float> memory;
+/// A kernel that is tested.
+struct Tried {
+    std::string name;
+    SkinKernel* run;
 };
 
-/// Vertices of `influences` bones at random.
-struct RandomBlock {
-    RandomBlock(std::size_t vertices, std::size_t influences, unsigned seed)
-        : positions(3 * vertices),
-          normals(3 * vertices),
-          tangents(4 * vertices),
-          weights(influences * vertices),
-          bones8(influences * vertices),
-          bones16(influences * vertices),
-          palette(40) {
-        std::mt19937 random(seed);
-        std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-        for (PaletteMatrix& entry : palette) {
-            const glm::quat turn = glm::normalize(glm::quat(number(random), number(random), number(random), 0.1f));
-            glm::mat3 m = glm::mat3_cast(turn);
-            for (int c = 0; c < 3; ++c) m[c] *= 1.0f + 0.5f * number(random);
-            if (seed % 2 == 1) m[0] = -m[0];  // mirrored
-            for (int row = 0; row < 3; ++row) {
-                for (int column = 0; column < 3; ++column) entry.rows[row][column] = m[column][row];
-                entry.rows[row][3] = 3.0f * number(random);
-            }
-        }
-        for (std::size_t v = 0; v < vertices; ++v) {
-            for (int c = 0; c < 3; ++c) positions.data()[3 * v + static_cast<std::size_t>(c)] = number(random);
-            for (int c = 0; c < 3; ++c) normals.data()[3 * v + static_cast<std::size_t>(c)] = number(random);
-            for (int c = 0; c < 3; ++c) tangents.data()[4 * v + static_cast<std::size_t>(c)] = number(random);
-            tangents.data()[4 * v + 3] = v % 3 == 0 ? -1.0f : 1.0f;
-            float sum = 0.0f;
-            const std::size_t used = random() % influences + 1;
-            for (std::size_t k = 0; k < influences; ++k) {
-                const std::size_t at = v * influences + k;
-                // Near joints, so that what is blended has a volume.
-                bones16[at] = bones8[at] =
-                    static_cast<std::uint8_t>(k == 0 ? random() % palette.size() : bones8[at - 1]);
-                if (k % 2 == 1) bones16[at] = bones8[at] = static_cast<std::uint8_t>(random() % palette.size());
-                const bool is_zero = k >= used || random() % 8 == 0;
-                sum += weights.data()[at] = is_zero ? 0.0f : std::abs(number(random));
-            }
-            if (sum > 0.0f) {
-                for (std::size_t k = 0; k < influences; ++k) weights.data()[v * influences + k] /= sum;
-            }
-        }
-        block.vertices = vertices;
-        block.influences = influences;
-        block.palette = palette.data();
-        block.positions = positions.data();
-        block.normals = normals.data();
-        block.tangents = tangents.data();
-        block.weights = weights.data();
-        block.bones8 = bones8.data();
-    }
-
-    Unaligned positions, normals, tangents, weights;
-    std::vector<std::uint8_t> bones8;
-    std::vector<std::uint16_t> bones16;
-    std::vector<PaletteMatrix> palette;
-    SkinBlock block{};
-};
-
-struct Output {
-    Output(SkinBlock& block, std::size_t position_stride, std::size_t normal_stride, std::size_t tangent_stride)
-        : positions(block.vertices * position_stride, kUntouched),
-          normals(block.vertices * normal_stride, kUntouched),
-          tangents(block.vertices * tangent_stride, kUntouched) {
-        block.out_positions = {position_stride == 0 ? nullptr : positions.data(), position_stride};
-        block.out_normals = {normal_stride == 0 ? nullptr : normals.data(), normal_stride};
-        block.out_tangents = {tangent_stride == 0 ? nullptr : tangents.data(), tangent_stride};
-    }
-    Unaligned positions, normals, tangents;
-};
-
-/// The blended linear part's volume against what it could be at most: how much of the cofactors cancels.
-double flatness(const RandomBlock& random, std::size_t vertex) {
-    const SkinBlock& b = random.block;
-    glm::dmat3 m(0.0);
-    for (std::size_t k = 0; k < b.influences; ++k) {
-        const std::size_t at = vertex * b.influences + k;
-        for (int row = 0; row < 3; ++row) {
-            for (int c = 0; c < 3; ++c)
-                m[c][row] += double{b.weights[at]} * random.palette[random.bones8[at]].rows[row][c];
-        }
-    }
-    return std::abs(glm::determinant(m));
+/// All that this machine has, and the sixteen lanes of AVX-512 in halves if it has none.
+std::vector<Tried> tried() {
+    std::vector<Tried> all;
+    for (const Kernel kernel : kernels()) all.push_back({std::string(kernel_name(kernel)), skin_kernel(kernel)});
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0)
+        all.push_back({"sixteen lanes in halves", skin_sixteen});
+#endif
+    return all;
 }
 
-void expect_same(Unaligned& found, Unaligned& expected, std::size_t vertex, std::size_t stride, std::size_t numbers,
-                 double tolerance, const std::string& what) {
-    for (std::size_t c = 0; c < stride; ++c) {
-        const float is = found.data()[vertex * stride + c];
-        const float should = expected.data()[vertex * stride + c];
-        if (c >= numbers) {
-            EXPECT_EQ(is, kUntouched) << what;
-        } else {
-            EXPECT_NEAR(is, should, tolerance) << what << ", vertex " << vertex << ", number " << c;
-        }
-    }
-}
-
-void compare(RandomBlock& random, Kernel kernel, std::size_t positions, std::size_t normals, std::size_t tangents) {
-    SkinBlock plain = random.block;
-    Output expected(plain, positions, normals, tangents);
-    skin_plain(plain);
-    SkinBlock block = random.block;
-    Output found(block, positions, normals, tangents);
-    skin_kernel(kernel)(block);
-    const std::string what = std::string(kernel_name(kernel)) + ", " + std::to_string(block.vertices) +
-                             " vertices of " + std::to_string(block.influences);
-    for (std::size_t v = 0; v < block.vertices; ++v) {
-        // A row times a vector of the cube, and the translation: at most 1.5 * sqrt(3) * sqrt(3) + 3.
-        expect_same(found.positions, expected.positions, v, positions, 3, 8 * 7.5 * kEpsilon, what + ", positions");
-        const bool is_rigid = block.bones8 == nullptr && block.bones16 == nullptr;
-        const double volume = is_rigid ? 0.1 : flatness(random, v);
-        if (volume < 1e-2) continue;  // what is left of the cofactors is rounding
-        expect_same(found.normals, expected.normals, v, normals, 3, 32 * kEpsilon / volume, what + ", normals");
-        expect_same(found.tangents, expected.tangents, v, tangents, 4, 32 * kEpsilon / volume, what + ", tangents");
-    }
-    EXPECT_EQ(found.positions.memory.front(), kUntouched);
+void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, std::size_t normals,
+             std::size_t tangents) {
+    const test::SkinErrors errors = test::errors_of(random, kernel.run, positions, normals, tangents);
+    EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
+                                    << random.block.influences << ": positions " << errors.positions
+                                    << " units in the last place, directions " << errors.directions
+                                    << (errors.has_strayed ? ", and memory of others written" : "");
 }
 
 TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t vertices : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 15u, 16u, 17u, 31u, 64u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
@@ -164,7 +68,7 @@ TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
 }
 
 TEST(SkinKernels, WideBonesAndOneMatrix) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t influences : {1u, 3u, 4u, 8u, 9u}) {
             RandomBlock random(45, influences, 7);
             random.block.bones8 = nullptr;
@@ -178,7 +82,7 @@ TEST(SkinKernels, WideBonesAndOneMatrix) {
 }
 
 TEST(SkinKernels, AnyStrideAndAnySubset) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t positions : {0u, 3u, 4u, 5u, 12u}) {
             for (const std::size_t normals : {0u, 3u, 4u, 11u}) {
                 for (const std::size_t tangents : {0u, 4u, 5u, 9u}) {
@@ -211,7 +115,7 @@ Pool as_pool(const RandomBlock& random) {
 }
 
 TEST(SkinKernels, SharedBonesGiveTheSame) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         for (const std::size_t vertices : {1u, 5u, 8u, 9u, 40u, 133u}) {
             for (const std::size_t influences : {1u, 2u, 4u, 8u}) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices + influences));
@@ -259,26 +163,26 @@ TEST(SkinPlan, ListsWhatAGroupFollows) {
 }
 
 TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         RandomBlock random(77, 4, 3);
         std::vector<glm::vec4> near(77), past(77);  // aligned
         for (auto* out : {&near, &past}) {
             SkinBlock block = random.block;
             block.streams = out == &past;
             block.out_positions = {&out->front().x, 3};
-            skin_kernel(kernel)(block);
+            kernel.run(block);
         }
         EXPECT_EQ(near, past);
     }
 }
 
 TEST(SkinKernels, DirectionsWithoutLengthStayZero) {
-    for (const Kernel kernel : kernels()) {
+    for (const Tried& kernel : tried()) {
         RandomBlock random(24, 4, 5);
         for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
         for (std::size_t k = 0; k < 4 * 24; ++k) random.tangents.data()[k] = 0.0f;
         Output out(random.block, 0, 3, 4);
-        skin_kernel(kernel)(random.block);
+        kernel.run(random.block);
         for (std::size_t k = 0; k < 3 * 24; ++k) EXPECT_EQ(out.normals.data()[k], 0.0f);
         for (std::size_t k = 0; k < 4 * 24; ++k) EXPECT_EQ(out.tangents.data()[k], 0.0f);
     }

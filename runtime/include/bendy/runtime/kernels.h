@@ -8,21 +8,22 @@
 namespace bendy {
 
 enum class Kernel : std::uint8_t {
-    plain,  ///< one number at a time; every other one is held against it
-    sse4,   ///< four lanes, SSE 4.1
-    avx2,   ///< eight lanes, AVX2 and FMA
-    neon,   ///< four lanes, 64-bit ARM
-    wasm,   ///< four lanes, WebAssembly SIMD
+    plain,   ///< one number at a time; every other one is held against it
+    sse4,    ///< four lanes, SSE 4.1
+    avx2,    ///< eight lanes, AVX2 and FMA
+    neon,    ///< four lanes, 64-bit ARM
+    wasm,    ///< four lanes, WebAssembly SIMD
+    avx512,  ///< sixteen lanes, AVX-512 F, VL and DQ: skinning only. Never the first choice: nobody has measured it yet
 };
 
-/// Those that this program holds and this machine can run, the quickest first; plain is the last.
+/// Those that this program holds and this machine can run, the quickest that is known first; plain is the last.
 std::span<const Kernel> kernels();
 
 /// "plain", "sse4", ...
 std::string_view kernel_name(Kernel kernel);
 
-/// The one in use: the quickest, unless the environment variable BENDY_KERNEL named another one of kernels() when this
-/// was first asked, or set_kernel has changed it.
+/// The one in use: the first of kernels(), unless the environment variable BENDY_KERNEL named another one of kernels()
+/// when this was first asked, or set_kernel has changed it.
 Kernel kernel();
 
 /// From now on, in every thread. False, and nothing changes, if it is not one of kernels().

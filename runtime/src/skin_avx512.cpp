@@ -1,0 +1,46 @@
+#include "skin_block.h"
+
+#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+
+#include <immintrin.h>
+
+#define BENDY_LANES 16
+
+// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
+namespace bendy {
+namespace {
+
+constexpr std::size_t kLanes = 16;
+using Lanes = float __attribute__((vector_size(64)));
+using Eight = float __attribute__((vector_size(32)));
+using Quad = float __attribute__((vector_size(16)));
+
+constexpr __mmask16 kAll = 0xffff;  // g++ 12 warns of its own header where there is no mask
+
+inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
+    return _mm512_maskz_min_ps(kAll, _mm512_maskz_max_ps(kAll, lanes, least), most);
+}
+inline Lanes inverse_roots_of(Lanes squares) {
+    const Lanes guess = _mm512_maskz_rsqrt14_ps(kAll, squares);  // 14 bits; a step of Newton's method makes 24
+    return guess + 0.5f * guess * (1.0f - squares * guess * guess);
+}
+inline void stream(float* to, Quad quad) {
+    _mm_stream_ps(to, quad);
+}
+inline void end_streams() {
+    _mm_sfence();
+}
+
+#include "lanes.h"
+#include "skin_lanes.h"
+
+}  // namespace
+
+void skin_avx512(const SkinBlock& block) {
+    skin_lanes(block);
+}
+
+}  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics)
+
+#endif

@@ -1,0 +1,52 @@
+// The body of the kernel of sixteen lanes for a machine of eight: the compiler splits the vectors. Tests run it where
+// there is no AVX-512.
+
+#include "skin_block.h"
+
+#if defined(__AVX2__)
+
+#include <immintrin.h>
+
+#define BENDY_LANES 16
+
+// NOLINTBEGIN(portability-simd-intrinsics): as in skin_avx512.cpp
+namespace bendy {
+namespace {
+
+constexpr std::size_t kLanes = 16;
+using Lanes = float __attribute__((vector_size(64)));
+using Eight = float __attribute__((vector_size(32)));
+using Quad = float __attribute__((vector_size(16)));
+
+inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        lanes[k] = lanes[k] < least[k] ? least[k] : lanes[k];
+        lanes[k] = lanes[k] > most[k] ? most[k] : lanes[k];
+    }
+    return lanes;
+}
+inline Lanes inverse_roots_of(Lanes squares) {
+    for (std::size_t k = 0; k < kLanes; ++k) squares[k] = 1.0f / __builtin_sqrtf(squares[k]);
+    return squares;
+}
+inline void stream(float* to, Quad quad) {
+    _mm_stream_ps(to, quad);
+}
+inline void end_streams() {
+    _mm_sfence();
+}
+
+#include "lanes.h"
+#include "skin_lanes.h"
+
+}  // namespace
+
+void skin_sixteen(const SkinBlock& block);
+void skin_sixteen(const SkinBlock& block) {
+    skin_lanes(block);
+}
+
+}  // namespace bendy
+// NOLINTEND(portability-simd-intrinsics)
+
+#endif
