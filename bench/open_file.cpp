@@ -43,14 +43,14 @@ int main(int count, char** arguments) {
         const auto file = bendy::MappedFile::open(path);
         if (!model || !file) return 1;
         [[maybe_unused]] static volatile unsigned seen = 0;
-        const std::vector<bendy::bench::Contestant> contestants{
+        const std::vector<bendy::cli::Contestant> contestants{
             {"touch", [path] { seen = touch(path); }},
             {"open", [path] { open(path, bendy::Sums::checked, false); }},
             {"open, later", [path] { open(path, bendy::Sums::later, false); }},
             {"pose", [path] { open(path, bendy::Sums::checked, true); }},
             {"pose, later", [path] { open(path, bendy::Sums::later, true); }}};
         constexpr double kNanoseconds = 1000.0;  // in a microsecond
-        const auto timings = bendy::bench::side_by_side(contestants, kNanoseconds);
+        const auto timings = bendy::cli::side_by_side(contestants, kNanoseconds);
         std::printf("| %s | %zu |", path, file->bytes().size());
         for (const auto& timing : timings) std::printf(" %.0f |", timing.least);
         std::printf(" %.1f |\n", timings[3].ratio);

@@ -6,6 +6,7 @@
 // Failed; main turns that into exit status 1.
 namespace bendy::cli {
 
+void add_bench(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_diff(CLI::App& program);
 void add_inspect(CLI::App& program);

@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
     bendy::cli::add_rig(program);
     bendy::cli::add_diff(program);
     bendy::cli::add_view(program);
+    bendy::cli::add_bench(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -36,6 +36,8 @@ need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
 if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
+    need /usr/include/tbb/parallel_for.h libtbb-dev
+    need valgrind valgrind
     need clang++ clang
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format

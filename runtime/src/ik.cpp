@@ -1,9 +1,9 @@
 #include <bendy/runtime/ik.h>
 
 #include <bendy/runtime/constrain.h>
-#include <bendy/runtime/local_to_model.h>
 
 #include "ik_problem.h"
+#include "ik_quick.h"
 #include "rotation.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
@@ -38,6 +38,16 @@ public:
           options_(options),
           links_(std::span(pose.ik_links_).first(chain.links)) {}
 
+    static glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
+        const auto joints = pose.model().joints();
+        glm::dmat4 matrix(1.0);
+        for (; joint != kNone; joint = joints[joint].parent) {
+            if (!pose.is_stale()) return pose.exact_model_space(joint) * matrix;
+            matrix = to_matrix(pose.local()[joint], joints[joint].shear) * matrix;
+        }
+        return matrix;
+    }
+
     ReachResult run() {
         if (!gather()) return {};
         const bool is_aim = solver() == Solver::aim;
@@ -67,17 +77,6 @@ private:
         return chain_.record.stretch > 0.0f || chain_.record.compress > 0.0f;
     }
 
-    /// The matrix of the start's parent, from the local transforms alone if the pose has changed.
-    [[nodiscard]] glm::dmat4 base_matrix() const {
-        glm::dmat4 base(1.0);
-        for (std::uint32_t joint = model_.joints()[chain_.start].parent; joint != kNone;
-             joint = model_.joints()[joint].parent) {
-            if (!pose_.is_stale()) return pose_.exact_model_space(joint) * base;
-            base = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * base;
-        }
-        return base;
-    }
-
     [[nodiscard]] glm::dvec3 to_base(const glm::dvec3& point) const {
         return glm::dvec3(inverse_base_ * glm::dvec4(point, 1.0)) / problem_.scale;
     }
@@ -86,7 +85,7 @@ private:
     bool gather() {
         std::uint32_t joint = chain_.effector;
         for (std::size_t i = links_.size(); i-- > 0; joint = model_.joints()[joint].parent) links_[i].joint = joint;
-        base_ = base_matrix();
+        base_ = bendy::joint_to_model(pose_, model_.joints()[chain_.start].parent);
         inverse_base_ = glm::affineInverse(base_);
         gather_links();
         gather_weights();
@@ -179,20 +178,13 @@ private:
         if (options_.pole) {
             problem_.pole = to_base(*options_.pole);
         } else if (chain_.pole != kNone) {
-            problem_.pole = to_base(model_position(chain_.pole));
+            problem_.pole = to_base(glm::dvec3(bendy::joint_to_model(pose_, chain_.pole)[3]));
         } else if (direction != glm::dvec3(0.0)) {
             constexpr double kFar = 1e3;  // chain lengths: a direction is a point far away
             problem_.pole = problem_.origin + kFar * direction;
         } else {
             problem_.has_pole = false;
         }
-    }
-
-    [[nodiscard]] glm::dvec3 model_position(std::uint32_t joint) const {
-        glm::dvec4 position(glm::dvec3(pose_.local()[joint].translation), 1.0);
-        for (joint = model_.joints()[joint].parent; joint != kNone; joint = model_.joints()[joint].parent)
-            position = to_matrix(pose_.local()[joint], model_.joints()[joint].shear) * position;
-        return {position.x, position.y, position.z};
     }
 
     [[nodiscard]] glm::dvec3 tip_offset() const {
@@ -348,7 +340,16 @@ private:
 ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
     const bool is_number = std::isfinite(target.position.x + target.position.y + target.position.z);
     if (chain == nullptr || !is_number) return {};
-    return Reach(*chain, target, pose, options).run();
+    if (const auto quick = reach_quickly(*chain, target, pose, options)) return *quick;
+    return reach_at_length(*chain, target, pose, options);
+}
+
+ReachResult reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
+    return Reach(chain, target, pose, options).run();
+}
+
+glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
+    return Reach::joint_to_model(pose, joint);
 }
 
 void reach_all(Pose& pose) {
@@ -356,10 +357,9 @@ void reach_all(Pose& pose) {
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
         if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
-        if (pose.is_stale()) local_to_model(pose);
-        const glm::mat4& followed = pose.model_space()[chain.target];
+        const glm::dmat4 followed = joint_to_model(pose, chain.target);
         ReachTarget target{glm::vec3(followed[3])};
-        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(glm::dmat4(followed)));
+        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(followed));
         ReachOptions options;
         options.influence = chain.record.influence;
         reach(&chain, target, pose, options);

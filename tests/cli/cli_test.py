@@ -27,7 +27,7 @@ from schema import is_valid  # noqa: E402
 
 BENDY = ""
 SOURCE = Path()
-COMMANDS = ("convert", "inspect", "validate", "pose", "rig", "diff")
+COMMANDS = ("convert", "inspect", "validate", "pose", "rig", "diff", "bench")
 # How to run a program that can write no more than 5000 bytes: a limit stands for the full disk, and the signal that
 # comes with it stays ignored.
 FULL_DISK = {"restore_signals": False,
@@ -198,7 +198,7 @@ class CommandLine(Case):
             self.misused(command)
 
     def test_one_file_too_many_is_named(self):
-        for command in ("convert", "inspect", "pose", "rig"):
+        for command in ("convert", "inspect", "pose", "rig", "bench"):
             self.assertIn("second.bendy", self.misused(command, self.convert(), "second.bendy"))
 
     def test_what_a_user_typed_cannot_forge_lines(self):
@@ -207,7 +207,7 @@ class CommandLine(Case):
     def test_missing_and_empty_files_and_folders_fail_in_one_line(self):
         (self.folder / "empty").write_bytes(b"")
         (self.folder / "folder").mkdir()
-        for command in ("convert", "inspect", "pose", "rig"):
+        for command in ("convert", "inspect", "pose", "rig", "bench"):
             for name in ("missing", "empty", "folder", "empty/below", "missing/below"):
                 line = self.failed(command, name, file=name)
                 self.assertGreater(len(line), len(f"bendy: error: {name}: "))
@@ -215,7 +215,7 @@ class CommandLine(Case):
 
     def test_a_text_file_is_no_bendy_file(self):
         (self.folder / "text").write_text("hello, world, this is no bendy file at all\n")
-        for command in ("inspect", "pose", "rig"):
+        for command in ("inspect", "pose", "rig", "bench"):
             self.assertIn("not a bendy file", self.failed(command, "text", file="text"))
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
@@ -1010,6 +1010,59 @@ class PoseCommand(Case):
         (self.folder / "far.bendy").write_bytes(root.write())
         self.failed("pose", "far.bendy", "-o", "far.obj", file="far.bendy")
         self.assertEqual(self.files(), ["far.bendy"])
+
+
+class Bench(Case):
+    """Which steps are there and for what they are stated; never how long they take."""
+
+    def stages(self, path, *arguments):
+        report = json.loads(self.done("bench", path, "--rounds", "1", "--json", *arguments))
+        for stage in report["stages"]:
+            for times in stage["perItem"].values():
+                self.assertGreater(times["leastNs"], 0.0)
+                self.assertGreaterEqual(times["medianNs"], times["leastNs"])
+        return report, {stage["name"]: stage for stage in report["stages"]}
+
+    def test_steps_of_a_character_with_everything(self):
+        path = self.shared / "all.bendy"
+        self.done("convert", "--quiet", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path)
+        report, stages = self.stages(path)
+        self.assertEqual((report["joints"], report["targets"], report["cycle"]), (65, 2, "Idle"))
+        self.assertEqual(list(stages), [
+            "open, sums checked", "open, sums not checked", "open to the first pose", "sample, next frame",
+            "sample, random time", "blend two poses", "local to model", "local to model and palettes",
+            "skin positions", "skin positions, normals", "a whole frame", "inbetween, all targets", "reach",
+            "switch the level of detail"])
+        self.assertEqual(stages["sample, next frame"]["items"], 65)
+        self.assertEqual(stages["skin positions"]["items"], report["vertices"])
+        self.assertEqual(stages["reach"]["items"], 4)
+        self.assertLess(stages["inbetween, all targets"]["items"], report["vertices"])
+
+    def test_steps_that_a_file_has_not_are_left_out(self):
+        path = self.shared / "lone.bendy"
+        self.done("convert", "--quiet", SOURCE / "examples" / "tentacle.glb", "-o", path)
+        _, stages = self.stages(path, "--clip", "Wave")
+        self.assertIn("sample, next frame", stages)
+        self.assertNotIn("inbetween, all targets", stages)
+        self.assertNotIn("switch the level of detail", stages)
+
+    def test_kernels_stand_side_by_side_on_one_page(self):
+        path = self.convert()
+        best = self.stages(path)[0]["stages"][0]["perItem"]
+        self.assertEqual(len(best), 1)
+        page = self.done("bench", path, "--kernel", "plain", "--rounds", "1").decode()
+        self.assertRegex(page, r"joints, [\d,]+ vertices")
+        self.assertRegex(page, r"\n +plain\n")
+        self.assertRegex(page, r"\nlocal to model +\d[\d.]* [num]?s \(\d[\d.]* [num]?s\)  a joint\n")
+        self.assertLess(len(page.splitlines()), 25)
+        _, stages = self.stages(path, "--kernel", "plain", "--kernel", *best)
+        self.assertEqual(set(stages["local to model"]["perItem"]), {"plain", *best})
+
+    def test_wrong_options(self):
+        path = self.convert()
+        self.assertIn("dance", self.misused("bench", path, "--kernel", "dance"))
+        self.misused("bench", path, "--rounds", "0")
+        self.assertIn("Dance", self.failed("bench", path, "--clip", "Dance", file=path))
 
 
 class Rig(Case):

@@ -124,6 +124,29 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     EXPECT_TRUE(is_good);
 }
 
+TEST(NoAllocation, PlayingACrowdMakesNone) {
+    const test::Owned model(test::sample_file());
+    Crowd crowd(*model, 2);
+    constexpr std::size_t kMembers = 5;
+    std::vector<float> positions(kMembers * model->vertex_count() * 3);
+    std::vector<PaletteMatrix> palettes(kMembers * crowd.palette_size());
+    std::vector<CrowdMember> members(kMembers);
+
+    const std::uint64_t before = allocations;
+    bool is_good = true;
+    for (int frame = 0; frame < 20; ++frame) {
+        for (std::size_t k = 0; k < kMembers; ++k) {
+            members[k].cycle = model->cycle("run");
+            members[k].seconds = 0.5f + 0.03f * static_cast<float>(frame);
+            members[k].out.positions = {std::span(positions).subspan(k * model->vertex_count() * 3), 3};
+            members[k].palette = std::span(palettes).subspan(k * crowd.palette_size());
+        }
+        is_good = crowd.play(members, static_cast<std::size_t>(frame) % 2) && is_good;
+    }
+    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_TRUE(is_good);
+}
+
 TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
     const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
     const test::Owned other(test::build_file(test::packed_spec(40, 50, 16)));

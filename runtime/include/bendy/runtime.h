@@ -14,6 +14,7 @@
 
 #include <bendy/runtime/blend.h>
 #include <bendy/runtime/constrain.h>
+#include <bendy/runtime/crowd.h>
 #include <bendy/runtime/ik.h>
 #include <bendy/runtime/inbetween.h>
 #include <bendy/runtime/local_to_model.h>

@@ -8,7 +8,7 @@
 #include <vector>
 
 // Timing on a machine that others use: what is compared runs by turns in one process.
-namespace bendy::bench {
+namespace bendy::cli {
 
 struct Contestant {
     std::string name;
@@ -26,7 +26,8 @@ inline double median_of(std::vector<double> numbers) {
     return numbers[numbers.size() / 2];
 }
 
-/// One Timing for each contestant. A turn takes about two milliseconds, or one run if that is longer.
+/// One Timing for each contestant. A turn takes about two milliseconds, or one run if that is longer; where a round
+/// takes longer than a tenth of a second there are fewer of them, at least 5.
 inline std::vector<Timing> side_by_side(const std::vector<Contestant>& contestants, double items, int rounds = 41) {
     using Clock = std::chrono::steady_clock;
     const auto nanoseconds = [](const std::function<void()>& run, std::size_t times) {
@@ -35,10 +36,16 @@ inline std::vector<Timing> side_by_side(const std::vector<Contestant>& contestan
         return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / static_cast<double>(times);
     };
     std::vector<std::size_t> times;
+    double round_time = 0.0;
     for (const Contestant& contestant : contestants) {
         nanoseconds(contestant.run, 1);  // warm
-        times.push_back(static_cast<std::size_t>(std::max(1.0, 2e6 / nanoseconds(contestant.run, 1))));
+        const double once = nanoseconds(contestant.run, 1);
+        times.push_back(static_cast<std::size_t>(std::max(1.0, 2e6 / once)));
+        round_time += std::max(2e6, once);
     }
+    constexpr double kLong = 1e8;  // nanoseconds
+    constexpr int kFewest = 5;
+    if (round_time > kLong) rounds = std::min(rounds, std::max(kFewest, static_cast<int>(rounds * kLong / round_time)));
     std::vector<std::vector<double>> taken(contestants.size());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t k = 0; k < contestants.size(); ++k)
@@ -53,4 +60,4 @@ inline std::vector<Timing> side_by_side(const std::vector<Contestant>& contestan
     return timings;
 }
 
-}  // namespace bendy::bench
+}  // namespace bendy::cli

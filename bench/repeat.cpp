@@ -1,0 +1,32 @@
+// One stage of a file so many times, for tools that count what a program does: bendy_bench_repeat FILE lists the
+// stages, bendy_bench_repeat FILE STAGE TIMES runs the one of that number and says what it deals with. See
+// instructions.sh.
+#include "stages.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/runtime.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+int main(int argc, char** argv) {
+    if (argc != 2 && argc != 4) {
+        std::fprintf(stderr, "usage: bendy_bench_repeat FILE [STAGE TIMES]\n");
+        return 2;
+    }
+    const auto model = bendy::Model::open(argv[1]);
+    if (!model) {
+        std::fprintf(stderr, "bendy_bench_repeat: %s: %s\n", argv[1], bendy::describe(model.error()).c_str());
+        return 1;
+    }
+    const bendy::cli::Stages stages(argv[1], *model, model->cycles().empty() ? nullptr : model->cycles().data());
+    for (std::size_t k = 0; argc == 2 && k < stages.list().size(); ++k) {
+        const bendy::cli::Stage& stage = stages.list()[k];
+        std::printf("%zu\t%.0f\t%s\t%s\n", k, stage.items, stage.item, stage.name.c_str());
+    }
+    if (argc == 2) return 0;
+    const std::size_t number = std::strtoul(argv[2], nullptr, 10);
+    if (number >= stages.list().size()) return 1;
+    for (unsigned long times = std::strtoul(argv[3], nullptr, 10); times > 0; --times) stages.list()[number].run();
+    return 0;
+}

@@ -1,0 +1,219 @@
+// The whole table of what posing costs: bendy_bench [FILE.bendy...] [--benchmark_...]. Of each file every stage that
+// `bendy bench` knows and crowds of it; then pools of four influences from 1,000 vertices to 1,000,000, and chains.
+// Single stages: --benchmark_filter=REGEX; two builds or kernels beside each other: BENDY_KERNEL=plain, or `bendy bench
+// --kernel`, which measures by turns.
+#include "made_models.h"
+#include "stages.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/runtime.h>
+
+#include <benchmark/benchmark.h>
+
+#ifdef BENDY_HAS_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace bendy;
+
+namespace {
+
+/// Of one thread by the processor's time, which other programs disturb less; of several by the clock.
+void add(const std::string& name, const std::function<void(benchmark::State&)>& measure, std::size_t threads = 1) {
+#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+    auto* const added = benchmark::RegisterBenchmark(name.c_str(), measure);
+    if (threads > 1) added->UseRealTime();
+#endif
+}
+
+/// Seconds for each of `items` that an iteration deals with.
+void per_item(benchmark::State& state, const char* item, double items) {
+    state.counters[std::string("per_") + item] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * items, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// A file and its stages, where they may stay.
+struct File {
+    File(const std::filesystem::path& path, Model opened)
+        : model(std::move(opened)), stages(path, model, model.cycles().empty() ? nullptr : model.cycles().data()) {}
+    Model model;
+    cli::Stages stages;
+};
+
+// --- crowds
+
+/// As many threads as a crowd has workers.
+class Threads {
+public:
+#ifdef BENDY_HAS_TBB
+    explicit Threads(const Crowd& crowd) : arena_(static_cast<int>(crowd.workers())) {}
+
+    void play(Crowd& crowd, std::span<const CrowdMember> members) {
+        arena_.execute([&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 4), [&](const auto& range) {
+                crowd.play(members.subspan(range.begin(), range.size()),
+                           static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+            });
+        });
+    }
+
+private:
+    tbb::task_arena arena_;
+#else
+    explicit Threads(const Crowd& /*crowd*/) {}
+    static void play(Crowd& crowd, std::span<const CrowdMember> members) {
+        crowd.play(members);
+    }
+#endif
+};
+
+bool has_normals(const Model& model) {
+    return std::any_of(model.pools().begin(), model.pools().end(),
+                       [](const Pool& pool) { return pool.normals.has_value(); });
+}
+
+/// Each member at a time of its own; positions and normals, if there are any, into memory of its own, or its palettes
+/// alone.
+void measure_crowd(benchmark::State& state, const Model& model, std::size_t count, std::size_t threads,
+                   bool is_skinned) {
+    Crowd crowd(model, threads);
+    const std::size_t each = has_normals(model) ? 6 : 3;
+    const std::size_t numbers = is_skinned ? model.vertex_count() * each : 0;
+    const std::size_t entries = is_skinned ? 0 : crowd.palette_size();
+    std::vector<float> vertices(count * numbers);
+    std::vector<PaletteMatrix> palettes(count * entries);
+    std::vector<CrowdMember> members(count);
+    const Cycle& cycle = model.cycles().front();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> anywhere(cycle.start, cycle.end);
+    for (std::size_t k = 0; k < count; ++k) {
+        members[k].cycle = &cycle;
+        members[k].seconds = anywhere(random);
+        members[k].palette = std::span(palettes).subspan(k * entries, entries);
+        if (!is_skinned) continue;
+        const std::span<float> own = std::span(vertices).subspan(k * numbers, numbers);
+        members[k].out.positions = {own, each};
+        if (each == 6) members[k].out.normals = {own.subspan(3), each};
+    }
+    Threads pool(crowd);
+    pool.play(crowd, members);
+    while (state.KeepRunning()) {
+        pool.play(crowd, members);
+        benchmark::ClobberMemory();
+    }
+    state.counters["characters/ms"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * static_cast<double>(count) / 1000.0, benchmark::Counter::kIsRate);
+}
+
+void add_crowds(const std::string& name, const Model& model) {
+    if (model.cycles().empty() || model.vertex_count() == 0) return;
+    constexpr std::size_t kMost = std::size_t{4} << 30;  // bytes
+#ifdef BENDY_HAS_TBB
+    constexpr std::array<std::size_t, 2> kThreads{1, 2};
+#else
+    constexpr std::array<std::size_t, 1> kThreads{1};
+#endif
+    for (const std::size_t count : {1'000u, 10'000u}) {
+        if (count * model.vertex_count() * 6 * sizeof(float) > kMost) continue;
+        for (const std::size_t threads : kThreads) {
+            const std::string of = name + "/crowd of " + std::to_string(count) + ", threads " + std::to_string(threads);
+            add(
+                of, [&model, count, threads](auto& state) { measure_crowd(state, model, count, threads, true); },
+                threads);
+            add(
+                of + ", palettes only",
+                [&model, count, threads](auto& state) { measure_crowd(state, model, count, threads, false); }, threads);
+        }
+    }
+}
+
+void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
+    auto model = Model::open(path);
+    if (!model) {
+        std::fprintf(stderr, "bendy_bench: %s: %s\n", path, describe(model.error()).c_str());
+        std::exit(1);
+    }
+    files.push_back(std::make_unique<File>(path, *std::move(model)));
+    const std::string name = std::filesystem::path(path).stem().string();
+    for (const cli::Stage& stage : files.back()->stages.list()) {
+        add(name + '/' + stage.name, [&stage](auto& state) {
+            while (state.KeepRunning()) stage.run();
+            per_item(state, stage.item, stage.items);
+        });
+    }
+    add_crowds(name, files.back()->model);
+}
+
+// --- pools of any size
+
+/// Made when it is first measured, and kept while it is: pools are large.
+void measure_pool(benchmark::State& state, std::uint32_t vertices, int attributes) {
+    static std::unique_ptr<const bench::MadeModel> made;
+    if (!made || made->model.vertex_count() != vertices) made = bench::make_pool(vertices);
+    Pose pose(made->model);
+    std::vector<glm::vec3> positions(vertices), normals(attributes > 1 ? vertices : 0);
+    std::vector<glm::vec4> tangents(attributes > 2 ? vertices : 0);
+    while (state.KeepRunning()) {
+        skin(made->model, pose, {positions, normals, tangents});
+        benchmark::ClobberMemory();
+    }
+    per_item(state, "vertex", vertices);
+}
+
+void add_pools() {
+    constexpr std::array kNames{"positions", "positions, normals", "positions, normals, tangents"};
+    for (const std::uint32_t vertices : {1'000u, 10'000u, 100'000u, 1'000'000u}) {
+        for (int attributes = 1; attributes <= 3; ++attributes) {
+            add("pool of " + std::to_string(vertices) + "/skin " + kNames.at(static_cast<std::size_t>(attributes) - 1),
+                [vertices, attributes](auto& state) { measure_pool(state, vertices, attributes); });
+        }
+    }
+}
+
+// --- chains
+
+void measure_chain(benchmark::State& state, Solver solver, bool is_limited) {
+    const auto made = bench::make_chain(solver, is_limited);
+    Pose pose(made->model);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    std::vector<glm::vec3> targets;
+    targets.reserve(256);
+    for (int k = 0; k < 256; ++k)
+        targets.emplace_back(0.2f * number(random), 0.7f + 0.15f * number(random), 0.35f + 0.2f * number(random));
+    std::size_t k = 0;
+    while (state.KeepRunning()) benchmark::DoNotOptimize(reach(made->model.chains().data(), targets[k++ % 256], pose));
+    per_item(state, "solve", 1.0);
+}
+
+void add_chains() {
+    add("reach/two-bone", [](auto& state) { measure_chain(state, Solver::two_bone, false); });
+    add("reach/two-bone, a hinge's limits", [](auto& state) { measure_chain(state, Solver::two_bone, true); });
+    add("reach/aim", [](auto& state) { measure_chain(state, Solver::aim, false); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    std::vector<std::unique_ptr<File>> files;
+    for (int k = 1; k < argc; ++k) add_file(argv[k], files);
+    add_pools();
+    add_chains();
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

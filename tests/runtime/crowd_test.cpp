@@ -1,0 +1,191 @@
+#include <bendy/runtime.h>
+
+#include "format/sample_file.h"
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+namespace bendy {
+namespace {
+
+constexpr std::size_t kFloats = 10;  // a vertex: position, normal, tangent, interleaved
+
+/// Members of all kinds, and the memory that they write.
+class Players {
+public:
+    Players(const Model& model, std::size_t count, const Lod* lod)
+        : vertices_(count * model.vertex_count() * kFloats, -7.0f), members_(count) {
+        const std::size_t each = model.vertex_count() * kFloats;
+        palettes_.resize(count * Crowd(model).palette_size());
+        for (std::size_t k = 0; k < count; ++k) {
+            CrowdMember& member = members_[k];
+            if (k % 5 != 4) member.cycle = model.cycle("run");
+            member.seconds = 0.45f + 0.01f * static_cast<float>(k);
+            if (k % 3 == 2) member.lod = lod;
+            const std::span<float> own = std::span(vertices_).subspan(k * each, each);
+            member.out = {{own, kFloats}, {own.subspan(3), kFloats}, {own.subspan(6), kFloats}};
+            if (k % 7 == 6) member.out = {};
+            if (k % 4 == 1) {
+                const std::size_t entries = palettes_.size() / count;
+                member.palette = std::span(palettes_).subspan(k * entries, entries);
+            }
+        }
+    }
+
+    [[nodiscard]] std::span<CrowdMember> members() { return members_; }
+    [[nodiscard]] std::span<const float> vertices(std::size_t member) const {
+        const std::size_t each = vertices_.size() / members_.size();
+        return std::span(vertices_).subspan(member * each, each);
+    }
+    [[nodiscard]] bool operator==(const Players& other) const {
+        return std::memcmp(vertices_.data(), other.vertices_.data(), vertices_.size() * sizeof(float)) == 0 &&
+               std::memcmp(palettes_.data(), other.palettes_.data(), palettes_.size() * sizeof(PaletteMatrix)) == 0;
+    }
+
+private:
+    std::vector<float> vertices_;
+    std::vector<PaletteMatrix> palettes_;
+    std::vector<CrowdMember> members_;
+};
+
+/// A thread pool as a caller might have: each thread takes the next `grain` members until there are none.
+void play_on_threads(Crowd& crowd, std::span<const CrowdMember> members, std::size_t grain) {
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> is_good{true};
+    std::vector<std::thread> threads;
+    for (std::size_t worker = 0; worker < crowd.workers(); ++worker) {
+        threads.emplace_back([&, worker] {
+            for (;;) {
+                const std::size_t first = next.fetch_add(grain);
+                if (first >= members.size()) return;
+                if (!crowd.play(members.subspan(first, std::min(grain, members.size() - first)), worker))
+                    is_good = false;
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_TRUE(is_good);
+}
+
+TEST(Crowd, AMemberComesOutAsACharacterAlone) {
+    const test::Owned model(test::sample_file());
+    Lod lod(*model);
+    lod.set_share(0.3f);
+    constexpr std::size_t kMembers = 21;
+    Players players(*model, kMembers, &lod);
+    Crowd crowd(*model);
+    ASSERT_TRUE(crowd.play(players.members()));
+    for (std::size_t k = 0; k < kMembers; ++k) {
+        const CrowdMember& member = players.members()[k];
+        Pose pose(*model);
+        sample(member.cycle, member.seconds, pose);
+        std::vector<float> alone(model->vertex_count() * kFloats, -7.0f);
+        const std::span<float> own(alone);
+        const VertexBuffer out{{own, kFloats}, {own.subspan(3), kFloats}, {own.subspan(6), kFloats}};
+        if (k % 7 == 6) {
+            // Nothing was asked for.
+        } else if (member.lod != nullptr) {
+            ASSERT_TRUE(skin_into(*model, pose, lod, out));
+        } else {
+            ASSERT_TRUE(skin_into(*model, pose, out));
+        }
+        EXPECT_EQ(std::memcmp(players.vertices(k).data(), alone.data(), alone.size() * sizeof(float)), 0) << k;
+    }
+}
+
+TEST(Crowd, NeitherWorkersNorSplittingChangeWhatComesOut) {
+    const test::Owned model(test::sample_file());
+    const Lod lod(*model);
+    constexpr std::size_t kMembers = 60;
+    Players expected(*model, kMembers, &lod);
+    Crowd alone(*model);
+    ASSERT_TRUE(alone.play(expected.members()));
+    for (const std::size_t workers : {1u, 2u, 3u, 4u}) {
+        for (const std::size_t grain : {1u, 7u, 100u}) {
+            Players players(*model, kMembers, &lod);
+            Crowd crowd(*model, workers);
+            for (int frame = 0; frame < 3; ++frame) play_on_threads(crowd, players.members(), grain);
+            EXPECT_TRUE(players == expected) << workers << " workers, " << grain << " at a time";
+        }
+    }
+}
+
+TEST(Crowd, PalettesPlaceVerticesAsSkinningDoes) {
+    const test::Owned model(test::sample_file());
+    Crowd crowd(*model, 2);
+    std::vector<PaletteMatrix> palette(crowd.palette_size());
+    std::vector<glm::vec3> positions(model->vertex_count());
+    CrowdMember member;
+    member.cycle = model->cycle("run");
+    member.seconds = 0.8f;
+    member.palette = palette;
+    ASSERT_TRUE(crowd.play({&member, 1}, 1));
+    Pose pose(*model);
+    sample(member.cycle, member.seconds, pose);
+    local_to_model(pose);
+    std::size_t entries = 0;
+    for (std::uint32_t number = 0; number < model->pools().size(); ++number) {
+        const Pool& pool = model->pools()[number];
+        EXPECT_EQ(crowd.first_entry(number), entries);
+        const std::size_t count = pool.is_rigid() ? 1 : pool.palette.joints.size();
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            const glm::mat4 expected =
+                pool.is_rigid() ? pose.model_space()[model->rigid_mover(number, 0)]
+                                : pose.model_space()[pool.palette.joints[entry]] * pool.palette.inverse_bind()[entry];
+            for (int row = 0; row < 3; ++row) {
+                for (int column = 0; column < 4; ++column)
+                    EXPECT_NEAR(palette[entries + entry].rows[row][column], expected[column][row], 1e-6);
+            }
+        }
+        entries += count;
+    }
+    EXPECT_EQ(entries, palette.size());
+    EXPECT_GT(entries, 1u);
+}
+
+TEST(Crowd, TheCallerMayPose) {
+    const test::Owned model(test::sample_file());
+    Crowd crowd(*model);
+    std::vector<glm::vec3> positions(model->vertex_count());
+    CrowdMember member;
+    member.seconds = 0.7f;
+    member.out.positions = {{&positions.front().x, positions.size() * 3}, 3};
+    const auto lift = [&](const CrowdMember& of, Pose& pose) {
+        sample(model->cycle("run"), of.seconds, pose);
+        pose.change_local()[0].translation.y += 2.0f;
+    };
+    ASSERT_TRUE(crowd.play({&member, 1}, 0, lift));
+    Pose pose(*model);
+    lift(member, pose);
+    std::vector<glm::vec3> expected(model->vertex_count());
+    ASSERT_TRUE(skin(*model, pose, {expected, {}, {}}));
+    EXPECT_EQ(positions, expected);
+}
+
+TEST(Crowd, TooLittleMemoryIsLeftAloneAndAllElseIsWritten) {
+    const test::Owned model(test::sample_file());
+    Crowd crowd(*model, 0);
+    EXPECT_EQ(crowd.workers(), 1u);
+    EXPECT_TRUE(crowd.play({}));
+    const std::size_t numbers = model->vertex_count() * 3;
+    std::vector<float> first(numbers - 1, -7.0f), second(numbers, -7.0f);
+    std::vector<PaletteMatrix> palette(crowd.palette_size() - 1, PaletteMatrix{{{-7.0f}}, {}});
+    std::vector<CrowdMember> members(3);
+    members[0].out.positions = {first, 3};
+    members[1].palette = palette;
+    members[2].out.positions = {second, 3};
+    EXPECT_FALSE(crowd.play(members));
+    EXPECT_TRUE(std::all_of(first.begin(), first.end(), [](float number) { return number == -7.0f; }));
+    EXPECT_EQ(palette.front().rows[0][0], -7.0f);
+    EXPECT_TRUE(std::none_of(second.begin(), second.end(), [](float number) { return number == -7.0f; }));
+    EXPECT_TRUE(crowd.play(std::span(members).last(1)));
+}
+
+}  // namespace
+}  // namespace bendy

@@ -1,0 +1,196 @@
+#include "ik_quick.h"
+
+#include <bendy/runtime.h>
+
+#include "runtime/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+// The short way of plain chains against the long one, which holds for all chains.
+namespace bendy {
+namespace {
+
+class Dice {
+public:
+    explicit Dice(std::uint32_t seed) : random_(seed) {}
+    float number(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+    bool one_in(std::uint32_t n) { return random_() % n == 0; }
+    glm::vec3 point(float size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
+    glm::quat turn(float angle) {
+        const glm::dvec3 axis(number(-1.0f, 1.0f), number(-1.0f, 1.0f), number(0.1f, 1.0f));
+        return glm::quat(glm::angleAxis(static_cast<double>(number(-angle, angle)), glm::normalize(axis)));
+    }
+
+private:
+    std::mt19937 random_;
+};
+
+void set_rotation(RestRecord& rest, const glm::quat& q) {
+    rest.rotation = {q.x, q.y, q.z, q.w};
+}
+
+LimitRecord limit(Dice& dice, LimitModel model) {
+    LimitRecord record;
+    record.model = static_cast<std::uint8_t>(model);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        record.rotation_min.at(axis) = dice.number(-2.5f, -0.3f);
+        record.rotation_max.at(axis) = dice.number(0.3f, 2.5f);
+    }
+    if (dice.one_in(2)) record.frame = {0.5f, 0.5f, 0.5f, 0.5f};
+    return record;
+}
+
+/// A root, a chain of two bones below it, and a joint that may be its pole.
+test::ModelSpec arm(Dice& dice, bool is_limited) {
+    test::ModelSpec spec;
+    for (std::uint32_t joint = 0; joint < 5; ++joint) {
+        test::JointSpec own;
+        own.parent = joint == 0 ? kNone : joint == 4 ? 0 : joint - 1;
+        set_rotation(own.rest, dice.turn(joint == 0 ? 3.0f : 1.2f));
+        const glm::vec3 at = joint == 0 ? dice.point(2.0f) : glm::vec3(dice.point(0.3f)) + glm::vec3(0.0f, 1.0f, 0.0f);
+        own.rest.translation = {at.x, at.y, at.z};
+        if (joint == 0) own.rest.scale = {dice.number(0.5f, 2.0f), dice.number(0.5f, 2.0f), -1.0f};
+        if (joint == 1 || joint == 2) {
+            const float scale = dice.one_in(2) ? 1.0f : dice.number(0.5f, 2.0f);
+            own.rest.scale = {scale, scale, scale};
+        }
+        constexpr std::array kModels{LimitModel::swing_twist_ellipse, LimitModel::swing_twist_pyramid,
+                                     LimitModel::euler_box, LimitModel::largest_angle};
+        if (is_limited && joint == 1) own.limits = {limit(dice, kModels[spec.joints.size() + dice.one_in(2)])};
+        if (is_limited && joint == 2) own.limits = {limit(dice, LimitModel::hinge)};
+        spec.joints.push_back(own);
+    }
+    ChainRecord chain;
+    chain.start = 1;
+    chain.effector = 3;
+    if (dice.one_in(3)) chain.pole = 4;
+    if (dice.one_in(3)) chain.pole_vector = {0.3f, 0.2f, 1.0f};
+    spec.chains.push_back(chain);
+    chain.solver = static_cast<std::uint8_t>(Solver::aim);
+    chain.effector = 1;
+    set_rotation(spec.joints.back().rest, dice.turn(1.0f));
+    const glm::quat tip = dice.turn(3.0f);
+    chain.tip_rotation = {tip.x, tip.y, tip.z, tip.w};
+    spec.chains.push_back(chain);
+    return spec;
+}
+
+double angle_between(const glm::quat& a, const glm::quat& b) {
+    const glm::dquat turn = glm::conjugate(glm::dquat(a)) * glm::dquat(b);
+    return 2.0 * std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
+}
+
+struct Count {
+    int quick = 0;
+    int all = 0;
+};
+
+/// Random arms and targets, each by both ways.
+Count compare(std::uint32_t chain, bool is_limited) {
+    Count count;
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        Dice dice(seed);
+        const test::Owned model(test::build_file(arm(dice, is_limited)));
+        for (int k = 0; k < 10; ++k) {
+            Pose quick(*model);
+            if (dice.one_in(2)) quick.change_local()[0].rotation = dice.turn(3.0f);
+            local_to_model(quick);
+            if (dice.one_in(2)) (void)quick.change_local();
+            Pose general(quick);
+            ReachOptions options;
+            if (dice.one_in(4)) options.pole = dice.point(3.0f);
+            const glm::vec3 near(quick.model_space()[2][3]);
+            const ReachTarget target(near + dice.point(1.0f));
+            const auto result = reach_quickly(model->chains()[chain], target, quick, options);
+            ++count.all;
+            if (!result) {
+                EXPECT_EQ(std::memcmp(quick.local().data(), general.local().data(), quick.local().size_bytes()), 0);
+                continue;
+            }
+            ++count.quick;
+            const ReachResult expected = reach_at_length(model->chains()[chain], target, general, options);
+            EXPECT_EQ(result->status, expected.status) << seed << ' ' << k;
+            EXPECT_EQ(result->iterations, expected.iterations);
+            EXPECT_NEAR(result->distance, expected.distance, 1e-5);
+            EXPECT_NEAR(result->angle, expected.angle, 1e-6);
+            EXPECT_TRUE(quick.is_stale());
+            for (std::uint32_t joint = 0; joint < quick.local().size(); ++joint) {
+                const double off = angle_between(quick.local()[joint].rotation, general.local()[joint].rotation);
+                EXPECT_LT(off, 1e-6) << seed << ' ' << k << ' ' << joint;
+            }
+        }
+    }
+    return count;
+}
+
+TEST(IkQuick, TwoBonesComeOutAsByTheLongWay) {
+    const Count count = compare(0, false);
+    EXPECT_GT(count.quick, count.all / 2);
+}
+
+TEST(IkQuick, TwoBonesInsideTheirLimitsToo) {
+    const Count count = compare(0, true);
+    EXPECT_GT(count.quick, count.all / 20);
+    EXPECT_LT(count.quick, count.all);
+}
+
+TEST(IkQuick, AimComesOutAsByTheLongWay) {
+    const Count count = compare(1, false);
+    EXPECT_GT(count.quick, count.all / 2);
+}
+
+TEST(IkQuick, AimInsideItsLimitsToo) {
+    const Count count = compare(1, true);
+    EXPECT_GT(count.quick, count.all / 20);
+    EXPECT_LT(count.quick, count.all);
+}
+
+TEST(IkQuick, WhatAsksForMoreGoesTheLongWay) {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    Dice dice(1);
+    const test::ModelSpec plain = arm(dice, false);
+    const auto is_quick = [](test::ModelSpec spec, const ReachOptions& options, const auto& change) {
+        spec.joints[1].rest.scale = {1.0f, 1.0f, 1.0f};
+        spec.joints[2].rest.scale = {1.0f, 1.0f, 1.0f};
+        spec.chains.resize(1);
+        spec.chains[0].pole = kNone;
+        spec.chains[0].pole_vector = {0.0f, 0.0f, 0.0f};
+        change(spec);
+        const test::Owned model(test::build_file(spec));
+        Pose pose(*model);
+        const glm::vec3 start(pose.model_space()[1][3]);
+        const glm::vec3 tip(pose.model_space()[3][3]);
+        ReachTarget target(start + 0.9f * (tip - start));
+        return reach_quickly(model->chains()[0], target, pose, options).has_value();
+    };
+    const auto nothing = [](test::ModelSpec&) {};
+    EXPECT_TRUE(is_quick(plain, {}, nothing));
+    const auto with = [&](const auto& change) {
+        ReachOptions options;
+        change(options);
+        return is_quick(plain, options, nothing);
+    };
+    EXPECT_FALSE(with([](ReachOptions& o) { o.influence = 0.5f; }));
+    EXPECT_FALSE(with([](ReachOptions& o) { o.softness = 0.1f; }));
+    EXPECT_FALSE(with([](ReachOptions& o) { o.solver = Solver::least_squares; }));
+    EXPECT_FALSE(with([](ReachOptions& o) { o.pole = glm::vec3(std::numeric_limits<float>::infinity()); }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].stretch = 0.1f; }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].compress = 0.1f; }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].tip_offset = {0.0f, 0.1f, 0.0f}; }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].pole_angle = kNaN; }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.joints[2].rest.scale = {1.0f, 2.0f, 1.0f}; }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) {
+        PullRecord pull;
+        pull.weight = 0.5f;
+        spec.joints[2].pulls = {pull};
+    }));
+    EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.joints[0].rest.scale = {0.0f, 1.0f, 1.0f}; }));
+}
+
+}  // namespace
+}  // namespace bendy
