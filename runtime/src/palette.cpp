@@ -29,6 +29,7 @@ bool is_finite(const PaletteMatrix& entry) {
 }  // namespace
 
 bool Pose::make_palette(std::uint32_t pool) {
+    pool = model_->pose_plan().same_palette[pool];
     if (palette_pool_ == pool) return is_palette_finite_;
     palette_pool_ = pool;
     is_palette_finite_ = true;

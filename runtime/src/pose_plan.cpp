@@ -33,6 +33,28 @@ PaletteMatrix to_rows(const glm::mat4& matrix) {
     return entry;
 }
 
+bool is_same(const PaletteView& a, const PaletteView& b) {
+    const auto x = a.inverse_bind();
+    const auto y = b.inverse_bind();
+    return std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(), b.joints.end()) &&
+           std::equal(x.begin(), x.end(), y.begin(), y.end());
+}
+
+/// Parts of a mesh mostly follow one skeleton: each pool is compared with the last one that had another palette.
+void plan_palettes(std::span<const PoolView> pools, PosePlan& plan) {
+    std::uint32_t first = 0;
+    for (std::uint32_t number = 0; number < pools.size(); ++number) {
+        const PaletteView& palette = pools[number].palette;
+        if (number == 0 || !is_same(palette, pools[first].palette)) first = number;
+        plan.same_palette.push_back(first);
+        std::vector<PaletteMatrix>& rows = plan.inverse_bind.emplace_back();
+        if (first != number) continue;
+        const auto inverse_bind = palette.inverse_bind();
+        rows.reserve(inverse_bind.size());
+        std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), to_rows);
+    }
+}
+
 double longest_axis(const glm::dmat4& matrix) {
     double square = 0.0;
     for (int c = 0; c < 3; ++c) square = std::max(square, glm::dot(glm::dvec3(matrix[c]), glm::dvec3(matrix[c])));
@@ -145,11 +167,8 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     for (const Joint& joint : joints) plan.rest.push_back(joint.rest);
     for (const PoolView& pool : object.pools) {
         for (const TargetView& target : pool.targets) plan.rest_weights.push_back(target.rest_weight);
-        const auto inverse_bind = pool.palette.inverse_bind();
-        std::vector<PaletteMatrix>& rows = plan.inverse_bind.emplace_back();
-        rows.reserve(inverse_bind.size());
-        std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), to_rows);
     }
+    plan_palettes(object.pools, plan);
     plan.order.resize(joints.size());
     std::iota(plan.order.begin(), plan.order.end(), 0u);
     const std::vector<std::uint32_t> depths = depths_of(joints);

@@ -37,7 +37,8 @@ struct PosePlan {
     std::vector<JointTransform> rest;
     std::vector<float> rest_weights;   ///< of the inbetweening targets
     std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent is far before it, and so already there
-    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< of each pool
+    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< of each pool; empty where same_palette is another one
+    std::vector<std::uint32_t> same_palette;  ///< of each pool: the first of its neighbours with its palette
     std::vector<SamplePlan> cycles;
     /// Floats are exact enough for joint matrices: no long chains, and nothing far away that cancels.
     bool fits_floats = false;

@@ -139,6 +139,28 @@ TEST(Skin, LargeTranslationsCancel) {
                 1e-6);
 }
 
+TEST(Skin, PoolsOfOnePaletteAndOfOthersEachFollowTheirOwn) {
+    glm::mat4 back(1.0f);
+    back[3] = {-1, 0, 0, 1};
+    test::ModelSpec spec;
+    spec.joints.resize(2);
+    spec.joints[0].rest = test::moved(1, 0, 0);
+    spec.joints[1] = {0, test::moved(0, 5, 0), {}, ""};
+    const auto pool = [&](std::uint32_t joint, const glm::mat4& bind) {
+        return skinned<std::uint8_t, float>({{1, 2, 3}}, 1, {0}, {1}, test::palette_leaf({joint}, {bind}));
+    };
+    const glm::mat4 none(1.0f);
+    spec.pools = {pool(0, none), pool(0, none), pool(1, none), pool(1, back), pool(1, back), pool(0, none)};
+    const Owned model(test::build_file(spec));
+    Pose pose(*model);
+    const std::vector<glm::vec3> expected{{2, 2, 3}, {2, 2, 3}, {2, 7, 3}, {1, 7, 3}, {1, 7, 3}, {2, 2, 3}};
+    for (const std::uint32_t number : {0u, 1u, 2u, 3u, 4u, 5u, 1u, 4u, 0u, 3u})
+        EXPECT_EQ(Posed(*model, number, pose).positions[0], expected[number]) << number;
+    pose.change_local()[0].translation.x = 11.0f;
+    for (const std::uint32_t number : {4u, 1u})
+        EXPECT_EQ(Posed(*model, number, pose).positions[0], expected[number] + glm::vec3(10, 0, 0)) << number;
+}
+
 // --- against the plain formula
 
 /// Random numbers for a pool with many influences.
