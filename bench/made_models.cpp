@@ -1,15 +1,32 @@
 #include "made_models.h"
 
-#include "runtime/build_model.h"
-
+#include <bendy/format/chunk_writer.h>
+#include <bendy/format/codec.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/records.h>
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <random>
+#include <span>
+#include <string>
+#include <utility>
 
 namespace bendy::bench {
 namespace {
+
+constexpr std::uint32_t kChain = 10;  // joints
+constexpr std::uint32_t kKeys = 31;
+constexpr std::uint32_t kInfluences = 4;
+
+/// A vertex' numbers, of as many as there are.
+struct PoolNumbers {
+    std::vector<float> positions, normals, tangents, weights;
+    std::vector<std::uint16_t> bones;
+};
 
 std::unique_ptr<const MadeModel> open(std::vector<std::byte> bytes) {
     Result<Model> model = Model::from_memory(bytes);
@@ -20,65 +37,194 @@ std::unique_ptr<const MadeModel> open(std::vector<std::byte> bytes) {
     return std::make_unique<const MadeModel>(MadeModel{std::move(bytes), *std::move(model)});
 }
 
+void begin_file(ChunkWriter& out, std::uint32_t joints, std::uint32_t vertices, std::uint32_t cycles) {
+    VersionRecord version;
+    version.objects = 1;
+    version.joints = joints;
+    version.pools = vertices == 0 ? 0 : 1;
+    version.vertices = vertices;
+    version.cycles = cycles;
+    out.begin(FourCC("HEAD"));
+    out.leaf(FourCC("VERS"), bytes_of(version));
+    out.begin(FourCC("OBJE"));
+}
+
+std::vector<std::byte> end_file(ChunkWriter&& out) {
+    out.end();
+    out.end();
+    return std::move(out).finish();
+}
+
+/// A joint's chunk without its end.
+void begin_joint(ChunkWriter& out, std::uint32_t joint, const RestRecord& rest, const LimitRecord* limit = nullptr) {
+    out.begin(FourCC("SKIN"));
+    out.text_leaf(FourCC("NAME"), "joint" + std::to_string(joint));
+    out.begin(FourCC("PIVO"));
+    out.leaf(FourCC("REST"), bytes_of(rest));
+    if (limit != nullptr) out.leaf(FourCC("LIMT"), bytes_of(*limit));
+    out.end();
+}
+
+/// A turn about x, and a place.
+RestRecord rest_of(float radians, const glm::vec3& place) {
+    RestRecord rest;
+    rest.rotation = {std::sin(radians / 2), 0.0f, 0.0f, std::cos(radians / 2)};
+    rest.translation = {place.x, place.y, place.z};
+    return rest;
+}
+
+std::uint32_t parent_of(std::uint32_t joint) {
+    return joint == 0 ? kNone : joint % kChain == 0 ? 0 : joint - 1;
+}
+
+/// Chains of ten joints on one root.
+void put_joints(ChunkWriter& out, std::uint32_t joints) {
+    std::vector<std::uint32_t> ancestors;
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        for (; !ancestors.empty() && ancestors.back() != parent_of(joint); ancestors.pop_back()) out.end();
+        ancestors.push_back(joint);
+        const float y = joint % kChain == 0 ? 0.01f * static_cast<float>(joint) : 0.1f;
+        begin_joint(out, joint, rest_of(0.0f, {0.0f, y, 0.0f}));
+    }
+    for (; !ancestors.empty(); ancestors.pop_back()) out.end();
+}
+
+/// A stream of numbers as they are.
+template <class T>
+void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t components,
+                const std::vector<T>& numbers) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(type);
+    record.components = static_cast<std::uint16_t>(components);
+    record.elements = static_cast<std::uint32_t>(numbers.size() / components);
+    const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(numbers))};
+    out.leaf(id, pieces);
+}
+
+/// All joints are in the palette.
+void put_pool(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, const PoolNumbers& numbers) {
+    std::vector<std::uint32_t> palette(joints);
+    for (std::uint32_t joint = 0; joint < joints; ++joint) palette[joint] = joint;
+    const std::vector<glm::mat4> inverse_bind(joints, glm::mat4(1.0f));
+    PaletteRecord record;
+    record.entries = joints;
+    const std::vector<std::byte> gap(padded(joints * sizeof(std::uint32_t)) - joints * sizeof(std::uint32_t));
+    const std::array pieces{bytes_of(record), std::as_bytes(std::span(palette)), Bytes(gap),
+                            std::as_bytes(std::span(inverse_bind))};
+    out.begin(FourCC("VECT"));
+    out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, 0}));
+    out.leaf(FourCC("PALT"), pieces);
+    put_stream(out, FourCC("POSI"), ComponentType::f32, 3, numbers.positions);
+    put_stream(out, FourCC("NORM"), ComponentType::f32, 3, numbers.normals);
+    if (!numbers.tangents.empty()) put_stream(out, FourCC("TANG"), ComponentType::f32, 4, numbers.tangents);
+    put_stream(out, FourCC("BONE"), ComponentType::u16, kInfluences, numbers.bones);
+    put_stream(out, FourCC("WGHT"), ComponentType::f32, kInfluences, numbers.weights);
+    out.end();
+}
+
+/// A sheet; a vertex follows four bones that follow one another, sixty-four vertices the same.
+PoolNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
+    PoolNumbers numbers;
+    for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+        const std::uint32_t row = vertex / 1000;
+        numbers.positions.insert(numbers.positions.end(),
+                                 {0.001f * static_cast<float>(vertex % 1000), 0.001f * static_cast<float>(row), 0.0f});
+        numbers.normals.insert(numbers.normals.end(), {0.0f, 0.0f, 1.0f});
+        numbers.weights.insert(numbers.weights.end(), {0.4f, 0.3f, 0.2f, 0.1f});
+        for (std::uint32_t k = 0; k < kInfluences; ++k)
+            numbers.bones.push_back(static_cast<std::uint16_t>((vertex / 64 + k) % joints));
+    }
+    return numbers;
+}
+
+/// Places at random; a vertex follows four of six bones that are near.
+PoolNumbers make_cloud(std::uint32_t vertices, std::uint32_t joints) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    PoolNumbers numbers;
+    for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+        numbers.positions.insert(numbers.positions.end(), {number(random), number(random), number(random)});
+        numbers.normals.insert(numbers.normals.end(), {0.0f, 0.6f, 0.8f});
+        numbers.tangents.insert(numbers.tangents.end(), {1.0f, 0.0f, 0.0f, 1.0f});
+        numbers.weights.insert(numbers.weights.end(), {0.25f, 0.25f, 0.25f, 0.25f});
+        const auto near = static_cast<std::uint32_t>(std::uint64_t{vertex} * joints / vertices);
+        for (std::uint32_t k = 0; k < kInfluences; ++k)
+            numbers.bones.push_back(static_cast<std::uint16_t>((near + random() % 6) % joints));
+    }
+    return numbers;
+}
+
+void put_cycle(ChunkWriter& out, std::uint32_t joints) {
+    std::vector<TrackRecord> tracks(joints);
+    std::vector<float> times;
+    std::vector<float> values;
+    for (std::uint32_t key = 0; key < kKeys; ++key) times.push_back(static_cast<float>(key) / 30.0f);
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        TrackRecord& track = tracks[joint];
+        track.target = joint;
+        track.path = static_cast<std::uint8_t>(TrackPath::rotation);
+        track.interpolation = static_cast<std::uint8_t>(Interpolation::linear);
+        track.components = 4;
+        track.keys = kKeys;
+        track.first_value = values.size();
+        for (std::uint32_t key = 0; key < kKeys; ++key) {
+            const float half = 0.01f * static_cast<float>(key);
+            values.insert(values.end(), {0.0f, 0.0f, std::sin(half), std::cos(half)});
+        }
+    }
+    CycleRecord info;
+    info.end = times.back();
+    out.begin(FourCC("CYCL"));
+    out.leaf(FourCC("CINF"), bytes_of(info));
+    out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)));
+    out.leaf(FourCC("TIME"), std::as_bytes(std::span(times)));
+    out.leaf(FourCC("KEYV"), std::as_bytes(std::span(values)));
+    out.end();
+}
+
 }  // namespace
+
+std::vector<std::byte> make_character(std::uint32_t joints, std::uint32_t vertices) {
+    ChunkWriter out;
+    out.reserve(std::uint64_t{vertices} * 48 + std::uint64_t{joints} * 1024 + 65536);
+    begin_file(out, joints, vertices, 1);
+    put_joints(out, joints);
+    if (vertices != 0) put_pool(out, vertices, joints, make_sheet(vertices, joints));
+    put_cycle(out, joints);
+    return end_file(std::move(out));
+}
 
 std::unique_ptr<const MadeModel> make_pool(std::uint32_t vertices) {
     constexpr std::uint32_t kJoints = 64;
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-    test::ModelSpec spec;
-    std::vector<std::uint32_t> joints;
-    for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
-        test::JointSpec own;
-        own.parent = joint == 0 ? kNone : (joint - 1) / 2;
-        own.rest = test::turned(30.0 * number(random), joint % 3);
-        own.rest.translation = {number(random), number(random), number(random)};
-        spec.joints.push_back(own);
-        joints.push_back(joint);
-    }
-    test::PoolSpec pool;
-    const glm::vec3 normal(0.0f, 0.6f, 0.8f);
-    std::vector<std::uint8_t> bones;
-    std::vector<float> weights;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        pool.positions.emplace_back(number(random), number(random), number(random));
-        pool.normals.push_back(normal);
-        pool.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
-        const auto near = static_cast<std::uint32_t>(std::uint64_t{v} * kJoints / vertices);
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            bones.push_back(static_cast<std::uint8_t>((near + random() % 6) % kJoints));
-            weights.push_back(0.25f);
-        }
-    }
-    pool.more.push_back(test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(4, bones)));
-    pool.more.push_back(test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(4, weights)));
-    pool.more.push_back(test::palette_leaf(joints, std::vector<glm::mat4>(kJoints, glm::mat4(1.0f))));
-    spec.pools.push_back(pool);
-    return open(test::build_file(spec));
+    ChunkWriter out;
+    begin_file(out, kJoints, vertices, 0);
+    put_joints(out, kJoints);
+    put_pool(out, vertices, kJoints, make_cloud(vertices, kJoints));
+    return open(end_file(std::move(out)));
 }
 
 std::unique_ptr<const MadeModel> make_chain(Solver solver, bool is_limited) {
-    test::ModelSpec spec;
-    for (std::uint32_t joint = 0; joint < 3; ++joint) {
-        test::JointSpec own;
-        own.parent = joint == 0 ? kNone : joint - 1;
-        own.rest = test::turned(joint == 1 ? 25.0 : 5.0, 0);
-        own.rest.translation = {0.0f, joint == 0 ? 0.0f : 0.5f, 0.0f};
-        if (is_limited && joint == 1) {
-            LimitRecord limit;
-            limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
-            limit.rotation_min[0] = -0.5f;
-            limit.rotation_max[0] = 2.6f;
-            own.limits.push_back(limit);
-        }
-        spec.joints.push_back(own);
+    constexpr std::uint32_t kJoints = 3;
+    LimitRecord limit;
+    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
+    limit.rotation_min[0] = -0.5f;
+    limit.rotation_max[0] = 2.6f;
+    ChunkWriter out;
+    begin_file(out, kJoints, 0, 0);
+    for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
+        const RestRecord rest = rest_of(joint == 1 ? 0.44f : 0.09f, {0.0f, joint == 0 ? 0.0f : 0.5f, 0.0f});
+        begin_joint(out, joint, rest, is_limited && joint == 1 ? &limit : nullptr);
     }
+    for (std::uint32_t joint = 0; joint < kJoints; ++joint) out.end();
     ChainRecord chain;
     chain.solver = static_cast<std::uint8_t>(solver);
     chain.effector = solver == Solver::aim ? 0 : 2;
     chain.pole_vector = {0.0f, 0.0f, 1.0f};
-    spec.chains.push_back(chain);
-    return open(test::build_file(spec));
+    out.begin(FourCC("IKCH"));
+    out.text_leaf(FourCC("NAME"), "chain");
+    out.leaf(FourCC("KINF"), bytes_of(chain));
+    out.end();
+    return open(end_file(std::move(out)));
 }
 
 }  // namespace bendy::bench

@@ -47,6 +47,7 @@ std::vector<Kernel> chosen_kernels(const BenchArguments& arguments) {
 /// One Timing for each kernel, by turns, in nanoseconds per item.
 std::vector<Timing> time_stage(const Stage& stage, const std::vector<Kernel>& kernels, int rounds) {
     std::vector<Contestant> contestants;
+    contestants.reserve(kernels.size());
     for (const Kernel kernel : kernels) {
         contestants.push_back({"", [&stage, kernel] {
                                    set_kernel(kernel);
