@@ -4,6 +4,8 @@
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
 
+#include "palette_rows.h"
+
 #include <algorithm>
 
 namespace bendy {
@@ -11,14 +13,6 @@ namespace {
 
 bool is_wanted(const VertexBuffer& out) {
     return !out.positions.floats.empty() || !out.normals.floats.empty() || !out.tangents.floats.empty();
-}
-
-PaletteMatrix to_rows(const glm::mat4& matrix) {
-    PaletteMatrix entry{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) entry.rows[row][column] = matrix[column][row];
-    }
-    return entry;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Vectors of four, eight or sixteen floats, one number of several vertices or joints in each. Included by one source
-// for each instruction set, which defines BENDY_LANES (4, 8 or 16), Lanes and Quad (four floats).
+// for each instruction set, which defines BENDY_LANES (4, 8 or 16) and includes lane_types.h.
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 
@@ -47,6 +47,13 @@ inline Lanes load_lanes(const float* from) {
     __builtin_memcpy(&lanes, from, sizeof lanes);
     return lanes;
 }
+
+#if BENDY_LANES == 4
+/// Four numbers, in the upper lanes again if there are any: what has these defines it.
+inline Lanes repeat(const float* quad) {
+    return load_lanes(quad);
+}
+#endif
 
 inline void store_lanes(float* to, Lanes lanes) {
     __builtin_memcpy(to, &lanes, sizeof lanes);

@@ -11,10 +11,7 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-using Lanes = float __attribute__((vector_size(32)));
-using Eight = Lanes;
-using Quad = float __attribute__((vector_size(16)));
+#include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
     return _mm256_sqrt_ps(squares);

@@ -11,17 +11,10 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 4;
-using Lanes = float __attribute__((vector_size(16)));
-using Quad = Lanes;
+#include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
     return vsqrtq_f32(squares);
-}
-inline Lanes repeat(const float* quad) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, quad, sizeof lanes);
-    return lanes;
 }
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return vminq_f32(vmaxq_f32(lanes, least), most);

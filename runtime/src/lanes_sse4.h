@@ -10,17 +10,10 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 4;
-using Lanes = float __attribute__((vector_size(16)));
-using Quad = Lanes;
+#include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
     return _mm_sqrt_ps(squares);
-}
-inline Lanes repeat(const float* quad) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, quad, sizeof lanes);
-    return lanes;
 }
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm_min_ps(_mm_max_ps(lanes, least), most);

@@ -11,17 +11,10 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 4;
-using Lanes = float __attribute__((vector_size(16)));
-using Quad = Lanes;
+#include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
     return reinterpret_cast<Lanes>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(squares)));
-}
-inline Lanes repeat(const float* quad) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, quad, sizeof lanes);
-    return lanes;
 }
 inline v128_t as_v128(Lanes lanes) {
     return reinterpret_cast<v128_t>(lanes);

@@ -1,6 +1,7 @@
 #include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/pose.h>
 
+#include "palette_rows.h"
 #include "pose_kernels.h"
 #include "pose_plan.h"
 
@@ -9,14 +10,6 @@
 
 namespace bendy {
 namespace {
-
-PaletteMatrix to_rows(const glm::dmat4& matrix) {
-    PaletteMatrix entry{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) entry.rows[row][column] = static_cast<float>(matrix[column][row]);
-    }
-    return entry;
-}
 
 bool is_finite(const PaletteMatrix& entry) {
     float sum = 0.0f;

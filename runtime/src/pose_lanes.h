@@ -1,5 +1,4 @@
-// The body of the kernels for joint matrices, included after lanes.h by one source for each instruction set, which also
-// defines repeat(const float*): four numbers, in the upper lanes again.
+// The body of the kernels for joint matrices, included after lanes.h by one source for each instruction set.
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 

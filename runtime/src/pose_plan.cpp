@@ -2,6 +2,8 @@
 
 #include <bendy/runtime/model.h>
 
+#include "palette_rows.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
@@ -23,14 +25,6 @@ std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
         depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
     }
     return depths;
-}
-
-PaletteMatrix to_rows(const glm::mat4& matrix) {
-    PaletteMatrix entry{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) entry.rows[row][column] = matrix[column][row];
-    }
-    return entry;
 }
 
 bool is_same(const PaletteView& a, const PaletteView& b) {

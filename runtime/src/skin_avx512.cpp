@@ -10,10 +10,7 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 16;
-using Lanes = float __attribute__((vector_size(64)));
-using Eight = float __attribute__((vector_size(32)));
-using Quad = float __attribute__((vector_size(16)));
+#include "lane_types.h"
 
 constexpr __mmask16 kAll = 0xffff;  // g++ 12 warns of its own header where there is no mask
 

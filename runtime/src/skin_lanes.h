@@ -1,7 +1,6 @@
 // The body of the skinning kernels, included after lanes.h by one source for each instruction set, which also defines
 // between(lanes, least, most), inverse_roots_of(lanes) of numbers that are neither zero nor subnormal nor infinite,
-// stream(to, numbers), end_streams() and, from eight lanes on, Eight (eight floats), and is compiled with that set's
-// options.
+// stream(to, numbers) and end_streams(), and is compiled with that set's options.
 //
 // A chunk of vertices at a time, in two steps: first the blended matrix of each group of kLanes vertices and what it
 // makes of them, a lane a vertex; then lengths, and the way back to the caller's layout. Each step is one long chain

@@ -13,10 +13,7 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLanes = 16;
-using Lanes = float __attribute__((vector_size(64)));
-using Eight = float __attribute__((vector_size(32)));
-using Quad = float __attribute__((vector_size(16)));
+#include "lane_types.h"
 
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     for (std::size_t k = 0; k < kLanes; ++k) {
