@@ -6,9 +6,13 @@
 // Failed; main turns that into exit status 1.
 namespace bendy::cli {
 
+void add_assemble(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_diff(CLI::App& program);
+void add_dump(CLI::App& program);
+void add_edit(CLI::App& program);
+void add_export(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_pose(CLI::App& program);
 void add_render(CLI::App& program);

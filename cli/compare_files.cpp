@@ -25,6 +25,8 @@ void add_streams(ReadFile& file, const PoolView& pool) {
     for (const StreamView& stream : pool.texture_coords) add_stream(file, stream);
     for (const StreamView& stream : pool.colours) add_stream(file, stream);
     for (const AttributeView& attribute : pool.attributes) add_stream(file, attribute.values);
+    if (const std::uint32_t palette = file.tree.find(pool.chunk, FourCC("PALT")); palette != kNone)
+        file.palettes[palette] = &pool.palette;
     for (const TargetView& target : pool.targets) {
         for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents}) {
             add_stream(file, *stream);
@@ -110,8 +112,14 @@ std::unique_ptr<ReadFile> read_file(Bytes bytes) {
     file->streams.resize(file->tree.chunks().size());
     file->cycles.resize(file->tree.chunks().size());
     file->targets.resize(file->tree.chunks().size());
+    file->palettes.resize(file->tree.chunks().size());
+    file->tables.resize(file->tree.chunks().size());
     for (const ObjectView& object : file->document.objects) {
         for (const PoolView& pool : object.pools) add_streams(*file, pool);
+        for (const FourCC id : {FourCC("JNTS"), FourCC("JNAM"), FourCC("LODD")}) {
+            const std::uint32_t table = file->tree.find(object.chunk, id);
+            if (table != kNone) file->tables[table] = &object;
+        }
         for (const CycleView& cycle : object.cycles) file->cycles[cycle.chunk] = &cycle;
     }
     return file;

@@ -117,9 +117,8 @@ void ContentComparer::add_value(ChunkPair chunks, std::string part, Json a, Json
     differences_.add(std::move(difference));
 }
 
-template <class A, class B>
 void ContentComparer::compare_numbers(ChunkPair chunks, const std::string& part, std::uint64_t count,
-                                      std::uint32_t components, const A& a, const B& b) {
+                                      std::uint32_t components, const NumberAt& a, const NumberAt& b) {
     Difference difference;
     difference.kind = Difference::Kind::numbers;
     difference.chunks = chunks;
@@ -156,8 +155,12 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
     const bool is_known = chunk_meaning(chunk.id) != "unknown";
     if (is_known && a_.streams[leaves.a] != nullptr && b_.streams[leaves.b] != nullptr) {
         compare_streams(leaves, *a_.streams[leaves.a], *b_.streams[leaves.b]);
-    } else if (chunk.id == FourCC("PALT")) {
+    } else if (a_.palettes[leaves.a] != nullptr && b_.palettes[leaves.b] != nullptr) {
         compare_palettes(leaves);
+    } else if (a_.tables[leaves.a] != nullptr && b_.tables[leaves.b] != nullptr) {
+        if (chunk.id == FourCC("JNTS")) compare_joint_tables(leaves);
+        if (chunk.id == FourCC("JNAM")) compare_joint_names(leaves);
+        if (chunk.id == FourCC("LODD")) compare_collapses(leaves);
     } else {
         compare_fields(leaves);
         const bool is_read = !chunk_fields(a_.tree, leaves.a).empty() && chunk.id != FourCC("IMAG");
@@ -188,19 +191,14 @@ void ContentComparer::compare_streams(ChunkPair leaves, const StreamView& a, con
 }
 
 void ContentComparer::compare_palettes(ChunkPair leaves) {
-    const auto joints_of = [](Bytes payload) {
-        PaletteRecord record;
-        copy_at(payload, 0, record);
-        return view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record.entries);
+    const PaletteView& a = *a_.palettes[leaves.a];
+    const PaletteView& b = *b_.palettes[leaves.b];
+    const auto joints_a = a.joints;
+    const auto joints_b = b.joints;
+    const auto numbers_of = [](const PaletteView& palette) {
+        const auto bytes = std::as_bytes(palette.inverse_bind());
+        return view_at<float>(bytes, 0, bytes.size() / sizeof(float));
     };
-    const auto matrices_of = [](Bytes payload, std::size_t entries) {
-        const std::uint64_t at = sizeof(PaletteRecord) + padded(entries * sizeof(std::uint32_t));
-        return view_at<float>(payload, at, entries * 16);
-    };
-    const Bytes a = a_.tree.payload(leaves.a);
-    const Bytes b = b_.tree.payload(leaves.b);
-    const auto joints_a = joints_of(a);
-    const auto joints_b = joints_of(b);
     if (joints_a.size() != joints_b.size()) add_value(leaves, "entries", joints_a.size(), joints_b.size());
     const std::uint64_t shared = std::min(joints_a.size(), joints_b.size());
     std::uint64_t differing = 0;
@@ -225,8 +223,7 @@ void ContentComparer::compare_palettes(ChunkPair leaves) {
         }
         differences_.add(std::move(difference));
     }
-    compare_spans(leaves, "inverse bind matrices", 16, matrices_of(a, joints_a.size()),
-                  matrices_of(b, joints_b.size()));
+    compare_spans(leaves, "inverse bind matrices", 16, numbers_of(a), numbers_of(b));
 }
 
 void ContentComparer::compare_fields(ChunkPair leaves) {

@@ -5,6 +5,7 @@
 #include <bendy/format/document.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,10 +17,12 @@ namespace bendy::cli {
 struct ReadFile {
     ChunkTree tree;
     Document document;
-    std::vector<UnpackedTrack> unpacked;     ///< what the document's packed cycles hold, as tracks of theirs
-    std::vector<const StreamView*> streams;  ///< by chunk number; null: no stream
-    std::vector<const CycleView*> cycles;    ///< by chunk number; null: no cycle
-    std::vector<const TargetView*> targets;  ///< by chunk number; null: no target, or one that displaces nothing
+    std::vector<UnpackedTrack> unpacked;       ///< what the document's packed cycles hold, as tracks of theirs
+    std::vector<const StreamView*> streams;    ///< by chunk number; null: no stream
+    std::vector<const CycleView*> cycles;      ///< by chunk number; null: no cycle
+    std::vector<const TargetView*> targets;    ///< by chunk number; null: no target, or one that displaces nothing
+    std::vector<const PaletteView*> palettes;  ///< by chunk number; null: no palette
+    std::vector<const ObjectView*> tables;     ///< of JNTS, JNAM and LODD, by chunk number: whose they are; else null
 };
 
 /// Thrown where tracks share keys so that comparing them all would take for ever: no real file does.
@@ -46,15 +49,18 @@ public:
 private:
     void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
     void compare_palettes(ChunkPair leaves);
+    void compare_joint_tables(ChunkPair leaves);
+    void compare_joint_names(ChunkPair leaves);
+    void compare_collapses(ChunkPair leaves);
     void compare_fields(ChunkPair leaves);
     void compare_bytes(ChunkPair leaves, Bytes a, Bytes b);
     void compare_displacements(ChunkPair targets, const std::string& part, const StreamView* a_vertices,
                                const StreamView* a, const StreamView* b_vertices, const StreamView* b);
     void compare_tracks(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
     void compare_samples(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
-    template <class A, class B>
+    using NumberAt = std::function<double(std::uint64_t)>;
     void compare_numbers(ChunkPair chunks, const std::string& part, std::uint64_t count, std::uint32_t components,
-                         const A& a, const B& b);
+                         const NumberAt& a, const NumberAt& b);
     void compare_spans(ChunkPair chunks, const std::string& part, std::uint32_t components, std::span<const float> a,
                        std::span<const float> b);
     void add_value(ChunkPair chunks, std::string part, nlohmann::ordered_json a, nlohmann::ordered_json b);

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "problem.h"
 #include "progress_bar.h"
+#include "warnings.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
@@ -34,16 +35,6 @@ struct ConvertArguments {
     bool sort_vertices = false;
     bool quiet = false;
 };
-
-void print_warnings(const std::filesystem::path& file, const converter::Report& report) {
-    for (const converter::Warning& warning : report.warnings()) {
-        std::string line;
-        if (!warning.first_place.empty()) line = warning.first_place + ": ";
-        line += warning.message;
-        if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
-        warn(file, printable(line));
-    }
-}
 
 void print_proposals(const converter::Report& report) {
     for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';

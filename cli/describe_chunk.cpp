@@ -6,6 +6,7 @@
 
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/read_record.h>
+#include <bendy/format/record_table.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
@@ -15,41 +16,6 @@
 
 namespace bendy::cli {
 namespace {
-
-struct Field {
-    std::string_view record, name, type;
-    std::uint32_t count;
-    std::uint64_t offset;
-};
-
-constexpr Field kFields[] = {
-#define BENDY_RECORD(chunk, Struct, shortest)
-#define BENDY_FIELD(Struct, field, type, count, offset, what) {#Struct, #field, #type, count, offset},
-#include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
-};
-
-/// The record at the start of a chunk's payload, by name; empty if it has none.
-std::string_view record_of(FourCC id) {
-    constexpr std::array kStreams{FourCC("POSI"), FourCC("NORM"), FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"),
-                                  FourCC("BONE"), FourCC("WGHT"), FourCC("VALS"), FourCC("INDX")};
-    for (const FourCC stream : kStreams) {
-        if (id == stream) return "StreamRecord";
-    }
-    std::string_view record;
-#define BENDY_RECORD(chunk, Struct, shortest) \
-    if (id == FourCC(#chunk)) record = #Struct;
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
-#include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
-    return record;
-}
-
-bool is_text(FourCC id) {
-    return id == FourCC("NAME") || id == FourCC("EXTR") || id == FourCC("EXTN") || id == FourCC("LINK");
-}
 
 template <class T>
 nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint32_t count) {
@@ -63,17 +29,26 @@ nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint
 }
 
 /// A field of plain numbers; null for one that is a record itself.
-nlohmann::ordered_json numbers_of(const Field& field, Bytes payload, std::uint64_t offset) {
-    if (field.type == "u8") return numbers_at<std::uint8_t>(payload, offset, field.count);
-    if (field.type == "u16") return numbers_at<std::uint16_t>(payload, offset, field.count);
-    if (field.type == "u32") return numbers_at<std::uint32_t>(payload, offset, field.count);
-    if (field.type == "u64") return numbers_at<std::uint64_t>(payload, offset, field.count);
-    if (field.type == "f32") return numbers_at<float>(payload, offset, field.count);
+nlohmann::ordered_json numbers_of(const RecordField& field, Bytes payload, std::uint64_t offset) {
+    switch (field.type) {
+        case FieldType::u8:
+            return numbers_at<std::uint8_t>(payload, offset, field.count);
+        case FieldType::u16:
+            return numbers_at<std::uint16_t>(payload, offset, field.count);
+        case FieldType::u32:
+            return numbers_at<std::uint32_t>(payload, offset, field.count);
+        case FieldType::u64:
+            return numbers_at<std::uint64_t>(payload, offset, field.count);
+        case FieldType::f32:
+            return numbers_at<float>(payload, offset, field.count);
+        case FieldType::record:
+            break;
+    }
     return nullptr;
 }
 
 /// Text with zeros to the end of its field.
-std::string_view padded_text(const Field& field, Bytes payload, std::uint64_t offset) {
+std::string_view padded_text(const RecordField& field, Bytes payload, std::uint64_t offset) {
     const std::uint64_t size = std::min<std::uint64_t>(field.count, payload.size() - offset);
     const std::string_view text = as_text(payload.subspan(offset, size));
     return text.substr(0, text.find('\0'));
@@ -81,27 +56,27 @@ std::string_view padded_text(const Field& field, Bytes payload, std::uint64_t of
 
 /// Calls visit(field, its offset) for each field of a record that the payload holds.
 template <class Visit>
-void for_each_field(std::string_view record, Bytes payload, std::uint64_t base, const Visit& visit) {
-    for (const Field& field : kFields) {
+void for_each_field(const RecordLayout& record, Bytes payload, std::uint64_t base, const Visit& visit) {
+    for (const RecordField& field : record.fields) {
         const std::uint64_t offset = base + field.offset;
-        if (field.record == record && !field.name.starts_with("reserved") && offset < payload.size())
-            visit(field, offset);
+        if (!field.is_reserved() && offset < payload.size()) visit(field, offset);
     }
 }
 
-nlohmann::ordered_json fields_at(Bytes payload, std::string_view record, std::uint64_t base) {
+nlohmann::ordered_json fields_at(Bytes payload, const RecordLayout& record, std::uint64_t base) {
     nlohmann::ordered_json fields = nlohmann::ordered_json::object();
-    for_each_field(record, payload, base, [&](const Field& field, std::uint64_t offset) {
+    for_each_field(record, payload, base, [&](const RecordField& field, std::uint64_t offset) {
         nlohmann::ordered_json& value = fields[std::string(field.name)];
         if (field.name == "generator") {
             value = padded_text(field, payload, offset);
             return;
         }
         value = numbers_of(field, payload, offset);
-        if (!value.is_null()) return;
-        for_each_field(field.type, payload, offset, [&](const Field& inner, std::uint64_t inner_offset) {
-            value[std::string(inner.name)] = numbers_of(inner, payload, inner_offset);
-        });
+        if (field.type != FieldType::record) return;
+        for_each_field(*find_layout(field.type_name), payload, offset,
+                       [&](const RecordField& inner, std::uint64_t inner_offset) {
+                           value[std::string(inner.name)] = numbers_of(inner, payload, inner_offset);
+                       });
     });
     return fields;
 }
@@ -259,7 +234,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     const Chunk& chunk = tree[number];
     constexpr std::array<std::string_view, kMediaTypes> kMedia{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
     if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
-    if (record_of(chunk.id) == "StreamRecord") return stream_text(tree, number);
+    if (is_stream(chunk.id)) return stream_text(tree, number);
     if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
     if (chunk.id == FourCC("BNDS")) return bound_text(record_at<BoundRecord>(tree, number));
     if (chunk.id == FourCC("SKIN")) return joint_text(tree, number, rigs);
@@ -342,15 +317,12 @@ nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number)
     if (chunk.is_container() || tree.encoding_fault(number)) return nlohmann::ordered_json::object();
     const Bytes payload = tree.payload(number);
     if (is_text(chunk.id)) return {{"text", as_text(payload)}};
-    const std::string_view record = record_of(chunk.id);
-    if (record.empty()) return nlohmann::ordered_json::object();
-    if (record != "TrackRecord") {
-        // TextureUseRecord stands in the table for the SURF page; the chunk's own record is the last of its id.
-        return fields_at(payload, record, 0);
-    }
+    const RecordLayout* record = layout_of(chunk.id);
+    if (record == nullptr) return nlohmann::ordered_json::object();
+    if (chunk.id != FourCC("TRAK")) return fields_at(payload, *record, 0);
     nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
     for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord))
-        tracks.push_back(fields_at(payload, record, at));
+        tracks.push_back(fields_at(payload, *record, at));
     return {{"tracks", tracks}};
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
 namespace {
@@ -38,12 +39,16 @@ int run(int argc, char** argv) {
     bendy::cli::add_render(program);
     bendy::cli::add_rig(program);
     bendy::cli::add_diff(program);
+    bendy::cli::add_dump(program);
+    bendy::cli::add_assemble(program);
+    bendy::cli::add_edit(program);
+    bendy::cli::add_export(program);
     bendy::cli::add_view(program);
     bendy::cli::add_bench(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
-        return program.exit(problem) == 0 ? kDone : kWrongCommandLine;
+        if (program.exit(problem) != 0) return kWrongCommandLine;  // else it was a call for help
     } catch (const bendy::cli::Failed& failed) {
         std::cout.flush();
         return failed.status;
@@ -59,6 +64,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fputs("bendy: error: not enough memory\n", stderr);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bendy: error: %s\n", problem.what());
     } catch (...) {

@@ -17,6 +17,7 @@ need ninja ninja-build
 need /usr/include/glm/glm.hpp libglm-dev
 need /usr/include/tiny_gltf.h libtinygltf-dev
 need /usr/include/nlohmann/json.hpp nlohmann-json3-dev
+need /usr/include/rapidjson/reader.h rapidjson-dev
 need /usr/include/CLI/App.hpp libcli11-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
@@ -45,6 +46,7 @@ if [ "${1:-build}" = test ]; then
     need git git
     need python3 python3
     need node nodejs
+    need npm npm
     need chromium chromium
     need Xvfb xvfb
     need xdotool xdotool

@@ -23,6 +23,11 @@ if [ "${1:-}" != quick ]; then
     cmake --preset no-exceptions >/dev/null
     cmake --build --preset no-exceptions
 
+    step "threads under ThreadSanitizer"
+    cmake --preset tsan >/dev/null
+    cmake --build --preset tsan
+    ctest --preset tsan
+
     step "kernels of other processors: NEON under qemu, WebAssembly under node"
     for processor in aarch64 wasm32; do
         (cd tests/elsewhere && cmake --workflow --preset "$processor")
@@ -32,6 +37,9 @@ if [ "${1:-}" != quick ]; then
     cmake --preset asan-ubsan >/dev/null
     cmake --build --preset asan-ubsan
     ctest --preset asan-ubsan
+
+    step "fuzzing, five minutes of processor"
+    scripts/fuzz.sh
 fi
 if [ -e ../shared/corpus/visible/manifest.json ]; then
     step "the corpus: files converted, files refused, worst error"

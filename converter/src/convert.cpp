@@ -59,7 +59,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     } catch (const Failure& failure) {  // only of the rig: importers throw nothing
         return ImportError{failure.error.place, failure.error.message, options.rig.value_or(file)};
     } catch (const std::bad_alloc&) {
-        return ImportError{{}, "there is not enough memory"};
+        return ImportError{{}, "not enough memory"};
     }
 }
 

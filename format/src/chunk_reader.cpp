@@ -1,4 +1,4 @@
-#include <bendy/format/chunk_reader.h>
+#include "walk_chunks.h"
 
 #include <algorithm>
 #include <cassert>
@@ -43,7 +43,7 @@ Result<void> check_header(const Chunk& chunk) {
 
 }  // namespace
 
-Result<ChunkTree> read_chunk_tree(Bytes bytes) {
+Result<ChunkTree> walk_chunks(Bytes bytes, std::uint64_t most_chunks) {
     if (reinterpret_cast<std::uintptr_t>(bytes.data()) % kChunkAlignment != 0)
         return Error{ErrorCode::kUnalignedBuffer};
     if (bytes.size() < kChunkHeaderSize) return Error{ErrorCode::kNotABendyFile};
@@ -72,7 +72,7 @@ Result<ChunkTree> read_chunk_tree(Bytes bytes) {
         }
         const std::uint64_t left = parent_end - at;  // a multiple of 16, as all sizes on the way here are
         assert(left >= kChunkHeaderSize);
-        if (chunks.size() >= kMaxChunks) return Error{ErrorCode::kTooManyChunks, at, 0, kMaxChunks};
+        if (chunks.size() >= most_chunks) return Error{ErrorCode::kTooManyChunks, at, 0, most_chunks};
 
         Chunk chunk = read_header(bytes, at);
         if (const auto good = check_header(chunk); !good) return good.error();
@@ -97,6 +97,10 @@ Result<ChunkTree> read_chunk_tree(Bytes bytes) {
         chunks.push_back(chunk);
     }
     return ChunkTree(bytes, std::move(chunks));
+}
+
+Result<ChunkTree> read_chunk_tree(Bytes bytes) {
+    return walk_chunks(bytes, kMaxChunks);
 }
 
 }  // namespace bendy

@@ -37,7 +37,7 @@ void ChunkWriter::begin(FourCC id, std::uint16_t flags) {
     put_header(id, static_cast<std::uint16_t>(flags | kContainerFlag));
 }
 
-void ChunkWriter::end() {
+void ChunkWriter::end(std::uint16_t flags) {
     assert(!open_.empty());
     const std::uint64_t offset = open_.back();
     open_.pop_back();
@@ -45,7 +45,7 @@ void ChunkWriter::end() {
     assert(size <= kMaxPayload);
     std::uint64_t size_and_flags = 0;
     copy_at(Bytes(bytes_), offset + kSizeAt, size_and_flags);
-    store(bytes_, offset + kSizeAt, size_and_flags | size);
+    store(bytes_, offset + kSizeAt, size_and_flags | pack_size_and_flags(size, flags));
     bytes_.resize(offset + kChunkHeaderSize + padded(size));
     store(bytes_, offset + kSumAt, chunk_sum(Bytes(bytes_).subspan(offset)));
 }

@@ -5,7 +5,6 @@
 #include "planes.h"
 #include "zstd_frame.h"
 
-#include <algorithm>
 #include <new>
 
 namespace bendy {
@@ -14,18 +13,12 @@ namespace {
 constexpr std::align_val_t kAlignment{16};
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
+    if (header.head != 0) return false;
     if (header.stride <= 1) return take_zstd(body, out);
     AlignedBytes planes(out.size());
     if (!take_zstd(body, planes.span())) return false;
     from_planes(planes.bytes(), header.stride, out);
     return true;
-}
-
-bool encode_zstd(Bytes payload, std::uint16_t stride, std::vector<std::byte>& out) {
-    if (stride <= 1) return put_zstd(payload, out);
-    AlignedBytes planes(payload.size());
-    to_planes(payload, stride, planes.span());
-    return put_zstd(planes.bytes(), out);
 }
 
 }  // namespace
@@ -69,37 +62,6 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
         default:
             return false;
     }
-}
-
-std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload, std::uint16_t head,
-                                                     std::uint16_t stride) {
-    const CodecHeader header{payload.size(), head, stride, 0};
-    std::vector<std::byte> out(sizeof header);
-    std::copy_n(std::as_bytes(std::span(&header, 1)).begin(), sizeof header, out.begin());
-    bool is_done = false;
-    switch (codec) {
-        case Codec::zstd:
-            is_done = encode_zstd(payload, stride, out);
-            break;
-        case Codec::vertices:
-        case Codec::vertices_zstd:
-            is_done = encode_rows(header, codec == Codec::vertices_zstd, payload, out);
-            break;
-        case Codec::sums:
-            is_done = encode_sums(header, payload, out);
-            break;
-        case Codec::indices:
-        case Codec::indices_zstd:
-            is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
-            break;
-        case Codec::cycle:
-            is_done = head == 0 && stride == 0 && encode_cycle(payload, out);
-            break;
-        default:
-            break;
-    }
-    if (!is_done || payload.size() > out.size() * kMaxCodecRatio) return std::nullopt;
-    return out;
 }
 
 }  // namespace bendy

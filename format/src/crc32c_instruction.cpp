@@ -27,7 +27,7 @@ constexpr std::size_t kLane = 1024;       // bytes
 
 using Columns = std::array<std::uint32_t, 32>;  // what each bit of a sum becomes
 
-constexpr std::uint32_t apply(const Columns& columns, std::uint32_t sum) {
+constexpr std::uint32_t applied(const Columns& columns, std::uint32_t sum) {
     std::uint32_t result = 0;
     for (std::size_t bit = 0; bit < 32; ++bit) {
         if ((sum >> bit & 1u) != 0) result ^= columns[bit];
@@ -37,7 +37,7 @@ constexpr std::uint32_t apply(const Columns& columns, std::uint32_t sum) {
 
 constexpr Columns twice(const Columns& columns) {
     Columns result{};
-    for (std::size_t bit = 0; bit < 32; ++bit) result[bit] = apply(columns, columns[bit]);
+    for (std::size_t bit = 0; bit < 32; ++bit) result[bit] = applied(columns, columns[bit]);
     return result;
 }
 
@@ -51,7 +51,7 @@ constexpr LaneTables make_lane_tables(std::size_t lane) {
     for (std::size_t bits = 1; bits < lane * 8; bits *= 2) columns = twice(columns);
     LaneTables tables{};
     for (std::uint32_t place = 0; place < 4; ++place) {
-        for (std::uint32_t byte = 0; byte < 256; ++byte) tables[place][byte] = apply(columns, byte << (8 * place));
+        for (std::uint32_t byte = 0; byte < 256; ++byte) tables[place][byte] = applied(columns, byte << (8 * place));
     }
     return tables;
 }

@@ -10,34 +10,28 @@
 namespace bendy {
 namespace {
 
-/// A leaf that is nothing but floats.
-std::span<const float> read_floats(const ChunkTree& tree, std::uint32_t cycle, FourCC id, Faults& faults) {
+/// A leaf that is nothing but floats: none if there is none; nothing, and a fault, if it is there and cannot be read.
+std::optional<std::span<const float>> read_floats(const ChunkTree& tree, std::uint32_t cycle, FourCC id,
+                                                  Faults& faults) {
     const std::uint32_t number = tree.find(cycle, id);
-    if (number == kNone || tree[number].is_container()) return {};
+    if (number == kNone) return std::span<const float>();
+    if (tree[number].is_container()) return std::nullopt;  // check_grammar says so
     if (const auto fault = tree.encoding_fault(number)) {
         faults.add(*fault);
-        return {};
+        return std::nullopt;
     }
     const Bytes payload = tree.payload(number);
     const std::uint64_t count = payload.size() / sizeof(float);
     if (payload.size() % sizeof(float) != 0) {
         faults.add({ErrorCode::kRecordSize, tree[number].offset, payload.size(), count * sizeof(float)});
-        return {};
+        return std::nullopt;
     }
     return view_at<float>(payload, 0, count);
 }
 
 std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<const PoolView> pools) {
-    switch (path) {
-        case TrackPath::translation:
-        case TrackPath::scale:
-            return 3;
-        case TrackPath::rotation:
-            return 4;
-        case TrackPath::weights:
-            return static_cast<std::uint32_t>(pools[target].targets.size());
-    }
-    return 0;
+    if (path == TrackPath::weights) return static_cast<std::uint32_t>(pools[target].targets.size());
+    return path == TrackPath::rotation ? 4 : 3;
 }
 
 /// Each track's times must ascend.
@@ -143,7 +137,9 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     cycle.chunk = chunk;
     cycle.name = read_text(tree, chunk, FourCC("NAME"), faults);
     cycle.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
-    const auto info = read_child_record<CycleRecord>(tree, chunk, FourCC("CINF"), faults).value_or(CycleRecord{});
+    const auto read_info = read_child_record<CycleRecord>(tree, chunk, FourCC("CINF"), faults);
+    const CycleRecord info = read_info.value_or(CycleRecord{});
+    cycle.has_info = read_info.has_value();
     cycle.start = info.start;
     cycle.end = info.end;
     cycle.frame_rate = info.frame_rate;
@@ -153,6 +149,8 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     check_reserved(info.reserved, info_offset, faults);
 
     cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
+    const auto read_times = read_floats(tree, chunk, FourCC("TIME"), faults);
+    const auto read_values = read_floats(tree, chunk, FourCC("KEYV"), faults);
 
     const std::uint32_t table = tree.find(chunk, FourCC("TRAK"));
     if (table == kNone || tree[table].is_container()) return cycle;
@@ -167,8 +165,9 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
         faults.add({ErrorCode::kRecordSize, offset, payload.size(), count * sizeof(TrackRecord)});
         return cycle;
     }
-    const auto times = read_floats(tree, chunk, FourCC("TIME"), faults);
-    const auto values = read_floats(tree, chunk, FourCC("KEYV"), faults);
+    if (!read_times || !read_values || !cycle.has_info) return cycle;  // no track can be held against them
+    const std::span<const float> times = *read_times;
+    const std::span<const float> values = *read_values;
     cycle.tracks.reserve(count);
     for (std::uint64_t index = 0; index < count; ++index) {
         TrackRecord record;
@@ -217,13 +216,14 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
 
     // Many tracks may share keys, so what takes a look at each key looks at the arrays once, not at each track's share.
     Faults unread;  // read_cycle has said it
-    const auto times = read_floats(tree, cycle.chunk, FourCC("TIME"), unread);
+    constexpr std::span<const float> kNoFloats;
+    const auto times = read_floats(tree, cycle.chunk, FourCC("TIME"), unread).value_or(kNoFloats);
     check_finite(times, offset_of(tree, cycle.chunk, FourCC("TIME")), faults);
-    check_finite(read_floats(tree, cycle.chunk, FourCC("KEYV"), unread), offset_of(tree, cycle.chunk, FourCC("KEYV")),
-                 faults);
+    check_finite(read_floats(tree, cycle.chunk, FourCC("KEYV"), unread).value_or(kNoFloats),
+                 offset_of(tree, cycle.chunk, FourCC("KEYV")), faults);
     check_key_order(cycle, times, table_offset, faults);
     check_shared_values(cycle, table_offset, faults);
-    if (!holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
+    if (cycle.has_info && !holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
     check_repeated_tracks(cycle, table_offset, faults);
     if (cycle.packed) check_packed_values(*cycle.packed, offset_of(tree, cycle.chunk, FourCC("PACK")), faults);
 }

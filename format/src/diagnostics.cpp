@@ -58,6 +58,7 @@ std::vector<std::string> find_steps(Bytes bytes, std::uint64_t offset) {
         const bool fits = size <= end - payload && padded(size) <= end - payload;
         const std::uint64_t chunk_end = fits ? payload + padded(size) : end;
         if (offset >= chunk_end && chunk_end < end) {
+            if (at == 0) break;  // behind the root stands no chunk, whatever the bytes are
             siblings.emplace_back(id);
             at = chunk_end;
             continue;

@@ -36,18 +36,18 @@ std::size_t count_children(const ChunkTree& tree, std::uint32_t container, FourC
     return count;
 }
 
-/// Fills the palettes whose matrices follow from the rest pose. All of them together may take no more memory than
-/// encoded leaves may.
-void derive_palettes(const ChunkTree& tree, ObjectView& object, Faults& faults) {
+/// Fills the palettes whose matrices follow from the rest pose. All of them together, those of other objects too, may
+/// take no more memory than encoded leaves may; `entries` counts them through the file.
+void derive_palettes(const ChunkTree& tree, ObjectView& object, std::uint64_t& entries, Faults& faults) {
     std::vector<glm::dmat4> rests;
     const std::uint64_t most = tree.bytes().size() * kMaxCodecRatio / sizeof(glm::mat4);
-    std::uint64_t entries = 0;
     for (PoolView& pool : object.pools) {
         PaletteView& palette = pool.palette;
         if (!palette.is_derived) continue;
+        if (entries > most) return;  // said once
         entries += palette.joints.size();
         if (entries > most) {
-            faults.add({ErrorCode::kCodecRatio, tree[pool.chunk].offset, entries, most});
+            faults.add({ErrorCode::kCodecRatio, tree[palette.chunk].offset, entries, most});
             return;
         }
         if (rests.empty()) {
@@ -76,8 +76,10 @@ void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t g
             faults.add({ErrorCode::kPoolRange, offset, polygons.pool, object.pools.size()});
             continue;
         }
-        const auto& indices = object.pools[polygons.pool].indices;
-        const std::uint32_t available = indices ? indices->elements : 0;
+        const PoolView& pool = object.pools[polygons.pool];
+        const std::uint32_t available = pool.indices ? pool.indices->elements : 0;
+        const bool is_readable = pool.indices || (pool.has_info && tree.find(pool.chunk, FourCC("INDX")) == kNone);
+        if (!is_readable) continue;
         if (polygons.first > available || polygons.count > available - polygons.first) {
             faults.add({ErrorCode::kIndexRange, offset, std::uint64_t{polygons.first} + polygons.count, available});
         }
@@ -121,7 +123,7 @@ void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& fault
     for (const PolygonView& polygons : object.skeleton.polygons) {
         if (polygons.count != 0) ranges.push_back(&polygons);
     }
-    std::sort(ranges.begin(), ranges.end(), [](const PolygonView* a, const PolygonView* b) {
+    std::stable_sort(ranges.begin(), ranges.end(), [](const PolygonView* a, const PolygonView* b) {
         return std::tie(a->pool, a->first) < std::tie(b->pool, b->first);
     });
     for (std::size_t i = 1; i < ranges.size(); ++i) {
@@ -170,6 +172,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     }
     document.global_materials = static_cast<std::uint32_t>(document.materials.size());
 
+    std::uint64_t derived_entries = 0;
     for (const std::uint32_t number : tree.children(0)) {
         if (!(tree[number].id == FourCC("OBJE")) || !tree[number].is_container()) continue;
         ObjectView object;
@@ -185,7 +188,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
             if (tree[child].id == FourCC("VECT") && tree[child].is_container())
                 object.pools.push_back(read_pool(tree, child, joints, faults));
         }
-        derive_palettes(tree, object, faults);
+        derive_palettes(tree, object, derived_entries, faults);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {
                 object.cycles.push_back(read_cycle(tree, child, joints, object.pools, faults));

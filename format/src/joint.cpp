@@ -71,6 +71,7 @@ void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
 
 /// What JNTS says of all joints; a REST of a joint's own goes before it.
 void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& skeleton, Faults& faults) {
+    skeleton.table = chunk;
     const std::uint64_t offset = tree[chunk].offset;
     const Result<JointsRecord> record = read_record<JointsRecord>(tree, chunk);
     if (!record) {
@@ -124,7 +125,9 @@ void want_rests(const ChunkTree& tree, const SkeletonView& skeleton, Faults& fau
 void read_joint_names(const ChunkTree& tree, std::uint32_t object, SkeletonView& skeleton, Faults& faults) {
     const std::uint32_t chunk = tree.find(object, FourCC("JNAM"));
     if (chunk == kNone || tree[chunk].is_container()) return;
+    const std::size_t faults_before = faults.count();
     std::string_view text = read_text(tree, object, FourCC("JNAM"), faults);
+    if (faults.count() != faults_before) return;
     std::size_t named = 0;
     for (; !text.empty(); ++named) {
         const std::size_t end = text.find('\0');
@@ -135,6 +138,15 @@ void read_joint_names(const ChunkTree& tree, std::uint32_t object, SkeletonView&
     }
     if (named != skeleton.joints.size() || !text.empty())
         faults.add({ErrorCode::kCountMismatch, tree[chunk].offset, named, skeleton.joints.size()});
+}
+
+/// Where the joint's rest transform stands: its REST, or JNTS.
+std::uint64_t rest_offset(const ChunkTree& tree, const SkeletonView& skeleton, std::uint32_t joint) {
+    const std::uint32_t skin = skeleton.joints[joint].chunk;
+    const std::uint32_t pivot = tree.find(skin, FourCC("PIVO"));
+    const std::uint32_t rest = pivot == kNone ? kNone : tree.find(pivot, FourCC("REST"));
+    if (rest != kNone) return tree[rest].offset;
+    return tree[skeleton.table == kNone ? skin : skeleton.table].offset;
 }
 
 }  // namespace
@@ -192,10 +204,8 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
 
 void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults) {
     for (std::uint32_t joint = 0; joint < skeleton.joints.size(); ++joint) {
-        const JointView& view = skeleton.joints[joint];
-        const std::uint32_t pivot = tree.find(view.chunk, FourCC("PIVO"));
-        const std::uint64_t offset = pivot == kNone ? tree[view.chunk].offset : offset_of(tree, pivot, FourCC("REST"));
-        const RestRecord& rest = view.rest;
+        const std::uint64_t offset = rest_offset(tree, skeleton, joint);
+        const RestRecord& rest = skeleton.joints[joint].rest;
         check_finite(rest.translation, offset, faults);
         check_finite(rest.scale, offset, faults);
         check_finite(rest.shear, offset, faults);

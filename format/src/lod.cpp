@@ -197,6 +197,8 @@ std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t o
         faults.add(record.error());
         return std::nullopt;
     }
+    const bool sizes_are_known = std::all_of(pools.begin(), pools.end(), [](const PoolView& p) { return p.has_info; });
+    if (!sizes_are_known) return std::nullopt;  // a fault has said so
     return CollapseReader(tree, chunk, pools, faults).read(*record);
 }
 

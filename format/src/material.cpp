@@ -46,6 +46,7 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
         const Chunk& child = tree[number];
         if (child.is_container()) continue;
         ImageView image;
+        image.chunk = number;
         if (child.id == FourCC("IMAG")) {
             const Result<ImageRecord> record = read_record<ImageRecord>(tree, number);
             if (!record) {
@@ -86,7 +87,7 @@ void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& t
         for (const ImageView& image : texture.images) {
             if (!image.same) continue;
             const SameRecord& same = *image.same;
-            const std::uint64_t offset = tree[texture.chunk].offset;
+            const std::uint64_t offset = tree[image.chunk].offset;
             if (same.texture >= textures.size()) {
                 faults.add({ErrorCode::kTextureRange, offset, same.texture, textures.size()});
             } else if (same.image >= textures[same.texture].images.size() ||

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kMostRowBytes = 256;
 constexpr int kVertexVersion = 0;
 constexpr int kIndexVersion = 1;
+constexpr unsigned kVertexMark = 0xa0;
+constexpr unsigned kIndexMark = 0xe0;
 
 /// The library takes rows of whole 32-bit words.
 std::size_t padded_row(std::size_t stride) {
@@ -37,6 +39,11 @@ bool put_packed(bool is_zstd, std::span<const unsigned char> packed, std::vector
     if (is_zstd) return put_zstd(bytes, out);
     out.insert(out.end(), bytes.begin(), bytes.end());
     return true;
+}
+
+/// The library's bytes begin with `mark` and the version; it would take others of its versions, the format does not.
+bool has_version(Bytes packed, unsigned mark, int version) {
+    return !packed.empty() && std::to_integer<unsigned>(packed[0]) == (mark | static_cast<unsigned>(version));
 }
 
 /// The payload's head goes as it is; false if it is not there.
@@ -95,6 +102,7 @@ bool decode_rows(const CodecHeader& header, bool is_zstd, Bytes body, std::span<
     if (!rows) return false;
     const std::size_t wide = padded_row(header.stride);
     const auto decode = [&](Bytes packed) {
+        if (!has_version(packed, kVertexMark, kVertexVersion)) return false;
         if (wide == header.stride)
             return meshopt_decodeVertexBuffer(out.data(), *rows, wide, raw(packed), packed.size()) == 0;
         AlignedBytes padded(*rows * wide);
@@ -154,6 +162,7 @@ bool decode_triangles(const CodecHeader& header, bool is_zstd, Bytes body, std::
     if (!triangles) return false;
     const std::size_t count = *triangles * 3;
     const auto decode = [&](Bytes packed) {
+        if (!has_version(packed, kIndexMark, kIndexVersion)) return false;
         AlignedBytes indices(out.size());
         if (meshopt_decodeIndexBuffer(indices.span().data(), count, header.stride, raw(packed), packed.size()) != 0)
             return false;

@@ -81,18 +81,11 @@ std::uint32_t largest_of(const StreamView& stream) {
     return largest;
 }
 
-/// 0 for a stream without indices.
+/// Of kBones or kIndices: u8, u16 or u32.
 std::uint32_t largest_index(const StreamView& stream) {
-    switch (stream.type) {
-        case ComponentType::u8:
-            return largest_of<std::uint8_t>(stream);
-        case ComponentType::u16:
-            return largest_of<std::uint16_t>(stream);
-        case ComponentType::u32:
-            return largest_of<std::uint32_t>(stream);
-        default:
-            return 0;
-    }
+    if (stream.type == u8) return largest_of<std::uint8_t>(stream);
+    if (stream.type == u16) return largest_of<std::uint16_t>(stream);
+    return largest_of<std::uint32_t>(stream);
 }
 
 class PoolReader {
@@ -197,7 +190,8 @@ public:
         PaletteView palette{view_at<std::uint32_t>(payload, sizeof(PaletteRecord), record->entries),
                             view_at<glm::mat4>(payload, matrices_at, matrices),
                             false,
-                            {}};
+                            {},
+                            number};
         palette.is_derived = record->derived != 0;
         for (const std::uint32_t joint : palette.joints) {
             if (joint < joints) continue;
@@ -209,6 +203,7 @@ public:
 
     TargetView target(std::uint32_t number, std::uint32_t vertices) {
         TargetView target;
+        target.chunk = number;
         target.name = read_text(tree_, number, FourCC("NAME"), faults_);
         target.rest_weight = read_child_record<TargetRecord>(tree_, number, FourCC("TINF"), faults_)
                                  .value_or(TargetRecord{})
@@ -272,10 +267,9 @@ auto with_type(const StreamView& stream, const Visit& visit) {
             return visit([&](std::uint64_t at) { return load<std::int16_t>(stream.data, at); });
         case u32:
             return visit([&](std::uint64_t at) { return load<std::uint32_t>(stream.data, at); });
-        case f32:
-            break;
+        default:
+            return visit([&](std::uint64_t at) { return load<float>(stream.data, at); });
     }
-    return visit([&](std::uint64_t at) { return load<float>(stream.data, at); });
 }
 
 /// The direction at the start of an element; both numbers the type's smallest: no direction, zero.
@@ -381,6 +375,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     const std::uint64_t offset = tree[chunk].offset;
     const auto record = read_child_record<PoolRecord>(tree, chunk, FourCC("VINF"), faults);
     if (!record) return pool;
+    pool.has_info = true;
     pool.vertices = record->vertices;
     pool.joint = record->joint;
     if (pool.joint != kNone && pool.joint >= joints) {
@@ -442,19 +437,18 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
 }
 
 void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faults) {
-    const std::uint64_t offset = tree[pool.chunk].offset;
     for (const auto& stream : {std::optional(pool.positions), pool.normals, pool.tangents, pool.weights})
         check_stream_values(tree, stream, faults);
     for (const StreamView& stream : pool.texture_coords) check_stream_values(tree, stream, faults);
     for (const StreamView& stream : pool.colours) check_stream_values(tree, stream, faults);
     for (const AttributeView& attribute : pool.attributes) check_stream_values(tree, attribute.values, faults);
     for (const TargetView& target : pool.targets) {
-        check_finite(std::array{target.rest_weight}, offset, faults);
+        check_finite(std::array{target.rest_weight}, offset_of(tree, target.chunk, FourCC("TINF")), faults);
         for (const auto& stream : {target.positions, target.normals, target.tangents})
             check_stream_values(tree, stream, faults);
     }
     for (const glm::mat4& matrix : pool.palette.inverse_bind())
-        check_finite(std::span(&matrix[0][0], 16), offset, faults);
+        check_finite(std::span(&matrix[0][0], 16), tree[pool.palette.chunk].offset, faults);
 
     if (!pool.weights) return;
     const StreamView& weights = *pool.weights;

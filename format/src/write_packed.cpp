@@ -101,7 +101,8 @@ private:
             const PackedKind& kind = kPackedKinds[k];
             const std::uint32_t segments = kind.animated ? segments_ : 1;
             ranges_[k].resize(lists_[k].size() * kind.components * segments);
-            animated_ = animated_ || (kind.animated && !lists_[k].empty());
+            if (lists_[k].empty()) continue;  // or it would go through frames that have no bytes
+            animated_ = animated_ || kind.animated;
             for (std::uint32_t s = 0; s < segments; ++s) {
                 for (std::size_t t = 0; t < lists_[k].size(); ++t) {
                     std::uint32_t bits = 0;

@@ -1,13 +1,28 @@
 #include "zstd_frame.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
+#include <limits>
 #include <memory>
+#include <new>
 
 namespace bendy {
 namespace {
 
 constexpr int kZstdLevel = 19;
+
+/// zstd has found no memory: goes on as any other allocation that fails does, which operator new decides, so that no
+/// file is called damaged for it.
+void fail_as_allocation() {
+    constexpr std::size_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() / 2;
+    ::operator delete(::operator new(kMoreThanThereIs));
+}
+
+bool is_good(std::size_t result) {
+    if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) fail_as_allocation();
+    return ZSTD_isError(result) == 0;
+}
 
 /// The thread's own, kept: making one asks the processor what it is, which takes tens of microseconds in virtual
 /// machines, and a file may have hundreds of frames.
@@ -15,7 +30,9 @@ ZSTD_DCtx* decompressor() {
     struct Free {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
     };
-    thread_local const std::unique_ptr<ZSTD_DCtx, Free> context(ZSTD_createDCtx());
+    thread_local std::unique_ptr<ZSTD_DCtx, Free> context;
+    if (context == nullptr) context.reset(ZSTD_createDCtx());
+    if (context == nullptr) fail_as_allocation();
     return context.get();
 }
 
@@ -25,16 +42,16 @@ bool put_zstd(Bytes bytes, std::vector<std::byte>& out) {
     const std::size_t at = out.size();
     out.resize(at + ZSTD_compressBound(bytes.size()));
     const std::size_t size = ZSTD_compress(out.data() + at, out.size() - at, bytes.data(), bytes.size(), kZstdLevel);
-    if (ZSTD_isError(size) != 0) return false;
+    if (!is_good(size)) return false;
     out.resize(at + size);
     return true;
 }
 
 bool take_zstd(Bytes bytes, std::span<std::byte> out) {
     ZSTD_DCtx* const context = decompressor();
-    if (context == nullptr) return false;
+    if (context == nullptr || ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) return false;
     const std::size_t size = ZSTD_decompressDCtx(context, out.data(), out.size(), bytes.data(), bytes.size());
-    return ZSTD_isError(size) == 0 && size == out.size();
+    return is_good(size) && size == out.size();
 }
 
 std::optional<std::uint64_t> zstd_size(Bytes bytes) {

@@ -10,8 +10,10 @@ MAY_USE = {
     "format": set(),
     "runtime": {"format"},
     "converter": {"format"},
+    "edit": {"format"},
     "viewer": {"format", "runtime"},
-    "cli": {"format", "runtime", "converter", "viewer"},
+    "twin": {"format"},
+    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
 }
 # header: the folders that may include it
 PRIVATE = {
@@ -19,6 +21,7 @@ PRIVATE = {
     "meshoptimizer.h": ("converter/src/", "format/src/"),
     "draco/": "converter/src/",
     "nlohmann/": ("converter/src/", "cli/"),
+    "rapidjson/": "twin/src/",
     "CLI/": "cli/",
     "GL/": "viewer/src/",
     "EGL/": "viewer/src/",

@@ -27,7 +27,7 @@ from schema import is_valid  # noqa: E402
 
 BENDY = ""
 SOURCE = Path()
-COMMANDS = ("convert", "inspect", "validate", "pose", "rig", "diff", "bench")
+COMMANDS = ("convert", "export", "inspect", "validate", "pose", "rig", "diff", "edit", "dump", "assemble", "bench")
 # How to run a program that can write no more than 5000 bytes: a limit stands for the full disk, and the signal that
 # comes with it stays ignored.
 FULL_DISK = {"restore_signals": False,
@@ -266,7 +266,7 @@ class Convert(Case):
         self.assertLess(sizes["small"], sizes["exact"] / 2)
         self.done("validate", "small.bendy")
         self.assertIn(b"error at most", self.done("inspect", "small.bendy"))
-        self.done("convert", source, "-o", "coarse.bendy", "--max-error", "1cm")
+        self.done("convert", source, "-o", "coarse.bendy", "--max-error", "1mm")
         self.assertLess((self.folder / "coarse.bendy").stat().st_size, sizes["small"])
         for bound, words in (("0.1", "no unit"), ("1in", "no unit of"), ("-1mm", "not above zero"), ("much", "no error bound")):
             self.assertIn(words, self.misused("convert", source, "--max-error", bound))
@@ -1484,6 +1484,59 @@ class FromBendy(Case):
         (self.folder / "bad.bendy").write_bytes(data)
         self.assertIn("HEAD/VERS, offset 16", self.failed("convert", "bad.bendy", "-o", "out.bendy", file="bad.bendy"))
         self.assertEqual(self.files(), ["bad.bendy"])
+
+
+class Export(Case):
+    def test_the_export_converts_to_the_same_bytes(self):
+        for name in ("mannequin", "tentacle"):
+            shutil.copy(self.convert(name), self.folder / f"{name}.bendy")
+            self.assertIn(f"{name}.glb: ", self.done("export", f"{name}.bendy").decode())
+            self.assertEqual(self.done("convert", "-q", f"{name}.glb", "-o", "again.bendy"), b"")
+            self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert(name).read_bytes())
+
+    def test_json_with_the_numbers_beside_it(self):
+        self.done("export", self.convert(), "-o", "a b.gltf", "-q")
+        self.assertEqual(self.files(), ["a b.bin", "a b.gltf"])
+        document = json.loads((self.folder / "a b.gltf").read_text())
+        self.assertEqual(document["buffers"], [{"byteLength": (self.folder / "a b.bin").stat().st_size, "uri": "a%20b.bin"}])
+        self.done("convert", "-q", "a b.gltf", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert().read_bytes())
+
+    def test_the_rig_stands_in_the_extras_and_can_be_edited_there(self):
+        self.done("export", self.convert(), "-o", "m.gltf", "-q")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        rig = document["scenes"][0]["extras"]["bendy_rig"]
+        self.assertEqual(rig, json.loads(self.done("rig", self.convert())))
+        rig["chains"] = rig["chains"][:1]
+        (self.folder / "m.gltf").write_text(json.dumps(document))
+        self.done("convert", "m.gltf", "-o", "m.bendy", "-q")
+        self.assertEqual(len(json.loads(self.done("rig", "m.bendy"))["chains"]), 1)
+
+    def test_a_broken_rig_is_named_and_the_rest_converts(self):
+        self.done("export", self.convert("tentacle"), "-o", "t.gltf", "-q")
+        document = json.loads((self.folder / "t.gltf").read_text())
+        document["scenes"][0]["extras"]["bendy_rig"]["chains"][0]["start"] = "nobody"
+        (self.folder / "t.gltf").write_text(json.dumps(document))
+        result = self.bendy("convert", "t.gltf", "-q")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"scene.extras.bendy_rig.chains[0].start: rig left out: there is no joint", result.stderr)
+
+    def test_every_kind_of_chunk(self):
+        source = SOURCE / "spec" / "examples" / "every_chunk.bendy"
+        result = self.bendy("export", source, "-o", "every.glb")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(b"levels of detail left out", result.stderr)
+        self.done("convert", "every.glb", "-o", "every.bendy")
+        self.assertIn(b"worst met 0 mm", self.done("diff", source, "every.bendy", "--tolerance", "0.001mm"))
+
+    def test_what_cannot_be_exported(self):
+        (self.folder / "bad.bendy").write_bytes(self.convert().read_bytes()[:1000])
+        self.failed("export", "bad.bendy", "-o", "bad.glb", file="bad.bendy")
+        self.assertEqual(self.files(), ["bad.bendy"])
+        shutil.copy(self.convert(), self.folder / "same.glb")
+        self.assertIn("would be the input", self.failed("export", "same.glb", file="same.glb"))
+        self.failed("export", self.convert(), "-o", "no/such/folder.glb")
+        self.assertIn("--format", self.misused("export", "x.bendy", "--format", "fbx"))
 
 
 def main():

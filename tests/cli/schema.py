@@ -1,4 +1,7 @@
-"""Holds a value against a JSON Schema: as much of draft 2020-12 as spec/rig.schema.json uses; other keywords raise."""
+"""Holds a value against a JSON Schema: as much of draft 2020-12 as the schemas in spec/ use; other
+keywords raise."""
+
+import re
 
 IGNORED = {"$schema", "$defs", "title", "description"}
 TYPES = {
@@ -8,6 +11,7 @@ TYPES = {
     "number": lambda v: isinstance(v, (int, float)) and not isinstance(v, bool),
     "integer": lambda v: TYPES["number"](v) and v == int(v),
     "null": lambda v: v is None,
+    "boolean": lambda v: isinstance(v, bool),
 }
 
 
@@ -42,8 +46,24 @@ def is_valid(value, schema, root):
         elif keyword == "properties":
             good = not is_object or all(fits(value[key], what[key]) for key in what if key in value)
         elif keyword == "additionalProperties":
-            known = schema.get("properties", {})
-            good = not is_object or all(fits(part, what) for key, part in value.items() if key not in known)
+            known, patterns = schema.get("properties", {}), schema.get("patternProperties", {})
+            good = not is_object or all(
+                fits(part, what) for key, part in value.items()
+                if key not in known and not any(re.search(pattern, key) for pattern in patterns))
+        elif keyword == "patternProperties":
+            good = not is_object or all(
+                fits(part, against) for pattern, against in what.items() for key, part in value.items()
+                if re.search(pattern, key))
+        elif keyword == "propertyNames":
+            good = not is_object or all(fits(key, what) for key in value)
+        elif keyword == "pattern":
+            good = not isinstance(value, str) or re.search(what, value) is not None
+        elif keyword == "dependentRequired":
+            good = not is_object or all(other in value for key in what if key in value for other in what[key])
+        elif keyword == "minProperties":
+            good = not is_object or len(value) >= what
+        elif keyword == "maxProperties":
+            good = not is_object or len(value) <= what
         elif keyword == "dependentSchemas":
             good = not is_object or all(fits(value, what[key]) for key in what if key in value)
         elif keyword == "items":

@@ -1,6 +1,7 @@
 #include <bendy/format/chunk_reader.h>
 
 #include "edit_file.h"
+#include "walk_chunks.h"
 
 #include <gtest/gtest.h>
 
@@ -241,6 +242,18 @@ TEST(ChunkReader, TakesContainersDownToTheLowestLevelAndNoFurther) {
     for (std::uint32_t number = 1; number < kMaxDepth; ++number) ASSERT_EQ((*tree)[number].parent, number - 1);
     expect_refused(nested(kMaxDepth + 1), ErrorCode::kTooDeep, std::uint64_t{kMaxDepth} * kChunkHeaderSize);
     expect_refused(nested(kMaxDepth * 4), ErrorCode::kTooDeep, std::uint64_t{kMaxDepth} * kChunkHeaderSize);
+}
+
+TEST(ChunkReader, HasALimitOfChunks) {
+    const Buffer file = small_file();
+    const auto tree = walk_chunks(file, 6);
+    ASSERT_TRUE(tree.has_value());
+    EXPECT_EQ(tree->chunks().size(), 6u);
+    const auto refused = walk_chunks(file, 5);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::kTooManyChunks);
+    EXPECT_EQ(refused.error().offset, place_of(file, "HEAD/AAAA[1]"));
+    EXPECT_EQ(refused.error().limit, 5u);
 }
 
 TEST(FourCC, IsStoredInReadingOrder) {

@@ -136,6 +136,22 @@ TEST(Codec, WhatDoesNotFitIsNotEncoded) {
     EXPECT_FALSE(encode_payload(Codec::indices, seven, 8, 2));
 }
 
+TEST(Codec, WhatItDoesNotKnowIsRefused) {
+    const Buffer payload(64);
+    for (const unsigned codec : {0u, kCodecs, 255u}) {
+        CodecHeader header;
+        const auto fault = check_encoded(codec, payload, header);
+        ASSERT_TRUE(fault) << codec;
+        EXPECT_EQ(fault->code, ErrorCode::kUnsupportedCodec);
+        Buffer out(64);
+        EXPECT_FALSE(decode_payload(static_cast<Codec>(codec), payload, out));
+        EXPECT_FALSE(encode_payload(static_cast<Codec>(codec), payload, 0, 0));
+    }
+    EXPECT_FALSE(encode_payload(Codec::zstd, payload, 1, 0));
+    EXPECT_FALSE(encode_payload(Codec::cycle, payload, 1, 0));
+    EXPECT_FALSE(encode_payload(Codec::cycle, payload, 0, 1));
+}
+
 TEST(Codec, DamageIsFoundOrHarmless) {
     struct Case {
         Codec codec;
@@ -171,6 +187,33 @@ TEST(Codec, DamageIsFoundOrHarmless) {
     }
 }
 
+TEST(Codec, ABodyIsOneFrameAndEndsWithIt) {
+    const Buffer payload = rows(0, 1, 100);
+    Buffer encoded = *encode_payload(Codec::zstd, payload, 0, 0);
+    const Buffer empty_frame = [] {
+        const Buffer whole = *encode_payload(Codec::zstd, {}, 0, 0);
+        return Buffer(whole.begin() + sizeof(CodecHeader), whole.end());
+    }();
+    EXPECT_EQ(decoded(Codec::zstd, encoded), payload);
+    encoded.insert(encoded.end(), empty_frame.begin(), empty_frame.end());
+    Buffer out(payload.size());
+    EXPECT_FALSE(decode_payload(Codec::zstd, encoded, out));
+}
+
+TEST(Codec, OtherVersionsOfTheMeshCodecsAreRefused) {
+    const Buffer list = triangles<std::uint16_t>(0, *canonical_triangles(grid(4)));
+    Buffer indices = *encode_payload(Codec::indices, list, 0, 2);
+    Buffer out(list.size());
+    ASSERT_EQ(indices[sizeof(CodecHeader)], std::byte{0xe1});
+    indices[sizeof(CodecHeader)] = std::byte{0xe0};
+    EXPECT_FALSE(decode_payload(Codec::indices, indices, out));
+    Buffer vertices = *encode_payload(Codec::vertices, rows(0, 4, 20), 0, 4);
+    out.resize(80);
+    ASSERT_EQ(vertices[sizeof(CodecHeader)], std::byte{0xa0});
+    vertices[sizeof(CodecHeader)] = std::byte{0xa1};
+    EXPECT_FALSE(decode_payload(Codec::vertices, vertices, out));
+}
+
 TEST(Codec, SizesHaveALimit) {
     const CodecHeader lie{std::uint64_t{1} << 40U, 0, 4, 0};
     Buffer bytes(64);
@@ -179,6 +222,7 @@ TEST(Codec, SizesHaveALimit) {
     const auto fault = check_encoded(static_cast<unsigned>(Codec::vertices), bytes, header);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->code, ErrorCode::kCodecRatio);
+    EXPECT_FALSE(encode_payload(Codec::zstd, Buffer(1 << 20), 0, 0)) << "zeros get too small to be read again";
 }
 
 }  // namespace

@@ -228,6 +228,7 @@ TEST(Limit, OpensSwingOnBothSidesOfRest) {
                 LimitRecord limit = make_limit(model);
                 limit.rotation_min[axis] = side > 0.0f ? 0.25f : -0.5f;
                 limit.rotation_max[axis] = side > 0.0f ? 0.5f : -0.25f;
+                EXPECT_FALSE(holds_rest(limit));
                 limit.flags = kRestOutside;
                 EXPECT_EQ(faults_of(limit), axis == 0 ? Lines{} : Lines{"LIMIT_RANGE " + std::to_string(axis)});
                 // A whole turn more is no way in: the limits of swing count from 0.

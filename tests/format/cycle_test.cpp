@@ -315,6 +315,19 @@ TEST(Cycle, WantsUnitLengthOfLinearRotationsThatACubicTrackShares) {
     EXPECT_EQ(faults_in(root), in_table("ROTATION_NOT_UNIT"));
 }
 
+TEST(Cycle, HoldsRotationsThatTwoJointsShareToUnitLengthOnce) {
+    Node root = sample();
+    Buffer& tracks = table(root).payload;
+    const std::size_t end = tracks.size();
+    const Buffer fixed_frames(tracks.end() - sizeof(TrackRecord), tracks.end());
+    tracks.insert(tracks.end(), fixed_frames.begin(), fixed_frames.end());
+    edit<TrackRecord>(
+        table(root), [](auto& track) { track.target = 3; }, end);
+    EXPECT_EQ(faults_in(root), Lines{});
+    set(at(root, kCycle + "/KEYV"), 45 * sizeof(float), 0.9f);
+    EXPECT_EQ(faults_in(root), in_table("ROTATION_NOT_UNIT"));
+}
+
 TEST(Cycle, RefusesTwoTracksForOneProperty) {
     EXPECT_EQ(faults_with_track(kFixedFrames, [](auto& track) { track.target = 1; }), in_table("TRACK_REPEATED"));
     EXPECT_EQ(faults_with_track(kScale, [](auto& track) { track.target = 0; }),

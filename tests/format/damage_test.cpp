@@ -3,6 +3,7 @@
 #include <bendy/format/validate.h>
 
 #include "edit_file.h"
+#include "sweep/allocations.h"
 
 #include <gtest/gtest.h>
 
@@ -10,38 +11,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
-
-namespace {
-
-std::size_t largest_allocation = 0;
-
-}  // namespace
-
-// Not inlined, or g++ takes the pairs apart and warns that they do not match.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    largest_allocation = std::max(largest_allocation, size);
-    return std::malloc(size != 0 ? size : 1);
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    if (void* memory = operator new(size, std::nothrow)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept {
-    std::free(memory);
-}
 
 namespace bendy {
 namespace {
@@ -165,7 +139,7 @@ double read_everything(const ChunkTree& tree, const Document& document) {
 
 /// Validates, reads and, if nothing is wrong in shape, reads everything; nothing may allocate out of proportion.
 void expect_harmless(const Buffer& file) {
-    largest_allocation = 0;
+    restart_count();
     const Faults faults = validate(file);
     const auto tree = read_chunk_tree(file);
     if (tree) {
@@ -177,7 +151,7 @@ void expect_harmless(const Buffer& file) {
     } else {
         EXPECT_EQ(faults.list().size(), 1u);
     }
-    EXPECT_LE(largest_allocation, 16 * file.size() + sizeof(Error) * 2 * Faults::kMost);
+    EXPECT_LE(allocations().largest, 16 * file.size() + sizeof(Error) * 2 * Faults::kMost);
 }
 
 TEST(Damage, EveryPrefixIsRefused) {

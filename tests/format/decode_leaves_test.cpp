@@ -72,6 +72,15 @@ TEST(DecodeLeaves, LeavesUnknownChunksAlone) {
     root.children.push_back(
         make_leaf(FourCC("ZZZ1"), as_byte_span("not zstd at all, and none of our business"), kZstd));
     EXPECT_EQ(validate(to_file(root)).count(), 0u);
+
+    // Among leaves that are decoded, too.
+    std::rotate(root.children.begin(), root.children.end() - 1, root.children.end());
+    encode(at(root, "HEAD/OBJE/NAME"), 0);
+    const Decoded decoded(root);
+    const std::uint32_t number = decoded.number("HEAD/ZZZ1");
+    EXPECT_EQ(as_text(decoded.tree.payload(number)), "not zstd at all, and none of our business");
+    ASSERT_TRUE(decoded.tree.encoding_fault(number));
+    EXPECT_EQ(decoded.tree.encoding_fault(number)->code, ErrorCode::kUnsupportedCodec);
 }
 
 TEST(DecodeLeaves, EveryPrefixOfAnEncodedLeafIsAFault) {

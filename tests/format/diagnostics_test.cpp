@@ -87,6 +87,23 @@ TEST(ChunkPath, WorksAsFarAsHeadersCanBeTrusted) {
     EXPECT_EQ(chunk_path(Bytes(file).first(15), 3), "");
 }
 
+TEST(ChunkPath, EndsWhereAnIdCannotBeRead) {
+    Buffer file = sample_file();
+    const std::uint64_t skin = place_of(file, "HEAD/OBJE/SKIN");
+    patch(file, skin, std::uint32_t{0});
+    const std::string there = chunk_path(file, skin);
+    EXPECT_EQ(chunk_path(file, skin + kChunkHeaderSize), there);
+    EXPECT_EQ(std::count(there.begin(), there.end(), '/'), 2);
+}
+
+TEST(ChunkPath, NamesALeafWhosePaddingIsCutOff) {
+    Buffer file = sample_file();
+    const std::uint64_t last = place_of(file, "HEAD/EXTR");
+    file.pop_back();
+    EXPECT_EQ(chunk_path(file, last), "HEAD/EXTR");
+    EXPECT_EQ(chunk_path(file, file.size() - 1), "HEAD/EXTR");
+}
+
 TEST(ChunkPath, EndsForEveryOffsetOfBytesThatAreNoFile) {
     Buffer noise(333);
     std::uint32_t state = 7;
@@ -120,6 +137,8 @@ TEST(FindPath, RefusesWhatNamesNoChunk) {
                              "HEAD/OBJE[x]",
                              "HEAD/OBJE[0]x",
                              "HEAD/OBJE[-1]",
+                             "HEAD/OBJE[0x]",
+                             "HEAD/OBJECTS",
                              "HEAD/OBJE[99999999999]",
                              "HEAD/VERS/NAME",
                              "HEAD//OBJE",

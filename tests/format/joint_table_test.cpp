@@ -1,13 +1,16 @@
 #include <bendy/format/bind_palette.h>
+#include <bendy/format/codec.h>
 #include <bendy/format/document.h>
 
 #include "edit_file.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <random>
 #include <string>
 
 namespace bendy {
@@ -129,6 +132,56 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     }
     set(palette, offsetof(PaletteRecord, derived), 2u);
     EXPECT_EQ(faults_in(root)[0], "ENUM_RANGE HEAD/OBJE/VECT/PALT");
+}
+
+TEST(JointTable, EveryPoolOfAnObjectMayDeriveItsMatrices) {
+    Node root = sample();
+    Node& palette = at(root, "HEAD/OBJE/VECT/PALT");
+    const std::size_t matrices = sizeof(PaletteRecord) + 16;
+    palette.payload.resize(matrices + sizeof(glm::mat4));
+    set(palette, offsetof(PaletteRecord, derived), 1u);
+    set(palette, matrices, glm::mat4(1.0f));
+    Node& object = at(root, "HEAD/OBJE");
+    object.children.push_back(Node(child(object, "VECT")));
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});
+    const auto& pools = loaded.document.objects[0].pools;
+    ASSERT_EQ(pools.size(), 3u);
+    const auto first = pools[0].palette.inverse_bind();
+    const auto last = pools[2].palette.inverse_bind();
+    ASSERT_FALSE(first.empty());
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), last.begin(), last.end()));
+}
+
+/// A palette whose matrices follow, with more entries than its bytes: encoded.
+Node encoded_palette(std::size_t entries) {
+    std::mt19937 random(5);
+    Buffer payload(sizeof(PaletteRecord) + padded(entries * sizeof(std::uint32_t)) + sizeof(glm::mat4));
+    const PaletteRecord record{static_cast<std::uint32_t>(entries), 1, {}};
+    std::memcpy(payload.data(), &record, sizeof record);
+    for (std::size_t entry = 0; entry < entries; ++entry)
+        payload[sizeof record + entry * sizeof(std::uint32_t)] = std::byte{static_cast<std::uint8_t>(random() & 1u)};
+    return make_leaf(FourCC("PALT"), *encode_payload(Codec::zstd, payload, 0, 0),
+                     static_cast<std::uint16_t>(static_cast<unsigned>(Codec::zstd) << 8U));
+}
+
+TEST(JointTable, DerivedMatricesOfAllObjectsHaveOneLimit) {
+    Node root = sample();
+    for (int copy = 0; copy < 2; ++copy) root.children.push_back(Node(child(root, "OBJE")));
+    const std::size_t entries = to_file(root).size() * 12 / 5;
+    at(root, "HEAD/OBJE/VECT/PALT") = encoded_palette(entries);
+    const std::size_t most = to_file(root).size() * 2;  // matrices of 64 bytes in 128 times the file
+    ASSERT_LT(entries, most);
+    const auto is_ratio = [](const std::string& line) { return line.starts_with("CODEC_RATIO"); };
+    const Lines one = faults_in(root);
+    EXPECT_EQ(std::count_if(one.begin(), one.end(), is_ratio), 0);
+    at(root, "HEAD/OBJE[1]/VECT/PALT") = encoded_palette(entries);
+    ASSERT_GT(2 * entries, to_file(root).size() * 2);
+    const Lines two = faults_in(root);
+    EXPECT_EQ(std::count(two.begin(), two.end(), "CODEC_RATIO HEAD/OBJE[1]/VECT/PALT"), 1);
+    at(root, "HEAD/OBJE[2]/VECT/PALT") = encoded_palette(entries);
+    const Lines three = faults_in(root);
+    EXPECT_EQ(std::count_if(three.begin(), three.end(), is_ratio), 1) << "it is said once";
 }
 
 TEST(Bound, IsReadAndFinite) {

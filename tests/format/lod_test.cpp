@@ -104,6 +104,28 @@ TEST(Lod, RefusesPoolsThatAreNotThereOrRepeated) {
     }
 }
 
+TEST(Lod, TakesSeveralPoolsOfWhichNothingCollapses) {
+    CollapseRecord record;
+    record.pools = 2;
+    std::vector<PoolCollapseRecord> pools(2);
+    pools[0].base = 4;
+    pools[1].pool = 1;
+    pools[1].base = 6;
+    pools[0].target_type = pools[1].target_type = 2;
+    Node root = sample();
+    Buffer& payload = at(root, kPath).payload;
+    payload.clear();
+    append_padded(payload, std::vector{record});
+    append_padded(payload, pools);
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});
+    const auto& collapse = loaded.document.objects[0].collapse;
+    ASSERT_TRUE(collapse.has_value());
+    ASSERT_EQ(collapse->pools.size(), 2u);
+    EXPECT_EQ(collapse->pools[1].pool, 1u);
+    EXPECT_TRUE(collapse->pools[1].targets.empty());
+}
+
 TEST(Lod, RefusesFieldsOutOfRange) {
     EXPECT_EQ(faults_with_pool([](auto& pool) { pool.base = 5; }), said("INDEX_RANGE"));
     for (const int type : {0, 1, 3, 5, 6, 255}) {

@@ -165,7 +165,7 @@ TEST(Texture, RefusesUnknownMediaAndReservedBytes) {
     EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 15, std::uint8_t{1}), Lines{"RESERVED_FIELD HEAD/TEXT[1]/IMAG"});
     // What refers to a faulty image has lost it.
     EXPECT_EQ(faults_with("HEAD/TEXT[1]/IMAG", 0, std::uint8_t{6}),
-              (Lines{"ENUM_RANGE HEAD/TEXT[1]/IMAG", "INDEX_RANGE HEAD/TEXT[2]"}));
+              (Lines{"ENUM_RANGE HEAD/TEXT[1]/IMAG", "INDEX_RANGE HEAD/TEXT[2]/SAME"}));
 }
 
 TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
@@ -180,13 +180,13 @@ TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
 TEST(Texture, RefusesTheImageOfATextureThatIsNotThere) {
     for (const std::uint32_t texture : {3u, 0x8000'0000u, kNone - 1, kNone}) {
         EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, texture), texture),
-                  Lines{"TEXTURE_RANGE HEAD/TEXT[2]"})
+                  Lines{"TEXTURE_RANGE HEAD/TEXT[2]/SAME"})
             << texture;
     }
 }
 
 TEST(Texture, RefusesAnImageThatIsNotThereOrIsItselfAnothers) {
-    const Lines bad{"INDEX_RANGE HEAD/TEXT[2]"};
+    const Lines bad{"INDEX_RANGE HEAD/TEXT[2]/SAME"};
     EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, image), 1u), bad);
     EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, image), kNone), bad);
     EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, texture), 2u), bad);  // its own

@@ -130,6 +130,14 @@ TEST(PackedCycle, WideNumbersFitUpTo24Bits) {
     EXPECT_FALSE(write_packed(samples));
 }
 
+TEST(PackedCycle, FramesThatNothingIsAnimatedInCostNothing) {
+    PackedSamples samples = make_samples(1, 0xffff'ffff, 1);
+    samples.tracks = {{TrackPath::translation, 0, {100, 100, 100}, 3, false, {1, 2, 3}}};
+    const auto payload = write_packed(samples);  // for minutes, if it went through its segments
+    ASSERT_TRUE(payload);
+    EXPECT_LT(payload->size(), 200u);
+}
+
 TEST(PackedCycle, FindsTheMoment) {
     const Buffer payload = payload_of(make_samples(kJoints, 40, 0));
     const auto view = read(payload);
@@ -156,6 +164,37 @@ TEST(PackedCycle, FramesMayHaveTimesOfTheirOwn) {
     Faults faults;
     check_packed_values(*view, 0, faults);
     EXPECT_TRUE(faults.empty());
+}
+
+TEST(PackedCycle, TimesThatNobodyHasCheckedAreHarmless) {
+    PackedSamples samples = make_samples(kJoints, 4, 0);
+    samples.frame_rate = 0.0f;
+    samples.times = {0.5f, std::numeric_limits<float>::quiet_NaN(), 1.0f, 3.0f};
+    const Buffer payload = payload_of(samples);
+    const auto view = read(payload);
+    ASSERT_TRUE(view);
+    EXPECT_EQ(packed_moment(*view, 0.8f).frame, 0u);
+    EXPECT_EQ(packed_moment(*view, 0.8f).fraction, 0.0);
+}
+
+TEST(PackedCycle, OneFrameIsOneSegmentOrNone) {
+    PackedSamples samples = make_samples(kJoints, 2, 16);
+    samples.frames = 1;
+    std::erase_if(samples.tracks, [](const PackedTrack& track) { return track.animated; });
+    const Buffer payload = payload_of(samples);
+    const auto view = read(payload);
+    ASSERT_TRUE(view);
+    EXPECT_EQ(packed_samples(*view).tracks, samples.tracks);
+}
+
+TEST(PackedCycle, SaysWhatItAnimates) {
+    const Buffer payload = payload_of(make_samples(kJoints, 4, 0));
+    const auto view = read(payload);
+    ASSERT_TRUE(view);
+    EXPECT_TRUE(view->animates(1, TrackPath::rotation));
+    EXPECT_TRUE(view->animates(kJoints - 1, TrackPath::rotation));
+    EXPECT_FALSE(view->animates(kJoints, TrackPath::rotation));
+    EXPECT_FALSE(view->animates(kNone, TrackPath::rotation));
 }
 
 TEST(PackedCycle, UnpacksToUnitRotationsAndSums) {
@@ -287,6 +326,59 @@ TEST(CycleCodec, DamageIsRefusedOrHarmless) {
         Buffer out;
         EXPECT_FALSE(decodes_to(Buffer(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)), out));
     }
+}
+
+constexpr std::size_t kZstdMagic = 4;
+
+/// What lies under the codec's zstd frame: spec/codecs.md calls it the plain form.
+Buffer plain_form(const Buffer& encoded) {
+    CodecHeader header;
+    std::uint32_t size = 0;
+    copy_at(encoded, sizeof header, size);
+    header.size = size;
+    const Bytes head = bytes_of(header);
+    Buffer frame(head.begin(), head.end());
+    for (const unsigned magic : {0x28u, 0xb5u, 0x2fu, 0xfdu}) frame.push_back(static_cast<std::byte>(magic));
+    frame.insert(frame.end(), encoded.begin() + sizeof header + sizeof size, encoded.end());
+    Buffer plain(size);
+    EXPECT_TRUE(decode_payload(Codec::zstd, frame, plain));
+    return plain;
+}
+
+/// The other way round; `size` is what the header says of the payload.
+Buffer with_plain_form(const Buffer& plain, std::uint64_t size) {
+    const auto frame = encode_payload(Codec::zstd, plain, 0, 0).value();
+    const CodecHeader header{size, 0, 0, 0};
+    const Bytes head = bytes_of(header);
+    Buffer encoded(head.begin(), head.end());
+    const auto plain_size = static_cast<std::uint32_t>(plain.size());
+    const Bytes stated = bytes_of(plain_size);
+    encoded.insert(encoded.end(), stated.begin(), stated.end());
+    encoded.insert(encoded.end(), frame.begin() + sizeof header + kZstdMagic, frame.end());
+    return encoded;
+}
+
+TEST(CycleCodec, RefusesEveryPrefixOfItsPlainForm) {
+    PackedSamples samples = make_samples(kJoints, 3, 0);
+    samples.frame_rate = 0.0f;
+    samples.times = {0.5f, 0.75f, 1.0f};
+    const Buffer payload = payload_of(samples);
+    const Buffer plain = plain_form(encoded(payload));
+    Buffer out;
+    ASSERT_TRUE(decodes_to(with_plain_form(plain, payload.size()), out));
+    EXPECT_EQ(out, payload);
+    for (std::size_t size = 0; size < plain.size(); ++size) {
+        const Buffer prefix(plain.begin(), plain.begin() + static_cast<std::ptrdiff_t>(size));
+        EXPECT_FALSE(decodes_to(with_plain_form(prefix, payload.size()), out)) << size;
+    }
+}
+
+TEST(CycleCodec, RefusesACycleOfNoFrames) {
+    PackRecord record;
+    record.frame_rate = 0.0f;
+    const Bytes bytes = bytes_of(record);
+    Buffer out;
+    EXPECT_FALSE(decodes_to(with_plain_form({bytes.begin(), bytes.end()}, sizeof record), out));
 }
 
 // --- in a file

@@ -490,8 +490,8 @@ TEST(Pool, RefusesNumbersThatAreNotFinite) {
                 << leaf;
         }
     }
-    EXPECT_EQ(faults_with(kPool + "/PALT", 32 + 127 / 4 * 4, kNaN), Lines{"NOT_FINITE " + kPool});
-    EXPECT_EQ(faults_with(kPool + "/TARG[1]/TINF", 0, kInfinity), Lines{"NOT_FINITE " + kPool});
+    EXPECT_EQ(faults_with(kPool + "/PALT", 32 + 127 / 4 * 4, kNaN), Lines{"NOT_FINITE " + kPool + "/PALT"});
+    EXPECT_EQ(faults_with(kPool + "/TARG[1]/TINF", 0, kInfinity), Lines{"NOT_FINITE " + kPool + "/TARG[1]/TINF"});
     EXPECT_EQ(faults_with(kPool + "/USER/VALS", stream_payload<float>(1, {0, 0, kNaN, 0})),
               Lines{"NOT_FINITE " + kPool + "/USER/VALS"});
     EXPECT_EQ(faults_with(kPool + "/COLR", stream_payload<float>(3, {0, 0, kInfinity, 0, 0, 0, 0, 0, 0, 0, 0, 0})),

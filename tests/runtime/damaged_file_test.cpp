@@ -1,6 +1,7 @@
 #include <bendy/runtime.h>
 
 #include "runtime/build_model.h"
+#include "runtime/use_model.h"
 
 #include <gtest/gtest.h>
 
@@ -17,109 +18,12 @@ namespace {
 
 using test::Buffer;
 
-std::uint64_t touch(std::string_view text) {
-    std::uint64_t sum = 0;
-    for (const char c : text) sum += static_cast<unsigned char>(c);
-    return sum;
-}
-
-/// Reads all that a model gives, as a program that draws it does; comes back with a number so that nothing is optimised
-/// away.
-std::uint64_t read_all(const Model& model) {
-    std::uint64_t sum = touch(model.name());
-    for (std::uint32_t joint = 0; joint < model.joints().size(); ++joint) {
-        const Joint& view = model.joints()[joint];
-        sum += touch(view.name) + touch(view.extras);
-        EXPECT_TRUE(view.parent == kNone || view.parent < joint);
-    }
-    for (const Constraint& constraint : model.constraints()) EXPECT_LT(constraint.joint, model.joints().size());
-    for (const Chain& chain : model.chains()) {
-        sum += touch(chain.name) + touch(chain.extras);
-        EXPECT_LE(chain.start, chain.effector);
-        EXPECT_LE(chain.links, model.longest_chain());
-    }
-    for (const Draw& draw : model.draws()) {
-        const Pool& pool = model.pools()[draw.pool];
-        EXPECT_TRUE(draw.material == kNone || draw.material < model.materials().size());
-        for (std::uint32_t k = 0; k < draw.count; ++k) {
-            const std::uint32_t vertex = pool.indices->index(draw.first + k, 0);
-            EXPECT_LT(vertex, pool.vertices);
-            sum += vertex;
-        }
-    }
-    for (const PolygonView& polygons : model.polygons()) EXPECT_LT(polygons.joint, model.joints().size());
-    for (const Pool& pool : model.pools()) {
-        sum += touch(pool.name) + touch(pool.extras);
-        for (const auto& streams : {pool.texture_coords, pool.colours}) {
-            for (const StreamView& stream : streams) {
-                for (std::uint32_t e = 0; e < pool.vertices; ++e)
-                    sum += stream.number(e, stream.components - 1) > 0.5f ? 1 : 0;
-            }
-        }
-        for (const AttributeView& attribute : pool.attributes) {
-            sum += touch(attribute.name);
-            for (std::uint32_t e = 0; e < pool.vertices; ++e) sum += attribute.values.number(e, 0) > 0.5f ? 1 : 0;
-        }
-        for (const TargetView& target : pool.targets) sum += touch(target.name);
-    }
-    for (const Material& material : model.materials()) {
-        sum += touch(material.name) + touch(material.extensions) + touch(material.extras);
-        const std::uint32_t texture = material.surface.base_colour_texture.texture;
-        EXPECT_TRUE(texture == kNone || texture < model.textures().size());
-    }
-    for (const Texture& texture : model.textures()) {
-        sum += touch(texture.name) + touch(texture.extras);
-        for (const ImageView& image : texture.images) {
-            sum += touch(image.uri) + touch(as_text(image.bytes));
-            if (image.same) sum += model.textures()[image.same->texture].images[image.same->image].bytes.size();
-        }
-    }
-    return sum;
-}
-
-/// Every chain with every solver: whatever the numbers are, this ends, and what comes out is a status.
-void reach_with_all(const Model& model, Pose& pose) {
-    for (const Chain& chain : model.chains()) {
-        for (unsigned solver = 0; solver < kSolvers; ++solver) {
-            ReachOptions options;
-            options.solver = static_cast<Solver>(solver);
-            options.iterations = 3;
-            options.restarts = 1;
-            const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
-            reach(&chain, target, pose, options);
-            reach(&chain, glm::vec3(0.1f, 1.2f, -0.3f), pose, options);
-        }
-    }
-}
-
-/// Poses and skins the model at every cycle's ends, in its middle, and at times that make no sense.
-void pose_all(const Model& model) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Pose pose(model);
-    std::vector<glm::vec3> positions(model.vertex_count());
-    std::vector<glm::vec3> normals(model.vertex_count());
-    std::vector<glm::vec4> tangents(model.vertex_count());
-    const Vertices vertices{positions, normals, tangents};
-    EXPECT_TRUE(skin(model, pose, vertices));
-    constrain(pose);
-    reach_with_all(model, pose);
-    EXPECT_TRUE(skin(model, pose, vertices));
-    for (const Cycle& cycle : model.cycles()) {
-        const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
-        for (const float seconds : {cycle.start, middle, cycle.end, -1.0f, 1e30f, kInfinity, -kInfinity,
-                                    std::numeric_limits<float>::quiet_NaN()}) {
-            sample(&cycle, seconds, pose);
-            EXPECT_TRUE(skin(model, pose, vertices));
-        }
-    }
-}
-
 /// 1 if the bytes are a model, which then has been used; 0 if they are refused.
 int try_out(Bytes bytes, const OpenOptions& options = {}) {
     const Result<Model> model = Model::from_memory(bytes, options);
     if (!model) return 0;
-    EXPECT_LT(read_all(*model), std::numeric_limits<std::uint64_t>::max());
-    pose_all(*model);
+    EXPECT_LT(test::read_all(*model), std::numeric_limits<std::uint64_t>::max());
+    test::pose_all(*model);
     return 1;
 }
 

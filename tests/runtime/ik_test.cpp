@@ -322,6 +322,24 @@ TEST(Ik, ScopeDecidesWhatTheSolverObeys) {
     EXPECT_EQ(pose.local()[1].rotation, once);
 }
 
+TEST(Ik, WhatIsMeantForOnePurposeGoesBeforeInAnyOrder) {
+    for (const LimitScope own : {LimitScope::ik_only, LimitScope::all_but_ik}) {
+        for (const bool own_first : {true, false}) {
+            test::ModelSpec spec = rope(2);
+            spec.joints[1].limits = {hinge(0, 10), hinge(0, 20)};
+            spec.joints[1].limits[own_first ? 0 : 1].scope = static_cast<std::uint8_t>(own);
+            const Owned model(build_file(spec));
+            EXPECT_EQ(model->constraint(0), nullptr);
+            EXPECT_EQ(model->ik_constraint(0), nullptr);
+            const bool in_ik = own == LimitScope::ik_only;
+            ASSERT_NE(model->constraint(1), nullptr);
+            ASSERT_NE(model->ik_constraint(1), nullptr);
+            EXPECT_EQ(model->constraint(1)->scope, in_ik ? LimitScope::every_pose : own) << own_first;
+            EXPECT_EQ(model->ik_constraint(1)->scope, in_ik ? own : LimitScope::every_pose) << own_first;
+        }
+    }
+}
+
 TEST(Ik, WeightsAndStiffnessSpareJoints) {
     for (const Solver solver : {Solver::pull, Solver::ccd, Solver::fabrik, Solver::least_squares}) {
         test::ModelSpec spec = rope(3);
@@ -355,6 +373,9 @@ TEST(Ik, InfluenceMixesTheSolutionIn) {
     Pose half(*model);
     ReachOptions options;
     options.influence = 0.0f;
+    reach(model->chain("0"), glm::vec3(1.0f, 1.0f, 0.0f), none, options);
+    EXPECT_EQ(none.local()[0].rotation, model->joints()[0].rest.rotation);
+    options.influence = std::numeric_limits<float>::quiet_NaN();
     reach(model->chain("0"), glm::vec3(1.0f, 1.0f, 0.0f), none, options);
     EXPECT_EQ(none.local()[0].rotation, model->joints()[0].rest.rotation);
     options.influence = 0.5f;

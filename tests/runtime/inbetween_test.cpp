@@ -149,6 +149,13 @@ TEST(Inbetween, SpansThatAreTooShortAreRefusedAndNothingIsWritten) {
     EXPECT_TRUE(memory.is_untouched());
 }
 
+TEST(Inbetween, FirstVerticesTakeNothingOfTheOthers) {
+    const Owned model(test::sample_file());
+    Memory memory(4);
+    ASSERT_TRUE(inbetween(model->pools()[0], Weights{0, 1}, 3, memory.all()));  // the sparse target moves 1 and 3
+    EXPECT_EQ(memory.positions, (std::vector<glm::vec3>{{0, 0, 0}, {10, 0, 0}, {0, 1, 0}, kUntouched}));
+}
+
 TEST(Inbetween, LongerSpansKeepWhatIsBehindTheVertices) {
     const Owned model(test::sample_file());
     Memory memory(6);

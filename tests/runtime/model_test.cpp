@@ -88,6 +88,8 @@ TEST(Model, FindsByNameTheFirstOfEqualNames) {
     EXPECT_EQ(model->joint("spine"), 1u);
     EXPECT_EQ(model->joint("head"), 2u);
     EXPECT_EQ(model->joint("nobody"), kNone);
+    EXPECT_EQ(model->chain("back"), model->chains().data());
+    EXPECT_EQ(model->chain("front"), nullptr);
 }
 
 // --- draws

@@ -2,82 +2,20 @@
 
 #include "runtime/build_model.h"
 #include "runtime/packed_model.h"
+#include "sweep/allocations.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <vector>
-
-// Counts every allocation of this program, to show that posing makes none.
-namespace {
-
-std::atomic<std::uint64_t> allocations{0};
-
-void* allocate(std::size_t size, std::size_t alignment) {
-    ++allocations;
-    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-    void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-
-/// Not inlined: the compiler would see free() take what operator new gave, and warn.
-[[gnu::noinline]] void release(void* memory) noexcept {
-    std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return allocate(size, alignof(std::max_align_t));
-}
-void* operator new[](std::size_t size) {
-    return allocate(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    return allocate(size, alignof(std::max_align_t));  // std::stable_sort asks so for its buffer
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-    release(memory);
-}
-void operator delete[](void* memory) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    release(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    release(memory);
-}
-void operator delete[](void* memory, std::align_val_t) noexcept {
-    release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    release(memory);
-}
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
-    release(memory);
-}
 
 namespace bendy {
 namespace {
 
 TEST(NoAllocation, TheCountCounts) {
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::allocations().count;
     const std::vector<int> three(3);
-    EXPECT_EQ(allocations - before, 1u);
+    EXPECT_EQ(test::allocations().count - before, 1u);
     EXPECT_EQ(three.size(), 3u);
 }
 
@@ -93,7 +31,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
 
     Lod lod(*model);
 
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::allocations().count;
     bool is_good = true;
     for (int frame = -2; frame < 20; ++frame) {
         is_good = sample(run, 0.5f + 0.03f * static_cast<float>(frame), pose) && is_good;
@@ -120,7 +58,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         reach_all(pose);
         is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
     }
-    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);
 }
 
@@ -132,7 +70,7 @@ TEST(NoAllocation, PlayingACrowdMakesNone) {
     std::vector<PaletteMatrix> palettes(kMembers * crowd.palette_size());
     std::vector<CrowdMember> members(kMembers);
 
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::allocations().count;
     bool is_good = true;
     for (int frame = 0; frame < 20; ++frame) {
         for (std::size_t k = 0; k < kMembers; ++k) {
@@ -143,7 +81,7 @@ TEST(NoAllocation, PlayingACrowdMakesNone) {
         }
         is_good = crowd.play(members, static_cast<std::size_t>(frame) % 2) && is_good;
     }
-    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);
 }
 
@@ -155,7 +93,7 @@ TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
     const Cycle* of_other = other->cycle("packed");
     std::uint32_t random = 1;
 
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::allocations().count;
     bool is_good = true;
     for (int frame = 0; frame < 200; ++frame) {
         random = random * 1664525u + 1013904223u;
@@ -163,7 +101,7 @@ TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
         is_good = sample(cycle, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f, pose) && is_good;
         is_good = sample(of_other, 0.4f + 0.013f * static_cast<float>(frame), pose) && is_good;
     }
-    EXPECT_EQ(allocations - before, 0u);
+    EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);
 }
 

@@ -2,8 +2,8 @@
 """Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
 
 Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
-flags of chunk.h, the stream rules of pool.cpp) with the tables of spec/, in both directions; follows the links between
-pages; and asks make_bytes.py whether its dumps and files are what it makes now. One line for each difference; exit 1 if
+flags of chunk.h, the stream rules of pool.cpp) with the tables of spec/, in both directions, those of the grammar files
+bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks make_bytes.py whether its dumps and files are what it makes now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
 """
 
@@ -339,6 +339,8 @@ def check_codes(check):
     for key in spec.keys() & code.keys():
         for what, a, b in zip(('class', 'text'), spec[key], code[key]):
             check.same(name, '%s of %s' % (what, key), a, b)
+    steps = [code for _, header, rows in tables(check.page('diagnostics.md')) if header == ['step', 'codes'] for row in rows for code in row[1].replace('`', '').split()]
+    check.same(name, 'codes of the steps', sorted(steps), sorted(c for c, (kind, _) in code.items() if kind != 'io'))
     used = set()
     for path in sorted(check.spec.glob('**/*.md')):
         if path.name == 'diagnostics.md':
@@ -392,6 +394,91 @@ def check_flags(check):
         check.same(name, 'bits of ' + flag, hex(spec[flag]), hex(masks[flag]))
 
 
+def snake(name):
+    return re.sub(r'(?<!^)([A-Z])', r'_\1', name).lower()
+
+
+def check_grammar_records(check, name, found, records):
+    """found: struct -> [(field, type, count)] as a grammar file has it, types spelt as in records.def."""
+    check.same_keys(name, 'record', list(found), list(records))
+    for struct in found.keys() & records.keys():
+        offset = 0
+        for stated, kind, count, field in records[struct]['fields']:
+            check.same(name, 'offset of %s.%s' % (struct, field), offset, stated)
+            offset += count * (SIZES[kind] if kind in SIZES else size_of(kind, records))
+        fields = [(field, kind, count) for _, kind, count, field in records[struct]['fields']]
+        check.same(name, 'fields of ' + struct, ['%s %s %d' % f for f in found[struct]], ['%s %s %d' % f for f in fields])
+
+
+def check_grammar_enumerations(check, name, found):
+    """found: enumeration, in small letters, -> [names in order of their values]."""
+    code = {}
+    for enum, body in re.findall(r'enum class (\w+) : std::uint8_t \{([^}]*)\};', strip_comments(check.code('records.h'))):
+        code[snake(enum)] = re.findall(r'\w+', body)
+    check.same_keys(name, 'enumeration', list(found), list(code))
+    for enum in found.keys() & code.keys():
+        check.same(name, 'names of ' + enum, found[enum], code[enum])
+
+
+def check_grammar_ids(check, name, containers, leaves, chunks):
+    known = {chunk: rule for chunk, rule in chunks.items() if not rule['reserved']}
+    check.same_keys(name, 'container', sorted(containers), sorted(c for c, rule in known.items() if rule['shape'] == 'container'))
+    check.same_keys(name, 'leaf', sorted(leaves), sorted(c for c, rule in known.items() if rule['shape'] == 'leaf'))
+
+
+def check_kaitai(check, chunks, records):
+    name = 'spec/bendy.ksy'
+    text = check.page('bendy.ksy')
+    kinds = {'u1': 'u8', 'u2': 'u16', 'u4': 'u32', 'u8': 'u64', 'f4': 'f32', **{snake(struct): struct for struct in records}}
+    structs = {snake(struct): struct for struct in records}
+    found, docs = {}, {}
+    for record, body in re.findall(r'^  (\w+_record):\n    seq:\n((?:      - .*\n)+)', text, re.MULTILINE):
+        struct = structs.get(record, record)
+        found[struct] = []
+        for line in body.splitlines():
+            field = re.search(r'\{id: (\w+),', line)
+            bytes_of = re.search(r' size: (\d+),', line)
+            kind = re.search(r' type: (\w+),', line)
+            count = re.search(r' repeat-expr: (\d+),', line)
+            doc = re.search(r' doc: "([^"]*)"\}$', line)
+            if not field or not doc or not (kind or bytes_of):
+                check.fail(name, 'cannot read the line: ' + line)
+                continue
+            found[struct].append((field[1], 'u8' if bytes_of else kinds.get(kind[1], kind[1]), int((bytes_of or count or [0, 1])[1])))
+            docs[struct, field[1]] = doc[1]
+    check_grammar_records(check, name, found, records)
+    for struct, field, what in re.findall(r'^BENDY_FIELD\(\s*(\w+),\s*(\w+),[^"]*"([^"]*)"', check.code('records.def'), re.MULTILINE):
+        check.same(name, 'doc of %s.%s' % (struct, field), docs.get((struct, field)), what)
+    enums = re.findall(r'^  (\w+): \{(0: [^}]*)\}$', text, re.MULTILINE)
+    check_grammar_enumerations(check, name, {enum: re.findall(r'\d+: (\w+)', body) for enum, body in enums})
+    containers, leaves = (re.search(r'%s:\n        value: >-\n((?:          .*\n)+)' % part, text) for part in ('is_known_container', 'is_known_leaf'))
+    cases = re.findall(r"^            '\"([A-Z]{4})\"': (\w+)$", text, re.MULTILINE)
+    check.understood(containers and leaves and cases, 'bendy.ksy')
+    check_grammar_ids(check, name, re.findall(r'"(\w{4})"', containers[1]), re.findall(r'"(\w{4})"', leaves[1]), chunks)
+    check_grammar_ids(check, name, re.findall(r'"(\w{4})"', containers[1]), [chunk for chunk, _ in cases], chunks)
+
+
+def check_hexpat(check, chunks, records):
+    name = 'spec/bendy.hexpat'
+    text = check.page('bendy.hexpat')
+    enums, kinds = {}, {'float': 'f32', 'char': 'u8'}
+    for enum, body in re.findall(r'^enum (\w+) : u8 \{ ([^}]*) \};$', text, re.MULTILINE):
+        values = re.findall(r'(\w+) = (\d+)', body)
+        check.same(name, 'values of ' + enum, [value for _, value in values], [str(k) for k in range(len(values))])
+        enums[snake(enum)] = [word.rstrip('_') for word, _ in values]
+        kinds[enum] = 'u8'
+    check_grammar_enumerations(check, name, enums)
+    found = {}
+    for struct, body in re.findall(r'^struct (\w+Record) \{\n([^}]*)\};$', text, re.MULTILINE):
+        fields = re.findall(r'^    (\w+) (\w+)(?:\[(\d+)\])?;$', body, re.MULTILINE)
+        found[struct] = [(field, kinds.get(kind, kind), int(count or 1)) for kind, field, count in fields]
+    check_grammar_records(check, name, found, records)
+    containers = re.search(r'if \((header.id == "HEAD"[^)]*)\)', text)
+    leaves = re.findall(r'^    else if \(header.id == "(\w{4})"', text, re.MULTILINE)
+    check.understood(containers and leaves, 'bendy.hexpat')
+    check_grammar_ids(check, name, re.findall(r'"(\w{4})"', containers[1]), sorted(set(leaves)), chunks)
+
+
 def anchors(page):
     outside = re.sub(r'```.*?```', '', page, flags=re.DOTALL)
     for heading in re.findall(r'^#+ (.*)$', outside, re.MULTILINE):
@@ -433,6 +520,8 @@ def main(arguments):
     check_codes(check)
     check_limits(check)
     check_flags(check)
+    check_kaitai(check, chunks, records)
+    check_hexpat(check, chunks, records)
     check_links(check)
     check_bytes(check)
     print('%d comparisons, %d differences' % (check.comparisons, check.differences))

@@ -279,7 +279,7 @@ Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report) {
     } catch (const Failure& failure) {
         return failure.error;
     } catch (const std::bad_alloc&) {
-        return ImportError{{}, "there is not enough memory"};
+        return ImportError{{}, "not enough memory"};
     } catch (const std::exception& error) {
         return ImportError{{}, std::string("unexpected: ") + error.what()};
     }

@@ -9,6 +9,7 @@
 #include "failure.h"
 
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -42,7 +43,7 @@ void expect_same_size(std::size_t read, const Json& source, const std::string& p
 
 tinygltf::Model read_structure(const Json& root) {
     Json prepared = Json::object();
-    prepared["asset"] = {{"version", "2.0"}};
+    prepared["asset"]["version"] = "2.0";  // Json's constructor from a list of members leaks where memory is out
     for (const char* key : {"accessors", "animations", "materials", "meshes", "nodes", "samplers", "scene", "scenes",
                             "skins", "textures"}) {
         if (const Json* member = find(root, key); member != nullptr) prepared[key] = without_extensions(*member);
@@ -66,7 +67,9 @@ tinygltf::Model read_structure(const Json& root) {
     tinygltf::TinyGLTF loader;
     if (!loader.LoadASCIIFromString(&model, &error, &warning, text.c_str(), static_cast<unsigned>(text.size()), "",
                                     tinygltf::NO_REQUIRE)) {
-        fail({}, "tinygltf: " + error.substr(0, error.find('\n')));
+        const std::string first_line = error.substr(0, error.find('\n'));
+        if (first_line == std::bad_alloc().what()) throw std::bad_alloc();  // it catches whatever parsing throws
+        fail({}, "tinygltf: " + first_line);
     }
     expect_same_size(model.accessors.size(), array_of(root, "accessors"), "accessors");
     expect_same_size(model.materials.size(), array_of(root, "materials"), "materials");

@@ -131,4 +131,22 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
     return path;
 }
 
+std::string uri_of(const std::filesystem::path& path) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    constexpr std::string_view kPlain = "-._~/";
+    std::string uri;
+    for (const char8_t letter : path.generic_u8string()) {
+        const auto code = static_cast<unsigned char>(letter);
+        const auto is_between = [code](char first, char last) { return code >= first && code <= last; };
+        const bool is_plain = is_between('a', 'z') || is_between('A', 'Z') || is_between('0', '9') ||
+                              kPlain.find(static_cast<char>(code)) != std::string_view::npos;
+        if (is_plain) {
+            uri += static_cast<char>(code);
+        } else {
+            uri.append({'%', kHex[code >> 4], kHex[code & 15]});
+        }
+    }
+    return uri;
+}
+
 }  // namespace bendy::converter::gltf

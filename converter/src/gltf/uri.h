@@ -23,4 +23,7 @@ DataUri decode_data_uri(std::string_view uri, const std::string& place);
 std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
                                   const std::string& place);
 
+/// A relative path as a URI: percent-encoded where it must be.
+std::string uri_of(const std::filesystem::path& path);
+
 }  // namespace bendy::converter::gltf

@@ -1,21 +1,40 @@
 #include "passes/attach_rigs.h"
 
+#include "failure.h"
 #include "humanoid/auto_rig.h"
 #include "humanoid/vrm.h"
 #include "rig/articulations.h"
 #include "rig/attach_extras.h"
 #include "rig/attach_rig.h"
+#include "rig/rig_in_extras.h"
 
 #include <algorithm>
 #include <unordered_set>
 
 namespace bendy::converter {
+namespace {
+
+/// The rig that `bendy export` has left in the scene. True if nothing else may speak.
+bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, Report& report) {
+    const std::optional<Rig> rig = take_rig_from_extras(scene, report);
+    if (!rig) return false;
+    try {
+        attach_rig(scene, *rig, index, claims, report);
+        return rig->complete;
+    } catch (const Failure& failure) {
+        report.warn("rig left out: " + failure.error.message, rig->source + failure.error.place);
+        return false;
+    }
+}
+
+}  // namespace
 
 void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
     const JointIndex index(scene);
     Claims claims{std::vector<bool>(scene.joints.size()), {}};
     if (rig_file) attach_rig(scene, *rig_file, index, claims, report);
-    if (rig_file && rig_file->complete) return;
+    const bool is_told = rig_file && rig_file->complete;
+    if (is_told || attach_exported_rig(scene, index, claims, report)) return;
     attach_extras(scene, index, claims, report);
     add_vrm_chains(scene, report);
     add_articulations(scene, claims.joints, report);

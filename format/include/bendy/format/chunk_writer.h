@@ -18,7 +18,8 @@ public:
     /// Room for a file of so many bytes: a large one is then not copied as it grows.
     void reserve(std::uint64_t bytes);
     void begin(FourCC id, std::uint16_t flags = 0);
-    void end();
+    /// \param flags  added to those that the container began with
+    void end(std::uint16_t flags = 0);
 
     /// A whole leaf from one payload, or from pieces that follow one another.
     void leaf(FourCC id, Bytes payload, std::uint16_t flags = 0);

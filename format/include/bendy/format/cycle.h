@@ -34,6 +34,7 @@ struct CycleView {
     float end = 0.0f;         ///< seconds
     float frame_rate = 0.0f;  ///< of fixed frames, per second
     bool loop = false;
+    bool has_info = false;  ///< CINF could be read
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::string_view extras;

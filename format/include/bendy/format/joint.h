@@ -43,6 +43,7 @@ struct JointView {
 /// ranges are not yet held against the pools.
 struct SkeletonView {
     std::vector<JointView> joints;
+    std::uint32_t table = kNone;  ///< JNTS
     std::vector<PolygonView> polygons;
     std::vector<LimitView> limits;
     std::vector<PullView> pulls;

@@ -21,6 +21,7 @@ struct MaterialView {
 
 /// One encoding of a texture's image: embedded bytes, or a URI, or the image of another texture.
 struct ImageView {
+    std::uint32_t chunk = 0;
     MediaType media = MediaType::other;
     Bytes bytes;                     ///< of an IMAG
     std::string_view uri;            ///< of a LINK

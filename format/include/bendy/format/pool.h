@@ -66,12 +66,14 @@ struct PaletteView {
     std::span<const glm::mat4> stored;  ///< column-major: as many as joints; or one, from which they are derived
     bool is_derived = false;            ///< from the rest pose: see derive_inverse_bind
     std::vector<glm::mat4> derived;     ///< then, as many as joints
+    std::uint32_t chunk = kNone;        ///< PALT
 
     [[nodiscard]] std::span<const glm::mat4> inverse_bind() const { return is_derived ? derived : stored; }
 };
 
 /// TARG: an inbetweening target. A stream that is absent is not displaced.
 struct TargetView {
+    std::uint32_t chunk = 0;
     std::string_view name;
     float rest_weight = 0.0f;
     std::optional<StreamView> vertices;  ///< the touched vertices, ascending; absent: all of the pool, in order
@@ -89,6 +91,7 @@ struct PoolView {
     std::string_view name;
     std::uint32_t vertices = 0;
     std::uint32_t joint = kNone;         ///< the joint that carries the pool
+    bool has_info = false;               ///< VINF could be read; else nothing else of the pool is
     StreamView positions;                ///< vec3; empty only in a pool without vertices
     std::optional<StreamView> normals;   ///< vec3
     std::optional<StreamView> tangents;  ///< vec4

@@ -1,0 +1,65 @@
+#include "commands.h"
+#include "late_progress.h"
+#include "problem.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/format/validate.h>
+#include <bendy/twin/assemble.h>
+
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct AssembleArguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+};
+
+/// fox.bendy.json and fox.json give fox.bendy.
+std::filesystem::path default_output(const std::filesystem::path& file) {
+    std::filesystem::path stem = file;
+    if (stem.extension() == ".json") stem.replace_extension();
+    if (stem.extension() != ".bendy") stem += ".bendy";
+    return stem;
+}
+
+void run(AssembleArguments arguments) {
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    if (arguments.output.empty()) arguments.output = default_output(arguments.file);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.file, arguments.output, ignored))
+        fail(arguments.file, "the output would be the input: give another name with -o");
+
+    LateProgress progress("assembling");
+    const auto bytes = twin::assemble(as_text(file->bytes()), progress.callback());
+    if (!bytes) {
+        const twin::TextFault& fault = bytes.error();
+        const std::string place = std::to_string(fault.line) + ':' + std::to_string(fault.column);
+        fail(arguments.file.string() + ':' + place, printable(fault.what));
+    }
+    if (const auto written = write_file(arguments.output, *bytes); !written)
+        fail(arguments.output, describe(written.error()));
+    const Faults faults = validate(*bytes);
+    if (!faults.empty()) {
+        warn(arguments.output, "the file has faults, `bendy validate` lists them; the first: " +
+                                   describe_with_place(faults.list().front(), *bytes));
+    }
+}
+
+}  // namespace
+
+void add_assemble(CLI::App& program) {
+    const auto arguments = std::make_shared<AssembleArguments>();
+    CLI::App* command = program.add_subcommand("assemble", "Make a bendy file of the JSON that `bendy dump` writes");
+    command->add_option("FILE", arguments->file, "a text: FILE.bendy.json")->required();
+    command->add_option("-o,--output", arguments->output, "where to write; FILE.bendy if not given");
+    command->footer(
+        "The form is described in spec/text.md, with a JSON Schema beside it.\n"
+        "Example: bendy assemble fox.bendy.json -o edited.bendy");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

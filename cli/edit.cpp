@@ -1,0 +1,249 @@
+#include "commands.h"
+#include "problem.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/edit/extract.h>
+#include <bendy/edit/merge_cycles.h>
+#include <bendy/edit/names.h>
+#include <bendy/edit/rename.h>
+#include <bendy/edit/strip.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+#include <bendy/format/fourcc.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+using Buffer = std::vector<std::byte>;
+
+struct Arguments {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    std::vector<std::string> strips, renames, joint_renames, joint_tables, merges, extracts;
+    std::string same_name = "error";
+    bool quiet = false;
+};
+
+/// One change; renames of one kind that follow one another are one.
+using Step = std::function<edit::Edited(Bytes, edit::Log&)>;
+
+/// The command line is wrong, in a sentence.
+[[noreturn]] void misused(const char* option, const edit::Problem& problem) {
+    throw CLI::ValidationError(option, problem.message);
+}
+
+std::pair<edit::Named, std::string> split_rename(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) misused("--rename", {"\"" + text + "\" is not KIND:OLD=NEW"});
+    const auto kind = edit::parse_named(std::string_view(text).substr(0, colon));
+    if (!kind) misused("--rename", kind.error());
+    return {*kind, text.substr(colon + 1)};
+}
+
+/// {"old": "new", ...}
+edit::Rename read_table(const std::filesystem::path& path) {
+    const Result<MappedFile> file = MappedFile::open(path);
+    if (!file) fail(path, file.error(), {});
+    edit::Rename rename;
+    rename.all_must_match = false;
+    const auto table = nlohmann::ordered_json::parse(as_text(file->bytes()), nullptr, false);
+    if (table.is_discarded()) fail(path, "is not JSON");
+    if (!table.is_object()) fail(path, "must be a JSON object, from old names to new ones");
+    for (const auto& [before, after] : table.items()) {
+        if (!after.is_string()) fail(path, "\"" + printable(before) + "\" has no text as its new name");
+        rename.names.emplace_back(before, after.get<std::string>());
+    }
+    return rename;
+}
+
+bool is_bendy_file(Bytes bytes) {
+    FourCC id;
+    copy_at(bytes, 0, id.value);
+    return id == FourCC("HEAD");
+}
+
+/// A bendy file, or a glTF file made one.
+Buffer read_other(const std::filesystem::path& path) {
+    const Result<MappedFile> file = MappedFile::open(path);
+    if (!file) fail(path, file.error(), {});
+    if (is_bendy_file(file->bytes())) return {file->bytes().begin(), file->bytes().end()};
+    converter::Report report;
+    const auto bytes = converter::convert(path, {}, report);
+    if (!bytes) {
+        const converter::ImportError& error = bytes.error();
+        fail(error.file.empty() ? path : error.file,
+             printable(error.place.empty() ? error.message : error.place + ": " + error.message));
+    }
+    return *bytes;
+}
+
+edit::SameName same_name_of(const std::string& word) {
+    if (word == "replace") return edit::SameName::replace;
+    return word == "number" ? edit::SameName::number : edit::SameName::refuse;
+}
+
+/// The steps in the order in which the command line has them.
+class Steps {
+public:
+    explicit Steps(const Arguments& arguments) : arguments_(arguments) {}
+
+    void add(const std::string& option) {
+        const std::size_t number = seen_[option]++;
+        if (option == "--strip") return add_strip(arguments_.strips[number]);
+        if (option == "--rename") return add_rename(arguments_.renames[number]);
+        if (option == "--rename-joint")
+            return add_pair("--rename-joint", edit::Named::joint, arguments_.joint_renames[number]);
+        if (option == "--rename-joints") return add_table(arguments_.joint_tables[number]);
+        if (option == "--merge") return add_merge(arguments_.merges[number]);
+        if (option == "--extract") return add_extract(arguments_.extracts[number]);
+    }
+    std::vector<Step> take() {
+        close_rename();
+        return std::move(steps_);
+    }
+
+private:
+    void add_strip(const std::string& text) {
+        close_rename();
+        const auto what = edit::parse_strip(text);
+        if (!what) misused("--strip", what.error());
+        steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::strip(file, what, log); });
+    }
+
+    void add_rename(const std::string& text) {
+        const auto [kind, pair] = split_rename(text);
+        add_pair("--rename", kind, pair);
+    }
+
+    void add_pair(const char* option, edit::Named kind, const std::string& text) {
+        const auto pair = edit::parse_pair(text);
+        if (!pair) misused(option, pair.error());
+        if (!rename_.names.empty() && rename_.kind != kind) close_rename();
+        rename_.kind = kind;
+        rename_.names.push_back(*pair);
+    }
+
+    void add_table(const std::string& path) {
+        close_rename();
+        steps_.emplace_back([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
+    }
+
+    void close_rename() {
+        if (rename_.names.empty()) return;
+        steps_.emplace_back(
+            [rename = std::move(rename_)](Bytes file, edit::Log& log) { return edit::rename(file, rename, log); });
+        rename_ = {};
+    }
+
+    void add_merge(const std::string& path) {
+        close_rename();
+        const edit::SameName same_name = same_name_of(arguments_.same_name);
+        steps_.emplace_back([path, same_name](Bytes file, edit::Log& log) -> edit::Edited {
+            const Buffer other = read_other(path);
+            const auto first = log.warnings.size();
+            auto merged = edit::merge_cycles(file, other, same_name, log);
+            for (std::size_t k = first; k < log.warnings.size(); ++k) log.warnings[k] = path + ": " + log.warnings[k];
+            if (merged) return merged;
+            const bool is_clash = merged.error().message.ends_with("already");
+            return edit::Problem{"merging " + path + ": " + merged.error().message +
+                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+        });
+    }
+
+    void add_extract(const std::string& joint) {
+        close_rename();
+        steps_.emplace_back([joint](Bytes file, edit::Log& log) { return edit::extract(file, joint, log); });
+    }
+
+    const Arguments& arguments_;
+    std::map<std::string, std::size_t> seen_;
+    edit::Rename rename_;
+    std::vector<Step> steps_;
+};
+
+void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t after) {
+    std::cout << printable(arguments.output.string()) << ": " << grouped(after) << " bytes";
+    if (after != before) {
+        std::cout << ", " << grouped(after < before ? before - after : after - before)
+                  << (after < before ? " less" : " more");
+    }
+    std::cout << '\n';
+}
+
+void run(const Arguments& arguments, const std::vector<Step>& steps) {
+    const Result<MappedFile> file = MappedFile::open(arguments.input);
+    if (!file) fail(arguments.input, file.error(), {});
+    Buffer bytes;
+    edit::Log log;
+    for (const Step& step : steps) {
+        auto edited = step(bytes.empty() ? file->bytes() : Bytes(bytes), log);
+        if (!edited) fail(arguments.input, printable(edited.error().message));
+        bytes = *std::move(edited);
+    }
+    if (const auto written = write_file(arguments.output, bytes); !written)
+        fail(arguments.output, describe(written.error()));
+    for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
+    if (arguments.quiet) return;
+    print_size(arguments, file->bytes().size(), bytes.size());
+    for (const std::string& line : log.done) std::cout << "  " << printable(line) << '\n';
+}
+
+}  // namespace
+
+void add_edit(CLI::App& program) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
+    command->add_option("FILE", arguments->input, "a bendy file")->required();
+    command->add_option("-o,--output", arguments->output, "where to write, always needed; may be FILE itself");
+    const auto add = [&](const char* name, std::vector<std::string>& texts, const std::string& help) {
+        command->add_option(name, texts, help)->allow_extra_args(false);
+    };
+    add("--strip", arguments->strips,
+        "take out all " + edit::strip_words() +
+            "; or one: texture:NAME, cycle:Run, mesh:Hat, target:Smile, chain:Arm, limit:JOINT, chunk:ID");
+    add("--rename-joint", arguments->joint_renames,
+        "OLD=NEW; a * stands for anything: 'mixamorig:*=*' takes a prefix away");
+    add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
+    add("--rename", arguments->renames,
+        "KIND:OLD=NEW, KIND being joint, cycle, chain, mesh, target, material, texture or object");
+    add("--merge", arguments->merges,
+        "add the cycles of another file (bendy or glTF); tracks go to the joints of the same name");
+    command
+        ->add_option("--same-name", arguments->same_name,
+                     "what --merge does where a cycle's name is taken: error; replace the one that is there; number "
+                     "the new one, as in Run.001")
+        ->check(CLI::IsMember({"error", "replace", "number"}))
+        ->capture_default_str();
+    add("--extract", arguments->extracts,
+        "a joint and all below it as a character of its own; it stays where it was, in every cycle");
+    command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command->footer(
+        "Names may have * and ?, or be a number: cycle:#0. Options are applied in their order; renames of one kind "
+        "that\n"
+        "follow one another happen at once. What is not touched keeps its bytes, unknown chunks too.\n"
+        "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename cycle:mixamo.com=Run");
+    command->callback([arguments, command] {
+        if (arguments->output.empty()) throw CLI::ValidationError("--output", "says where to write, and is needed");
+        Steps steps(*arguments);
+        for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
+        const auto taken = steps.take();
+        if (taken.empty())
+            throw CLI::ValidationError("edit", "there is nothing to do: --strip, --rename-joint, --merge, --extract");
+        run(*arguments, taken);
+    });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,19 @@
+#include "warnings.h"
+
+#include "problem.h"
+
+#include <string>
+
+namespace bendy::cli {
+
+void print_warnings(const std::filesystem::path& file, const converter::Report& report) {
+    for (const converter::Warning& warning : report.warnings()) {
+        std::string line;
+        if (!warning.first_place.empty()) line = warning.first_place + ": ";
+        line += warning.message;
+        if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
+        warn(file, printable(line));
+    }
+}
+
+}  // namespace bendy::cli

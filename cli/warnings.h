@@ -1,0 +1,12 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+
+#include <filesystem>
+
+namespace bendy::cli {
+
+/// Prints what a conversion has left out or changed, a line each, to standard error.
+void print_warnings(const std::filesystem::path& file, const converter::Report& report);
+
+}  // namespace bendy::cli

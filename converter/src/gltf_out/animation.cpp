@@ -1,0 +1,128 @@
+#include "gltf_out/animation.h"
+
+#include "cycle_span.h"
+#include "failure.h"
+#include "gltf_out/skeleton.h"
+
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter::gltf_out {
+namespace {
+
+const char* path_name(TrackPath path) {
+    switch (path) {
+        case TrackPath::translation:
+            return "translation";
+        case TrackPath::rotation:
+            return "rotation";
+        case TrackPath::scale:
+            return "scale";
+        default:
+            return "weights";
+    }
+}
+
+const char* interpolation_name(Interpolation interpolation) {
+    switch (interpolation) {
+        case Interpolation::step:
+            return "STEP";
+        case Interpolation::cubic:
+            return "CUBICSPLINE";
+        default:
+            return "LINEAR";
+    }
+}
+
+class Exporter {
+public:
+    Exporter(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report)
+        : scene_(scene), node_of_mesh_(node_of_mesh), buffer_(buffer), report_(report) {}
+
+    Json run() {
+        Json animations = Json::array();
+        for (std::size_t i = 0; i < scene_.cycles.size(); ++i) {
+            Json animation = write(scene_.cycles[i], at("cycles", i));
+            if (animation.contains("channels")) {
+                animations.push_back(std::move(animation));
+            } else {
+                report_.warn("a cycle that moves nothing is left out", at("cycles", i));
+            }
+        }
+        return animations;
+    }
+
+private:
+    Json write(const Cycle& cycle, const std::string& place) {
+        Json animation = Json::object();
+        if (!cycle.name.empty()) animation["name"] = cycle.name;
+        add_extras(animation, cycle.extras, place, report_);
+        if (cycle.loop) mark_as_loop(animation, place);
+        const float start = span_of(cycle).start;
+        shift_ = start < 0.0f ? -start : 0.0f;
+        if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
+        weights_of_node_.clear();
+        for (const Track& track : cycle.tracks) add_channel(track, animation, place);
+        return animation;
+    }
+
+    void mark_as_loop(Json& animation, const std::string& place) {
+        Json& extras = animation["extras"];
+        if (extras.is_null()) extras = Json::object();
+        if (!extras.is_object()) {
+            report_.warn("that a cycle repeats is left out: its extras are no object", place);
+        } else if (const auto loop = extras.find("loop"); loop == extras.end() || (*loop != true && *loop != 1)) {
+            extras["loop"] = true;
+        }
+    }
+
+    void add_channel(const Track& track, Json& animation, const std::string& place) {
+        const bool is_weights = track.path == TrackPath::weights;
+        const std::uint32_t node = is_weights ? node_of_mesh_[track.target] : track.target;
+        if (node == kNone) return;  // of a mesh that is left out, which has been said
+        if (is_weights) {
+            const auto [same, is_new] = weights_of_node_.try_emplace(node, &track);
+            if (!is_new && (same->second->times != track.times || same->second->values != track.values))
+                report_.warn("meshes of one node have different weights: the first one's are written", place);
+            if (!is_new) return;
+        }
+        Json sampler{{"input", add_times(track.times)},
+                     {"output", buffer_.add_floats(track.values, output_components(track), Buffer::Use::data, false)}};
+        if (track.interpolation != Interpolation::linear)
+            sampler["interpolation"] = interpolation_name(track.interpolation);
+        const std::size_t number = animation["samplers"].size();
+        animation["samplers"].push_back(std::move(sampler));
+        animation["channels"].push_back(
+            {{"sampler", number}, {"target", {{"node", node}, {"path", path_name(track.path)}}}});
+    }
+
+    std::uint32_t add_times(const std::vector<float>& times) {
+        if (shift_ == 0.0f) return buffer_.add_floats(times, 1, Buffer::Use::data, true);
+        std::vector<float> moved(times);
+        for (float& time : moved) time += shift_;
+        return buffer_.add_floats(moved, 1, Buffer::Use::data, true);
+    }
+
+    static std::uint32_t output_components(const Track& track) {
+        return track.path == TrackPath::weights ? 1 : track.components;
+    }
+
+    const Scene& scene_;
+    std::span<const std::uint32_t> node_of_mesh_;
+    Buffer& buffer_;
+    Report& report_;
+    float shift_ = 0.0f;  ///< seconds, of the cycle that is being written
+    /// The track that is written of a cycle: several meshes of a node have one channel in glTF.
+    std::unordered_map<std::uint32_t, const Track*> weights_of_node_;
+};
+
+}  // namespace
+
+Json export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
+                       Report& report) {
+    return Exporter(scene, node_of_mesh, buffer, report).run();
+}
+
+}  // namespace bendy::converter::gltf_out

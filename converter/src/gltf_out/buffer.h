@@ -1,0 +1,61 @@
+#pragma once
+
+#include "json_text.h"
+
+#include <bendy/format/byte_reader.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter::gltf_out {
+
+/// A float as the shortest decimal number that reads back as the same float.
+Json number(float value);
+
+/// A list of such numbers.
+Json numbers(std::span<const float> values);
+
+/// The one buffer of a glTF file, with its views and accessors. Equal accessors are stored once.
+class Buffer {
+public:
+    /// What an accessor's view is for.
+    enum class Use : std::uint8_t { data, vertices, indices };
+
+    /// `values`, `components` for each element, as 32-bit floats. \return the accessor's number
+    std::uint32_t add_floats(std::span<const float> values, std::uint32_t components, Use use, bool with_bounds);
+
+    /// Numbers from 0 to 1 for vertices: in whole bytes or words where that loses nothing.
+    std::uint32_t add_fractions(std::span<const float> values, std::uint32_t components);
+
+    /// Unsigned integers, as bytes (not for indices), words or, where the largest needs it, 32 bits.
+    std::uint32_t add_integers(std::span<const std::uint32_t> values, std::uint32_t components, Use use);
+
+    /// Vectors of three that are mostly zero: only the others are stored, if that is smaller.
+    std::uint32_t add_displacements(std::span<const float> values);
+
+    /// Bytes of an image. \return the view's number
+    std::uint32_t add_bytes(Bytes bytes);
+
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
+    /// The bytes; the buffer is empty then.
+    std::vector<std::byte> take() && { return std::move(bytes_); }
+    [[nodiscard]] const Json& views() const { return views_; }
+    [[nodiscard]] const Json& accessors() const { return accessors_; }
+
+private:
+    /// Elements of `element` bytes each, padded to four where vertices are meant.
+    std::uint32_t add_view(Bytes bytes, std::size_t element, Use use);
+    std::uint32_t add_accessor(Json accessor);
+
+    std::vector<std::byte> bytes_;
+    Json views_ = Json::array();
+    Json accessors_ = Json::array();
+    std::unordered_multimap<std::size_t, std::uint32_t> known_views_;      ///< by hash of content
+    std::unordered_multimap<std::size_t, std::uint32_t> known_accessors_;  ///< by hash of JSON
+};
+
+}  // namespace bendy::converter::gltf_out

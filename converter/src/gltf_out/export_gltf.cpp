@@ -1,0 +1,179 @@
+#include <bendy/converter/export_gltf.h>
+
+#include "failure.h"
+#include "gltf/uri.h"
+#include "gltf_out/animation.h"
+#include "gltf_out/buffer.h"
+#include "gltf_out/material.h"
+#include "gltf_out/mesh.h"
+#include "gltf_out/skeleton.h"
+#include "rig/rig_in_extras.h"
+
+#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/write_rig.h>
+#include <bendy/format/decode_leaves.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/format/file.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <new>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+using gltf_out::Buffer;
+
+/// The source's own account of itself where it is one of glTF 2.0, else ours.
+Json write_asset(const Scene& scene, Report& report) {
+    Json ours{{"version", "2.0"}, {"generator", "bendy " BENDY_VERSION}};
+    if (scene.asset.empty()) return ours;
+    try {
+        auto asset = parse_json_text<Json>(scene.asset, report);
+        if (asset.is_object() && asset.contains("version") && asset["version"] == "2.0") return asset;
+    } catch (const Failure&) {
+    }
+    report.warn("what the file says of its source is left out: it is no asset of glTF 2.0", "HEAD/EXTR");
+    return ours;
+}
+
+/// The names of all extensions below, whatever they extend. Extras are the author's own.
+// NOLINTNEXTLINE(misc-no-recursion): parsed JSON is at most 128 levels deep
+void gather_extensions(const Json& json, std::set<std::string>& names) {
+    if (!json.is_structured()) return;
+    for (const auto& [member, value] : json.items()) {
+        if (json.is_object() && member == "extras") continue;
+        if (json.is_object() && member == "extensions" && value.is_object()) {
+            for (const auto& extension : value.items()) names.insert(extension.key());
+        }
+        gather_extensions(value, names);
+    }
+}
+
+bool has_rig(const ObjectView& object) {
+    return !object.skeleton.limits.empty() || !object.chains.empty();
+}
+
+void add_rig(Json& scene, const ObjectView& object, Report& report) {
+    if (!has_rig(object)) return;
+    Json& extras = scene["extras"];
+    if (extras.is_null()) extras = Json::object();
+    if (!extras.is_object()) {
+        report.warn("constraints and chains left out: the scene's own data is no object that they could be put into");
+        return;
+    }
+    extras[kRigInExtras] = parse_json_text<Json>(write_rig(object), report);
+}
+
+/// glTF has no empty lists.
+void add_list(Json& root, const char* member, Json list) {
+    if (!list.empty()) root[member] = std::move(list);
+}
+
+Json write_scene(const Scene& scene, const ObjectView& object, Json roots, Report& report) {
+    Json written = Json::object();
+    add_list(written, "nodes", std::move(roots));
+    if (!scene.name.empty()) written["name"] = scene.name;
+    gltf_out::add_extras(written, scene.extras, "scene", report);
+    add_rig(written, object, report);
+    return written;
+}
+
+GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesystem::path& buffer_file,
+                Report& report) {
+    Json root{{"asset", write_asset(scene, report)}, {"scene", 0}};
+    Buffer buffer;
+    Json nodes = gltf_out::export_nodes(scene, report);
+    Json roots = gltf_out::root_nodes(scene);
+    gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, nodes, roots, buffer, report);
+    add_list(root, "animations", gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report));
+    gltf_out::export_materials(scene, root, buffer, report);
+    add_list(root, "meshes", std::move(meshes.meshes));
+    add_list(root, "skins", std::move(meshes.skins));
+    add_list(root, "nodes", std::move(nodes));
+    root["scenes"].push_back(write_scene(scene, object, std::move(roots), report));
+    if (!scene.levels.empty()) report.warn("levels of detail left out: glTF has no place for them");
+    gltf_out::add_extras(root, scene.source_extras, "HEAD/EXTR", report);
+    gltf_out::add_extensions(root, scene.extensions, "HEAD/EXTN", report);
+    std::set<std::string> used;
+    gather_extensions(root, used);
+    if (!used.empty()) root["extensionsUsed"] = used;
+    add_list(root, "bufferViews", buffer.views());
+    add_list(root, "accessors", buffer.accessors());
+    if (!buffer.bytes().empty()) {
+        Json entry{{"byteLength", buffer.bytes().size()}};
+        if (!buffer_file.empty()) entry["uri"] = gltf::uri_of(buffer_file);
+        root["buffers"].push_back(std::move(entry));
+    }
+    return {root.dump(), std::move(buffer).take()};
+}
+
+GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Report& report) {
+    const Result<Scene, ImportError> scene = import_bendy(bytes, report);
+    if (!scene) throw Failure{scene.error()};
+    // Read again for the rig, which is written from the records.
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) fail({}, describe_with_place(tree.error(), bytes));
+    decode_leaves(*tree);
+    Faults faults;
+    const Document document = read_document(*tree, faults);
+    return write(*scene, document.objects.front(), buffer_file, report);
+}
+
+void append_u32(std::vector<std::byte>& bytes, std::uint64_t value) {
+    for (unsigned shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift));
+}
+
+void append_chunk(std::vector<std::byte>& bytes, std::uint32_t type, Bytes data, std::byte padding) {
+    const std::size_t size = (data.size() + 3) / 4 * 4;
+    append_u32(bytes, size);
+    append_u32(bytes, type);
+    bytes.insert(bytes.end(), data.begin(), data.end());
+    bytes.resize(bytes.size() + size - data.size(), padding);
+}
+
+}  // namespace
+
+Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report) {
+    try {
+        return export_bytes(bytes, buffer_file, report);
+    } catch (const Failure& failure) {
+        return failure.error;
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, std::string("unexpected: ") + error.what()};
+    }
+}
+
+Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
+                                           const std::filesystem::path& buffer_file, Report& report) {
+    const Result<MappedFile> mapped = MappedFile::open(bendy_file);
+    if (!mapped) return ImportError{{}, describe(mapped.error())};
+    return export_gltf(mapped->bytes(), buffer_file, report);
+}
+
+Result<std::vector<std::byte>, ImportError> make_glb(const GltfAsset& asset) {
+    constexpr std::uint64_t kHeader = 12;
+    constexpr std::uint64_t kChunkHeader = 8;
+    const auto padded_size = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
+    std::uint64_t size = kHeader + kChunkHeader + padded_size(asset.json.size());
+    if (!asset.buffer.empty()) size += kChunkHeader + padded_size(asset.buffer.size());
+    if (size > std::numeric_limits<std::uint32_t>::max())
+        return ImportError{{}, "a GLB file cannot be larger than 4 GiB: write a .gltf file"};
+    std::vector<std::byte> bytes;
+    bytes.reserve(size);
+    append_u32(bytes, 0x46546c67);  // "glTF"
+    append_u32(bytes, 2);
+    append_u32(bytes, size);
+    append_chunk(bytes, 0x4e4f534a, std::as_bytes(std::span(asset.json)), std::byte{' '});
+    if (!asset.buffer.empty()) append_chunk(bytes, 0x004e4942, asset.buffer, std::byte{0});
+    return bytes;
+}
+
+}  // namespace bendy::converter

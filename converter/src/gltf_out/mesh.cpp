@@ -1,0 +1,296 @@
+#include "gltf_out/mesh.h"
+
+#include "failure.h"
+#include "gltf_out/skeleton.h"
+#include "gltf_out/unit_vectors.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace bendy::converter::gltf_out {
+namespace {
+
+constexpr std::uint32_t kSetSize = 4;         // influences in one of glTF's attributes
+constexpr std::uint32_t kMostMissing = 8;     // sets of texture coordinates or colours
+constexpr std::size_t kMostJoints = 0x10000;  // that a 16-bit index can name
+
+template <class Vector>
+std::span<const float> floats_of(const std::vector<Vector>& vectors) {
+    if (vectors.empty()) return {};
+    return {glm::value_ptr(vectors.front()), vectors.size() * static_cast<std::size_t>(Vector::length())};
+}
+
+int mode_of(Topology topology) {
+    return topology == Topology::points ? 0 : topology == Topology::lines ? 1 : 4;
+}
+
+bool has_primitives(const Mesh& mesh) {
+    return !mesh.positions.empty() &&
+           std::any_of(mesh.parts.begin(), mesh.parts.end(), [](const Part& part) { return !part.indices.empty(); });
+}
+
+/// Orders palettes by what is in them.
+struct PaletteLess {
+    bool operator()(const Palette* a, const Palette* b) const {
+        if (a->joints != b->joints) return a->joints < b->joints;
+        const std::size_t size = a->inverse_bind.size() * sizeof(glm::mat4);
+        return size != 0 && std::memcmp(a->inverse_bind.data(), b->inverse_bind.data(), size) < 0;
+    }
+};
+
+/// What meshes must have in common to be drawn by one node: it has one mesh, with one set of targets, and one skin.
+struct Slot {
+    std::uint32_t joint = kNone;
+    std::uint32_t skin = kNone;  ///< kNone: rigid
+    std::string name;
+    std::string extras;
+    std::vector<std::pair<std::string, float>> targets;  ///< name, rest weight
+
+    friend bool operator<(const Slot& a, const Slot& b) {
+        return std::tie(a.joint, a.skin, a.name, a.extras, a.targets) <
+               std::tie(b.joint, b.skin, b.name, b.extras, b.targets);
+    }
+};
+
+/// A glTF mesh in the making.
+struct Drawn {
+    std::uint32_t node = kNone;
+    std::uint32_t skin = kNone;
+    std::vector<std::uint32_t> meshes;  ///< of the scene
+};
+
+class Exporter {
+public:
+    Exporter(const Scene& scene, Json& nodes, Json& roots, Buffer& buffer, Report& report)
+        : scene_(scene),
+          nodes_(nodes),
+          roots_(roots),
+          buffer_(buffer),
+          report_(report),
+          is_taken_(scene.joints.size()) {}
+
+    ExportedMeshes run() {
+        out_.node_of_mesh.assign(scene_.meshes.size(), kNone);
+        for (std::uint32_t i = 0; i < scene_.meshes.size(); ++i) {
+            if (has_primitives(scene_.meshes[i])) {
+                place(i);
+            } else {
+                report_.warn("a mesh that draws nothing is left out", at("meshes", i));
+            }
+        }
+        for (const Drawn& drawn : drawn_) write(drawn);
+        return std::move(out_);
+    }
+
+private:
+    void place(std::uint32_t number) {
+        const Mesh& mesh = scene_.meshes[number];
+        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh.palette, number), mesh.name, mesh.extras, {}};
+        for (const Target& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
+        const std::uint32_t skin = slot.skin;
+        const auto [known, is_new] = slots_.try_emplace(std::move(slot), drawn_.size());
+        if (is_new) drawn_.push_back({node_for(mesh, number), skin, {}});
+        Drawn& drawn = drawn_[known->second];
+        drawn.meshes.push_back(number);
+        out_.node_of_mesh[number] = drawn.node;
+    }
+
+    /// The joint's own node if it draws nothing yet, else a new one below it.
+    std::uint32_t node_for(const Mesh& mesh, std::uint32_t number) {
+        if (mesh.joint != kNone && !is_taken_[mesh.joint]) {
+            is_taken_[mesh.joint] = true;
+            return mesh.joint;
+        }
+        report_.warn("a mesh that cannot share its joint's node gets one of its own", at("meshes", number));
+        const auto node = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.push_back(mesh.name.empty() ? Json::object() : Json{{"name", mesh.name}});
+        (mesh.joint == kNone ? roots_ : nodes_[mesh.joint]["children"]).push_back(node);
+        return node;
+    }
+
+    void write(const Drawn& drawn) {
+        const Mesh& first = scene_.meshes[drawn.meshes.front()];
+        Json mesh = Json::object();
+        if (!first.name.empty()) mesh["name"] = first.name;
+        const std::string place = at("meshes", drawn.meshes.front());
+        add_extras(mesh, first.extras, place, report_);
+        name_targets(mesh, first, place);
+        const auto is_set = [](const Target& target) { return target.rest_weight != 0.0f; };
+        if (std::any_of(first.targets.begin(), first.targets.end(), is_set)) {
+            for (const Target& target : first.targets) mesh["weights"].push_back(number(target.rest_weight));
+        }
+        for (const std::uint32_t number : drawn.meshes) write_primitives(scene_.meshes[number], number, mesh);
+        nodes_[drawn.node]["mesh"] = out_.meshes.size();
+        if (drawn.skin != kNone) nodes_[drawn.node]["skin"] = drawn.skin;
+        out_.meshes.push_back(std::move(mesh));
+    }
+
+    /// Viewers look for the names of targets in extras.targetNames.
+    void name_targets(Json& mesh, const Mesh& source, const std::string& place) {
+        Json names = Json::array();
+        bool any = false;
+        for (const Target& target : source.targets) {
+            names.push_back(target.name);
+            any = any || !target.name.empty();
+        }
+        if (!any) return;
+        Json& extras = mesh["extras"];
+        if (extras.is_null()) extras = Json::object();
+        if (extras.is_object()) {
+            Json& written = extras["targetNames"];
+            // What the source had may say more: names that are no names, or more of them than targets.
+            const auto is_said = [](const Json& name, const Json& said) {
+                return name == said || (name.get_ref<const std::string&>().empty() && !said.is_string());
+            };
+            const bool says_it = written.is_array() && written.size() >= names.size() &&
+                                 std::equal(names.begin(), names.end(), written.begin(), is_said);
+            if (!says_it) written = std::move(names);
+        } else {
+            report_.warn("names of targets left out: the mesh's extras are no object", place);
+        }
+    }
+
+    void write_primitives(const Mesh& mesh, std::uint32_t number, Json& out) {
+        Json attributes = write_attributes(mesh, number);
+        const Json targets = write_targets(mesh);
+        for (const Part& part : mesh.parts) {
+            if (part.indices.empty()) continue;
+            Json primitive{{"attributes", attributes}, {"mode", mode_of(part.topology)}};
+            primitive["indices"] = buffer_.add_integers(part.indices, 1, Buffer::Use::indices);
+            if (part.material != kNone) primitive["material"] = part.material;
+            if (!targets.empty()) primitive["targets"] = targets;
+            out["primitives"].push_back(std::move(primitive));
+        }
+    }
+
+    Json write_attributes(const Mesh& mesh, std::uint32_t number) {
+        constexpr auto kVertices = Buffer::Use::vertices;
+        Json attributes;
+        attributes["POSITION"] = buffer_.add_floats(floats_of(mesh.positions), 3, kVertices, true);
+        if (!mesh.normals.empty()) attributes["NORMAL"] = write_unit(mesh.normals, at("meshes", number));
+        if (!mesh.tangents.empty()) attributes["TANGENT"] = write_unit(mesh.tangents, at("meshes", number));
+        write_sets(mesh.texture_coords, "TEXCOORD_", at("meshes", number), attributes);
+        write_sets(mesh.colours, "COLOR_", at("meshes", number), attributes);
+        for (const Stream& stream : mesh.attributes) {
+            const std::uint32_t n = stream.components;
+            if (n > 4 && n != 9 && n != 16) {
+                report_.warn("attribute of " + std::to_string(n) + " components left out: glTF has no such type",
+                             at("meshes", number) + '.' + key(stream.name));
+                continue;
+            }
+            const bool is_the_authors = stream.name.starts_with('_');
+            if (!is_the_authors)
+                report_.warn("attribute gets an underscore before its name: glTF has no such attribute",
+                             at("meshes", number) + '.' + key(stream.name));
+            attributes[is_the_authors ? stream.name : '_' + stream.name] =
+                buffer_.add_floats(stream.values, n, kVertices, false);
+        }
+        if (mesh.influences != 0) write_influences(mesh, attributes);
+        return attributes;
+    }
+
+    template <class Vector>
+    std::uint32_t write_unit(std::vector<Vector> vectors, const std::string& place) {
+        if (const std::uint64_t changed = make_unit(vectors); changed != 0)
+            report_.warn("normal or tangent that is no unit vector, normalised", place, changed);
+        return buffer_.add_floats(floats_of(vectors), Vector::length(), Buffer::Use::vertices, false);
+    }
+
+    /// glTF numbers sets from 0 without gaps: a missing one is filled with zeros.
+    void write_sets(const std::vector<Stream>& streams, const std::string& prefix, const std::string& place,
+                    Json& attributes) {
+        std::uint32_t next = 0;
+        for (const Stream& stream : streams) {
+            if (stream.set - next > kMostMissing) {
+                report_.warn(prefix + std::to_string(stream.set) + " left out: too many sets before it are missing",
+                             place);
+                continue;
+            }
+            for (; next < stream.set; ++next) {
+                report_.warn("missing set " + prefix + std::to_string(next) + " is written as zeros", place);
+                attributes[prefix + std::to_string(next)] =
+                    buffer_.add_fractions(std::vector<float>(stream.values.size()), stream.components);
+            }
+            attributes[prefix + std::to_string(next++)] = buffer_.add_fractions(stream.values, stream.components);
+        }
+    }
+
+    /// Four to an attribute; what is missing in the last has no weight.
+    void write_influences(const Mesh& mesh, Json& attributes) {
+        const std::size_t n = mesh.influences;
+        const std::size_t vertices = mesh.positions.size();
+        std::vector<std::uint32_t> bones;
+        std::vector<float> weights;
+        for (std::size_t set = 0; set * kSetSize < n; ++set) {
+            bones.assign(vertices * kSetSize, 0);
+            weights.assign(vertices * kSetSize, 0.0f);
+            const std::size_t first = set * kSetSize;
+            const std::size_t count = std::min<std::size_t>(kSetSize, n - first);
+            for (std::size_t v = 0; v < vertices; ++v) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    bones[v * kSetSize + i] = mesh.bones[v * n + first + i];
+                    weights[v * kSetSize + i] = mesh.weights[v * n + first + i];
+                }
+            }
+            const std::string suffix = '_' + std::to_string(set);
+            attributes["JOINTS" + suffix] = buffer_.add_integers(bones, kSetSize, Buffer::Use::vertices);
+            attributes["WEIGHTS" + suffix] = buffer_.add_fractions(weights, kSetSize);
+        }
+    }
+
+    Json write_targets(const Mesh& mesh) {
+        Json targets = Json::array();
+        const std::vector<glm::vec3> zeros(mesh.targets.empty() ? 0 : mesh.positions.size());
+        for (const Target& target : mesh.targets) {
+            Json written = Json::object();
+            // A target must displace something; what is all zero takes no bytes.
+            const bool is_empty = target.positions.empty() && target.normals.empty() && target.tangents.empty();
+            if (is_empty) written["POSITION"] = buffer_.add_displacements(floats_of(zeros));
+            if (!target.positions.empty()) written["POSITION"] = buffer_.add_displacements(floats_of(target.positions));
+            if (!target.normals.empty()) written["NORMAL"] = buffer_.add_displacements(floats_of(target.normals));
+            if (!target.tangents.empty()) written["TANGENT"] = buffer_.add_displacements(floats_of(target.tangents));
+            targets.push_back(std::move(written));
+        }
+        return targets;
+    }
+
+    std::uint32_t skin_of(const Palette& palette, std::uint32_t mesh) {
+        const auto number = static_cast<std::uint32_t>(out_.skins.size());
+        const auto [known, is_new] = skins_.try_emplace(&palette, number);
+        if (!is_new) return known->second;
+        if (palette.joints.size() > kMostJoints)
+            fail(at("meshes", mesh), "glTF cannot bind vertices to more than 65,536 joints");
+        Json skin{{"joints", palette.joints}};
+        skin["inverseBindMatrices"] =
+            buffer_.add_floats({glm::value_ptr(palette.inverse_bind.front()), palette.inverse_bind.size() * 16}, 16,
+                               Buffer::Use::data, false);
+        out_.skins.push_back(std::move(skin));
+        return number;
+    }
+
+    const Scene& scene_;
+    Json& nodes_;
+    Json& roots_;
+    Buffer& buffer_;
+    Report& report_;
+    ExportedMeshes out_;
+    std::map<Slot, std::size_t> slots_;  ///< into drawn_
+    std::vector<Drawn> drawn_;
+    std::vector<bool> is_taken_;  ///< by joint: its node draws something
+    std::map<const Palette*, std::uint32_t, PaletteLess> skins_;
+};
+
+}  // namespace
+
+ExportedMeshes export_meshes(const Scene& scene, Json& nodes, Json& roots, Buffer& buffer, Report& report) {
+    return Exporter(scene, nodes, roots, buffer, report).run();
+}
+
+}  // namespace bendy::converter::gltf_out

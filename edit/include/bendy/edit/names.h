@@ -1,0 +1,30 @@
+#pragma once
+
+#include <bendy/edit/outcome.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Finding things by what a user calls them.
+namespace bendy::edit {
+
+/// True if the whole of `name` is as `pattern` has it; `*` stands for any bytes, `?` for one.
+bool matches(std::string_view pattern, std::string_view name);
+
+/// The numbers of all things that `wanted` means: those with exactly this name; else the one with this number ("#3");
+/// else, if it has a `*` or `?`, those that match. If there are none: a problem that lists or suggests names. `kind` is
+/// one of them, as in "cycle".
+Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
+                                                     std::string_view kind);
+
+/// The name that is most like `wanted`; empty if none is like it at all.
+std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted);
+
+/// `"a", "b", "c" and 3 more`; a thing without a name is its number, `#3`.
+std::string list_names(std::span<const std::string_view> names, std::span<const std::size_t> numbers,
+                       std::size_t most = 8);
+
+}  // namespace bendy::edit

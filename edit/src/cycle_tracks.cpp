@@ -1,0 +1,306 @@
+#include "cycle_tracks.h"
+
+#include "encode_like.h"
+
+#include <bendy/format/packed_cycle.h>
+#include <bendy/format/records.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+/// Weights with other targets are copied: so many times the file's bytes at most.
+constexpr std::uint64_t kMostCopies = 64;
+
+/// Parts of an array that are kept, moved together; what they share they go on sharing.
+class KeptRuns {
+public:
+    void add(std::uint64_t first, std::uint64_t count) { runs_.push_back({first, first + count, 0}); }
+    void finish() {
+        std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
+        std::vector<Run> joined;
+        for (const Run& run : runs_) {
+            if (!joined.empty() && run.first <= joined.back().end) {
+                joined.back().end = std::max(joined.back().end, run.end);
+            } else {
+                const std::uint64_t now =
+                    joined.empty() ? 0 : joined.back().now + joined.back().end - joined.back().first;
+                joined.push_back({run.first, run.end, now});
+            }
+        }
+        runs_ = std::move(joined);
+    }
+    [[nodiscard]] std::uint64_t now(std::uint64_t first) const {
+        const auto after = std::upper_bound(runs_.begin(), runs_.end(), first,
+                                            [](std::uint64_t wanted, const Run& run) { return wanted < run.first; });
+        const Run& run = *std::prev(after);
+        return run.now + first - run.first;
+    }
+    [[nodiscard]] std::vector<float> take(std::span<const float> from) const {
+        std::vector<float> out;
+        for (const Run& run : runs_) {
+            out.insert(out.end(), from.begin() + static_cast<std::ptrdiff_t>(run.first),
+                       from.begin() + static_cast<std::ptrdiff_t>(run.end));
+        }
+        return out;
+    }
+
+private:
+    struct Run {
+        std::uint64_t first, end, now;
+    };
+    std::vector<Run> runs_;
+};
+
+std::span<const float> floats_in(const ChunkTree& tree, std::uint32_t cycle, FourCC id) {
+    const std::uint32_t chunk = tree.find(cycle, id);
+    if (chunk == kNone) return {};
+    const Bytes payload = tree.payload(chunk);
+    return view_at<float>(payload, 0, payload.size() / sizeof(float));
+}
+
+/// Targets that stay the same, in the same order.
+bool is_identity(const std::vector<std::uint32_t>& from, std::uint32_t components) {
+    if (from.size() != components) return false;
+    for (std::uint32_t k = 0; k < components; ++k) {
+        if (from[k] != k) return false;
+    }
+    return true;
+}
+
+class TrackSender {
+public:
+    TrackSender(const ChunkTree& tree, const ObjectView& object, const CycleView& cycle, const TracksGo& go,
+                Rewrite& rewrite)
+        : tree_(tree), object_(object), cycle_(cycle), go_(go), rewrite_(rewrite) {}
+
+    Result<TrackCounts, Problem> send() {
+        const std::uint32_t chunk = tree_.find(cycle_.chunk, FourCC("TRAK"));
+        if (chunk != kNone) {
+            const Bytes payload = tree_.payload(chunk);
+            table_ = view_at<TrackRecord>(payload, 0, payload.size() / sizeof(TrackRecord));
+        }
+        values_ = floats_in(tree_, cycle_.chunk, FourCC("KEYV"));
+        times_ = floats_in(tree_, cycle_.chunk, FourCC("TIME"));
+        for (const TrackRecord& record : table_) sort_out(record);
+        send_packed();
+        if (is_rebuilt_) {
+            if (!rebuild()) {
+                return Problem{"cycle \"" + std::string(cycle_.name) +
+                               "\": too many weights tracks share one set of values"};
+            }
+        } else if (is_renumbered_) {
+            put(FourCC("TRAK"), std::as_bytes(std::span(staying_)));
+        }
+        return counts_;
+    }
+
+private:
+    static bool is_weights(const TrackRecord& record) {
+        return record.path == static_cast<std::uint8_t>(TrackPath::weights);
+    }
+    static std::uint64_t values_per_key(const TrackRecord& record) {
+        const bool is_cubic = record.interpolation == static_cast<std::uint8_t>(Interpolation::cubic);
+        return std::uint64_t{record.components} * (is_cubic ? 3 : 1);
+    }
+
+    void sort_out(TrackRecord record) {
+        const std::uint32_t before = record.target;
+        record.target = is_weights(record) ? go_.weights[before].pool : go_.joints[before];
+        const bool goes = record.target == kNone || (is_weights(record) && go_.weights[before].from.empty());
+        if (goes) {
+            is_rebuilt_ = true;
+            ++counts_.go;
+            return;
+        }
+        const bool is_laid_anew = is_weights(record) && !is_identity(go_.weights[before].from, record.components);
+        is_rebuilt_ = is_rebuilt_ || is_laid_anew;
+        is_renumbered_ = is_renumbered_ || record.target != before;
+        ++counts_.stay;
+        staying_.push_back(record);
+        laid_anew_.push_back(is_laid_anew ? &go_.weights[before] : nullptr);
+    }
+
+    [[nodiscard]] bool is_decoded(std::uint32_t joint) const { return !go_.decoded.empty() && go_.decoded[joint]; }
+
+    void send_packed() {
+        if (!cycle_.packed) return;
+        const std::uint32_t chunk = tree_.find(cycle_.chunk, FourCC("PACK"));
+        bool is_changed = cycle_.packed->record.joints > go_.joint_count;
+        for (std::uint32_t joint = 0; joint < cycle_.packed->record.joints; ++joint)
+            is_changed = is_changed || go_.joints[joint] != joint || is_decoded(joint);
+        PackedSamples samples = packed_samples(*cycle_.packed);
+        if (!is_changed) {
+            counts_.stay += static_cast<std::uint32_t>(samples.tracks.size());
+            return;
+        }
+        decode(samples);
+        samples.joints = go_.joint_count;
+        std::vector<PackedTrack> staying;
+        for (PackedTrack& track : samples.tracks) {
+            const std::uint32_t joint = go_.joints[track.joint];
+            if (joint == kNone) ++counts_.go;
+            if (joint == kNone || is_decoded(track.joint)) continue;
+            ++counts_.stay;
+            track.joint = joint;
+            staying.push_back(std::move(track));
+        }
+        samples.tracks = std::move(staying);
+        std::stable_sort(samples.tracks.begin(), samples.tracks.end(),
+                         [](const PackedTrack& a, const PackedTrack& b) { return a.joint < b.joint; });
+        const auto payload = samples.tracks.empty() ? std::nullopt : write_packed(samples);
+        if (!payload) return rewrite_.remove(chunk);
+        rewrite_.replace(chunk, *payload);
+    }
+
+    /// Packed tracks that cannot stay packed become linear ones.
+    void decode(const PackedSamples& samples) {
+        const bool any = std::any_of(samples.tracks.begin(), samples.tracks.end(), [&](const PackedTrack& track) {
+            return go_.joints[track.joint] != kNone && is_decoded(track.joint);
+        });
+        if (!any) return;
+        std::vector<RestRecord> rests;
+        for (const JointView& joint : object_.skeleton.joints) rests.push_back(joint.rest);
+        is_rebuilt_ = true;
+        for (UnpackedTrack& track : unpack_cycle(*cycle_.packed, rests)) {
+            const std::uint32_t joint = go_.joints[track.joint];
+            if (joint == kNone || !is_decoded(track.joint)) continue;
+            ++counts_.stay;
+            ++counts_.decoded;
+            track.joint = joint;
+            for (float& time : track.times) time = std::clamp(time, cycle_.start, cycle_.end);
+            decoded_.push_back(std::move(track));
+        }
+    }
+
+    /// TRAK, TIME and KEYV with what is used, and no more.
+    bool rebuild() {
+        KeptRuns times;
+        KeptRuns values;
+        for (std::size_t t = 0; t < staying_.size(); ++t) {
+            const TrackRecord& record = staying_[t];
+            if (record.first_time != kNone) times.add(record.first_time, record.keys);
+            if (laid_anew_[t] == nullptr) values.add(record.first_value, record.keys * values_per_key(record));
+        }
+        times.finish();
+        values.finish();
+        new_times_ = times.take(times_);
+        new_values_ = values.take(values_);
+        bool has_frames = false;
+        for (std::size_t t = 0; t < staying_.size(); ++t) {
+            TrackRecord& record = staying_[t];
+            has_frames = has_frames || record.first_time == kNone;
+            if (record.first_time != kNone)
+                record.first_time = static_cast<std::uint32_t>(times.now(record.first_time));
+            if (laid_anew_[t] == nullptr) {
+                record.first_value = values.now(record.first_value);
+            } else if (!lay_anew(record, *laid_anew_[t])) {
+                return false;
+            }
+        }
+        put_decoded();
+        put(FourCC("TRAK"), std::as_bytes(std::span(staying_)));
+        put(FourCC("TIME"), std::as_bytes(std::span(new_times_)));
+        put(FourCC("KEYV"), std::as_bytes(std::span(new_values_)));
+        if (!has_frames) forget_frame_rate();
+        return new_times_.size() < kNone;
+    }
+
+    /// The track's values with a number for each of the targets that it has now.
+    bool lay_anew(TrackRecord& record, const WeightsGo& go) {
+        const auto key = std::make_tuple(record.first_value, record.keys, record.interpolation, &go);
+        const auto [known, is_new] = laid_.try_emplace(key, new_values_.size());
+        const std::uint64_t rows = record.keys * (values_per_key(record) / record.components);
+        const bool is_cubic = values_per_key(record) != record.components;
+        copied_ += rows * go.from.size() * sizeof(float);
+        if (copied_ > kMostCopies * (tree_.bytes().size() + kKibibyte)) return false;
+        for (std::uint64_t row = 0; is_new && row < rows; ++row) {
+            const bool is_tangent = is_cubic && row % 3 != 1;
+            for (std::size_t k = 0; k < go.from.size(); ++k) {
+                const std::uint32_t from = go.from[k];
+                if (from != kNone) {
+                    new_values_.push_back(values_[record.first_value + row * record.components + from]);
+                } else {
+                    new_values_.push_back(is_tangent ? 0.0f : go.at_rest[k]);
+                }
+            }
+        }
+        record.first_value = known->second;
+        record.components = static_cast<std::uint16_t>(go.from.size());
+        return true;
+    }
+
+    void put_decoded() {
+        std::map<std::vector<float>, std::uint32_t> known;  // frames of one cycle: two lists of times, or one
+        for (const UnpackedTrack& track : decoded_) {
+            const auto [times, is_new] = known.try_emplace(track.times, static_cast<std::uint32_t>(new_times_.size()));
+            if (is_new) new_times_.insert(new_times_.end(), track.times.begin(), track.times.end());
+            TrackRecord record;
+            record.target = track.joint;
+            record.path = static_cast<std::uint8_t>(track.path);
+            record.interpolation = static_cast<std::uint8_t>(Interpolation::linear);
+            record.components = static_cast<std::uint16_t>(track.components);
+            record.keys = static_cast<std::uint32_t>(track.times.size());
+            record.first_time = times->second;
+            record.first_value = new_values_.size();
+            new_values_.insert(new_values_.end(), track.values.begin(), track.values.end());
+            staying_.push_back(record);
+        }
+    }
+
+    /// CINF.frame_rate is 0 where no track has fixed frames.
+    void forget_frame_rate() {
+        if (cycle_.frame_rate == 0.0f) return;
+        const std::uint32_t chunk = tree_.find(cycle_.chunk, FourCC("CINF"));
+        const Bytes before = tree_.payload(chunk);
+        Buffer payload(before.begin(), before.end());
+        std::memset(payload.data() + offsetof(CycleRecord, frame_rate), 0, sizeof(float));
+        rewrite_.replace(chunk, payload);
+    }
+
+    void put(FourCC id, Bytes payload) {
+        const std::uint32_t chunk = tree_.find(cycle_.chunk, id);
+        if (payload.empty()) {
+            if (chunk != kNone) rewrite_.remove(chunk);
+        } else if (chunk != kNone) {
+            rewrite_.replace(chunk, payload);
+        } else {
+            rewrite_.append(cycle_.chunk, encode_leaf(id, 0, Codec::zstd, 0, sizeof(float), payload));
+        }
+    }
+
+    static constexpr std::uint64_t kKibibyte = 1024;
+
+    const ChunkTree& tree_;
+    const ObjectView& object_;
+    const CycleView& cycle_;
+    const TracksGo& go_;
+    Rewrite& rewrite_;
+    std::span<const TrackRecord> table_;
+    std::span<const float> times_, values_;
+    std::vector<TrackRecord> staying_;
+    std::vector<const WeightsGo*> laid_anew_;  // of each that stays; null: its values stay as they are
+    std::vector<UnpackedTrack> decoded_;
+    std::vector<float> new_times_, new_values_;
+    std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint8_t, const WeightsGo*>, std::uint64_t> laid_;
+    std::uint64_t copied_ = 0;
+    bool is_rebuilt_ = false;
+    bool is_renumbered_ = false;
+    TrackCounts counts_;
+};
+
+}  // namespace
+
+Result<TrackCounts, Problem> send_tracks(const ChunkTree& tree, const ObjectView& object, const CycleView& cycle,
+                                         const TracksGo& go, Rewrite& rewrite) {
+    return TrackSender(tree, object, cycle, go, rewrite).send();
+}
+
+}  // namespace bendy::edit

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "rewrite.h"
+
+#include <bendy/edit/outcome.h>
+#include <bendy/format/document.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bendy::edit {
+
+/// What becomes of a pool's weights tracks.
+struct WeightsGo {
+    std::uint32_t pool = kNone;       ///< kNone: they go
+    std::vector<std::uint32_t> from;  ///< for each target there: which target here; kNone: none
+    std::vector<float> at_rest;       ///< the weight where there is none
+};
+
+/// Where the tracks of a cycle go: by the joints and pools of the object that it stands in now.
+struct TracksGo {
+    std::vector<std::uint32_t> joints;  ///< kNone: its tracks go
+    std::uint32_t joint_count = 0;      ///< of the object that they go to
+    std::vector<bool> decoded;          ///< joints whose packed tracks become ordinary ones; empty: none
+    std::vector<WeightsGo> weights;     ///< by pool
+};
+
+struct TrackCounts {
+    std::uint32_t stay = 0, go = 0, decoded = 0;
+};
+
+/// Changes the cycle's TRAK, PACK, TIME and KEYV so that its tracks go there. Chunks that need no change keep their
+/// bytes. A problem if tracks share their values in a way that would make the file much larger.
+Result<TrackCounts, Problem> send_tracks(const ChunkTree& tree, const ObjectView& object, const CycleView& cycle,
+                                         const TracksGo& go, Rewrite& rewrite);
+
+}  // namespace bendy::edit

@@ -1,0 +1,184 @@
+#include <bendy/edit/extract.h>
+
+#include "finish.h"
+#include "kept_vertices.h"
+#include "mend.h"
+#include "source.h"
+#include "texture_numbers.h"
+
+#include <bendy/edit/names.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+struct Found {
+    std::size_t object = 0;
+    std::uint32_t joint = 0;
+};
+
+std::vector<std::string_view> joint_names(const ObjectView& object) {
+    std::vector<std::string_view> names;
+    for (const JointView& joint : object.skeleton.joints) names.push_back(joint.name);
+    return names;
+}
+
+Result<Found, Problem> find_joint(const Document& document, std::string_view wanted) {
+    if (document.objects.empty()) return Problem{"there is no object, so no joint"};
+    std::vector<std::string_view> names;
+    for (const ObjectView& object : document.objects) {
+        for (const JointView& joint : object.skeleton.joints) names.push_back(joint.name);
+    }
+    const auto found = find_named(names, wanted, "joint");
+    if (!found) return found.error();
+    if (found->size() > 1) {
+        return Problem{std::to_string(found->size()) + " joints are called \"" + std::string(wanted) + "\": " +
+                       list_names(names, *found) + "; a number says which: #" + std::to_string(found->front())};
+    }
+    std::size_t joint = found->front();
+    std::size_t object = 0;
+    while (joint >= document.objects[object].skeleton.joints.size())
+        joint -= document.objects[object++].skeleton.joints.size();
+    return Found{object, static_cast<std::uint32_t>(joint)};
+}
+
+/// The first joint after those below this one.
+std::uint32_t end_of(const SkeletonView& skeleton, std::uint32_t joint) {
+    std::vector<bool> is_below(skeleton.joints.size());
+    is_below[joint] = true;
+    std::uint32_t end = joint + 1;
+    for (; end < is_below.size(); ++end) {
+        const std::uint32_t parent = skeleton.joints[end].parent;
+        if (parent == kNone || !is_below[parent]) break;
+        is_below[end] = true;
+    }
+    return end;
+}
+
+void keep_parents(const SkeletonView& skeleton, std::vector<bool>& stays) {
+    for (std::size_t joint = stays.size(); joint-- > 0;) {
+        const std::uint32_t parent = skeleton.joints[joint].parent;
+        if (stays[joint] && parent != kNone) stays[parent] = true;
+    }
+}
+
+/// Materials that the polygons which stay use, and textures that those, or the joints' own materials, use.
+void keep_used_surfaces(const Source& source, std::size_t object_number, Staying& staying) {
+    const ObjectView& object = source.document.objects[object_number];
+    const Staying::Object& here = staying.objects[object_number];
+    std::vector<bool> used(source.document.materials.size());
+    std::size_t local = source.document.global_materials;
+    for (std::size_t k = 0; k < object_number; ++k) local += source.document.objects[k].skeleton.local_materials.size();
+    for (std::size_t j = 0; j < here.joints.size(); ++j) {
+        const auto& firsts = object.skeleton.first_local_material;
+        const std::size_t next = j + 1 < firsts.size() ? firsts[j + 1] : object.skeleton.local_materials.size();
+        for (std::size_t k = firsts[j]; k < next; ++k) used[local + k] = here.polygons[j];
+    }
+    for (const PolygonView& polygons : object.skeleton.polygons) {
+        if (here.polygons[polygons.joint] && polygons.material != kNone) used[polygons.material] = true;
+    }
+    std::copy_n(used.begin(), staying.materials.size(), staying.materials.begin());
+    staying.textures.assign(staying.textures.size(), false);
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m]) continue;
+        const MaterialView& material = source.document.materials[m];
+        const SurfaceRecord& surface = material.surface;
+        for (const TextureUseRecord& use :
+             {surface.base_colour_texture, surface.metallic_roughness_texture, surface.normal_texture,
+              surface.occlusion_texture, surface.emissive_texture}) {
+            if (use.texture != kNone) staying.textures[use.texture] = true;
+        }
+        const auto more = texture_numbers(material.extensions);
+        for (const std::uint32_t number : more.value_or(std::vector<std::uint32_t>())) {
+            if (number < staying.textures.size()) staying.textures[number] = true;
+        }
+    }
+}
+
+std::string counted(std::size_t stays, std::size_t of, const char* one, const char* many) {
+    return std::to_string(stays) + " of " + std::to_string(of) + ' ' + (of == 1 ? one : many);
+}
+
+std::size_t count(const std::vector<bool>& stays) {
+    return static_cast<std::size_t>(std::count(stays.begin(), stays.end(), true));
+}
+
+std::vector<std::size_t> those_without(const std::vector<bool>& stays) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < stays.size(); ++k) {
+        if (!stays[k]) numbers.push_back(k);
+    }
+    return numbers;
+}
+
+void tell(const Source& source, const Found& found, const Staying& staying, Log& log) {
+    const ObjectView& object = source.document.objects[found.object];
+    const Staying::Object& here = staying.objects[found.object];
+    const auto names = joint_names(object);
+    std::uint64_t vertices = 0;
+    std::uint64_t of = 0;
+    std::vector<bool> pools;
+    std::vector<std::string_view> pool_names;
+    std::vector<std::string_view> chain_names;
+    for (std::size_t p = 0; p < object.pools.size(); ++p) {
+        pools.push_back(here.pools[p].stays);
+        pool_names.push_back(object.pools[p].name);
+        of += object.pools[p].vertices;
+        if (!here.pools[p].stays) continue;
+        vertices += here.pools[p].vertices.empty() ? object.pools[p].vertices : count(here.pools[p].vertices);
+        if (!here.pools[p].keeps_levels)
+            log.warnings.push_back("mesh \"" + std::string(object.pools[p].name) + "\" keeps no levels of detail");
+    }
+    for (const ChainView& chain : object.chains) chain_names.push_back(chain.name);
+    log.done.push_back("extracted " + counted(count(here.polygons), names.size(), "joint", "joints") + ", " +
+                       counted(vertices, of, "vertex", "vertices"));
+    std::vector<std::size_t> bare;
+    for (std::size_t j = 0; j < here.joints.size(); ++j) {
+        if (here.joints[j] && !here.polygons[j]) bare.push_back(j);
+    }
+    if (!bare.empty()) log.done.push_back("joints that stay without polygons: " + list_names(names, bare));
+    const auto tell_gone = [&](const std::vector<bool>& stays, std::span<const std::string_view> all,
+                               const char* what) {
+        if (const auto gone = those_without(stays); !gone.empty())
+            log.done.push_back(std::string(what) + " left out: " + list_names(all, gone));
+    };
+    tell_gone(pools, pool_names, "meshes");
+    tell_gone(here.chains, chain_names, "chains");
+    if (staying.objects.size() > 1)
+        log.warnings.push_back("other objects left out: " + std::to_string(staying.objects.size() - 1));
+    if (vertices == 0) log.warnings.emplace_back("no polygon belongs to these joints: the file has no vertices");
+}
+
+}  // namespace
+
+Edited extract(Bytes file, std::string_view joint, Log& log) {
+    const auto source = open_source(file);
+    if (!source) return source.error();
+    const auto found = find_joint(source->document, joint);
+    if (!found) return found.error();
+    const ObjectView& object = source->document.objects[found->object];
+    const std::uint32_t end = end_of(object.skeleton, found->joint);
+    const auto is_inside = [&](std::uint32_t number) { return number >= found->joint && number < end; };
+
+    Staying staying = everything(source->document);
+    for (std::size_t k = 0; k < staying.objects.size(); ++k) staying.objects[k].stays = k == found->object;
+    Staying::Object& here = staying.objects[found->object];
+    for (std::uint32_t j = 0; j < here.joints.size(); ++j) here.joints[j] = here.polygons[j] = is_inside(j);
+    keep_used_vertices(object, here);
+    keep_joints_of_vertices(object, here);
+    keep_parents(object.skeleton, here.joints);
+    for (std::size_t k = 0; k < object.chains.size(); ++k)  // the links lie between start and effector
+        here.chains[k] = is_inside(object.chains[k].record.start);
+    keep_used_surfaces(*source, found->object, staying);
+
+    Rewrite rewrite(source->tree);
+    if (const auto mended = mend(*source, staying, rewrite, log); !mended) return mended.error();
+    tell(*source, *found, staying, log);
+    return finish(rewrite);
+}
+
+}  // namespace bendy::edit

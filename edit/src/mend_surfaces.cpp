@@ -1,0 +1,112 @@
+#include "mend.h"
+#include "texture_numbers.h"
+
+#include <bendy/format/records.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+constexpr std::array kTextureUses{offsetof(SurfaceRecord, base_colour_texture),
+                                  offsetof(SurfaceRecord, metallic_roughness_texture),
+                                  offsetof(SurfaceRecord, normal_texture), offsetof(SurfaceRecord, occlusion_texture),
+                                  offsetof(SurfaceRecord, emissive_texture)};
+
+bool is_image(FourCC id) {
+    return id == FourCC("IMAG") || id == FourCC("LINK") || id == FourCC("SAME");
+}
+
+/// The images of every texture: their chunks.
+std::vector<std::vector<std::uint32_t>> image_chunks(const Source& source) {
+    std::vector<std::vector<std::uint32_t>> images;
+    for (const TextureView& texture : source.document.textures) {
+        images.emplace_back();
+        for (const std::uint32_t child : source.tree.children(texture.chunk)) {
+            if (is_image(source.tree[child].id)) images.back().push_back(child);
+        }
+    }
+    return images;
+}
+
+/// A SAME means the image where it is now: the first one that shared an image which goes has it from now on.
+void mend_shared_images(const Source& source, const std::vector<bool>& stays, std::span<const std::uint32_t> now,
+                        Rewrite& rewrite) {
+    const auto images = image_chunks(source);
+    std::map<std::uint32_t, SameRecord> moved;  // by the chunk of the image that went
+    for (std::uint32_t t = 0; t < images.size(); ++t) {
+        if (!stays[t]) continue;
+        for (std::uint32_t k = 0; k < images[t].size(); ++k) {
+            const std::uint32_t chunk = images[t][k];
+            if (!(source.tree[chunk].id == FourCC("SAME"))) continue;
+            const Bytes before = source.tree.payload(chunk);
+            SameRecord same;
+            copy_at(before, 0, same);
+            const std::uint32_t image = images[same.texture][same.image];
+            if (!stays[same.texture] && moved.try_emplace(image, SameRecord{now[t], k}).second) {
+                const Chunk& there = source.tree[image];
+                const Bytes whole = source.tree.bytes().subspan(there.offset, kChunkHeaderSize + padded(there.size));
+                rewrite.replace_whole(chunk, {whole.begin(), whole.end()});
+                continue;
+            }
+            const SameRecord mended = stays[same.texture] ? SameRecord{now[same.texture], same.image} : moved[image];
+            if (mended.texture == same.texture && mended.image == same.image) continue;
+            Buffer payload(before.begin(), before.end());
+            std::memcpy(payload.data(), &mended, sizeof mended);
+            rewrite.replace(chunk, payload);
+        }
+    }
+}
+
+void mend_surface(const ChunkTree& tree, std::uint32_t material, std::span<const std::uint32_t> now, Rewrite& rewrite) {
+    const std::uint32_t chunk = tree.find(material, FourCC("SURF"));
+    const Bytes before = tree.payload(chunk);
+    Buffer payload(before.begin(), before.end());
+    bool is_changed = false;
+    for (const std::size_t use : kTextureUses) {
+        std::uint32_t number = kNone;
+        copy_at(before, use + offsetof(TextureUseRecord, texture), number);
+        if (number == kNone || now[number] == number) continue;
+        std::memcpy(payload.data() + use + offsetof(TextureUseRecord, texture), &now[number], sizeof number);
+        is_changed = true;
+    }
+    if (is_changed) rewrite.replace(chunk, payload);
+}
+
+void mend_extensions(const ChunkTree& tree, const MaterialView& material, std::span<const std::uint32_t> now,
+                     Rewrite& rewrite, Log& log) {
+    const std::uint32_t chunk = tree.find(material.chunk, FourCC("EXTN"));
+    if (chunk == kNone) return;
+    const std::string_view before = as_text(tree.payload(chunk));
+    const auto after = renumber_textures(before, now);
+    if (!after) {
+        log.warnings.push_back("the extensions of material \"" + std::string(material.name) +
+                               "\" cannot be read; texture numbers in them stay as they are");
+    } else if (*after != before) {
+        rewrite.replace(chunk, as_byte_span(*after));
+    }
+}
+
+}  // namespace
+
+void mend_textures(const Source& source, const Staying& staying, Rewrite& rewrite, Log& log) {
+    const auto now = renumbered(staying.textures);
+    bool is_changed = false;
+    for (std::size_t t = 0; t < now.size(); ++t) {
+        if (now[t] == t) continue;
+        is_changed = true;
+        if (now[t] == kNone) rewrite.remove(source.document.textures[t].chunk);
+    }
+    if (!is_changed) return;
+    mend_shared_images(source, staying.textures, now, rewrite);
+    for (const MaterialView& material : source.document.materials) {
+        mend_surface(source.tree, material.chunk, now, rewrite);
+        mend_extensions(source.tree, material, now, rewrite, log);
+    }
+}
+
+}  // namespace bendy::edit

@@ -1,0 +1,381 @@
+#include <bendy/edit/merge_cycles.h>
+
+#include "cycle_tracks.h"
+#include "finish.h"
+#include "rest_difference.h"
+#include "source.h"
+
+#include <bendy/edit/names.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+/// For each of `there` the one here that has its name; of several with one name, in turn; kNone: none.
+std::vector<std::uint32_t> pair_names(std::span<const std::string_view> there, std::span<const std::string_view> here) {
+    std::map<std::string_view, std::vector<std::uint32_t>> by_name;
+    for (auto k = static_cast<std::uint32_t>(here.size()); k-- > 0;)
+        by_name[here[k]].push_back(k);  // the first one last: it is taken first
+    std::vector<std::uint32_t> pairs(there.size(), kNone);
+    for (std::size_t k = 0; k < there.size(); ++k) {
+        const auto found = by_name.find(there[k]);
+        if (there[k].empty() || found == by_name.end() || found->second.empty()) continue;
+        pairs[k] = found->second.back();
+        found->second.pop_back();
+    }
+    return pairs;
+}
+
+/// For each joint there the one of its name here. Names that only one joint has decide alone; of others it is the one
+/// whose parent is the parent's too, and what is left goes in turn if there are as many on both sides.
+std::vector<std::uint32_t> pair_joints(const SkeletonView& there, const SkeletonView& here) {
+    struct Same {
+        std::vector<std::uint32_t> there, here;
+    };
+    std::map<std::string_view, Same> by_name;
+    std::map<std::pair<std::string_view, std::uint32_t>, std::vector<std::uint32_t>> by_parent;  // the first one last
+    for (auto k = static_cast<std::uint32_t>(here.joints.size()); k-- > 0;) {
+        const JointView& joint = here.joints[k];
+        by_name[joint.name].here.push_back(k);
+        by_parent[{joint.name, joint.parent}].push_back(k);
+    }
+    for (auto k = static_cast<std::uint32_t>(there.joints.size()); k-- > 0;)
+        by_name[there.joints[k].name].there.push_back(k);
+    // Joints without a name go in turn where their parents have as many of them.
+    std::map<std::uint32_t, std::size_t> nameless_here, nameless_there;  // by parent
+    for (const JointView& joint : here.joints) nameless_here[joint.parent] += joint.name.empty() ? 1 : 0;
+    for (const JointView& joint : there.joints) nameless_there[joint.parent] += joint.name.empty() ? 1 : 0;
+    std::vector<std::uint32_t> pairs(there.joints.size(), kNone);
+    std::vector<bool> is_taken(here.joints.size());
+    const auto pair = [&](std::uint32_t k, std::uint32_t with) {
+        pairs[k] = with;
+        is_taken[with] = true;
+    };
+    for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+        const JointView& joint = there.joints[k];
+        const Same& same = by_name[joint.name];
+        if (!joint.name.empty() && same.there.size() == 1 && same.here.size() == 1) {
+            pair(k, same.here.front());
+            continue;
+        }
+        if (joint.parent != kNone && pairs[joint.parent] == kNone) continue;
+        const auto found = by_parent.find({joint.name, joint.parent == kNone ? kNone : pairs[joint.parent]});
+        if (found == by_parent.end() || found->second.empty()) continue;
+        if (joint.name.empty() && nameless_there[joint.parent] != nameless_here[found->first.second]) continue;
+        pair(k, found->second.back());
+        found->second.pop_back();
+    }
+    for (auto& [name, same] : by_name) {
+        if (name.empty()) continue;
+        std::erase_if(same.there, [&](std::uint32_t k) { return pairs[k] != kNone; });
+        std::erase_if(same.here, [&](std::uint32_t k) { return is_taken[k]; });
+        if (same.there.size() != same.here.size()) continue;
+        for (std::size_t k = 0; k < same.there.size(); ++k) pair(same.there[k], same.here[k]);
+    }
+    return pairs;
+}
+
+template <class T>
+std::vector<std::string_view> names_of(const std::vector<T>& things) {
+    std::vector<std::string_view> names;
+    names.reserve(things.size());
+    for (const T& thing : things) names.push_back(thing.name);
+    return names;
+}
+
+bool are_equal(const RestRecord& a, const RestRecord& b) {
+    return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale && a.shear == b.shear;
+}
+
+WeightsGo pair_targets(const PoolView& there, const PoolView& here, std::uint32_t pool) {
+    WeightsGo go;
+    go.pool = pool;
+    const auto names_there = names_of(there.targets);
+    const auto names_here = names_of(here.targets);
+    auto pairs = pair_names(names_here, names_there);
+    const auto has_name = [](std::string_view name) { return !name.empty(); };
+    const bool any_named = std::any_of(names_there.begin(), names_there.end(), has_name) ||
+                           std::any_of(names_here.begin(), names_here.end(), has_name);
+    if (!any_named && names_there.size() == names_here.size()) {
+        for (std::uint32_t k = 0; k < pairs.size(); ++k) pairs[k] = k;
+    }
+    const bool fits = std::any_of(pairs.begin(), pairs.end(), [](std::uint32_t k) { return k != kNone; });
+    if (!fits) return {};
+    go.from = std::move(pairs);
+    for (const TargetView& target : here.targets) go.at_rest.push_back(target.rest_weight);
+    return go;
+}
+
+/// Where the tracks of an object's cycles go in another object.
+class Pairing {
+public:
+    Pairing(const ObjectView& there, const ObjectView& here) : there_(there), here_(here) {
+        go_.joints = pair_joints(there.skeleton, here.skeleton);
+        go_.joint_count = static_cast<std::uint32_t>(here.skeleton.joints.size());
+        go_.decoded.resize(go_.joints.size());
+        for (std::size_t j = 0; j < go_.joints.size(); ++j) {
+            if (go_.joints[j] == kNone) continue;
+            const RestRecord& rest = here.skeleton.joints[go_.joints[j]].rest;
+            go_.decoded[j] = !are_equal(rest, there.skeleton.joints[j].rest);
+        }
+        auto pools = pair_names(names_of(there.pools), names_of(here.pools));
+        if (there.pools.size() == 1 && here.pools.size() == 1) pools[0] = 0;
+        for (std::size_t p = 0; p < pools.size(); ++p) {
+            go_.weights.push_back(pools[p] == kNone ? WeightsGo{}
+                                                    : pair_targets(there.pools[p], here.pools[pools[p]], pools[p]));
+        }
+    }
+
+    [[nodiscard]] const TracksGo& go() const { return go_; }
+
+    /// Joints and pools that cycles animate and that there are not here; joints whose rest poses differ.
+    void warn(std::span<const bool> is_animated, Log& log) const {
+        std::vector<std::size_t> missing;
+        for (std::size_t j = 0; j < go_.joints.size(); ++j) {
+            if (is_animated[j] && go_.joints[j] == kNone) missing.push_back(j);
+        }
+        if (!missing.empty()) {
+            log.warnings.push_back("there is no joint here for the tracks of " + std::to_string(missing.size()) +
+                                   (missing.size() == 1 ? " joint: " : " joints: ") +
+                                   list_names(names_of(there_.skeleton.joints), missing, 20) +
+                                   explain(missing.front()));
+        }
+        warn_of_rests(log);
+    }
+
+    /// A suggestion if the names of joints differ by more than chance.
+    [[nodiscard]] std::string explain(std::size_t animated) const {
+        const std::string_view name = there_.skeleton.joints[animated].name;
+        const std::string_view nearest = nearest_name(names_of(here_.skeleton.joints), name);
+        return nearest.empty() ? ""
+                               : " (is its \"" + std::string(name) + "\" the \"" + std::string(nearest) +
+                                     "\" here? renaming mends that)";
+    }
+
+private:
+    void warn_of_rests(Log& log) const {
+        RestDifference most;
+        std::size_t differing = 0;
+        std::size_t worst = 0;
+        for (std::size_t j = 0; j < go_.joints.size(); ++j) {
+            if (go_.joints[j] == kNone || !go_.decoded[j]) continue;
+            const RestDifference difference =
+                rest_difference(there_.skeleton.joints[j].rest, here_.skeleton.joints[go_.joints[j]].rest);
+            if (!difference.is_noticeable()) continue;
+            ++differing;
+            if (differing == 1 || difference.weight() > most.weight()) {
+                most = difference;
+                worst = j;
+            }
+        }
+        if (differing == 0) return;
+        log.warnings.push_back("the rest poses of " + std::to_string(differing) +
+                               (differing == 1 ? " joint differ" : " joints differ") + ", most that of \"" +
+                               std::string(there_.skeleton.joints[worst].name) + "\": " + describe(most));
+    }
+
+    const ObjectView& there_;
+    const ObjectView& here_;
+    TracksGo go_;
+};
+
+/// Marks what the cycles of an object animate.
+void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<std::uint32_t>& pools) {
+    for (const CycleView& cycle : object.cycles) {
+        for (const TrackView& track : cycle.tracks) {
+            if (track.path == TrackPath::weights) {
+                pools.insert(track.target);
+            } else {
+                joints[track.target] = true;
+            }
+        }
+        if (!cycle.packed) continue;
+        for (std::uint32_t j = 0; j < cycle.packed->record.joints; ++j) {
+            joints[j] = joints[j] || cycle.packed->animates(j, TrackPath::rotation) ||
+                        cycle.packed->animates(j, TrackPath::translation) ||
+                        cycle.packed->animates(j, TrackPath::scale);
+        }
+    }
+}
+
+/// A name that nothing has yet: "Run.001", as Blender does.
+std::string numbered(std::string_view name, const std::set<std::string, std::less<>>& taken, unsigned& last) {
+    std::string numbered;
+    do {
+        std::array<char, 16> digits{};
+        std::snprintf(digits.data(), digits.size(), ".%03u", ++last);
+        numbered = std::string(name) + digits.data();
+    } while (taken.contains(numbered));
+    return numbered;
+}
+
+class Merger {
+public:
+    Merger(const Source& here, const Source& there, const ObjectView& from, SameName same_name, Log& log)
+        : here_(here),
+          there_(there),
+          from_(from),
+          to_(here.document.objects.front()),
+          same_name_(same_name),
+          log_(log),
+          pairing_(from, to_),
+          rewrite_(here.tree),
+          sending_(there.tree) {
+        for (const CycleView& cycle : to_.cycles) {
+            taken_.emplace(cycle.name);
+            places_.try_emplace(std::string(cycle.name), cycle.chunk);
+        }
+    }
+
+    Edited merge() {
+        std::vector<std::size_t> useless;
+        for (std::size_t k = 0; k < from_.cycles.size(); ++k) {
+            const CycleView& cycle = from_.cycles[k];
+            const auto counts = send_tracks(there_.tree, from_, cycle, pairing_.go(), sending_);
+            if (!counts) return counts.error();
+            if (counts->stay == 0 && counts->go != 0) {
+                useless.push_back(k);
+                continue;
+            }
+            if (const auto put = put_cycle(cycle, *counts); !put) return put.error();
+        }
+        if (useless.size() == from_.cycles.size()) return nothing_fits();
+        if (!useless.empty()) {
+            log_.warnings.push_back("cycles that animate nothing that is here are left out: " +
+                                    list_names(names_of(from_.cycles), useless));
+        }
+        tell();
+        put_bound();
+        return finish(rewrite_);
+    }
+
+private:
+    void tell() {
+        const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        std::set<std::uint32_t> pools;
+        const std::span<bool> joints(animated.get(), from_.skeleton.joints.size());
+        mark_animated(from_, joints, pools);
+        pairing_.warn(joints, log_);
+        for (const std::uint32_t pool : pools) {
+            const WeightsGo& go = pairing_.go().weights[pool];
+            const std::string name = '"' + std::string(from_.pools[pool].name) + '"';
+            if (go.from.empty()) {
+                log_.warnings.push_back("no mesh and targets here fit the weights of mesh " + name);
+                continue;
+            }
+            std::vector<std::size_t> lost;
+            for (std::uint32_t t = 0; t < from_.pools[pool].targets.size(); ++t) {
+                if (std::find(go.from.begin(), go.from.end(), t) == go.from.end()) lost.push_back(t);
+            }
+            if (!lost.empty()) {
+                log_.warnings.push_back("mesh " + name + " has no targets here for the weights of " +
+                                        list_names(names_of(from_.pools[pool].targets), lost));
+            }
+        }
+    }
+
+    [[nodiscard]] Problem nothing_fits() const {
+        std::vector<std::size_t> missing;
+        const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        std::set<std::uint32_t> pools;
+        mark_animated(from_, std::span(animated.get(), from_.skeleton.joints.size()), pools);
+        for (std::size_t j = 0; j < from_.skeleton.joints.size(); ++j) {
+            if (animated[j]) missing.push_back(j);
+        }
+        if (missing.empty()) return {"its cycles animate nothing that is here"};
+        return {"its cycles animate " + std::to_string(missing.size()) +
+                (missing.size() == 1 ? " joint, which is not here: " : " joints and none of them is here: ") +
+                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front())};
+    }
+
+    Result<void, Problem> put_cycle(const CycleView& cycle, const TrackCounts& counts) {
+        std::string name(cycle.name);
+        const bool is_taken = !name.empty() && taken_.contains(name);
+        if (is_taken && same_name_ == SameName::refuse) return Problem{"there is a cycle \"" + name + "\" already"};
+        const auto place = places_.find(name);
+        const bool replaces = is_taken && same_name_ == SameName::replace && place != places_.end();
+        if (is_taken && !replaces) {
+            name = numbered(name, taken_, last_numbers_[name]);
+            sending_.replace(there_.tree.find(cycle.chunk, FourCC("NAME")), as_byte_span(name));
+        }
+        if (!name.empty()) taken_.insert(name);
+        Buffer chunk = sending_.write(cycle.chunk);
+        if (replaces) {
+            rewrite_.replace_whole(place->second, std::move(chunk));
+            places_.erase(place);  // a second one of the name gets one of its own
+        } else if (to_.cycles.empty()) {
+            rewrite_.append(to_.chunk, std::move(chunk));
+        } else {
+            rewrite_.insert_after(to_.cycles.back().chunk, std::move(chunk));
+        }
+        log_.done.push_back(
+            (replaces ? "replaced cycle \"" : "merged cycle \"") + name + "\": " + std::to_string(counts.stay) +
+            (counts.stay == 1 ? " track" : " tracks") +
+            (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
+            (counts.decoded == 0 ? "" : ", " + std::to_string(counts.decoded) + " decoded, for another rest pose"));
+        return {};
+    }
+
+    /// A file with cycles that are not exact is not exact.
+    void put_bound() {
+        const auto& theirs = there_.document.bound;
+        if (!theirs) return;
+        const std::uint32_t chunk = here_.tree.find(0, FourCC("BNDS"));
+        log_.warnings.emplace_back(
+            "its cycles are encoded for size; the error that is stated was measured on its own skin");
+        if (chunk == kNone) {
+            BoundRecord bound = *theirs;
+            rewrite_.insert_after(here_.tree.find(0, FourCC("VERS")), whole_leaf(FourCC("BNDS"), bytes_of(bound)));
+            return;
+        }
+        BoundRecord bound = *here_.document.bound;
+        bound.max_error = std::max(bound.max_error, theirs->max_error);
+        bound.measured_error = std::max(bound.measured_error, theirs->measured_error);
+        const Bytes before = here_.tree.payload(chunk);
+        Buffer payload(before.begin(), before.end());
+        std::memcpy(payload.data(), &bound, sizeof bound);
+        rewrite_.replace(chunk, payload);
+    }
+
+    const Source& here_;
+    const Source& there_;
+    const ObjectView& from_;
+    const ObjectView& to_;
+    SameName same_name_;
+    Log& log_;
+    Pairing pairing_;
+    Rewrite rewrite_, sending_;
+    std::set<std::string, std::less<>> taken_;
+    std::map<std::string, std::uint32_t, std::less<>> places_;  // of the cycles that are here, by name
+    std::map<std::string, unsigned, std::less<>> last_numbers_;
+};
+
+}  // namespace
+
+Edited merge_cycles(Bytes file, Bytes other, SameName same_name, Log& log) {
+    const auto here = open_source(file);
+    if (!here) return here.error();
+    const auto there = open_source(other);
+    if (!there) return Problem{"what is to be merged: " + there.error().message};
+    if (here->document.objects.empty()) return Problem{"there is no object that could have cycles"};
+    const auto& objects = there->document.objects;
+    const auto has_cycles = [](const ObjectView& object) { return !object.cycles.empty(); };
+    const auto from = std::find_if(objects.begin(), objects.end(), has_cycles);
+    if (from == objects.end()) return Problem{"what is to be merged has no cycles"};
+    if (std::any_of(std::next(from), objects.end(), has_cycles))
+        log.warnings.emplace_back("only the cycles of its first object that has some are merged");
+    return Merger(*here, *there, *from, same_name, log).merge();
+}
+
+}  // namespace bendy::edit

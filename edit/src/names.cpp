@@ -1,0 +1,130 @@
+#include <bendy/edit/names.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <system_error>
+
+namespace bendy::edit {
+namespace {
+
+constexpr std::size_t kLongest = 64;  // names that are compared letter by letter
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string lowered(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), lower);
+    return out;
+}
+
+/// How many letters must be added, left out or changed (Levenshtein), both at most kLongest long.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::array<std::size_t, kLongest + 1> row{};
+    for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t k = 0; k < b.size(); ++k) {
+            const std::size_t changed = diagonal + (a[i] == b[k] ? 0 : 1);
+            diagonal = row[k + 1];
+            row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+/// Smaller is more alike; at most kLongest, or it is not alike.
+std::size_t unlikeness(const std::string& wanted, const std::string& name) {
+    const bool holds = name.find(wanted) != std::string::npos || wanted.find(name) != std::string::npos;
+    const std::size_t longer = std::max(name.size(), wanted.size());
+    const std::size_t steps = distance(wanted, name);
+    if (steps * 2 <= longer) return steps;
+    if (holds && std::min(name.size(), wanted.size()) >= 3) return longer / 2 + 1;
+    return kLongest + 1;
+}
+
+}  // namespace
+
+bool matches(std::string_view pattern, std::string_view name) {
+    std::size_t p = 0;
+    std::size_t n = 0;
+    std::size_t star = std::string_view::npos;
+    std::size_t resume = 0;
+    while (n < name.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = n;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+            ++p;
+            ++n;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            n = ++resume;
+        } else {
+            return false;
+        }
+    }
+    while (p < pattern.size() && pattern[p] == '*') ++p;
+    return p == pattern.size();
+}
+
+std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted) {
+    if (wanted.empty() || wanted.size() > kLongest) return {};
+    const std::string asked = lowered(wanted);
+    std::string_view nearest;
+    std::size_t best = kLongest + 1;
+    for (const std::string_view name : names) {
+        if (name.empty() || name.size() > kLongest) continue;
+        const std::size_t found = unlikeness(asked, lowered(name));
+        if (found >= best) continue;
+        best = found;
+        nearest = name;
+    }
+    return nearest;
+}
+
+std::string list_names(std::span<const std::string_view> names, std::span<const std::size_t> numbers,
+                       std::size_t most) {
+    std::string list;
+    const std::size_t shown = std::min(numbers.size(), numbers.size() == most + 1 ? most + 1 : most);
+    for (std::size_t k = 0; k < shown; ++k) {
+        const std::string_view name = names[numbers[k]];
+        if (k != 0) list += k + 1 == numbers.size() ? " and " : ", ";
+        list += name.empty() ? '#' + std::to_string(numbers[k]) : '"' + std::string(name) + '"';
+    }
+    if (shown < numbers.size()) list += " and " + std::to_string(numbers.size() - shown) + " more";
+    return list;
+}
+
+Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
+                                                     std::string_view kind) {
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (names[k] == wanted) found.push_back(k);
+    }
+    if (!found.empty()) return found;
+    if (wanted.starts_with('#')) {
+        std::size_t number = 0;
+        const auto [end, fault] = std::from_chars(wanted.data() + 1, wanted.data() + wanted.size(), number);
+        if (fault == std::errc() && end == wanted.data() + wanted.size() && number < names.size())
+            return std::vector<std::size_t>{number};
+    }
+    if (wanted.find_first_of("*?") != std::string_view::npos) {
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            if (matches(wanted, names[k])) found.push_back(k);
+        }
+        if (!found.empty()) return found;
+    }
+    std::string message = "there is no " + std::string(kind) + " \"" + std::string(wanted) + '"';
+    const std::string_view nearest = nearest_name(names, wanted);
+    if (names.empty()) return Problem{message + "; there are none"};
+    if (!nearest.empty()) return Problem{message + "; is \"" + std::string(nearest) + "\" meant?"};
+    std::vector<std::size_t> all(names.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+    return Problem{message + "; there " + (all.size() == 1 ? "is " : "are ") + list_names(names, all)};
+}
+
+}  // namespace bendy::edit

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <bendy/edit/outcome.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/document.h>
+
+namespace bendy::edit {
+
+/// A whole file that has been checked like `bendy validate` does, and read.
+struct Source {
+    ChunkTree tree;
+    Document document;
+};
+
+Result<Source, Problem> open_source(Bytes file);
+
+}  // namespace bendy::edit

@@ -1,0 +1,285 @@
+#include <bendy/edit/strip.h>
+
+#include "finish.h"
+#include "mend.h"
+#include "source.h"
+
+#include <bendy/edit/names.h>
+#include <bendy/format/check_grammar.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+struct Word {
+    Part part;
+    std::string_view one;  // with a name; empty: the part stands alone
+    std::string_view many;
+};
+constexpr std::array kWords{Word{Part::textures, "texture", "textures"}, Word{Part::materials, "material", "materials"},
+                            Word{Part::meshes, "mesh", "meshes"},        Word{Part::targets, "target", "targets"},
+                            Word{Part::cycles, "cycle", "cycles"},       Word{Part::chains, "chain", "chains"},
+                            Word{Part::limits, "limit", "limits"},       Word{Part::lod, "", "lod"},
+                            Word{Part::tangents, "", "tangents"},        Word{Part::colours, "", "colours"},
+                            Word{Part::attributes, "", "attributes"},    Word{Part::extras, "", "extras"},
+                            Word{Part::extensions, "", "extensions"},    Word{Part::unknown, "chunk", "unknown"}};
+
+const Word& word_of(Part part) {
+    return *std::find_if(kWords.begin(), kWords.end(), [&](const Word& word) { return word.part == part; });
+}
+
+/// Things of one kind, in all objects, by name.
+struct Things {
+    std::vector<std::string_view> names;
+    std::vector<std::vector<bool>::reference> stay;
+
+    void add(std::string_view name, std::vector<bool>::reference stays) {
+        names.push_back(name);
+        stay.push_back(stays);
+    }
+};
+
+class Stripper {
+public:
+    Stripper(const Source& source, const Strip& what, Log& log)
+        : source_(source), what_(what), log_(log), rewrite_(source.tree), staying_(everything(source.document)) {}
+
+    Edited strip() {
+        const auto done = strip_part();
+        if (!done) return done.error();
+        if (const auto mended = mend(source_, staying_, rewrite_, log_); !mended) return mended.error();
+        return finish(rewrite_);
+    }
+
+private:
+    Result<void, Problem> strip_part() {
+        switch (what_.part) {
+            case Part::textures:
+                return strip_textures();
+            case Part::materials:
+                return strip_materials();
+            case Part::meshes:
+                return strip_meshes();
+            case Part::targets:
+                return strip_targets();
+            case Part::cycles:
+                return strip_cycles();
+            case Part::chains:
+                return strip_chains();
+            case Part::limits:
+                return strip_limits();
+            case Part::unknown:
+                return strip_unknown();
+            case Part::lod:
+                return strip_leaves(FourCC("LODD"));
+            case Part::tangents:
+                return strip_leaves(FourCC("TANG"));
+            case Part::colours:
+                return strip_leaves(FourCC("COLR"));
+            case Part::attributes:
+                return strip_leaves(FourCC("USER"));
+            case Part::extras:
+                return strip_leaves(FourCC("EXTR"));
+            case Part::extensions:
+                return strip_leaves(FourCC("EXTN"));
+        }
+        return {};
+    }
+
+    void tell(std::size_t count) {
+        const Word& word = word_of(what_.part);
+        if (count == 0) {
+            log_.done.push_back("nothing to strip: " + std::string(word.many));
+            return;
+        }
+        const std::string_view noun = word.one.empty() || count != 1 ? word.many : word.one;
+        log_.done.push_back("stripped " + std::to_string(count) + ' ' + std::string(noun) +
+                            (what_.name.empty() ? "" : " \"" + what_.name + '"'));
+    }
+
+    /// The numbers of those that go.
+    Result<std::vector<std::size_t>, Problem> choose(std::span<const std::string_view> names) {
+        std::vector<std::size_t> all;
+        if (!what_.name.empty()) {
+            auto found = find_named(names, what_.name, word_of(what_.part).one);
+            if (found) tell(found->size());
+            return found;
+        }
+        for (std::size_t k = 0; k < names.size(); ++k) all.push_back(k);
+        tell(all.size());
+        return all;
+    }
+
+    Result<void, Problem> take_out(Things things) {
+        const auto chosen = choose(things.names);
+        if (!chosen) return chosen.error();
+        for (const std::size_t k : *chosen) things.stay[k] = false;
+        return {};
+    }
+
+    Result<void, Problem> strip_textures() {
+        Things things;
+        for (std::size_t t = 0; t < staying_.textures.size(); ++t)
+            things.add(source_.document.textures[t].name, staying_.textures[t]);
+        return take_out(std::move(things));
+    }
+
+    Result<void, Problem> strip_materials() {
+        Things things;
+        for (std::size_t m = 0; m < staying_.materials.size(); ++m)
+            things.add(source_.document.materials[m].name, staying_.materials[m]);
+        if (what_.name.empty()) staying_.local_materials = false;
+        return take_out(std::move(things));
+    }
+
+    /// Calls visit(object, what stays of it).
+    template <class Visit>
+    void each_object(const Visit& visit) {
+        for (std::size_t k = 0; k < staying_.objects.size(); ++k)
+            visit(source_.document.objects[k], staying_.objects[k]);
+    }
+
+    Result<void, Problem> strip_meshes() {
+        std::vector<std::string_view> names;
+        std::vector<Staying::Pool*> pools;
+        each_object([&](const ObjectView& object, Staying::Object& here) {
+            for (std::size_t p = 0; p < object.pools.size(); ++p) {
+                names.push_back(object.pools[p].name);
+                pools.push_back(&here.pools[p]);
+            }
+        });
+        const auto chosen = choose(names);
+        if (!chosen) return chosen.error();
+        for (const std::size_t k : *chosen) pools[k]->stays = false;
+        return {};
+    }
+
+    Result<void, Problem> strip_targets() {
+        Things things;
+        each_object([&](const ObjectView& object, Staying::Object& here) {
+            for (std::size_t p = 0; p < object.pools.size(); ++p) {
+                for (std::size_t t = 0; t < object.pools[p].targets.size(); ++t)
+                    things.add(object.pools[p].targets[t].name, here.pools[p].targets[t]);
+            }
+        });
+        return take_out(std::move(things));
+    }
+
+    Result<void, Problem> strip_cycles() {
+        Things things;
+        each_object([&](const ObjectView& object, Staying::Object& here) {
+            for (std::size_t k = 0; k < object.cycles.size(); ++k) things.add(object.cycles[k].name, here.cycles[k]);
+        });
+        return take_out(std::move(things));
+    }
+
+    Result<void, Problem> strip_chains() {
+        Things things;
+        each_object([&](const ObjectView& object, Staying::Object& here) {
+            for (std::size_t k = 0; k < object.chains.size(); ++k) things.add(object.chains[k].name, here.chains[k]);
+        });
+        return take_out(std::move(things));
+    }
+
+    /// By the names of their joints.
+    Result<void, Problem> strip_limits() {
+        std::vector<std::string_view> names;
+        std::vector<std::uint32_t> chunks;
+        for (const ObjectView& object : source_.document.objects) {
+            for (const LimitView& limit : object.skeleton.limits) {
+                names.push_back(object.skeleton.joints[limit.joint].name);
+                chunks.push_back(limit.chunk);
+            }
+        }
+        const auto chosen = choose(names);
+        if (!chosen) return chosen.error();
+        for (const std::size_t k : *chosen) rewrite_.remove(chunks[k]);
+        return {};
+    }
+
+    /// Calls visit(chunk) for all chunks that stand in containers which are known; false: not what is in it.
+    template <class Visit>
+    void walk(const Visit& visit) {
+        for (std::uint32_t number = 1; number < source_.tree.chunks().size();) {
+            const Chunk& chunk = source_.tree[number];
+            number = visit(number, chunk) && is_known(chunk.id) ? number + 1 : chunk.end;
+        }
+    }
+
+    Result<void, Problem> strip_leaves(FourCC id) {
+        std::size_t count = 0;
+        walk([&](std::uint32_t number, const Chunk& chunk) {
+            if (!(chunk.id == id)) return true;
+            rewrite_.remove(number);
+            ++count;
+            return false;
+        });
+        tell(count);
+        return {};
+    }
+
+    Result<void, Problem> strip_unknown() {
+        std::vector<std::string> ids;
+        std::vector<std::uint32_t> chunks;
+        walk([&](std::uint32_t number, const Chunk& chunk) {
+            if (is_known(chunk.id)) return true;
+            ids.emplace_back(chunk.id.letters().data(), 4);
+            chunks.push_back(number);
+            return false;
+        });
+        const std::vector<std::string_view> names(ids.begin(), ids.end());
+        const auto chosen = choose(names);
+        if (!chosen) return chosen.error();
+        for (const std::size_t k : *chosen) rewrite_.remove(chunks[k]);
+        return {};
+    }
+
+    const Source& source_;
+    const Strip& what_;
+    Log& log_;
+    Rewrite rewrite_;
+    Staying staying_;
+};
+
+}  // namespace
+
+std::string strip_words() {
+    std::string words;
+    for (const Word& word : kWords) words += (words.empty() ? "" : ", ") + std::string(word.many);
+    return words;
+}
+
+Result<Strip, Problem> parse_strip(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    const std::string_view asked = text.substr(0, colon);
+    const bool is_named = colon != std::string_view::npos;
+    std::vector<std::string_view> words;
+    for (const Word& word : kWords) {
+        words.push_back(word.many);
+        if (asked != word.one && asked != word.many) continue;
+        if (is_named && word.one.empty()) return Problem{"\"" + std::string(word.many) + "\" takes no name"};
+        if (is_named && colon + 1 == text.size())
+            return Problem{"a name is missing behind \"" + std::string(text) + '"'};
+        if (!is_named && asked == word.one) {
+            return Problem{"\"" + std::string(word.one) + "\" wants a name: " + std::string(word.one) +
+                           ":NAME; all of them: " + std::string(word.many)};
+        }
+        return Strip{word.part, std::string(is_named ? text.substr(colon + 1) : "")};
+    }
+    const std::string_view nearest = nearest_name(words, asked);
+    return Problem{"\"" + std::string(asked) + "\" cannot be stripped" +
+                   (nearest.empty() ? ": one of " + strip_words() : "; is \"" + std::string(nearest) + "\" meant?")};
+}
+
+Edited strip(Bytes file, const Strip& what, Log& log) {
+    const auto source = open_source(file);
+    if (!source) return source.error();
+    return Stripper(*source, what, log).strip();
+}
+
+}  // namespace bendy::edit

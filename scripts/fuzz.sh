@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Fuzzes for a while; exit 1 and the inputs, if anything was found.
+#   scripts/fuzz.sh                        five minutes of processor for all targets, two at a time: for every change; with
+#                                          one seed, so that two changes are judged by the same inputs
+#   scripts/fuzz.sh 7200 animate gltf      two hours each for these, other inputs every time
+# The corpora stay in build/fuzz/corpus and grow from run to run; findings are in build/fuzz/findings.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seconds=${1:-30}
+targets=("${@:2}")
+seed=$([ $# -gt 0 ] && echo 0 || echo 1)
+programs=build/asan-ubsan
+build=build/fuzz
+
+cmake --preset asan-ubsan >/dev/null
+cmake --build --preset asan-ubsan --target fuzz_targets
+[ ${#targets[@]} -gt 0 ] || for program in "$programs"/tests/fuzz/fuzz_*; do targets+=("${program##*/fuzz_}"); done
+
+if [ ! -d "$build/seeds" ]; then
+    cmake --preset release >/dev/null
+    cmake --build --preset release --target bendy
+    folders=()
+    [ ! -d ../shared/corpus ] || folders=(../shared/corpus)
+    python3 tests/fuzz/make_seeds.py build/release/cli/bendy "$build/seeds.part" "${folders[@]}"
+    mv "$build/seeds.part" "$build/seeds"
+fi
+
+fuzz() { # fuzz TARGET: one process, its last lines printed
+    local target=$1 seeds=$build/seeds/bendy
+    case $target in
+        gltf | rig | text) seeds=$build/seeds/$target ;;
+        codec) seeds=$build/seeds/codec ;;
+    esac
+    mkdir -p "$build/corpus/$target" "$build/findings"
+    local log=$build/fuzz_$target.log status=0
+    "$programs/tests/fuzz/fuzz_$target" -seed="$seed" -max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=3072 \
+        -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" \
+        "$build/corpus/$target" "$seeds" >"$log" 2>&1 || status=$?
+    printf '%-14s %s executions, %s\n' "$target" \
+        "$(sed -n 's/stat::number_of_executed_units: *//p' "$log")" "$([ $status = 0 ] && echo "nothing found" || echo FOUND)"
+    [ $status = 0 ] || tail -n 60 "$log"
+    return $status
+}
+export -f fuzz
+export build programs seconds seed
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -euo pipefail -c 'fuzz {}'

@@ -1,0 +1,476 @@
+# The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io): compile it to a reader in some dozen
+# languages, or look at a file with it in the Kaitai Web IDE. The grammar, not the meaning: what numbers a valid file may
+# hold stands on the pages beside this file, and sums are not checked here. tests/spec/check_spec.py holds it against the
+# tables of those pages.
+meta:
+  id: bendy
+  title: Bendy animated character
+  file-extension: bendy
+  license: MIT
+  ks-version: '0.10'
+  endian: le
+  bit-endian: le
+  encoding: UTF-8
+doc: |
+  A file is one chunk, HEAD, and nothing else; a chunk is a header of 16 bytes and a payload, which in a container is
+  chunks. See grammar.md and tree.md.
+doc-ref: README.md
+seq:
+  - {id: head, type: chunk(true), doc: "the file"}
+types:
+  header:
+    doc: "grammar.md, Header."
+    seq:
+      - {id: id, type: str, size: 4, encoding: ASCII, doc: "four characters, each A to Z or 0 to 9, in reading order"}
+      - {id: sum, type: u4, doc: "CRC-32C of id, size and flags, then payload or the children's sums"}
+      - {id: size_low, type: u4, doc: "bits 0 to 31 of the size"}
+      - {id: size_high, type: u2, doc: "bits 32 to 47 of the size"}
+      - {id: flags, type: u2, doc: "1 container, 2 required, 0xfc zero, 0xff00 codec"}
+    instances:
+      size: {value: size_low + size_high * 4294967296, doc: "bytes of the payload"}
+      is_container: {value: flags & 1 != 0}
+      is_required: {value: flags & 2 != 0}
+      reserved_flags: {value: flags & 0xfc}
+      codec: {value: flags >> 8}
+  chunk:
+    doc: "A header, a payload, and zeros up to the next multiple of 16."
+    params:
+      - {id: is_named, type: bool, doc: "ids mean something here: all containers above are known ones"}
+    seq:
+      - {id: header, type: header}
+      - {id: chunks, type: chunks(is_known_container), size: header.size, if: header.is_container}
+      - {id: payload, size: header.size, if: not header.is_container, type: payload(kind)}
+      - {id: padding, size: (16 - header.size % 16) % 16, doc: "zeros"}
+    instances:
+      is_known_container:
+        value: >-
+          is_named and (header.id == "HEAD" or header.id == "TEXT" or header.id == "MATE" or header.id == "OBJE"
+          or header.id == "SKIN" or header.id == "PIVO" or header.id == "IKCH" or header.id == "VECT"
+          or header.id == "TARG" or header.id == "USER" or header.id == "CYCL")
+      is_known_leaf:
+        value: >-
+          header.id == "VERS" or header.id == "BNDS" or header.id == "SAMP" or header.id == "IMAG" or header.id == "LINK"
+          or header.id == "SAME" or header.id == "SURF" or header.id == "EXTN" or header.id == "NAME" or header.id == "EXTR"
+          or header.id == "REST" or header.id == "LIMT" or header.id == "PULL" or header.id == "POLY" or header.id == "JNTS"
+          or header.id == "JNAM" or header.id == "KINF" or header.id == "VINF" or header.id == "PALT" or header.id == "TINF"
+          or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or header.id == "COLR"
+          or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or header.id == "INDX" or header.id == "LODD"
+          or header.id == "CINF" or header.id == "TRAK" or header.id == "PACK" or header.id == "TIME" or header.id == "KEYV"
+      kind:
+        value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
+        doc: "what the payload is read as"
+  chunks:
+    params:
+      - {id: is_named, type: bool}
+    seq:
+      - {id: list, type: chunk(is_named), repeat: eos}
+  payload:
+    doc: "A leaf's payload. That of an encoded leaf is read once it is decoded: give the bytes to payload(its id)."
+    params:
+      - {id: kind, type: str, doc: "the chunk's id; coded for an encoded leaf, empty where ids mean nothing"}
+    seq:
+      - id: body
+        size-eos: true
+        type:
+          switch-on: kind
+          cases:
+            '"coded"': encoded
+            '"VERS"': version_record
+            '"BNDS"': bound_record
+            '"SAMP"': sampler_record
+            '"IMAG"': image
+            '"LINK"': text
+            '"SAME"': same_record
+            '"SURF"': surface_record
+            '"EXTN"': text
+            '"NAME"': text
+            '"EXTR"': text
+            '"REST"': rest_record
+            '"LIMT"': limit_record
+            '"PULL"': pull_record
+            '"POLY"': polygon_record
+            '"JNTS"': joint_table
+            '"JNAM"': joint_names
+            '"KINF"': chain_record
+            '"VINF"': pool_record
+            '"PALT"': palette
+            '"TINF"': target_record
+            '"POSI"': stream
+            '"NORM"': stream
+            '"TANG"': stream
+            '"TEXC"': stream
+            '"COLR"': stream
+            '"BONE"': stream
+            '"WGHT"': stream
+            '"VALS"': stream
+            '"INDX"': stream
+            '"LODD"': collapse_sequence
+            '"CINF"': cycle_record
+            '"TRAK"': track_table
+            '"PACK"': packed_tracks
+            '"TIME"': float_list
+            '"KEYV"': float_list
+  encoded:
+    doc: "codecs.md."
+    seq:
+      - {id: size, type: u8, doc: "bytes of the decoded payload"}
+      - {id: head, type: u2, doc: "bytes at its start that are no rows or triangles"}
+      - {id: stride, type: u2, doc: "bytes of a row, a number or an index"}
+      - {id: reserved, type: u4, doc: "zero"}
+      - {id: body, size-eos: true}
+  text:
+    seq:
+      - {id: value, type: str, size-eos: true}
+  float_list:
+    seq:
+      - {id: values, type: f4, repeat: eos}
+  image:
+    seq:
+      - {id: record, type: image_record}
+      - {id: bytes, size-eos: true, doc: "a PNG, JPEG, ... file"}
+  joint_names:
+    seq:
+      - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
+  joint_table:
+    seq:
+      - {id: record, type: joints_record}
+      - {id: rests, type: full_rest, repeat: expr, repeat-expr: record.joints}
+      - {id: polygons, type: joint_polygons, repeat: expr, repeat-expr: record.polygons}
+  full_rest:
+    seq:
+      - {id: record, type: rest_record, size: 52}
+  joint_polygons:
+    seq:
+      - {id: joint, type: u4}
+      - {id: range, type: polygon_record}
+  stream:
+    doc: "streams.md."
+    seq:
+      - {id: record, type: stream_record}
+      - {id: box, type: box(record.components), if: record.normalised == numbers::boxed}
+      - id: values
+        repeat: expr
+        repeat-expr: record.elements * record.components
+        type:
+          switch-on: record.component_type
+          cases:
+            component_type::u8: u1
+            component_type::i8: s1
+            component_type::u16: u2
+            component_type::i16: s2
+            component_type::u32: u4
+            component_type::f32: f4
+  box:
+    params:
+      - {id: components, type: u2}
+    seq:
+      - {id: sides, type: side, repeat: expr, repeat-expr: components}
+      - {id: zeros, size: (components % 2) * 8}
+  side:
+    seq:
+      - {id: minimum, type: f4}
+      - {id: step, type: f4}
+  palette:
+    seq:
+      - {id: record, type: palette_record}
+      - {id: joints, type: u4, repeat: expr, repeat-expr: record.entries}
+      - {id: zeros, size: (4 - record.entries % 4) % 4 * 4}
+      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the one from which they follow"}
+  matrix:
+    seq:
+      - {id: values, type: f4, repeat: expr, repeat-expr: 16, doc: "column by column"}
+  collapse_sequence:
+    seq:
+      - {id: record, type: collapse_record}
+      - {id: pools, type: pool_collapse_record, repeat: expr, repeat-expr: record.pools}
+      - {id: levels, type: collapse_level(record.pools), repeat: expr, repeat-expr: record.levels}
+      - {id: zeros, size: (16 - record.levels * (record.pools + 1) * 4 % 16) % 16}
+      - {id: rest, size-eos: true, doc: "of each pool: targets, zeros, joined bits, zeros; as many as its VINF has vertices: see collapses"}
+  collapse_level:
+    params:
+      - {id: pools, type: u4}
+    seq:
+      - {id: error, type: f4, doc: "metres"}
+      - {id: alive, type: u4, repeat: expr, repeat-expr: pools, doc: "vertices of each pool"}
+  collapses:
+    doc: "What follows the levels, for each pool; count is its vertices less its base, which another chunk says."
+    params:
+      - {id: count, type: u4}
+      - {id: target_type, type: u1, enum: component_type}
+    seq:
+      - id: targets
+        repeat: expr
+        repeat-expr: count
+        type:
+          switch-on: target_type
+          cases:
+            component_type::u16: u2
+            component_type::u32: u4
+      - {id: targets_zeros, size: '(16 - count * (target_type == component_type::u16 ? 2 : 4) % 16) % 16'}
+      - {id: joined, type: b1, repeat: expr, repeat-expr: count}
+      - {id: joined_zeros, size: (16 - (count + 7) / 8 % 16) % 16}
+  track_table:
+    seq:
+      - {id: tracks, type: track_record, repeat: eos}
+  packed_tracks:
+    doc: "chunks/PACK.md."
+    seq:
+      - {id: record, type: pack_record}
+      - {id: masks, type: 'mask(record.lists >> _index & 1 != 0 ? record.joints : 0)', repeat: expr, repeat-expr: 8, doc: "which joints a list has tracks of"}
+      - {id: steps, type: 'step_list(masks[_index].tracks * (_index / 2 == 2 ? 1 : 3))', repeat: expr, repeat-expr: 8}
+      - {id: constant_bases, type: 'base_list(masks[_index * 2].tracks * (_index == 2 ? 1 : 3), record.wide >> _index * 2 & 1 != 0)', repeat: expr, repeat-expr: 4, doc: "of lists 0, 2, 4, 6"}
+      - {id: times, type: f4, repeat: expr, repeat-expr: record.frames, if: record.frame_rate == 0}
+      - {id: starts, type: u4, repeat: expr, repeat-expr: segment_count, if: segment_count > 1, doc: "where segments start, from the start of the payload"}
+      - {id: segments, type: segment(_index), repeat: expr, repeat-expr: segment_count}
+      - {id: tail, size: 4, doc: "zeros"}
+    instances:
+      is_animated: {value: 'masks[1].tracks + masks[3].tracks + masks[5].tracks + masks[7].tracks > 0'}
+      segment_count: {value: 'not is_animated ? 0 : record.segment_frames == 0 ? 1 : (record.frames - 2) / record.segment_frames + 1'}
+  mask:
+    params:
+      - {id: joints, type: u2}
+    seq:
+      - {id: bytes, type: 'mask_byte(_index == 0 ? 0 : bytes[_index - 1].total)', repeat: expr, repeat-expr: (joints + 7) / 8}
+    instances:
+      tracks: {value: 'joints == 0 ? 0 : bytes.last.total', doc: "bits set"}
+  mask_byte:
+    params:
+      - {id: before, type: u4}
+    seq:
+      - {id: bits, type: u1}
+    instances:
+      total: {value: before + (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1) + (bits >> 3 & 1) + (bits >> 4 & 1) + (bits >> 5 & 1) + (bits >> 6 & 1) + (bits >> 7)}
+  step_list:
+    params:
+      - {id: count, type: u4}
+    seq:
+      - {id: bytes, type: u1, repeat: expr, repeat-expr: count, doc: "s stands for a step of 2^((s - 160) / 4)"}
+  base_list:
+    params:
+      - {id: count, type: u4}
+      - {id: is_wide, type: bool}
+    seq:
+      - id: bases
+        repeat: expr
+        repeat-expr: count
+        type:
+          switch-on: is_wide
+          cases:
+            true: s4
+            false: s2
+  segment:
+    params:
+      - {id: number, type: u4}
+    seq:
+      - {id: lists, type: segment_list(_index * 2 + 1), repeat: expr, repeat-expr: 4, doc: "of lists 1, 3, 5, 7"}
+      - {id: frames, size: '(bits + 7) / 8', repeat: expr, repeat-expr: last - first + 1, doc: "numbers of so many bits each as their width says"}
+    instances:
+      first: {value: number * _parent.record.segment_frames, doc: "frame"}
+      last: {value: 'number + 1 == _parent.segment_count ? _parent.record.frames - 1 : first + _parent.record.segment_frames', doc: "frame"}
+      bits: {value: 'lists[0].bits + lists[1].bits + lists[2].bits + lists[3].bits', doc: "of a frame"}
+  segment_list:
+    params:
+      - {id: list, type: u1}
+    seq:
+      - {id: widths, type: 'width(_index == 0 ? 0 : widths[_index - 1].total)', repeat: expr, repeat-expr: count}
+      - {id: bases, type: 'base_list(count, _parent._parent.record.wide >> list & 1 != 0)'}
+    instances:
+      count: {value: '_parent._parent.masks[list].tracks * (list == 5 ? 1 : 3)', doc: "numbers of a frame"}
+      bits: {value: 'count == 0 ? 0 : widths.last.total'}
+  width:
+    params:
+      - {id: before, type: u4}
+    seq:
+      - {id: bits, type: u1}
+    instances:
+      total: {value: before + bits}
+
+  # The records: one line for each field, as records.def and the tables of the pages have them.
+  version_record:
+    seq:
+      - {id: signature, size: 8, doc: "42 45 4E 44 59 0D 0A 1A: BENDY, CR, LF, Ctrl-Z"}
+      - {id: major, type: u2, doc: "major version: a reader refuses another one than its own"}
+      - {id: minor, type: u2, doc: "minor version: later ones only add what may be skipped"}
+      - {id: objects, type: u4, doc: "number of OBJE chunks"}
+      - {id: joints, type: u4, doc: "number of SKIN chunks, all objects"}
+      - {id: pools, type: u4, doc: "number of VECT chunks, all objects"}
+      - {id: vertices, type: u8, doc: "sum of the pools' vertices"}
+      - {id: cycles, type: u4, doc: "number of CYCL chunks, all objects"}
+      - {id: materials, type: u4, doc: "number of MATE chunks, local ones included"}
+      - {id: textures, type: u4, doc: "number of TEXT chunks"}
+      - {id: reserved, type: u4, doc: "zero"}
+      - {id: generator, size: 32, type: str, if: not _io.eof, doc: "name and version of the writing program, UTF-8, zeros to the end"}
+  bound_record:
+    seq:
+      - {id: max_error, type: f4, doc: "metres: no point of the skin is further from where the source has it"}
+      - {id: measured_error, type: f4, doc: "metres: the largest distance that the writer has met"}
+      - {id: height, type: f4, doc: "metres: the character's height at rest"}
+  sampler_record:
+    seq:
+      - {id: mag_filter, type: u1, enum: filter, doc: "0 unspecified, 1 nearest, 2 linear"}
+      - {id: min_filter, type: u1, enum: filter, doc: "0 to 2 as mag_filter, then 3 nearest and 4 linear with nearest mipmap, 5 nearest and 6 linear with linear mipmap"}
+      - {id: wrap_s, type: u1, enum: wrap, doc: "0 repeat, 1 clamp to edge, 2 mirrored repeat"}
+      - {id: wrap_t, type: u1, enum: wrap, doc: "as wrap_s"}
+  same_record:
+    seq:
+      - {id: texture, type: u4, doc: "TEXT number, counted through HEAD"}
+      - {id: image, type: u4, doc: "image number inside that TEXT; must be an IMAG or LINK"}
+  texture_use_record:
+    seq:
+      - {id: texture, type: u4, doc: "TEXT number; 0xFFFFFFFF none"}
+      - {id: coords, type: u4, doc: "set number of the texture coordinates"}
+      - {id: offset, type: f4, repeat: expr, repeat-expr: 2, doc: "added to the coordinates after rotation and scale"}
+      - {id: scale, type: f4, repeat: expr, repeat-expr: 2, doc: "factors of the coordinates"}
+      - {id: rotation, type: f4, doc: "radians, counter-clockwise about the origin"}
+      - {id: reserved, type: u4, doc: "zero"}
+  surface_record:
+    seq:
+      - {id: base_colour, type: f4, repeat: expr, repeat-expr: 4, doc: "red, green, blue, alpha; linear, 0 to 1"}
+      - {id: emissive, type: f4, repeat: expr, repeat-expr: 3, doc: "red, green, blue; linear, 0 or more"}
+      - {id: metallic, type: f4, doc: "0 to 1"}
+      - {id: roughness, type: f4, doc: "0 to 1"}
+      - {id: normal_scale, type: f4, doc: "scales x and y of the normal texture"}
+      - {id: occlusion_strength, type: f4, doc: "0 to 1"}
+      - {id: alpha_cutoff, type: f4, doc: "for alpha mode 1"}
+      - {id: alpha_mode, type: u1, enum: alpha_mode, doc: "0 opaque, 1 mask, 2 blend"}
+      - {id: double_sided, type: u1, doc: "0 or 1"}
+      - {id: unlit, type: u1, doc: "0 or 1: base colour only, as KHR_materials_unlit"}
+      - {id: reserved, size: 13, doc: "zero"}
+      - {id: base_colour_texture, type: texture_use_record, doc: "sRGB, alpha linear"}
+      - {id: metallic_roughness_texture, type: texture_use_record, doc: "green roughness, blue metallic; linear"}
+      - {id: normal_texture, type: texture_use_record, doc: "tangent space, linear"}
+      - {id: occlusion_texture, type: texture_use_record, doc: "red; linear"}
+      - {id: emissive_texture, type: texture_use_record, doc: "sRGB"}
+  rest_record:
+    seq:
+      - {id: rotation, type: f4, repeat: expr, repeat-expr: 4, doc: "unit quaternion x y z w"}
+      - {id: translation, type: f4, repeat: expr, repeat-expr: 3, doc: "metres, in the parent's space"}
+      - {id: scale, type: f4, repeat: expr, repeat-expr: 3, doc: "factors along the joint's axes; may be negative or zero"}
+      - {id: shear, type: f4, repeat: expr, repeat-expr: 3, if: not _io.eof, doc: "xy, xz, yz: the entries above the diagonal"}
+  limit_record:
+    seq:
+      - {id: model, type: u1, enum: limit_model, doc: "0 free, 1 locked, 2 hinge, 3 swing-twist ellipse, 4 swing-twist pyramid, 5 Euler box, 6 largest angle"}
+      - {id: euler_order, type: u1, enum: euler_order, doc: "of an Euler box, the axis that turns first named first: 0 XYZ, 1 XZY, 2 YXZ, 3 YZX, 4 ZXY, 5 ZYX; else 0"}
+      - {id: scope, type: u1, enum: limit_scope, doc: "0 every pose, 1 the IK solver only, 2 every pose but the IK solver's"}
+      - {id: flags, type: u1, doc: "1 approximated, 2 proposed, 4 the rest pose lies outside; their sum"}
+      - {id: soft_zone, type: f4, doc: "radians inside the limits in which steps towards them are halved; 0 none"}
+      - {id: frame, type: f4, repeat: expr, repeat-expr: 4, doc: "C, unit quaternion x y z w: its X is the twist or hinge axis, Y and Z the swing axes, in the joint's rest space"}
+      - {id: rotation_min, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame; -infinity: free"}
+      - {id: rotation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame; infinity: free"}
+      - {id: translation_min, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; -infinity: free"}
+      - {id: translation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; infinity: free"}
+      - {id: stiffness, type: f4, repeat: expr, repeat-expr: 3, doc: "0 to 1 about X, Y, Z of the frame: how much an IK solver spares the axis; 1 locks it"}
+      - {id: preferred, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame: where a solver that is stuck begins anew, and which way a straight chain bends"}
+  pull_record:
+    seq:
+      - {id: chain, type: u4, doc: "IKCH number inside the object"}
+      - {id: weight, type: f4, doc: "0 to 1: how much the joint moves for the chain; a joint without PULL has 1"}
+  chain_record:
+    seq:
+      - {id: start, type: u4, doc: "the first joint that turns: the effector itself or one above it"}
+      - {id: effector, type: u4, doc: "the joint that reaches"}
+      - {id: target, type: u4, doc: "the joint to be reached; 0xFFFFFFFF none"}
+      - {id: pole, type: u4, doc: "the joint that the chain bends towards; 0xFFFFFFFF none"}
+      - {id: solver, type: u1, enum: solver, doc: "0 the reader's choice, 1 pull, 2 two-bone, 3 CCD, 4 FABRIK, 5 aim, 6 damped least squares"}
+      - {id: flags, type: u1, doc: "1 approximated, 2 proposed; their sum"}
+      - {id: iterations, type: u2, doc: "at most; 0 the solver's own number"}
+      - {id: priority, type: u1, doc: "of several chains the higher is kept better: it is solved later"}
+      - {id: reserved, size: 3, doc: "zero"}
+      - {id: tolerance, type: f4, doc: "metres from the target that count as reached; 0 the solver's own"}
+      - {id: pole_vector, type: f4, repeat: expr, repeat-expr: 3, doc: "where there is no pole joint, the direction to bend towards, in the space of start's parent; zeros none"}
+      - {id: pole_angle, type: f4, doc: "radians from the pole to the bend, about the line from start to target"}
+      - {id: tip_offset, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the effector to the tip that reaches, in the effector's space"}
+      - {id: tip_rotation, type: f4, repeat: expr, repeat-expr: 4, doc: "unit quaternion x y z w: the tip's axes in the effector's space"}
+      - {id: position_weight, type: f4, doc: "0 to 1: how much the target's position counts"}
+      - {id: rotation_weight, type: f4, doc: "0 to 1: how much the target's orientation counts"}
+      - {id: influence, type: f4, doc: "0 to 1: how much of the solution a player mixes in when it runs the file's chains; 0 off at first"}
+      - {id: stretch, type: f4, doc: "0 or more: by how much of its length the chain may grow to reach"}
+      - {id: compress, type: f4, doc: "0 to 1: by how much of its length the chain may shrink"}
+  polygon_record:
+    seq:
+      - {id: pool, type: u4, doc: "VECT number inside the object"}
+      - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF none"}
+      - {id: first, type: u4, doc: "first entry in the pool's INDX"}
+      - {id: count, type: u4, doc: "entries: a multiple of 3, 2 or 1 by topology"}
+      - {id: topology, type: u1, enum: topology, doc: "0 triangles, 1 lines, 2 points"}
+      - {id: reserved, size: 3, doc: "zero"}
+  joints_record:
+    seq:
+      - {id: joints, type: u4, doc: "number of SKIN chunks of the object; then as many RestRecords of 52 bytes"}
+      - {id: polygons, type: u4, doc: "number of polygon ranges, which follow: u32 joint, then a PolygonRecord of 20 bytes"}
+      - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
+  pool_record:
+    seq:
+      - {id: vertices, type: u4, doc: "number of vertices; every stream has as many elements"}
+      - {id: joint, type: u4, doc: "the joint that carries the pool; 0xFFFFFFFF none"}
+  target_record:
+    seq:
+      - {id: rest_weight, type: f4, doc: "weight when no cycle animates it"}
+  cycle_record:
+    seq:
+      - {id: start, type: f4, doc: "seconds: the earliest key"}
+      - {id: end, type: f4, doc: "seconds: the latest key; the cycle's length is end - start"}
+      - {id: frame_rate, type: f4, doc: "frames per second of tracks with fixed frames; 0 if there are none"}
+      - {id: loop, type: u1, doc: "0 plays once, 1 repeats"}
+      - {id: reserved, size: 3, doc: "zero"}
+  pack_record:
+    seq:
+      - {id: frames, type: u4, doc: "number of frames, 1 or more; 2 or more if a track is animated"}
+      - {id: start, type: f4, doc: "seconds: the time of frame 0"}
+      - {id: frame_rate, type: f4, doc: "frames per second; 0: a table has the frames' times"}
+      - {id: joints, type: u2, doc: "joints that the lists' bits cover"}
+      - {id: segment_frames, type: u2, doc: "frames from one segment's first to the next one's; 0: there is one segment"}
+      - {id: lists, type: u1, doc: "bit k: list k has tracks"}
+      - {id: wide, type: u1, doc: "bit k: list k's bases have 4 bytes, not 2"}
+      - {id: reserved, size: 2, doc: "zero"}
+  track_record:
+    seq:
+      - {id: target, type: u4, doc: "joint number, or for weights pool number"}
+      - {id: path, type: u1, enum: track_path, doc: "0 translation, 1 rotation, 2 scale, 3 weights"}
+      - {id: interpolation, type: u1, enum: interpolation, doc: "0 step, 1 linear, 2 cubic"}
+      - {id: components, type: u2, doc: "numbers per value: 3, 4, 3, or the pool's number of targets"}
+      - {id: keys, type: u4, doc: "number of keys, 1 or more"}
+      - {id: first_time, type: u4, doc: "index into TIME; 0xFFFFFFFF: fixed frames, key k is at start + k / frame_rate"}
+      - {id: first_value, type: u8, doc: "index into KEYV, in numbers"}
+  stream_record:
+    seq:
+      - {id: component_type, type: u1, enum: component_type, doc: "0 u8, 1 i8, 2 u16, 3 i16, 4 u32, 5 f32"}
+      - {id: normalised, type: u1, enum: numbers, doc: "1: integers stand for 0 to 1, or -1 to 1 if signed; 2: for minimum + step * integer"}
+      - {id: components, type: u2, doc: "numbers per element, 1 or more"}
+      - {id: elements, type: u4, doc: "number of elements; they follow this record without gaps"}
+      - {id: set, type: u4, doc: "number of the set, for TEXC and COLR; else zero"}
+      - {id: reserved, type: u4, doc: "zero"}
+  palette_record:
+    seq:
+      - {id: entries, type: u4, doc: "number of entries; then joints u32[entries], zeros up to 16 bytes, inverse bind matrices f32[16][entries]"}
+      - {id: derived, type: u4, doc: "1: one matrix f32[16] stands in place of all, from which and the rest pose they follow; else 0"}
+      - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
+  pool_collapse_record:
+    seq:
+      - {id: pool, type: u4, doc: "VECT number inside the object; ascending"}
+      - {id: base, type: u4, doc: "vertices that never collapse: the pool's first"}
+      - {id: target_type, type: u1, enum: component_type, doc: "of the targets: 2 u16, 4 u32"}
+      - {id: reserved, size: 7, doc: "zero"}
+  collapse_record:
+    seq:
+      - {id: pools, type: u4, doc: "number of PoolCollapseRecords, which follow this record"}
+      - {id: levels, type: u4, doc: "number of rows of the table of levels, which follows them"}
+      - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
+  image_record:
+    seq:
+      - {id: media, type: u1, enum: media_type, doc: "0 other, 1 PNG, 2 JPEG, 3 KTX2, 4 WebP, 5 AVIF"}
+      - {id: reserved, size: 15, doc: "zero; the image's bytes follow this record"}
+enums:
+  component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}
+  numbers: {0: plain, 1: normalised, 2: boxed}
+  topology: {0: triangles, 1: lines, 2: points}
+  track_path: {0: translation, 1: rotation, 2: scale, 3: weights}
+  interpolation: {0: step, 1: linear, 2: cubic}
+  filter: {0: unspecified, 1: nearest, 2: linear, 3: nearest_mipmap_nearest, 4: linear_mipmap_nearest, 5: nearest_mipmap_linear, 6: linear_mipmap_linear}
+  wrap: {0: repeat, 1: clamp_to_edge, 2: mirrored_repeat}
+  alpha_mode: {0: opaque, 1: mask, 2: blend}
+  media_type: {0: other, 1: png, 2: jpeg, 3: ktx2, 4: webp, 5: avif}
+  limit_model: {0: free, 1: locked, 2: hinge, 3: swing_twist_ellipse, 4: swing_twist_pyramid, 5: euler_box, 6: largest_angle}
+  euler_order: {0: xyz, 1: xzy, 2: yxz, 3: yzx, 4: zxy, 5: zyx}
+  limit_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
+  solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}

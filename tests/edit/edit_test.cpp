@@ -1,0 +1,189 @@
+#include <bendy/edit/extract.h>
+#include <bendy/edit/merge_cycles.h>
+#include <bendy/edit/names.h>
+#include <bendy/edit/rename.h>
+#include <bendy/edit/strip.h>
+
+#include "format/edit_file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy::edit {
+namespace {
+
+using test::at;
+using test::child;
+using test::Loaded;
+using test::Node;
+using Buffer = test::Buffer;
+
+Buffer stripped(const Buffer& file, Part part, const std::string& name = {}) {
+    Log log;
+    auto edited = strip(file, {part, name}, log);
+    EXPECT_TRUE(edited) << edited.error().message;
+    return edited ? *std::move(edited) : Buffer();
+}
+
+std::uint32_t texture_of(const Node& root, std::size_t place) {
+    SurfaceRecord surface;
+    copy_at(at(const_cast<Node&>(root), "HEAD/MATE/SURF").payload, 0, surface);
+    return place == 0 ? surface.base_colour_texture.texture : surface.emissive_texture.texture;
+}
+
+TEST(Strip, AnImageThatIsSharedMovesToATextureThatStays) {
+    const Node root = test::to_node(stripped(test::sample_file(), Part::textures, "#1"));
+    Node file = root;
+    EXPECT_EQ(at(file, "HEAD/TEXT[1]/IMAG").payload,
+              at(*std::make_unique<Node>(test::sample()), "HEAD/TEXT[1]/IMAG").payload);
+    EXPECT_THROW(at(file, "HEAD/TEXT[2]"), std::out_of_range);
+    EXPECT_EQ(texture_of(root, 0), 1u);  // was 2
+    EXPECT_EQ(texture_of(root, 1), 0u);
+}
+
+TEST(Strip, TheSecondOfTwoThatSharedSharesWithTheFirst) {
+    Node root = test::sample();
+    Node copy = at(root, "HEAD/TEXT[2]");
+    root.children.insert(root.children.begin() + 4, copy);  // TEXT 3, the same image
+    test::edit<VersionRecord>(at(root, "HEAD/VERS"), [](VersionRecord& version) { version.textures = 4; });
+    Node file = test::to_node(stripped(test::to_file(root), Part::textures, "#1"));
+    EXPECT_NO_THROW(at(file, "HEAD/TEXT[1]/IMAG"));
+    SameRecord same;
+    copy_at(at(file, "HEAD/TEXT[2]/SAME").payload, 0, same);
+    EXPECT_EQ(same.texture, 1u);
+    EXPECT_EQ(same.image, 0u);
+}
+
+TEST(Strip, TextureNumbersInExtensionsAreMended) {
+    const auto after = [](std::string_view json, const std::string& name) {
+        Node root = test::sample();
+        Node& leaf = at(root, "HEAD/MATE/EXTN");
+        leaf.payload.assign(as_byte_span(json).begin(), as_byte_span(json).end());
+        Node file = test::to_node(stripped(test::to_file(root), Part::textures, name));
+        return std::string(as_text(at(file, "HEAD/MATE/EXTN").payload));
+    };
+    EXPECT_EQ(after(R"({"X":{"f":1,"aTexture":{"index":2, "scale":2},"g":{"index":1}}})", "skin"),
+              R"({"X":{"f":1,"aTexture":{"index":1, "scale":2},"g":{"index":1}}})");
+    EXPECT_EQ(after(R"({"X":{"aTexture":{"index":0},"f":1}})", "skin"), R"({"X":{"f":1}})");
+    EXPECT_EQ(after(R"({"X":{"f":1, "aTexture":{"index":0}}})", "skin"), R"({"X":{"f":1}})");
+    EXPECT_EQ(after(R"({"X":{"aTexture":{"index":0},"bTexture":{"index":0}}})", ""), R"({"X":{}})");
+    EXPECT_EQ(after(R"({"X":{"aTexture":{"index":0)", ""), R"({"X":{"aTexture":{"index":0)");  // no JSON
+}
+
+TEST(Strip, LocalMaterialsGoWithTheOthers) {
+    Node file = test::to_node(stripped(test::sample_file(), Part::materials));
+    EXPECT_THROW(at(file, "HEAD/OBJE/SKIN/MATE"), std::out_of_range);
+    PolygonRecord record;
+    copy_at(at(file, "HEAD/OBJE/SKIN/POLY").payload, 0, record);
+    EXPECT_EQ(record.material, kNone);
+}
+
+TEST(Strip, ChainsAreNumberedAnew) {
+    Node file = test::to_node(stripped(test::sample_file(), Part::chains, "back"));
+    PullRecord pull;
+    copy_at(at(file, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL").payload, 0, pull);
+    EXPECT_EQ(pull.chain, 0u);  // was 1
+    EXPECT_THROW(at(file, "HEAD/OBJE/SKIN/PIVO/PULL"), std::out_of_range);
+}
+
+TEST(Strip, APoolTakesItsTracksAndLevelsAlong) {
+    Node file = test::to_node(stripped(test::sample_file(), Part::meshes, "fur"));
+    EXPECT_THROW(at(file, "HEAD/OBJE/LODD"), std::out_of_range);
+    const Loaded loaded(file);
+    const ObjectView& object = loaded.document.objects.front();
+    ASSERT_EQ(object.pools.size(), 1u);
+    EXPECT_EQ(object.cycles.front().tracks.size(), 4u);  // of 5: not the weights
+    for (const PolygonView& polygons : object.skeleton.polygons) EXPECT_EQ(polygons.pool, 0u);
+}
+
+TEST(Strip, TracksThatStayKeepTheirKeys) {
+    const Loaded before(test::sample_file());
+    const Loaded after(stripped(test::sample_file(), Part::targets));
+    const auto& tracks = before.document.objects.front().cycles.front().tracks;
+    std::size_t next = 0;
+    for (const TrackView& track : after.document.objects.front().cycles.front().tracks) {
+        while (tracks[next].path == TrackPath::weights) ++next;
+        EXPECT_TRUE(std::equal(track.times.begin(), track.times.end(), tracks[next].times.begin()));
+        EXPECT_TRUE(std::equal(track.values.begin(), track.values.end(), tracks[next].values.begin()));
+        EXPECT_EQ(track.target, tracks[next].target);
+        ++next;
+    }
+    EXPECT_EQ(next, 5u);
+}
+
+TEST(Names, Matches) {
+    EXPECT_TRUE(matches("a*c", "abbc"));
+    EXPECT_TRUE(matches("*", ""));
+    EXPECT_TRUE(matches("a?c*", "abc"));
+    EXPECT_FALSE(matches("a?c", "ac"));
+    EXPECT_FALSE(matches("a*b", "abc"));
+    EXPECT_TRUE(matches("*a*b", "xxaxab"));
+}
+
+TEST(Names, Nearest) {
+    const std::array<std::string_view, 4> names{"Walk", "mixamorig:Hips", "LeftArm", ""};
+    EXPECT_EQ(nearest_name(names, "walk"), "Walk");
+    EXPECT_EQ(nearest_name(names, "Wlak"), "Walk");
+    EXPECT_EQ(nearest_name(names, "Hips"), "mixamorig:Hips");
+    EXPECT_EQ(nearest_name(names, "LeftArms"), "LeftArm");
+    EXPECT_EQ(nearest_name(names, "zzz"), "");
+    EXPECT_EQ(nearest_name(names, std::string(1000, 'a')), "");
+}
+
+/// Every operation on a file that may hold anything: what they give must be valid, whatever it is.
+void edit_in_every_way(const Buffer& file, const Buffer& good) {
+    const auto look = [](const Edited& edited) {
+        if (edited) {
+            EXPECT_TRUE(validate(*edited).empty());
+        } else {
+            EXPECT_EQ(edited.error().message.find("would not be valid"), std::string::npos) << edited.error().message;
+        }
+    };
+    Log log;
+    for (int part = 0; part <= static_cast<int>(Part::unknown); ++part)
+        look(strip(file, {static_cast<Part>(part), {}}, log));
+    look(strip(file, {Part::textures, "#0"}, log));
+    look(strip(file, {Part::targets, "#0"}, log));
+    look(strip(file, {Part::meshes, "#0"}, log));
+    look(rename(file, {Named::joint, {{"*", "x*"}}}, log));
+    look(extract(file, "#1", log));
+    look(merge_cycles(file, good, SameName::number, log));
+    look(merge_cycles(good, file, SameName::number, log));
+}
+
+TEST(Hostile, FilesWithOneByteWrongAndRightSums) {
+    const Buffer good = test::sample_file();
+    for (std::size_t at = 16; at < good.size(); at += 3) {
+        Buffer file = good;
+        file[at] ^= std::byte{static_cast<unsigned char>(1u << (at % 8))};
+        if (!test::resum(file)) continue;
+        edit_in_every_way(file, good);
+    }
+}
+
+TEST(Hostile, CutFiles) {
+    const Buffer good = test::sample_file();
+    Log log;
+    for (std::size_t size = 0; size < good.size(); size += 7) {
+        const Buffer file(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+        EXPECT_FALSE(strip(file, {Part::lod, {}}, log));
+    }
+}
+
+TEST(Hostile, ARopeOfManyJoints) {
+    const Buffer file = test::rope_file(20'000);
+    Log log;
+    const auto part = extract(file, "#15000", log);
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(Loaded(*part).document.objects.front().skeleton.joints.size(), 20'000u);  // 15,000 of them above it
+    const auto upper = extract(*part, "#0", log);
+    ASSERT_TRUE(upper);
+    EXPECT_EQ(*upper, file);
+}
+
+}  // namespace
+}  // namespace bendy::edit

@@ -1,0 +1,19 @@
+// Rig files: an error with its place, or a rig.
+#include <bendy/converter/report.h>
+
+#include "failure.h"
+#include "rig/parse_rig.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    bendy::converter::Report report;
+    try {
+        (void)bendy::converter::parse_rig({reinterpret_cast<const char*>(data), size}, report);
+    } catch (const bendy::converter::Failure&) {
+    }
+    return 0;
+}

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Gathers what the fuzz targets begin with.
+
+    tests/fuzz/make_seeds.py BENDY OUT [FOLDER...]
+
+OUT/gltf gets glTF files: some that are made here, and those of the FOLDERs with their buffers packed into them;
+OUT/bendy bendy files: their conversions by the program BENDY, and the specification's and the tests' own; OUT/codec the
+leaves of these; OUT/rig their rig files; OUT/text their text twins. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
+"""
+
+import argparse
+import base64
+import hashlib
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "cli"))
+
+from chunk_file import Chunk  # noqa: E402
+from gltf_file import GltfFile, strange_file  # noqa: E402
+
+LARGEST = 48_000  # bytes
+PACKED = 8  # what fuzz_codec takes for a packed cycle: the number after the last codec's
+OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--sort-vertices"])
+
+
+def character(path, interpolation):
+    """Three joints, two influences a vertex, two targets, tracks on everything, limits and a chain in the extras."""
+    file = GltfFile(
+        scenes=[{"nodes": [0, 3], "extras": {"rig_ik": {"chains": [
+            {"name": "Back", "start": "Hips", "effector": "Head", "solver": "ccd", "weights": {"Spine": 0.5}}]}}}],
+        nodes=[{"name": "Hips", "children": [1], "extras": {"mine": [1, 2]}},
+               {"name": "Spine", "children": [2], "translation": [0, 1, 0],
+                "extras": {"rig_joint": {"limits": [{"model": "hinge", "x": [-1, 1]}], "stiffness": [0, 0.5, 0]}}},
+               {"name": "Head", "translation": [0, 1, 0], "rotation": [0, 0, 0.6, 0.8],
+                "extras": {"rig_joint": {"euler_limits": [{"space": "rest", "order": "XYZ", "x": [-0.5, 2], "y": [0, 0]}]}}},
+               {"name": "Body", "mesh": 0, "skin": 0}])
+    corners = [(x * 0.1, y * 0.5, 0.05 * x * y) for y in range(5) for x in range(3)]
+    count = len(corners)
+    triangles = [(k,) for y in range(4) for x in range(2)
+                 for k in (y * 3 + x, y * 3 + x + 1, y * 3 + x + 3, y * 3 + x + 1, y * 3 + x + 4, y * 3 + x + 3)]
+    attributes = {
+        "POSITION": file.add(corners, "VEC3"),
+        "NORMAL": file.add([(0, 0, 1)] * count, "VEC3"),
+        "TANGENT": file.add([(1, 0, 0, -1)] * count, "VEC4"),
+        "TEXCOORD_0": file.add([(x, y) for x, y, _ in corners], "VEC2"),
+        "COLOR_0": file.add([(255, k, 0, 255) for k in range(count)], "VEC4", 5121),
+        "JOINTS_0": file.add([(k % 3, (k + 1) % 3, 0, 0) for k in range(count)], "VEC4", 5121),
+        "WEIGHTS_0": file.add([(0.75, 0.25, 0, 0)] * count, "VEC4")}
+    file.document["accessors"][attributes["COLOR_0"]]["normalized"] = True
+    touched = file.document["accessors"][file.add([(2,), (7,)], "SCALAR", 5123)]["bufferView"]
+    moves = file.document["accessors"][file.add([(0, 1, 0), (1, 0, 0)], "VEC3")]["bufferView"]
+    targets = [{"POSITION": file.add([(0, 0, 0.1)] * count, "VEC3")}, {"POSITION": file.add([(0, 0, 0)] * count, "VEC3")}]
+    file.document["accessors"][targets[1]["POSITION"]]["sparse"] = {
+        "count": 2, "indices": {"bufferView": touched, "componentType": 5123}, "values": {"bufferView": moves}}
+    file.document["meshes"] = [{"name": "Body", "weights": [0.25, 0], "primitives": [
+        {"attributes": attributes, "targets": targets, "material": 0,
+         "indices": file.add(triangles, "SCALAR", 5123)}]}]
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    file.document["skins"] = [{"joints": [0, 1, 2], "skeleton": 0,
+                               "inverseBindMatrices": file.add([tuple(identity)] * 3, "MAT4")}]
+    times = file.add([(0.0,), (0.5,), (1.0,)], "SCALAR")
+    copies = 3 if interpolation == "CUBICSPLINE" else 1
+    rotations = [(0, 0, 0, 1), (0.6, 0, 0, 0.8), (0, 0.28, 0, 0.96)]
+    values = {
+        "rotation": file.add([r for r in rotations for _ in range(copies)], "VEC4"),
+        "translation": file.add([(k, 1, 0) for k in range(3) for _ in range(copies)], "VEC3"),
+        "scale": file.add([(1, 1 + k, 1) for k in range(3) for _ in range(copies)], "VEC3"),
+        "weights": file.add([(k * 0.1,) for k in range(6 * copies)], "SCALAR")}
+    paths = list(values)
+    file.document["animations"] = [{
+        "name": "Move",
+        "samplers": [{"input": times, "output": values[path], "interpolation": interpolation} for path in paths],
+        "channels": [{"sampler": k, "target": {"node": 3 if path == "weights" else 1, "path": path}}
+                     for k, path in enumerate(paths)]}]
+    file.document["materials"] = [{
+        "name": "Cloth", "alphaMode": "MASK", "doubleSided": True, "extensions": {"KHR_materials_unlit": {}},
+        "pbrMetallicRoughness": {"baseColorTexture": {
+            "index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1}}}}}]
+    file.document["textures"] = [{"source": 0, "sampler": 0}]
+    file.document["samplers"] = [{"magFilter": 9729, "wrapS": 33071}]
+    file.document["images"] = [{"uri": "data:image/png;base64," + base64.b64encode(b"\x89PNG\r\n\x1a\n").decode()}]
+    file.document["extensionsUsed"] = ["KHR_materials_unlit", "KHR_texture_transform"]
+    return file.write(path)
+
+
+def packed(path):
+    """A glTF file as .glb, with everything that it refers to in its BIN chunk; nothing if that cannot be."""
+    data = path.read_bytes()
+    document, bin_chunk = data, b""
+    try:
+        if data[:4] == b"glTF":
+            length = struct.unpack_from("<I", data, 12)[0]
+            document, bin_chunk = data[20:20 + length], data[28 + length:]
+        return pack(json.loads(document), bin_chunk, path.parent)
+    except (struct.error, ValueError, KeyError, IndexError, TypeError, AttributeError, OSError):
+        return None  # it is wrong in itself, and goes in as it is
+
+
+def pack(root, bin_chunk, folder):
+    all_bytes, starts = b"", []
+    for number, buffer in enumerate(root.get("buffers", [])):
+        uri = buffer.get("uri")
+        if uri is None:
+            piece = bin_chunk if number == 0 else bytes(buffer["byteLength"])
+        elif uri.startswith("data:"):
+            piece = base64.b64decode(uri.split(",", 1)[1] + "==")
+        else:
+            piece = (folder / urllib.parse.unquote(uri)).read_bytes()
+        starts.append(len(all_bytes))
+        all_bytes += piece + bytes(-len(piece) % 4)
+    for view in root.get("bufferViews", []):
+        moved = [view] + [extension for extension in view.get("extensions", {}).values() if "buffer" in extension]
+        for part in moved:
+            part["byteOffset"] = part.get("byteOffset", 0) + starts[part["buffer"]]
+            part["buffer"] = 0
+    if starts:
+        root["buffers"] = [{"byteLength": len(all_bytes)}]
+    for image in root.get("images", []):
+        if not image.get("uri", "data:").startswith("data:"):
+            image["uri"] = "data:image/png;base64,iVBORw0KGgo="
+    text = json.dumps(root).encode()
+    text += b" " * (-len(text) % 4)
+    body = struct.pack("<II", len(text), 0x4E4F534A) + text
+    if all_bytes:
+        body += struct.pack("<II", len(all_bytes), 0x004E4942) + all_bytes
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(body)) + body
+
+
+def keep(folder, data):
+    if data is not None and len(data) <= LARGEST:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / hashlib.sha256(data).hexdigest()[:16]).write_bytes(data)
+
+
+def gather(bendy, out, folders, work):
+    sources = [strange_file(work / "strange.gltf")]
+    sources += [character(work / f"{name}.gltf", name) for name in ("STEP", "LINEAR", "CUBICSPLINE")]
+    sources += [ROOT / "examples" / name for name in ("tentacle.glb", "mannequin.glb")]
+    for folder in folders:
+        sources += sorted(file for suffix in ("glb", "gltf", "vrm") for file in folder.rglob(f"*.{suffix}"))
+    for source in sources:
+        if source.stat().st_size > 2 * LARGEST:
+            continue
+        keep(out / "gltf", packed(source))
+        if source.suffix == ".gltf" or packed(source) is None:
+            keep(out / "gltf", source.read_bytes())
+        for options in OPTIONS:
+            converted = work / "converted.bendy"
+            done = subprocess.run([bendy, "convert", source, "-o", converted, *options], capture_output=True, check=False)
+            if done.returncode == 0:
+                keep(out / "bendy", converted.read_bytes())
+                rig = subprocess.run([bendy, "rig", converted], capture_output=True, check=False)
+                if rig.returncode == 0:
+                    keep(out / "rig", rig.stdout)
+                keep_texts(bendy, out / "text", converted)
+    for folder in ("spec", "tests"):
+        for file in sorted((ROOT / folder).rglob("*.bendy")):
+            keep(out / "bendy", file.read_bytes())
+            keep_texts(bendy, out / "text", file)
+    for file in sorted((out / "bendy").iterdir()):
+        keep_leaves(out / "codec", file.read_bytes())
+
+
+def keep_texts(bendy, folder, file):
+    for options in ([], ["--decode"]):
+        text = subprocess.run([bendy, "dump", file, *options], capture_output=True, check=False)
+        if text.returncode == 0:
+            keep(folder, text.stdout)
+
+
+def keep_leaves(folder, data):
+    """Each leaf as fuzz_codec takes it: a codec, a stride, a head, a byte that is left out, the payload."""
+    try:
+        chunks = [chunk for _, chunk in Chunk.read(data).walk() if chunk.children is None]
+    except (struct.error, UnicodeError, RecursionError):
+        return  # it is wrong on purpose
+    for chunk in chunks:
+        codec = chunk.flags >> 8
+        if chunk.letters == "PACK" and codec == 0:
+            keep(folder, bytes([PACKED, 255, 0, 0]) + chunk.payload)
+        elif codec != 0:
+            keep(folder, bytes([codec % PACKED, 0, 0, 0]) + chunk.payload)
+        elif chunk.letters in ("POSI", "INDX", "WGHT"):
+            for tried, stride in ((1, 4), (2, 12), (3, 4), (4, 2), (7, 4)):
+                keep(folder, bytes([tried, stride, 16, 0]) + chunk.payload)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bendy", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("folders", type=pathlib.Path, nargs="*")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as work:
+        gather(arguments.bendy, arguments.out, arguments.folders, pathlib.Path(work))
+    for folder in sorted(arguments.out.iterdir()):
+        files = list(folder.iterdir())
+        print(f"{folder}: {len(files)} files, {sum(file.stat().st_size for file in files):,} bytes")
+
+
+main()

@@ -1,0 +1,227 @@
+// Rules of cycles: CINF, TRAK, TIME, KEYV and PACK.
+
+import { all_finite, all_zero, is_unit, kNone } from './numbers.mjs';
+import { joints_of, kNumbers, kPaths, segments_of } from './packed.mjs';
+
+const kCubic = 2;
+const kRotation = 1;
+const kWeights = 3;
+/** CINF.md: of a frame; and of a cycle's length. */
+const kFrameTolerance = 1e-3;
+const kLengthTolerance = 1e-6;
+
+/** The numbers of TIME or KEYV; empty if there are none, null if they cannot be read. */
+function read_floats(file, chunk) {
+    if (!chunk) return [];
+    const payload = file.payload(chunk);
+    if (!payload) return null;
+    if (payload.length % 4 !== 0) {
+        file.add('RECORD_SIZE', chunk);
+        return null;
+    }
+    const { values } = file.body(chunk);
+    if (!all_finite(values)) file.add('NOT_FINITE', chunk);
+    return values;
+}
+
+function read_info(file, cycle) {
+    const chunk = file.child(cycle, 'CINF');
+    const record = file.record(chunk, 'CycleRecord', 16);
+    if (!record) return null;
+    if (record.loop > 1) file.add('ENUM_RANGE', chunk);
+    if (!all_zero(record.reserved)) file.add('RESERVED_FIELD', chunk);
+    if (!all_finite([record.start, record.end, record.frameRate])) file.add('NOT_FINITE', chunk);
+    if (!(record.end >= record.start && record.frameRate >= 0)) file.add('CYCLE_LENGTH', chunk);
+    return record;
+}
+
+/** The times of a track's keys; null if its keys are not there. Adds the track's faults at `chunk`. */
+function times_of(file, chunk, track, info, times) {
+    const out = [];
+    if (track.firstTime === kNone) {
+        if (!info) return null;
+        if (!(info.frameRate > 0)) {
+            file.add('KEY_RANGE', chunk);
+            return null;
+        }
+        const spare = track.keys - 1 - (info.end - info.start) * info.frameRate;
+        return { first: info.start, last: spare <= kFrameTolerance ? info.end : Infinity };
+    }
+    if (!times) return null;
+    if (track.firstTime + track.keys > times.length) {
+        file.add('KEY_RANGE', chunk);
+        return null;
+    }
+    for (let k = 0; k < track.keys; ++k) out.push(times[track.firstTime + k]);
+    if (out.some((time, k) => k > 0 && !(time > out[k - 1]))) file.add('KEY_ORDER', chunk);
+    return { first: out[0], last: out[out.length - 1] };
+}
+
+function check_values(file, chunk, track, values) {
+    const each = track.components * (track.interpolation === kCubic ? 3 : 1);
+    const size = track.keys * each;
+    if (!values) return null;
+    if (track.firstValue + size > values.length) {
+        file.add('KEY_RANGE', chunk);
+        return null;
+    }
+    const own = values.slice(track.firstValue, track.firstValue + size);
+    if (track.path === kRotation && track.interpolation !== kCubic) {
+        for (let k = 0; k < own.length; k += 4)
+            if (!is_unit(own.slice(k, k + 4))) {
+                file.add('ROTATION_NOT_UNIT', chunk);
+                break;
+            }
+    }
+    return [track.firstValue, track.firstValue + size];
+}
+
+function check_overlap(file, chunk, ranges) {
+    const sorted = ranges.sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+    let before = null;
+    for (const range of sorted) {
+        if (before && range[0] < before[1] && (range[0] !== before[0] || range[1] !== before[1])) file.add('KEY_OVERLAP', chunk);
+        if (!before || range[1] > before[1]) before = range;
+    }
+}
+
+/** Tracks of TRAK. Gives what they animate, with the chunk that says so. */
+function check_tracks(file, cycle, info, rig, pools) {
+    const chunk = file.child(cycle, 'TRAK');
+    const times = read_floats(file, file.child(cycle, 'TIME'));
+    const values = read_floats(file, file.child(cycle, 'KEYV'));
+    const animated = new Map();
+    const payload = chunk && file.payload(chunk);
+    if (!payload) return animated;
+    if (payload.length % 24 !== 0) {
+        file.add('RECORD_SIZE', chunk);
+        return animated;
+    }
+    const ranges = [];
+    for (const track of file.body(chunk).tracks) {
+        if (track.path > 3 || track.interpolation > 2) {
+            file.add('ENUM_RANGE', chunk);
+            continue;
+        }
+        const is_weights = track.path === kWeights;
+        if (track.target >= (is_weights ? pools.length : rig.joints.length)) {
+            file.add(is_weights ? 'POOL_RANGE' : 'JOINT_RANGE', chunk);
+            continue;
+        }
+        const needed = is_weights ? pools[track.target].targets : [3, 4, 3][track.path];
+        const key = `${track.path} ${track.target}`;
+        if (animated.has(key)) file.add('TRACK_REPEATED', chunk);
+        animated.set(key, chunk);
+        if (needed !== null && (track.components !== needed || needed === 0)) {
+            file.add('TRACK_COMPONENTS', chunk);
+            continue;
+        }
+        if (track.keys === 0) {
+            file.add('KEY_RANGE', chunk);
+            continue;
+        }
+        const span = times_of(file, chunk, track, info, times);
+        const range = check_values(file, chunk, track, values);
+        if (range) ranges.push(range);
+        if (span && info && !(span.first >= info.start && span.last <= info.end)) file.add('CYCLE_LENGTH', file.child(cycle, 'CINF'));
+    }
+    check_overlap(file, chunk, ranges);
+    return animated;
+}
+
+/** The code of what is wrong with a PACK's layout, or { record, joints } of good ones. */
+export function read_packed(payload, record) {
+    const view = new DataView(payload.buffer, payload.byteOffset, payload.length);
+    let at = 20;
+    const left = () => payload.length - at;
+    const masks = [];
+    for (let list = 0; list < 8; ++list) {
+        const bytes = (record.lists >> list) & 1 ? (record.joints + 7) >> 3 : 0;
+        if (bytes > left()) return { code: 'RECORD_SIZE' };
+        masks.push(payload.subarray(at, at + bytes));
+        at += bytes;
+    }
+    const joints = masks.map((mask) => joints_of(mask, record.joints));
+    if (joints.some((list) => list === null)) return { code: 'JOINT_RANGE' };
+    const numbers = joints.map((list, k) => list.length * kNumbers[k]);
+    const base = (list) => ((record.wide >> list) & 1 ? 4 : 2);
+    const is_animated = [1, 3, 5, 7].some((list) => numbers[list] > 0);
+    if (record.frames < (is_animated ? 2 : 1)) return { code: 'KEY_RANGE' };
+    at += numbers.reduce((sum, count) => sum + count, 0);
+    at += [0, 2, 4, 6].reduce((sum, list) => sum + numbers[list] * base(list), 0);
+    if (left() < 0) return { code: 'RECORD_SIZE' };
+    let times = null;
+    if (record.frameRate === 0) {
+        if (4 * record.frames > left()) return { code: 'RECORD_SIZE' };
+        times = Array.from({ length: record.frames }, (_, k) => view.getFloat32(at + 4 * k, true));
+        at += 4 * record.frames;
+    }
+    const components = [1, 3, 5, 7].reduce((sum, list) => sum + numbers[list], 0);
+    if (is_animated) {
+        const count = record.segmentFrames === 0 ? 1 : Math.floor((record.frames - 2) / record.segmentFrames) + 1;
+        if (count > left()) return { code: 'RECORD_SIZE' };
+        const segments = segments_of(record, true);
+        const table = at;
+        if (count > 1) at += 4 * count;
+        for (let s = 0; s < count; ++s) {
+            if (count > 1 && (left() < 0 || view.getUint32(table + 4 * s, true) !== at)) return { code: 'COUNT_MISMATCH' };
+            let bits = 0;
+            if (components > left()) return { code: 'RECORD_SIZE' };
+            for (const list of [1, 3, 5, 7]) {
+                const each = kNumbers[list], n = joints[list].length;
+                if (numbers[list] + numbers[list] * base(list) > left()) return { code: 'RECORD_SIZE' };
+                for (let t = 0; t < n; ++t) {
+                    let track_bits = 0;
+                    for (let k = 0; k < each; ++k) {
+                        const width = payload[at + k * n + t];
+                        if (width > 24) return { code: 'ENUM_RANGE' };
+                        track_bits += width;
+                    }
+                    if (track_bits === 0) return { code: 'ENUM_RANGE' };
+                    bits += track_bits;
+                }
+                at += numbers[list] * (1 + base(list));
+            }
+            at += Math.ceil(bits / 8) * (segments[s][1] - segments[s][0] + 1);
+            if (left() < 0) return { code: 'RECORD_SIZE' };
+        }
+    }
+    if (left() !== 4) return { code: 'RECORD_SIZE' };
+    if (!all_zero(payload.subarray(at))) return { code: 'RESERVED_FIELD' };
+    return { joints, times };
+}
+
+function check_packed(file, cycle, info, rig, animated) {
+    const chunk = file.child(cycle, 'PACK');
+    const record = file.record(chunk, 'PackRecord', 20);
+    if (!record) return;
+    const add = (code) => file.add(code, chunk);
+    if (record.joints > rig.joints.length) return add('JOINT_RANGE');
+    if (!all_zero(record.reserved) || (record.wide & ~record.lists) !== 0) return add('RESERVED_FIELD');
+    const packed = read_packed(file.payload(chunk), record);
+    if (packed.code) return add(packed.code);
+    if (!all_finite([record.start, record.frameRate])) add('NOT_FINITE');
+    if (record.frameRate < 0) add('BELOW_ZERO');
+    let last = record.start + (record.frames - 1) / record.frameRate;
+    if (packed.times) {
+        const { times } = packed;
+        if (!all_finite(times)) add('NOT_FINITE');
+        else if (times[0] !== record.start || times.some((time, k) => k > 0 && !(time > times[k - 1]))) add('KEY_ORDER');
+        last = times[times.length - 1];
+    }
+    const length = info ? Math.max(info.end - info.start, Math.abs(info.end), 1e-3) : 0;
+    if (info && !(record.start >= info.start && last <= info.end + kLengthTolerance * length)) file.add('CYCLE_LENGTH', file.child(cycle, 'CINF'));
+    packed.joints.forEach((joints, list) => {
+        for (const joint of joints) {
+            const key = `${kPaths[list]} ${joint}`;
+            if (animated.has(key)) file.add('TRACK_REPEATED', animated.get(key));
+            animated.set(key, chunk);
+        }
+    });
+}
+
+export function check_cycle(file, cycle, rig, pools) {
+    const info = read_info(file, cycle);
+    const animated = check_tracks(file, cycle, info, rig, pools);
+    check_packed(file, cycle, info, rig, animated);
+}

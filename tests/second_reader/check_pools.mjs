@@ -1,0 +1,211 @@
+// Rules of pools, palettes, targets, polygons and the collapse sequence.
+
+import { check_sets, check_weights, read_stream } from './check_streams.mjs';
+import { all_finite, all_zero, kLocal, kNone } from './numbers.mjs';
+
+function check_palette(file, chunk, joints) {
+    const record = file.record(chunk, 'PaletteRecord', 16);
+    if (!record) return null;
+    if (record.reserved.some((word) => word !== 0)) file.add('RESERVED_FIELD', chunk);
+    if (record.derived > 1) {
+        file.add('ENUM_RANGE', chunk);
+        return null;
+    }
+    const matrices = record.derived === 1 ? 1 : record.entries;
+    if (file.payload(chunk).length !== 16 + Math.ceil(record.entries / 4) * 16 + 64 * matrices) {
+        file.add('RECORD_SIZE', chunk);
+        return null;
+    }
+    if (record.derived === 1) {
+        const most = 128 * file.bytes.length;
+        if (file.derived_bytes <= most && file.derived_bytes + 64 * record.entries > most) file.add('CODEC_RATIO', chunk);
+        file.derived_bytes += 64 * record.entries;
+    }
+    const palette = file.body(chunk);
+    if (!all_zero(palette.zeros)) file.add('RESERVED_FIELD', chunk);
+    if (palette.joints.some((joint) => joint >= joints)) file.add('JOINT_RANGE', chunk);
+    if (!palette.matrices.every((matrix) => all_finite(matrix.values))) file.add('NOT_FINITE', chunk);
+    return palette;
+}
+
+function check_target(file, target, vertices) {
+    const info = file.child(target, 'TINF');
+    const record = file.record(info, 'TargetRecord', 4);
+    if (record && !Number.isFinite(record.restWeight)) file.add('NOT_FINITE', info);
+    const list = file.child(target, 'INDX');
+    let touched = vertices;
+    if (list) {
+        const indices = read_stream(file, list, null);
+        touched = indices ? indices.record.elements : null;
+        if (indices) {
+            if (indices.values.some((v) => v >= vertices)) file.add('INDEX_RANGE', list);
+            if (indices.values.some((v, k) => k > 0 && v <= indices.values[k - 1])) file.add('TARGET_ORDER', list);
+        }
+    }
+    for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(target, id), touched);
+}
+
+/** A pool: { vertices, indices, is_skinned, targets }; what cannot be read is null. */
+export function check_pool(file, pool, joints) {
+    const info = file.child(pool, 'VINF');
+    const record = file.record(info, 'PoolRecord', 8);
+    if (!record) return { vertices: null, indices: null, is_skinned: false, targets: null };
+    const { vertices } = record;
+    file.counts.vertices += vertices;
+    if (record.joint !== kNone && record.joint >= joints) file.add('JOINT_RANGE', info);
+    if (vertices > 0 && !file.has(pool, 'POSI')) file.add('CHUNK_MISSING', pool);
+    const palette_chunk = file.child(pool, 'PALT');
+    const palette = check_palette(file, palette_chunk, joints);
+    for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(pool, id), vertices);
+    for (const id of ['TEXC', 'COLR']) {
+        const chunks = file.children(pool, id);
+        check_sets(file, chunks, chunks.map((chunk) => read_stream(file, chunk, vertices)));
+    }
+    const bone_chunk = file.child(pool, 'BONE');
+    const weight_chunk = file.child(pool, 'WGHT');
+    const bones = read_stream(file, bone_chunk, vertices);
+    const weights = read_stream(file, weight_chunk, vertices);
+    const there = ['BONE', 'WGHT', 'PALT'].filter((id) => file.has(pool, id)).length;
+    if (there === 1 || there === 2) file.add('STREAM_INCOMPLETE', pool);
+    else if (bones && weights && bones.record.components !== weights.record.components) file.add('STREAM_INCOMPLETE', pool);
+    if (bones && palette && bones.values.some((bone) => bone >= palette.record.entries)) file.add('BONE_RANGE', bone_chunk);
+    if (weights) check_weights(file, weight_chunk, weights);
+    for (const user of file.children(pool, 'USER')) read_stream(file, file.child(user, 'VALS'), vertices);
+    const targets = file.children(pool, 'TARG');
+    for (const target of targets) check_target(file, target, vertices);
+    const list = file.child(pool, 'INDX');
+    const indices = read_stream(file, list, null);
+    if (indices && indices.values.some((v) => v >= vertices)) file.add('INDEX_RANGE', list);
+    return {
+        vertices, targets: targets.length, is_skinned: there > 0,
+        indices: list ? (indices ? indices.values : null) : [],
+    };
+}
+
+/** All ranges of an object's pools, those of POLY and those of JNTS, as far as they are good. */
+export function check_polygons(file, rig, pools) {
+    const ranges = [];
+    const check = (chunk, range, joint) => {
+        if (!all_zero(range.reserved)) file.add('RESERVED_FIELD', chunk);
+        if (range.topology > 2) file.add('ENUM_RANGE', chunk);
+        else if (range.count % (3 - range.topology) !== 0) file.add('POLYGON_CUT', chunk);
+        if (range.pool >= pools.length) {
+            file.add('POOL_RANGE', chunk);
+            return;
+        }
+        if (range.material !== kNone) {
+            const is_local = range.material >= kLocal;
+            const count = is_local ? file.children(joint.chunk, 'MATE').length : file.children(file.head, 'MATE').length;
+            if (range.material % kLocal >= count) file.add('MATERIAL_RANGE', chunk);
+        }
+        const { indices } = pools[range.pool];
+        if (!indices) return;
+        if (range.first + range.count > indices.length) file.add('INDEX_RANGE', chunk);
+        else ranges.push({ chunk, pool: range.pool, first: range.first, end: range.first + range.count, joint: joint.number });
+    };
+    for (const joint of rig.joints)
+        for (const chunk of file.children(joint.chunk, 'POLY')) {
+            const range = file.record(chunk, 'PolygonRecord', 20);
+            if (range) check(chunk, range, joint);
+        }
+    if (rig.table)
+        for (const { joint, range } of rig.table.table.polygons) {
+            if (joint >= rig.joints.length) file.add('JOINT_RANGE', rig.table.chunk);
+            else check(rig.table.chunk, range, rig.joints[joint]);
+        }
+    return ranges;
+}
+
+/** Ranges do not overlap, and in a rigid pool no two joints use a vertex. For files whose references hold. */
+export function check_ranges(file, ranges, pools) {
+    const sorted = ranges.filter((range) => range.end > range.first);
+    sorted.sort((a, b) => a.pool - b.pool || a.first - b.first);
+    const late = sorted.find((range, k) => k > 0 && sorted[k - 1].pool === range.pool && range.first < sorted[k - 1].end);
+    if (late) {
+        file.add('POLYGON_OVERLAP', late.chunk);
+        return;
+    }
+    pools.forEach((pool, number) => {
+        if (pool.is_skinned) return;
+        const movers = new Map();
+        for (const range of sorted) {
+            if (range.pool !== number) continue;
+            for (let k = range.first; k < range.end; ++k) {
+                const mover = movers.get(pool.indices[k]) ?? range.joint;
+                if (mover !== range.joint) {
+                    file.add('RIGID_SHARED', range.chunk);
+                    return;
+                }
+                movers.set(pool.indices[k], mover);
+            }
+        }
+    });
+}
+
+export function check_collapse(file, object, pools) {
+    const chunk = file.child(object, 'LODD');
+    const record = file.record(chunk, 'CollapseRecord', 16);
+    if (!record) return;
+    const payload = file.payload(chunk);
+    if (record.reserved.some((word) => word !== 0)) file.add('RESERVED_FIELD', chunk);
+    const rows = 16 + 16 * record.pools;
+    const levels = record.levels * (record.pools + 1) * 4;
+    if (rows + levels + ((16 - (levels % 16)) % 16) > payload.length) {
+        file.add('RECORD_SIZE', chunk);
+        return null;
+    }
+    const body = file.body(chunk);
+    let good = true;
+    let at = rows + levels + ((16 - (levels % 16)) % 16);
+    body.pools.forEach((row, k) => {
+        const add = (code) => {
+            file.add(code, chunk);
+            good = false;
+        };
+        if (!all_zero(row.reserved)) file.add('RESERVED_FIELD', chunk);
+        if (k > 0 && row.pool <= body.pools[k - 1].pool) add('COLLAPSE_POOL');
+        if (row.pool >= pools.length) add('POOL_RANGE');
+        else if (pools[row.pool].vertices === null) good = false;
+        else if (row.base > pools[row.pool].vertices) add('INDEX_RANGE');
+        if (row.targetType !== 2 && row.targetType !== 4) add('STREAM_TYPE');
+        if (!good) return;
+        const count = pools[row.pool].vertices - row.base;
+        at += Math.ceil((count * row.targetType) / 16) * 16 + Math.ceil(Math.ceil(count / 8) / 16) * 16;
+    });
+    if (!good) return null;
+    if (at !== payload.length) {
+        file.add('RECORD_SIZE', chunk);
+        return null;
+    }
+    if (!all_zero(body.zeros)) file.add('RESERVED_FIELD', chunk);
+    check_levels(file, chunk, body, pools);
+    let rest = body.rest;
+    chunk.collapses = body.pools.map((row) => {
+        const count = pools[row.pool].vertices - row.base;
+        const { value, bytes } = file.read.collapses(rest, count, row.targetType);
+        rest = rest.subarray(bytes);
+        if (!all_zero(value.targetsZeros) || !all_zero(value.joinedZeros) || value.joined[0]
+            || !last_bits_are_zero(value, count, body.rest, rest)) file.add('RESERVED_FIELD', chunk);
+        if (value.targets.some((target, k) => target >= row.base + k)) file.add('COLLAPSE_TARGET', chunk);
+        return value;
+    });
+}
+
+/** The bits past the last vertex, in the last byte of the joined bits. */
+function last_bits_are_zero(value, count, all, rest) {
+    if (count % 8 === 0) return true;
+    const last = all.length - rest.length - value.joinedZeros.length - 1;
+    return all[last] >> (count % 8) === 0;
+}
+
+function check_levels(file, chunk, body, pools) {
+    const is_bad = body.levels.some((level, k) => {
+        const before = body.levels[k - 1];
+        if (!(level.error >= 0 && level.error < Infinity) || (before && level.error < before.error)) return true;
+        return level.alive.some((alive, p) => {
+            const row = body.pools[p];
+            return alive < row.base || alive > pools[row.pool].vertices || (before && alive > before.alive[p]);
+        });
+    });
+    if (is_bad) file.add('COLLAPSE_LEVEL', chunk);
+}

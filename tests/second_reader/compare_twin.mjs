@@ -1,0 +1,148 @@
+// What `bendy dump --decode` says of a file, every number of it, held against what the grammar reads.
+
+import { kTexts } from './tree_rules.mjs';
+
+const snake = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
+const plain = (value) => (value instanceof Uint8Array ? Array.from(value) : value);
+
+/** A record's fields by the names of the specification. */
+function fields_of(record) {
+    const fields = {};
+    for (const [name, value] of Object.entries(record)) {
+        if (name.startsWith('_') || name.startsWith('reserved') || value === undefined) continue;
+        const is_record = typeof value === 'object' && !Array.isArray(value) && !(value instanceof Uint8Array);
+        fields[snake(name)] = is_record ? fields_of(value) : plain(value);
+    }
+    return fields;
+}
+
+function bits_to_bytes(bits) {
+    const bytes = new Array(Math.ceil(bits.length / 8)).fill(0);
+    bits.forEach((bit, k) => (bytes[k >> 3] |= Number(bit) << (k & 7)));
+    return bytes;
+}
+
+/** The numbers of a segment's frames as they lie, those without bits left out. */
+function numbers_of(segment, tracks) {
+    const widths = [];
+    segment.lists.forEach(({ widths: all }, k) => {
+        const count = tracks[2 * k + 1];
+        const each = count === 0 ? 0 : all.length / count;
+        for (let t = 0; t < count; t += 8)
+            for (let n = 0; n < each; ++n)
+                for (let i = t; i < Math.min(t + 8, count); ++i) widths.push(all[n * count + i].bits);
+    });
+    return segment.frames.flatMap((bytes) => {
+        let at = 0;
+        return widths.filter((width) => width > 0).map((width) => {
+            let number = 0;
+            for (let bit = 0; bit < width; ++bit, ++at) number |= ((bytes[at >> 3] >> (at & 7)) & 1) << bit;
+            return number;
+        });
+    });
+}
+
+function packed(body) {
+    const out = fields_of(body.record);
+    const tracks = body.masks.map((mask) => mask.tracks);
+    const put = (name, list) => list.length > 0 && (out[name] = list);
+    body.masks.forEach((mask, list) => {
+        const bits = mask.bytes.flatMap(({ bits: byte }) => Array.from({ length: 8 }, (_, k) => (byte >> k) & 1));
+        put(`joints_${list}`, bits.flatMap((bit, joint) => (bit ? [joint] : [])));
+        put(`steps_${list}`, body.steps[list].bytes);
+        if (list % 2 === 0) put(`bases_${list}`, body.constantBases[list / 2].bases);
+    });
+    put('times', body.times ?? []);
+    put('starts', body.starts ?? []);
+    body.segments.forEach((segment, s) => {
+        segment.lists.forEach((list, k) => {
+            put(`widths_${s}_${2 * k + 1}`, list.widths.map((width) => width.bits));
+            put(`bases_${s}_${2 * k + 1}`, list.bases.bases);
+        });
+        put(`frames_${s}`, numbers_of(segment, tracks));
+    });
+    return out;
+}
+
+function collapse(body, chunk) {
+    const out = { ...fields_of(body.record), collapses: body.pools.map(fields_of) };
+    out.table = body.levels.flatMap((level) => [level.error, ...level.alive]);
+    chunk.collapses.forEach(({ targets, joined }, k) => {
+        out[`targets_${k}`] = targets;
+        out[`joined_${k}`] = bits_to_bytes(joined);
+    });
+    return out;
+}
+
+/** What a later version has put behind the fields that are known. */
+function more_of(body) {
+    const bytes = body._io.isEof() ? [] : body._io.readBytesFull();
+    return bytes.length > 0 ? { more: Buffer.from(bytes).toString('hex') } : {};
+}
+
+/** All that a leaf holds, in the form of the text twin. */
+function twin_of(chunk, body) {
+    if (kTexts.has(chunk.id)) return body.value;
+    switch (chunk.id) {
+        case 'IMAG': return { ...fields_of(body.record), image: Buffer.from(body.bytes).toString('hex') };
+        case 'JNAM': return { names: body.names };
+        case 'JNTS': return {
+            ...fields_of(body.record), rests: body.rests.map(({ record }) => fields_of(record)),
+            ranges: body.polygons.map(({ joint, range }) => ({ joint, ...fields_of(range) })),
+        };
+        case 'PALT': return { ...fields_of(body.record), joints: body.joints, matrices: body.matrices.flatMap((matrix) => matrix.values) };
+        case 'LODD': return collapse(body, chunk);
+        case 'TRAK': return { tracks: body.tracks.map(fields_of) };
+        case 'PACK': return packed(body);
+        case 'TIME': case 'KEYV': return { values: body.values };
+        default:
+    }
+    if (!body.values) return { ...fields_of(body), ...more_of(body) };
+    const box = body.box ? { box: body.box.sides.flatMap((side) => [side.minimum, side.step]) } : {};
+    return { ...fields_of(body.record), ...box, values: body.values };
+}
+
+const kInfinite = { inf: Infinity, '-inf': -Infinity };
+
+/** True if the twin's value is ours. It writes floats in the fewest digits that give the f32 back. */
+function is_same(said, ours, name, count) {
+    if (typeof ours === 'number') {
+        count.numbers += 1;
+        if (typeof said === 'string') return said.startsWith('nan') || said.startsWith('-nan') ? Number.isNaN(ours) : kInfinite[said] === ours;
+        return Object.is(said, ours) || Object.is(Math.fround(said), ours);
+    }
+    if (name === 'generator') return said === ours.split('\0')[0];
+    if (typeof ours === 'string') return (Array.isArray(said) ? said.join('') : said) === ours;
+    if (Array.isArray(ours)) return Array.isArray(said) && said.length === ours.length && ours.every((one, k) => is_same(said[k], one, name, count));
+    return different(said, ours, count).length === 0;
+}
+
+/** Names of what differs; a list that is empty may be left out. */
+function different(said, ours, count) {
+    const names = new Set([...Object.keys(said), ...Object.keys(ours)]);
+    return [...names].filter((name) => {
+        if (ours[name] === undefined) return said[name].length !== 0;
+        if (said[name] === undefined) return ours[name].length !== 0;
+        return !is_same(said[name], ours[name], name, count);
+    });
+}
+
+/** Lines about what differs between the twin of a conforming file and our reading. `count.numbers` counts numbers. */
+export function compare_twin(twin, file, chunks, count) {
+    const lines = [];
+    const visit = (said, chunk) => {
+        const where = `${chunk.id} at ${chunk.offset}`;
+        const value = said[chunk.id];
+        if (value === undefined) lines.push(`${where} is ${Object.keys(said)[0]} in the twin`);
+        else if (chunk.is_container) {
+            if (value.length !== chunk.children.length) lines.push(`${where}: ${value.length} chunks in the twin`);
+            else chunk.children.forEach((child, k) => visit(value[k], child));
+        } else if (chunk.meant) {
+            const ours = twin_of(chunk, file.body(chunk));
+            if (typeof ours === 'string' && value !== ours) lines.push(`${where}: the text`);
+            if (typeof ours === 'object') for (const name of different(value, ours, count)) lines.push(`${where}: ${name}`);
+        }
+    };
+    visit(twin, chunks[0]);
+    return lines;
+}

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <bendy/format/byte_reader.h>
+#include <bendy/format/record_table.h>
+#include <bendy/format/records.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Numbers as the twin writes them: floats by the shortest decimal that reads back to the same bits.
+namespace bendy::twin {
+
+enum class NumberType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, f32 };
+
+constexpr std::uint64_t size_of(NumberType type) {
+    constexpr std::uint64_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 4};
+    return kSizes[static_cast<std::size_t>(type)];
+}
+/// "u8", "f32", ...
+std::string_view name_of(NumberType type);
+/// \param type  not FieldType::record
+NumberType number_type(FieldType type);
+NumberType number_type(ComponentType type);
+
+/// Appends the number at `at`, which must be inside the bytes. A float that JSON has no number for comes as a string:
+/// "inf", "-inf", or "nan:0x7fc00000" with its bits.
+void append_number(std::string& out, NumberType type, Bytes bytes, std::uint64_t at);
+
+/// Why a text is no number of a type.
+enum class NumberFault : std::uint8_t { none, not_whole, out_of_range, no_number };
+
+/// Appends the number's bytes. \param token  starts with a number of JSON's grammar; what follows it is not looked at
+NumberFault parse_number(std::string_view token, NumberType type, std::vector<std::byte>& out);
+/// The same for the strings that append_number writes.
+NumberFault parse_special(std::string_view text, std::vector<std::byte>& out);
+
+}  // namespace bendy::twin
