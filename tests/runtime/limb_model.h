@@ -24,6 +24,7 @@ public:
     static constexpr std::uint32_t kBones = 5;   // of a limb
     static constexpr std::uint32_t kRings = 24;  // of its cylinder
     static constexpr std::uint32_t kSides = 10;
+    static constexpr int kStill = 5;  // vertices that nothing moves: the last ones
     static constexpr float kBone = 0.3f;  // metres
     static constexpr float kRadius = 0.08f;
 
@@ -38,7 +39,7 @@ public:
         thing.more = {target(8, {}, 0.2f)};
         spec.pools.push_back(thing);
         PoolSpec still;
-        for (int k = 0; k < 5; ++k) still.positions.emplace_back(number(), 0.0f, number());
+        for (int k = 0; k < kStill; ++k) still.positions.emplace_back(number(), 0.0f, number());
         spec.pools.push_back(still);
     }
 

@@ -42,9 +42,11 @@ TEST(Markers, OnceMeetsBothEnds) {
 
 TEST(Markers, EveryPassMeetsEachOnce) {
     Playback clock(1.0f, 3.0f, LoopMode::repeat);
-    EXPECT_EQ(met_by(clock.advance(7.5)), "sabce" "sabce" "sabce" "sa");
-    EXPECT_EQ(met_by(clock.advance(0.5)), "bc");
-    EXPECT_EQ(met_by(clock.advance(-8.0)), "cbas" "ecbas" "ecbas" "ecbas" "");
+    EXPECT_EQ(met_by(clock.advance(6.5)), "sabcesabcesabces");  // stands at a
+    EXPECT_EQ(met_by(clock.advance(0.5)), "a");                 // at b and c
+    EXPECT_EQ(met_by(clock.advance(-8.0)), "cbasecbasecbasecbase");
+    EXPECT_EQ(met_by(clock.advance(-0.25)), "cb");
+    EXPECT_EQ(met_by(clock.advance(-0.75)), "as");  // to the very start
     EXPECT_EQ(met_by(clock.advance(-0.5)), "e");
 }
 

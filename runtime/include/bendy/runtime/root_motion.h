@@ -60,7 +60,7 @@ public:
     [[nodiscard]] RootMotion over(const Cycle& cycle, const Walk& walk) const;
 
     /// Takes the movement out of a pose and gives it back: along the chosen axes the root then stands as at rest, so that
-    /// cycles fit one another when they are mixed. Above a joint of uneven scale the turn is exact only for that joint's
+    /// cycles fit one another when they are mixed. What hangs below it comes along, joints above stay. Below a joint of uneven scale the turn is exact only for that joint's
     /// own axes; nothing changes if something above the root is squashed flat.
     RootMotion take_out(Pose& pose) const;
 
