@@ -127,8 +127,8 @@ void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float r
     BoundCycle bound;
     const std::vector<Paths> paths = find_paths(cycle, joints_.size());
     for (std::uint32_t joint = 0; joint < paths.size(); ++joint) {
-        BoundJoint made{joint,           joints_[joint], paths[joint].rotation, paths[joint].translation,
-                        paths[joint].scale, 1.0f};
+        BoundJoint made{joint, joints_[joint], paths[joint].rotation, paths[joint].translation, paths[joint].scale,
+                        1.0f};
         if (!made.rotation && !made.translation && !made.scale) continue;
         if (made.to == kNone) {
             missed_joints[joint] = true;

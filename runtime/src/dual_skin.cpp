@@ -161,8 +161,7 @@ private:
         const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
         if (block_.out_normals.data != nullptr) {
             const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-            put(block_.out_normals, vertex,
-                normalised(side * (cofactors * vector_at(block_.normals + 3 * vertex))));
+            put(block_.out_normals, vertex, normalised(side * (cofactors * vector_at(block_.normals + 3 * vertex))));
         }
         if (block_.out_tangents.data == nullptr) return;
         const float* const tangent = block_.tangents + 4 * vertex;

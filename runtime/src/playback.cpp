@@ -13,7 +13,7 @@ struct Passes {
 };
 
 Passes split(double seconds, double length) {
-    constexpr double kMost = 9e15;  // whole numbers of doubles, to which a step is only known anyway
+    constexpr double kMost = 9e15;                   // whole numbers of doubles, to which a step is only known anyway
     const double rest = std::fmod(seconds, length);  // exact
     return {static_cast<std::uint64_t>(std::min(std::round((seconds - rest) / length), kMost)), rest};
 }

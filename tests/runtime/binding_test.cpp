@@ -21,10 +21,10 @@ test::JointSpec joint(std::uint32_t parent, const std::string& name, float y) {
 }
 
 test::Node target_node(const std::string& name) {
-    return test::make_container(
-        FourCC("TARG"), {test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(name))),
-                         test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{})),
-                         test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, {0, 1, 0}))});
+    return test::make_container(FourCC("TARG"),
+                                {test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(name))),
+                                 test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{})),
+                                 test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, {0, 1, 0}))});
 }
 
 test::PoolSpec pool_with(const std::vector<std::string>& targets) {
@@ -116,7 +116,7 @@ TEST(Binding, LimbsMayKeepTheirLengths) {
     Binding topmost(*from, *to, options);
     Pose pose(*to);
     ASSERT_TRUE(sample(topmost, from->cycle("move"), 1.0f, pose));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 10, 0));   // hips: nothing matched above them
+    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 10, 0));    // hips: nothing matched above them
     EXPECT_EQ(pose.local()[3].translation, glm::vec3(0, 1.5f, 0));  // the spine's own
     EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
     options.root = to->joint("spine");

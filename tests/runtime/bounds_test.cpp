@@ -172,8 +172,8 @@ TEST(Bounds, WhatIsNotFiniteIsLeftOut) {
     Pose pose(*model);
     pose.change_local()[1].translation.x = kNan;
     const Box box = bounds.of(pose);
-    for (const float number : {box.minimum.x + 2, box.minimum.y, box.minimum.z, box.maximum.x - 1, box.maximum.y - 2,
-                               box.maximum.z - 3})
+    for (const float number :
+         {box.minimum.x + 2, box.minimum.y, box.minimum.z, box.maximum.x - 1, box.maximum.y - 2, box.maximum.z - 3})
         EXPECT_NEAR(number, 0.0, 1e-4);
 }
 

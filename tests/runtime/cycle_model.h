@@ -35,16 +35,16 @@ inline Node cycle_node(const CycleSpec& spec) {
     std::vector<float> values;
     for (const TrackSpec& made : spec.tracks) {
         records.push_back(track(made.target, made.path, Interpolation::linear, made.components,
-                                static_cast<std::uint32_t>(made.times.size()),
-                                static_cast<std::uint32_t>(times.size()), values.size()));
+                                static_cast<std::uint32_t>(made.times.size()), static_cast<std::uint32_t>(times.size()),
+                                values.size()));
         times.insert(times.end(), made.times.begin(), made.times.end());
         values.insert(values.end(), made.values.begin(), made.values.end());
     }
-    return make_container(FourCC("CYCL"), {make_leaf(FourCC("NAME"), std::as_bytes(std::span(spec.name))),
-                                           make_leaf(FourCC("CINF"), bytes_of(info)),
-                                           make_leaf(FourCC("TRAK"), bytes_of_all(records)),
-                                           make_leaf(FourCC("TIME"), bytes_of_all(times)),
-                                           make_leaf(FourCC("KEYV"), bytes_of_all(values))});
+    return make_container(
+        FourCC("CYCL"),
+        {make_leaf(FourCC("NAME"), std::as_bytes(std::span(spec.name))), make_leaf(FourCC("CINF"), bytes_of(info)),
+         make_leaf(FourCC("TRAK"), bytes_of_all(records)), make_leaf(FourCC("TIME"), bytes_of_all(times)),
+         make_leaf(FourCC("KEYV"), bytes_of_all(values))});
 }
 
 }  // namespace bendy::test

@@ -24,7 +24,7 @@ public:
     static constexpr std::uint32_t kBones = 5;   // of a limb
     static constexpr std::uint32_t kRings = 24;  // of its cylinder
     static constexpr std::uint32_t kSides = 10;
-    static constexpr int kStill = 5;  // vertices that nothing moves: the last ones
+    static constexpr int kStill = 5;      // vertices that nothing moves: the last ones
     static constexpr float kBone = 0.3f;  // metres
     static constexpr float kRadius = 0.08f;
 
@@ -70,8 +70,7 @@ private:
         const std::size_t count = touched.empty() ? vertices : touched.size();
         for (std::size_t k = 0; k < 3 * count; ++k) shifts.push_back(size * number());
         std::vector<Node> children{make_leaf(FourCC("TINF"), bytes_of(info))};
-        if (!touched.empty())
-            children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, touched)));
+        if (!touched.empty()) children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, touched)));
         children.push_back(make_leaf(FourCC("POSI"), stream_payload<float>(3, shifts)));
         return make_container(FourCC("TARG"), children);
     }

@@ -54,7 +54,12 @@ TEST(Markers, WhereItTurnsEachIsMetOnce) {
     Playback clock(1.0f, 3.0f, LoopMode::ping_pong);
     EXPECT_EQ(met_by(clock.advance(2.0)), "sabc");
     EXPECT_EQ(met_by(clock.advance(2.0)), "ecba");
-    EXPECT_EQ(met_by(clock.advance(8.5)), "sabc" "ecba" "sabc" "ecba" "s");
+    EXPECT_EQ(met_by(clock.advance(8.5)),
+              "sabc"
+              "ecba"
+              "sabc"
+              "ecba"
+              "s");
     EXPECT_EQ(met_by(clock.advance(-0.75)), "as");  // left again, the other way
 }
 
@@ -67,8 +72,8 @@ TEST(Markers, ALoopOfOneMomentIsMetEveryTime) {
     EXPECT_EQ(met_by(clock.advance(3.0), one), "xxx");
 }
 
-/// However a time is cut into steps, the markers met are those that lie in it on a line on which the passes are laid out
-/// one after another.
+/// However a time is cut into steps, the markers met are those that lie in it on a line on which the passes are laid
+/// out one after another.
 TEST(Markers, StepsOfAnySizeMeetWhatLiesOnTheUnrolledLine) {
     std::mt19937 random(3);
     const std::vector<Marker> markers{{0.0f, "a"}, {0.125f, "b"}, {0.5f, "c"}, {0.9375f, "d"}};

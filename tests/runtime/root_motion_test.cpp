@@ -64,7 +64,8 @@ struct Walker {
             place.times.push_back(static_cast<float>(seconds));
             turn.times.push_back(static_cast<float>(seconds));
             // Faces +z at first, the circle's middle at +x.
-            for (const double c : {radius - radius * std::cos(at), 1.0 + 0.1 * std::sin(7.0 * at), radius * std::sin(at)})
+            for (const double c :
+                 {radius - radius * std::cos(at), 1.0 + 0.1 * std::sin(7.0 * at), radius * std::sin(at)})
                 place.values.push_back(static_cast<float>(c));
             for (const double c : {0.0, std::sin(0.5 * at), 0.0, std::cos(0.5 * at)})
                 turn.values.push_back(static_cast<float>(c));
@@ -116,9 +117,7 @@ TEST(RootMotion, ACircleIsTheSameInAnyStepsAndOverLoops) {
     const Owned model(test::build_file(Walker(3.0, kTurn / 4.0).spec));
     const Cycle& cycle = *model->cycle("walk");
     const RootPath path(*model, 0);
-    const auto on_circle = [&](double angle) {
-        return shift(3.0, 0, 0) * yaw(angle) * shift(-3.0, 0, 0);
-    };
+    const auto on_circle = [&](double angle) { return shift(3.0, 0, 0) * yaw(angle) * shift(-3.0, 0, 0); };
     expect_near(path.between(cycle, 0.0, 2.0), on_circle(kTurn / 4.0), 1e-6);
     // Keys are a 128th of a turn apart and the chords between them within 1.2 mm of the circle.
     expect_near(path.between(cycle, 0.0, 0.777), on_circle(kTurn / 8.0 * 0.777), 2e-3);
@@ -146,10 +145,12 @@ TEST(RootMotion, WholeTurnsOverManyLoopsComeBack) {
     test::CycleSpec spec_cycle;
     spec_cycle.name = "eighth";
     const double half = kTurn / 16.0;
-    spec_cycle.tracks = {
-        {TrackPath::rotation, 0, 4, {0.0f, 1.0f},
-         {0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))}},
-        {TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 1}}};
+    spec_cycle.tracks = {{TrackPath::rotation,
+                          0,
+                          4,
+                          {0.0f, 1.0f},
+                          {0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))}},
+                         {TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 1}}};
     test::ModelSpec spec;
     spec.joints.resize(1);
     spec.more = {test::cycle_node(spec_cycle)};
@@ -248,7 +249,8 @@ TEST(RootMotion, JointsAboveTheRootTurnAndScaleIt) {
     spec.more = {test::cycle_node(cycle)};
     const Owned model(test::build_file(spec));
     const RootPath path(*model, 1);
-    // In model space: 3 metres along +z and 0.2 along +x, from where x = 0.5 and z = -0.25; turned by a quarter about y.
+    // In model space: 3 metres along +z and 0.2 along +x, from where x = 0.5 and z = -0.25; turned by a quarter about
+    // y.
     expect_near(path.at(*model->cycle("walk"), 0.0), glm::dmat4(1.0), 1e-6);
     const glm::dmat4 expected = shift(0.7, 0, 2.75) * yaw(kTurn / 4.0) * shift(-0.5, 0, 0.25);
     expect_near(path.at(*model->cycle("walk"), 1.0), expected, 1e-5);

@@ -44,8 +44,7 @@ TEST(Socket, FollowsItsJoint) {
     // The hand at (2, 1, 0), its x axis up.
     expect_matrix(socket_matrix(socket, pose), {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 2, 1.5f, 0, 1});
     socket.keeps_size = false;
-    expect_matrix(socket_matrix(socket, pose),
-                  {0, 0.01f, 0, 0, -0.01f, 0, 0, 0, 0, 0, 0.01f, 0, 2, 1.005f, 0, 1});
+    expect_matrix(socket_matrix(socket, pose), {0, 0.01f, 0, 0, -0.01f, 0, 0, 0, 0, 0, 0.01f, 0, 2, 1.005f, 0, 1});
     // A quarter turn more about z, and the character elsewhere, twice as large.
     pose.change_local()[1].rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));
     socket.keeps_size = true;
@@ -66,9 +65,9 @@ TEST(Socket, WithoutAJointItIsInTheModel) {
 
 TEST(Socket, FlatMirroredAndShearedJointsStillHoldAThing) {
     test::ModelSpec spec = arm();
-    const std::vector<RestRecord> rests{test::scaled(0, 1, 1),  test::scaled(1, 0, 1), test::scaled(1, 1, 0),
-                                        test::scaled(0, 0, 1),  test::scaled(1, 0, 0), test::scaled(0, 1, 0),
-                                        test::scaled(0, 0, 0),  test::scaled(-1, 1, 1), test::scaled(-3, -2, -1),
+    const std::vector<RestRecord> rests{test::scaled(0, 1, 1), test::scaled(1, 0, 1),  test::scaled(1, 1, 0),
+                                        test::scaled(0, 0, 1), test::scaled(1, 0, 0),  test::scaled(0, 1, 0),
+                                        test::scaled(0, 0, 0), test::scaled(-1, 1, 1), test::scaled(-3, -2, -1),
                                         test::scaled(1, -1, 1)};
     for (RestRecord rest : rests) {
         rest.shear = {0.0f, 0.5f, 0.25f};

@@ -9,8 +9,12 @@
 //     bendy::reach(model->chain("LeftArm"), target, pose);    // IK, inside the joints' constraints
 //     bendy::skin(*model, pose, vertices);                    // vertices into the caller's memory
 //
-// Nothing here throws, logs, or allocates after the Pose is made. After a Model has loaded, no call on it can read or
-// write out of bounds, whatever the file held. A Model is immutable: any number of threads may share it, a Pose each.
+// What plays over time: Playback (a cycle's clock), Crossfade, markers.h, RootPath (root motion), Binding (cycles of
+// another file). What a posed character is asked: Bounds, Socket. DualSkinning: skinning that keeps volume.
+//
+// Nothing here throws or logs. A frame allocates nothing: what needs memory takes it when it is made. After a Model has
+// loaded, no call on it can read or write out of bounds, whatever the file held. A Model is immutable: any number of
+// threads may share it, a Pose each.
 
 #include <bendy/runtime/binding.h>
 #include <bendy/runtime/blend.h>

@@ -24,15 +24,15 @@ struct BindingOptions {
 };
 
 /// The cycles of one model for another one, joint by joint and target by target of the same name: files that hold
-/// nothing but a skeleton and cycles, shared by many characters. Names must be the same to the letter; of names that are
-/// doubled the first counts, empty ones match nothing.
+/// nothing but a skeleton and cycles, shared by many characters. Names must be the same to the letter; of names that
+/// are doubled the first counts, empty ones match nothing.
 ///
 /// What a track animates gets its value as it is, relative to the parent; everything else is at the posed model's own
-/// rest. Rotations are not corrected: where two skeletons' rest poses differ in how joints are turned, or in which joints
-/// lie between, the pose does too.
+/// rest. Rotations are not corrected: where two skeletons' rest poses differ in how joints are turned, or in which
+/// joints lie between, the pose does too.
 ///
-/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do). Both models must outlive it where
-/// they stand.
+/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do). Both models must outlive it
+/// where they stand.
 class Binding {
 public:
     /// \param animated  has the cycles
@@ -43,8 +43,8 @@ public:
     [[nodiscard]] const Model& posed() const { return *posed_; }
     /// For each joint of the animated model the posed model's, or kNone.
     [[nodiscard]] std::span<const std::uint32_t> joints() const { return joints_; }
-    /// For each target of the animated model (see Model::first_target) the posed model's, or kNone. Of pools of the same
-    /// name if there are such, else the first of its name.
+    /// For each target of the animated model (see Model::first_target) the posed model's, or kNone. Of pools of the
+    /// same name if there are such, else the first of its name.
     [[nodiscard]] std::span<const std::uint32_t> targets() const { return targets_; }
     /// What some cycle animates in vain: joints of the animated model, ascending.
     [[nodiscard]] std::span<const std::uint32_t> unmatched_joints() const { return unmatched_joints_; }

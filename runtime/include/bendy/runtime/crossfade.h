@@ -39,8 +39,8 @@ private:
 struct Playing {
     const Cycle* cycle = nullptr;
     Playback playback;
-    Fade fade;   ///< how much of it covers what began before it
-    Walk walk;   ///< by the last advance: for markers and root motion
+    Fade fade;           ///< how much of it covers what began before it
+    Walk walk;           ///< by the last advance: for markers and root motion
     float share = 0.0f;  ///< of the result; all shares add up to 1
 };
 

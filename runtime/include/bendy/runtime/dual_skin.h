@@ -14,12 +14,12 @@
 namespace bendy {
 
 /// Skinning by dual quaternions (Kavan, Collins, Zara, O'Sullivan, Skinning with Dual Quaternions, 2007): joints that
-/// twist or bend keep the limb's volume, where `skin` makes it thinner. For characters that were made for it: elbows bulge
-/// a little, and `Bounds` does not hold it. In doubles, one vertex at a time, so slower than `skin`.
+/// twist or bend keep the limb's volume, where `skin` makes it thinner. For characters that were made for it: elbows
+/// bulge a little, and `Bounds` does not hold it. In doubles, one vertex at a time, so slower than `skin`.
 ///
 /// Scale and shear go in two phases: each joint's are applied about its own place and mixed by the weights as `skin`
-/// does, then the rotations and translations are mixed as dual quaternions. The uniform scale of the topmost of a pool's
-/// joints is the whole pool's, and exact. A vertex of one joint goes where `skin` takes it, whatever the matrix.
+/// does, then the rotations and translations are mixed as dual quaternions. The uniform scale of the topmost of a
+/// pool's joints is the whole pool's, and exact. A vertex of one joint goes where `skin` takes it, whatever the matrix.
 ///
 /// The work memory for a model; one for each thread. Nothing is allocated after it is made. The model must outlive it
 /// where it stands.
@@ -47,8 +47,8 @@ private:
     bool find_motions(std::uint32_t pool, Pose& pose);
 
     const Model* model_;
-    std::vector<glm::dvec3> places_;           // of each palette entry's joint in pool space when it was bound
-    std::vector<std::uint32_t> first_place_;   // of each pool
+    std::vector<glm::dvec3> places_;          // of each palette entry's joint in pool space when it was bound
+    std::vector<std::uint32_t> first_place_;  // of each pool
     std::vector<Motion> motions_;
     double scale_ = 1.0;
     bool is_stretched_ = false;

@@ -86,7 +86,7 @@ private:
     [[nodiscard]] Stretch whole_pass(bool forth) const;
 
     double start_ = 0.0, end_ = 0.0, length_ = 0.0;  // seconds
-    double inside_ = 0.0;                            // seconds from where the pass begins: [0, length), once: [0, length]
+    double inside_ = 0.0;  // seconds from where the pass begins: [0, length), once: [0, length]
     double speed_ = 1.0;
     std::int64_t pass_ = 0;
     LoopMode mode_ = LoopMode::once;

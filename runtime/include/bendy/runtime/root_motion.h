@@ -16,7 +16,7 @@ namespace bendy {
 
 /// A turn, then a shift.
 struct RootMotion {
-    glm::dvec3 translation{0.0};               ///< metres
+    glm::dvec3 translation{0.0};              ///< metres
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
 
     [[nodiscard]] glm::dmat4 matrix() const;
@@ -43,8 +43,8 @@ struct RootAxes {
     RootTurn turn = RootTurn::yaw;
 };
 
-/// The joint that carries a character over the ground: a root joint, or hips. Reads cycles of its model only; any number
-/// of threads may share one. Made once; nothing else allocates. The model must outlive it where it stands.
+/// The joint that carries a character over the ground: a root joint, or hips. Reads cycles of its model only; any
+/// number of threads may share one. Made once; nothing else allocates. The model must outlive it where it stands.
 class RootPath {
 public:
     /// \param joint  of the model; one that it does not have never moves
@@ -59,9 +59,9 @@ public:
     /// ended. As quick for thousands of passes as for one.
     [[nodiscard]] RootMotion over(const Cycle& cycle, const Walk& walk) const;
 
-    /// Takes the movement out of a pose and gives it back: along the chosen axes the root then stands as at rest, so that
-    /// cycles fit one another when they are mixed. What hangs below it comes along, joints above stay. Below a joint of uneven scale the turn is exact only for that joint's
-    /// own axes; nothing changes if something above the root is squashed flat.
+    /// Takes the movement out of a pose and gives it back: along the chosen axes the root then stands as at rest, so
+    /// that cycles fit one another when they are mixed. What hangs below the root comes along; joints above it stay. If
+    /// one of those is scaled unevenly, the turn is not quite taken out; if one is flat, nothing is.
     RootMotion take_out(Pose& pose) const;
 
 private:
