@@ -57,18 +57,23 @@ void expect_same(const Skinned& is, const Skinned& expected, double tolerance) {
 
 /// A tube of radius 1 along y, from joint 0 at y = 0 to joint 1 at y = `length`; weights go over evenly.
 struct Tube {
-    static constexpr int kRings = 9;
-    static constexpr int kSides = 8;
+    static constexpr std::size_t kRings = 9;
+    static constexpr std::size_t kSides = 8;
+    /// Of the way along the tube.
+    static double share(std::size_t vertex) {
+        const std::size_t ring = vertex / kSides;
+        return static_cast<double>(ring) / (kRings - 1);
+    }
     explicit Tube(float length) {
         spec.joints.resize(2);
         spec.joints[1] = {0, test::moved(0, length, 0), {}, ""};
         test::PoolSpec pool;
         std::vector<std::uint8_t> bones;
         std::vector<float> weights;
-        for (int ring = 0; ring < kRings; ++ring) {
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
             const float share = static_cast<float>(ring) / (kRings - 1);
-            for (int side = 0; side < kSides; ++side) {
-                const double angle = 2.0 * M_PI * side / kSides;
+            for (std::size_t side = 0; side < kSides; ++side) {
+                const double angle = 2.0 * M_PI * static_cast<double>(side) / kSides;
                 const glm::vec3 out(std::cos(angle), 0.0, std::sin(angle));
                 pool.positions.push_back(out + glm::vec3(0, share * length, 0));
                 pool.normals.push_back(out);
@@ -99,7 +104,7 @@ TEST(DualSkin, ATwistKeepsTheRadius) {
         for (std::size_t v = 0; v < by_dual.positions.size(); ++v) {
             const glm::dvec3 p(by_dual.positions[v]);
             EXPECT_NEAR(std::hypot(p.x, p.z), 1.0, 1e-6);
-            EXPECT_NEAR(p.y, 4.0 * static_cast<double>(v / Tube::kSides) / (Tube::kRings - 1), 1e-6);
+            EXPECT_NEAR(p.y, 4.0 * Tube::share(v), 1e-6);
             expect_near(by_dual.normals[v], {p.x, 0.0, p.z}, 1e-6);
         }
         // The middle ring: half of each joint's place, cos of half the angle away from the axis.
@@ -244,7 +249,7 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
         for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
             glm::dmat4 bind(glm::mat3_cast(turn()));
             bind[3] = {number(random), number(random), number(random), 1.0};
-            binds.push_back(glm::mat4(bind));
+            binds.emplace_back(bind);
             entries.push_back(joint);
         }
         test::PoolSpec pool;
@@ -317,7 +322,7 @@ TEST(DualSkin, AScaledJointScalesAboutItself) {
         pose.change_local()[1].scale = glm::vec3(2.0f);
         const Skinned is = dual(*model, pose);
         for (std::size_t v = 0; v < is.positions.size(); ++v) {
-            const double share = static_cast<double>(v / Tube::kSides) / (Tube::kRings - 1);
+            const double share = Tube::share(v);
             EXPECT_NEAR(std::hypot(is.positions[v].x, is.positions[v].z), 1.0 + share, 1e-5);
             // Joint 0 leaves the height 4 s, joint 1 takes it to 4 + 2 (4 s - 4).
             const double height = 4.0 * share;

@@ -30,7 +30,7 @@ public:
 
     explicit LimbModel(unsigned seed) : random_(seed) {
         spec.joints.push_back({kNone, moved(0.5f * number(), 1, 0.5f * number()), {}, "trunk"});
-        places_.push_back(glm::dvec3(vec(spec.joints[0].rest.translation)));
+        places_.emplace_back(vec(spec.joints[0].rest.translation));
         turns_.emplace_back(1.0, 0.0, 0.0, 0.0);
         for (std::uint32_t limb = 0; limb < 4; ++limb) add_limb(limb);
         PoolSpec thing;
@@ -117,7 +117,7 @@ private:
             joints.push_back(first + bone);
             glm::dmat4 place(glm::mat3_cast(turns_[first + bone]));
             place[3] = glm::dvec4(places_[first + bone], 1.0);
-            binds.push_back(glm::mat4(glm::inverse(place)));
+            binds.emplace_back(glm::inverse(place));
         }
         pool.more = {make_leaf(FourCC("BONE"), stream_payload<std::uint8_t>(3, bones)), weight_leaf(weights, limb),
                      palette_leaf(joints, binds)};
