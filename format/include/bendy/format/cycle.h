@@ -27,6 +27,12 @@ struct TrackView {
     std::span<const float> values;
 };
 
+/// A named time of a cycle: a footstep, a hit, a sound to be played.
+struct Marker {
+    float seconds = 0.0f;   ///< on the cycle's own time, between its start and end
+    std::string_view name;  ///< UTF-8; may be empty, may be doubled
+};
+
 struct CycleView {
     std::uint32_t chunk = 0;
     std::string_view name;
@@ -38,6 +44,7 @@ struct CycleView {
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::string_view extras;
+    std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
 };
 
 /// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints`
@@ -45,9 +52,9 @@ struct CycleView {
 CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
                      Faults& faults);
 
-/// Faults of meaning that do not endanger memory: key times that do not ascend or lie outside [start, end], numbers
-/// that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one property or
-/// with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
+/// Faults of meaning that do not endanger memory: key times and markers that do not ascend or lie outside [start, end],
+/// numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one
+/// property or with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
 void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& faults);
 
 inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1

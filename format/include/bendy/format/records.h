@@ -168,6 +168,16 @@ struct CycleRecord {
     std::array<std::uint8_t, 3> reserved{};
 };
 
+struct MarkerRecord {
+    float seconds = 0.0f;
+    std::uint32_t name_end = 0;
+};
+
+struct MarkersRecord {
+    std::uint32_t markers = 0;
+    std::uint32_t reserved = 0;
+};
+
 struct PackRecord {
     std::uint32_t frames = 1;
     float start = 0.0f;
