@@ -118,45 +118,14 @@ void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults&
     }
 }
 
-/// Cuts the names, which stand one behind the other; false, and a fault, where they do not fill `names`.
-bool cut_names(std::span<const MarkerRecord> records, std::string_view names, std::uint64_t offset,
-               std::vector<Marker>& markers, Faults& faults) {
-    markers.reserve(records.size());
-    std::uint32_t begin = 0;
-    for (const MarkerRecord& record : records) {
-        if (record.name_end < begin || record.name_end > names.size()) {
-            faults.add({ErrorCode::kMarkerName, offset, markers.size()});
-            return false;
-        }
-        markers.push_back({record.seconds, names.substr(begin, record.name_end - begin)});
-        begin = record.name_end;
-    }
-    if (begin == names.size()) return true;
-    const std::uint64_t before = sizeof(MarkersRecord) + records.size_bytes();
-    faults.add({ErrorCode::kRecordSize, offset, before + names.size(), before + begin});
-    return false;
-}
-
-std::vector<Marker> read_markers(const ChunkTree& tree, std::uint32_t cycle, Faults& faults) {
-    const auto record = read_child_record<MarkersRecord>(tree, cycle, FourCC("MARK"), faults);
-    if (!record) return {};
+std::vector<Marker> read_marker_leaf(const ChunkTree& tree, std::uint32_t cycle, Faults& faults) {
     const std::uint32_t number = tree.find(cycle, FourCC("MARK"));
-    const std::uint64_t offset = tree[number].offset;
-    check_reserved(std::array{record->reserved}, offset, faults);
-    const Bytes payload = tree.payload(number);
-    if (record->markers > (payload.size() - sizeof(MarkersRecord)) / sizeof(MarkerRecord)) {
-        faults.add({ErrorCode::kRecordSize, offset, payload.size(),
-                    sizeof(MarkersRecord) + std::uint64_t{record->markers} * sizeof(MarkerRecord)});
+    if (number == kNone || tree[number].is_container()) return {};
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
         return {};
     }
-    const auto records = view_at<MarkerRecord>(payload, sizeof(MarkersRecord), record->markers);
-    const std::string_view names = as_text(payload.subspan(sizeof(MarkersRecord) + records.size_bytes()));
-    std::vector<Marker> markers;
-    if (!cut_names(records, names, offset, markers, faults)) return {};
-    if (std::all_of(markers.begin(), markers.end(), [](const Marker& marker) { return is_utf8(marker.name); }))
-        return markers;
-    faults.add({ErrorCode::kNotUtf8, offset});
-    return {};
+    return read_markers(tree.payload(number), tree[number].offset, faults).value_or(std::vector<Marker>());
 }
 
 std::optional<PackedView> read_packed_leaf(const ChunkTree& tree, std::uint32_t cycle, std::uint32_t joints,
@@ -206,7 +175,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     check_reserved(info.reserved, info_offset, faults);
 
     cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
-    cycle.markers = read_markers(tree, chunk, faults);
+    cycle.markers = read_marker_leaf(tree, chunk, faults);
     const auto read_times = read_floats(tree, chunk, FourCC("TIME"), faults);
     const auto read_values = read_floats(tree, chunk, FourCC("KEYV"), faults);
 

@@ -52,6 +52,12 @@ TEST(Markers, GiveTimesAndNames) {
     EXPECT_EQ(markers[3].name, "stop");
 }
 
+TEST(Markers, AreWrittenAsThePageSays) {
+    const std::vector<Marker> markers{{0.5f, "ab"}, {1.0f, ""}, {1.0f, "\xc3\xa9"}};
+    EXPECT_EQ(write_markers(markers), markers_payload({{0.5f, 2}, {1.0f, 2}, {1.0f, 4}}, "ab\xc3\xa9"));
+    EXPECT_EQ(write_markers({}), markers_payload({}, ""));
+}
+
 TEST(Markers, MayBeNone) {
     const Loaded loaded(sample_file());
     EXPECT_TRUE(markers_of(loaded).empty());

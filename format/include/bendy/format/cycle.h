@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/pool.h>
 #include <bendy/format/records.h>
@@ -25,12 +26,6 @@ struct TrackView {
     std::uint32_t keys = 0;
     std::span<const float> times;  ///< seconds, ascending; empty for fixed frames
     std::span<const float> values;
-};
-
-/// A named time of a cycle: a footstep, a hit, a sound to be played.
-struct Marker {
-    float seconds = 0.0f;   ///< on the cycle's own time, between its start and end
-    std::string_view name;  ///< UTF-8; may be empty, may be doubled
 };
 
 struct CycleView {
