@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <string>
 
 namespace bendy {
 namespace {
@@ -61,16 +62,18 @@ std::optional<std::vector<Marker>> read_markers(Bytes payload, std::uint64_t off
 
 std::vector<std::byte> write_markers(std::span<const Marker> markers) {
     const MarkersRecord record{static_cast<std::uint32_t>(markers.size()), 0};
-    std::vector<std::byte> payload;
-    const auto append = [&payload](Bytes bytes) { payload.insert(payload.end(), bytes.begin(), bytes.end()); };
-    append(bytes_of(record));
-    std::uint64_t end = 0;
+    std::vector<MarkerRecord> records;
+    records.reserve(markers.size());
+    std::string names;
     for (const Marker& marker : markers) {
-        end += marker.name.size();
-        assert(end <= std::numeric_limits<std::uint32_t>::max());
-        append(bytes_of(MarkerRecord{marker.seconds, static_cast<std::uint32_t>(end)}));
+        names += marker.name;
+        assert(names.size() <= std::numeric_limits<std::uint32_t>::max());
+        records.push_back({marker.seconds, static_cast<std::uint32_t>(names.size())});
     }
-    for (const Marker& marker : markers) append(as_byte_span(marker.name));
+    std::vector<std::byte> payload;
+    payload.reserve(size_before_names(markers.size()) + names.size());
+    for (const Bytes part : {bytes_of(record), std::as_bytes(std::span(records)), as_byte_span(names)})
+        payload.insert(payload.end(), part.begin(), part.end());
     return payload;
 }
 

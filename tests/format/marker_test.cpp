@@ -38,7 +38,8 @@ std::vector<Marker> markers_of(const Loaded& loaded) {
 }
 
 TEST(Markers, GiveTimesAndNames) {
-    const Loaded loaded(to_file(marked(markers_payload({{0.5f, 4}, {0.75f, 4}, {0.75f, 7}, {1.0f, 11}}, "step\xc3\xa9!stop"))));
+    const Loaded loaded(
+        to_file(marked(markers_payload({{0.5f, 4}, {0.75f, 4}, {0.75f, 7}, {1.0f, 11}}, "step\xc3\xa9!stop"))));
     ASSERT_EQ(loaded.lines(), Lines{});
     const std::vector<Marker> markers = markers_of(loaded);
     ASSERT_EQ(markers.size(), 4u);
@@ -110,8 +111,7 @@ TEST(Markers, WantTimesToAscendInsideTheCycle) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(faults_with(markers_payload({{kNaN, 0}, {0.5f, 0}}, "")),
               in_mark({"NOT_FINITE", "MARKER_ORDER", "MARKER_OUTSIDE"}));
-    EXPECT_EQ(faults_with(markers_payload({{0.5f, 0}, {kInfinity, 0}}, "")),
-              in_mark({"NOT_FINITE", "MARKER_OUTSIDE"}));
+    EXPECT_EQ(faults_with(markers_payload({{0.5f, 0}, {kInfinity, 0}}, "")), in_mark({"NOT_FINITE", "MARKER_OUTSIDE"}));
 }
 
 TEST(Markers, AreNotReadFromALeafThatIsStillEncoded) {
