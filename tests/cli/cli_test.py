@@ -1208,6 +1208,83 @@ class Rig(Case):
         return path
 
 
+class Markers(Case):
+    STEPS = [{"time": 0.25, "name": "left"}, {"time": 0.75, "name": "right"}]
+
+    def write(self, markers, **members):
+        (self.folder / "rig.json").write_text(json.dumps({"bendy_rig": 1, "markers": markers, **members}))
+        return "rig.json"
+
+    def marked(self, markers, source="mannequin", out="marked.bendy", **members):
+        self.done("convert", self.convert(source), "--rig", self.write(markers, **members), "-q", "-o", out)
+        self.assertEqual(self.done("validate", out), b"")
+        return out
+
+    def test_they_are_seen_in_every_report(self):
+        self.marked({"Walk": self.STEPS})
+        text = self.done("inspect", "marked.bendy").decode()
+        self.assertRegex(text, r'CYCL 1  "Walk"  0 to 1 s, 59 tracks, repeats, 2 markers\n')
+        self.assertIn('2 markers: "left" at 0.25 s, "right" at 0.75 s', text)
+        chunks = json.loads(self.done("inspect", "marked.bendy", "--json"))["chunks"]
+        self.assertEqual([chunk["fields"] for chunk in chunks if chunk["id"] == "MARK"],
+                         [{"markers": [{"seconds": 0.25, "name": "left"}, {"seconds": 0.75, "name": "right"}]}])
+        self.done("inspect", "marked.bendy", "--html", "m.html")
+        self.assertIn('"markers":[[0.25,"left"],[0.75,"right"]]', (self.folder / "m.html").read_text())
+
+    def test_the_rig_file_gives_the_same_bytes(self):
+        self.marked({"Walk": {"right": 0.75, "left": 0.25}, "#0": []})
+        rig = json.loads(self.done("rig", "marked.bendy", "-o", "again.json") or (self.folder / "again.json").read_text())
+        self.assertEqual(rig["markers"], {"Walk": self.STEPS})
+        schema = json.loads((SOURCE / "spec" / "rig.schema.json").read_text())
+        self.assertTrue(is_valid(rig, schema, schema))
+        self.done("convert", self.convert(), "--rig", "again.json", "-q", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), (self.folder / "marked.bendy").read_bytes())
+
+    def test_from_gltf_and_back_the_chunks_are_the_same(self):
+        self.done("export", self.marked({"Walk": self.STEPS}), "-o", "m.gltf", "-q")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        extras = next(a["extras"] for a in document["animations"] if a["name"] == "Walk")
+        self.assertEqual(extras["markers"], self.STEPS)
+        self.assertNotIn("markers", document["scenes"][0]["extras"]["bendy_rig"])
+        for form in (self.STEPS, {"right": 0.75, "left": [0.25]}, json.dumps(self.STEPS)):
+            extras["markers"] = form
+            (self.folder / "m.gltf").write_text(json.dumps(document))
+            self.done("convert", "m.gltf", "-q", "-o", "once.bendy")
+            self.assertEqual((self.folder / "once.bendy").read_bytes(), (self.folder / "marked.bendy").read_bytes())
+
+    def test_compact_and_lod_files_keep_them(self):
+        self.marked({"Walk": self.STEPS})
+        self.done("convert", "marked.bendy", "--compact", "--lod", "-q", "-o", "small.bendy")
+        self.assertEqual(json.loads(self.done("rig", "small.bendy"))["markers"], {"Walk": self.STEPS})
+        self.done("diff", "marked.bendy", "small.bendy", "--tolerance", "1%")
+        self.done("edit", "small.bendy", "-o", "bare.bendy", "--strip", "markers")
+        self.assertNotIn("markers", json.loads(self.done("rig", "bare.bendy")))
+        result = self.bendy("diff", "small.bendy", "bare.bendy", "--tolerance", "1%")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b'! cycle "Walk": markers: 2 -> 0\n', result.stdout)
+
+    def test_differences_are_told_one_by_one(self):
+        self.marked({"Walk": self.STEPS})
+        self.marked({"Walk": {"left": 0.25, "hit": 0.5}}, out="other.bendy")
+        result = self.bendy("diff", "marked.bendy", "other.bendy")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual([line.split(": ", 1)[1] for line in result.stdout.decode().splitlines()],
+                         ["marker 1: seconds: 0.75 -> 0.5", 'marker 1: name: "right" -> "hit"'])
+
+    def test_what_is_wrong_in_a_rig_file(self):
+        for markers, message in (
+                ({"Walk": [{"time": 1.5, "name": "late"}]},
+                 "markers.Walk[0]: 1.5 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+                ({"Walk": {"step": "soon"}}, "markers.Walk.step: a number is due, not 'soon'"),
+                ([], "markers: it must be an object, not array")):
+            line = self.failed("convert", self.convert(), "--rig", self.write(markers), "-o", "x.bendy")
+            self.assertEqual(line, f"bendy: error: rig.json: {message}")
+            self.assertFalse((self.folder / "x.bendy").exists())
+        result = self.bendy("convert", self.convert(), "--rig", self.write({"Fly": []}), "-q", "-o", "x.bendy")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"rig.json: markers.Fly: no cycle takes 'Fly'", result.stderr)
+
+
 class Diff(Case):
     def edited(self, change, source=None, name="edited.bendy"):
         """A copy of a file with a change made to its tree, and right sums."""

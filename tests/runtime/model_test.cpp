@@ -92,6 +92,20 @@ TEST(Model, FindsByNameTheFirstOfEqualNames) {
     EXPECT_EQ(model->chain("front"), nullptr);
 }
 
+TEST(Model, HoldsItsCyclesMarkers) {
+    test::Node file = test::sample();
+    test::at(file, "HEAD/OBJE/CYCL")
+        .children.push_back(
+            test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {0.5f, 4}, {1.0f, 7}}, "stephit")));
+    const Owned model(test::to_file(file));
+    const std::span<const Marker> markers = model->cycle("run")->markers;
+    ASSERT_EQ(markers.size(), 3u);
+    EXPECT_EQ(markers[0].name, "step");
+    EXPECT_EQ(markers[1].name, "");
+    EXPECT_EQ(markers[2].name, "hit");
+    EXPECT_EQ(markers[2].seconds, 1.0f);
+}
+
 // --- draws
 
 TEST(Model, DrawsMeanTheMaterialsOfTheWholeFile) {
