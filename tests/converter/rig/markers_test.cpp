@@ -111,15 +111,15 @@ TEST(RigMarkers, OutsideTheirCycleTheyAreRefused) {
               "markers.Run[1]: 2.5 s is outside the cycle, which lasts from 0.5 s to 2.0 s");
     EXPECT_EQ(attach_error(R"("markers": {"Run": {"a": [0.25]}})"),
               "markers.Run.a[0]: 0.25 s is outside the cycle, which lasts from 0.5 s to 2.0 s");
-    EXPECT_EQ(attach_error(R"("markers": {"Walk": {}, "#0": {}})"), "markers.\"#0\": cycle '#0' has an earlier entry");
+    EXPECT_EQ(attach_error(R"("markers": {"Walk": {}, "#0": {}})"), "markers.'#0': cycle '#0' has an earlier entry");
 }
 
 TEST(RigMarkers, CyclesThatAreNotThereAreNamed) {
     Report report;
     (void)with_markers(R"("markers": {"Fly": {"a": 0}, "#4": {"a": 0}, "#99999999999999999999": {}})", report);
     EXPECT_EQ(lines_of(report),
-              (std::vector<std::string>{"markers.Fly: no cycle takes 'Fly'", "markers.\"#4\": no cycle takes '#4'",
-                                        "markers.\"#99999999999999999999\": no cycle takes '#99999999999999999999'"}));
+              (std::vector<std::string>{"markers.Fly: no cycle takes 'Fly'", "markers.'#4': no cycle takes '#4'",
+                                        "markers.'#99999999999999999999': no cycle takes '#99999999999999999999'"}));
 }
 
 /// Everything that names and floats may be comes back from the rig file.
