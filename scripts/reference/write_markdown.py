@@ -1,6 +1,6 @@
 """The reference as one page of Markdown: docs/cli.md."""
 
-HEADER = """# The command line
+HEADER = """# Command line
 
 <!-- Made by scripts/make_reference.py of what `bendy COMMAND --help` prints: change that, and make it anew. -->
 
@@ -22,7 +22,7 @@ def write_markdown(program, exit_status):
 
 
 def _section(command):
-    text = f"\n## bendy {command.name}\n\n{command.about}.\n\n    bendy {command.usage}\n\n| | |\n|---|---|\n"
+    text = f"\n## bendy {command.name}\n\n{command.about}.\n\n```text\nbendy {command.usage}\n```\n\n| | |\n|---|---|\n"
     for option in command.arguments + command.options:
         if option.names == ["-h", "--help"]:
             continue
@@ -34,5 +34,5 @@ def _section(command):
     if command.prose:
         text += "\n" + "\n".join(command.prose) + "\n"
     if command.examples:
-        text += "\n" + "".join(f"    {example}\n" for example in command.examples)
+        text += "\n```sh\n" + "\n".join(command.examples) + "\n```\n"
     return text
