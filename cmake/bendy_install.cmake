@@ -40,4 +40,12 @@ endforeach()
 
 if(BENDY_TOOLS)
   install(TARGETS bendy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  include(${CMAKE_CURRENT_LIST_DIR}/bendy_reference.cmake)
+  # What a desktop and file(1) need to know the files.
+  set(packaging ${PROJECT_SOURCE_DIR}/packaging)
+  install(FILES ${packaging}/bendy.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT program)
+  install(FILES ${packaging}/bendy.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/bendy COMPONENT program)
+  if(BENDY_VIEWER)
+    install(FILES ${packaging}/bendy-view.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT program)
+  endif()
 endif()
