@@ -44,7 +44,7 @@ std::vector<std::string> kernel_names() {
 std::string check_kernel(const std::string& name) {
     const std::vector<std::string> here = names_of(kernels());
     if (std::find(here.begin(), here.end(), name) != here.end()) return {};
-    return name + " does not run here, but " + CLI::detail::join(here, ", ");
+    return name + " does not run here; these do: " + CLI::detail::join(here, ", ");
 }
 
 std::vector<Kernel> chosen_kernels(const BenchArguments& arguments) {
