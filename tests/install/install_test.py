@@ -113,6 +113,16 @@ class Shared(Case):
                     self.assertLessEqual(set(re.findall(r"\w+", name)), public | {"bendy"})
 
 
+    def test_all_that_is_not_hidden_is_exported(self):
+        for library in ("format", "runtime"):
+            name = f"libbendy-{library}"
+            exported = set(re.findall(r"\S+$", run("nm", "-D", "--defined-only", library_folder(self.prefix) / f"{name}.so"), re.M))
+            table = run("readelf", "-sW", ARGUMENTS.build / library / f"{name}.a")
+            visible = set(re.findall(r" FUNC +GLOBAL +DEFAULT +\d+ (\S+)", table))
+            self.assertGreater(len(visible), 50)
+            self.assertEqual(visible - exported, set())
+
+
 def own_name(symbol):
     """The qualified name in a demangled symbol, without parameters, template arguments and what it returns."""
     symbol = re.sub(r"^(guard variable|typeinfo name|typeinfo|vtable) for ", "", symbol)
