@@ -23,6 +23,7 @@ need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
+need python3 python3
 need /usr/include/GL/glcorearb.h libgl-dev
 need /usr/include/EGL/egl.h libegl-dev
 need /usr/include/GL/osmesa.h libosmesa6-dev
@@ -44,7 +45,13 @@ if [ "${1:-build}" = test ]; then
     need clang-format clang-format
     need clang-tidy clang-tidy
     need git git
-    need python3 python3
+    need dpkg-shlibdeps dpkg-dev
+    need file file
+    need groff groff-base
+    need mandoc mandoc
+    need update-mime-database shared-mime-info
+    need gio libglib2.0-bin
+    need desktop-file-validate desktop-file-utils
     need node nodejs
     need npm npm
     need chromium chromium

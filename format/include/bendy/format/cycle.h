@@ -4,6 +4,7 @@
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/pool.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 #include <vector>
 
 // CYCL: an animation cycle, with tracks of timed keys or of fixed frames.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values
 /// are keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each

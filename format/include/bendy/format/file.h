@@ -1,12 +1,13 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
+#include <bendy/format/public.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
 #include <filesystem>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A file mapped read-only into memory; an empty file gives an empty view. The bytes start on a page boundary.
 class MappedFile {

@@ -2,6 +2,7 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/limits.h>
+#include <bendy/format/public.h>
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <type_traits>
 
 // The fixed records as they lie in the file: what each field means, its unit and range, stands in records.def.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 0x59, 0x0d, 0x0a, 0x1a};
 
