@@ -10,7 +10,9 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bendy-config.cmake.in ${
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/bendy-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/bendy-config.cmake ${PROJECT_BINARY_DIR}/bendy-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/bendy_add_models.cmake
   DESTINATION ${package_dir})
 if(BENDY_TOOLS)
-  install(TARGETS bendy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS bendy EXPORT bendy_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(EXPORT bendy_program NAMESPACE bendy:: FILE bendy-program.cmake DESTINATION ${package_dir})
 endif()
