@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace bendy::cli {
 namespace {
@@ -31,7 +32,7 @@ fs::path plain(const fs::path& path) {
 
 class Planner {
 public:
-    explicit Planner(const fs::path& folder) : folder_(folder) {}
+    explicit Planner(fs::path folder) : folder_(std::move(folder)) {}
 
     void add(const fs::path& input) {
         std::error_code ignored;

@@ -168,9 +168,10 @@ void run(ConvertArguments arguments) {
         std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
                     [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
     if (arguments.output.empty()) {
-        if (arguments.inputs.size() > 1)
+        if (arguments.inputs.size() > 1) {
             throw CLI::ValidationError(arguments.inputs[1].string(),
                                        "several inputs need a folder to go to, -o OUTDIR");
+        }
         if (has_folder) fail(input, "is a folder: its files need one to go to, -o OUTDIR");
         arguments.output = std::filesystem::path(input).replace_extension(".bendy");
     }

@@ -195,9 +195,10 @@ private:
         line("files", plan_.files.size());
         std::cout << '\n';
         line("converted", totals_.converted);
-        if (totals_.converted != 0)
+        if (totals_.converted != 0) {
             std::cout << "  " << grouped(totals_.bytes_in) << " bytes read, " << grouped(totals_.bytes_out)
                       << " written";
+        }
         std::cout << '\n';
         line("up to date", totals_.up_to_date);
         std::cout << '\n';

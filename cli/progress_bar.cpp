@@ -13,7 +13,7 @@ ProgressBar::~ProgressBar() {
     clear();
 }
 
-void ProgressBar::clear() {
+void ProgressBar::clear() const {
     if (is_terminal_) std::cerr << "\r\x1b[K" << std::flush;
 }
 
