@@ -13,6 +13,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bendy-config.cmake.in ${
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/bendy-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/bendy-config.cmake ${PROJECT_BINARY_DIR}/bendy-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/bendy_add_models.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
 # pkg-config: paths from the file's own place, so that the tree may be moved. Who links a static library links what it needs too.
@@ -39,7 +40,8 @@ foreach(library format runtime)
 endforeach()
 
 if(BENDY_TOOLS)
-  install(TARGETS bendy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(TARGETS bendy EXPORT bendy_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(EXPORT bendy_program NAMESPACE bendy:: FILE bendy-program.cmake DESTINATION ${package_dir} COMPONENT program)
   include(${CMAKE_CURRENT_LIST_DIR}/bendy_reference.cmake)
   # What a desktop and file(1) need to know the files.
   set(packaging ${PROJECT_SOURCE_DIR}/packaging)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 namespace bendy {
 namespace {
@@ -77,10 +78,17 @@ void change_first(std::span<std::byte> row, bool add) {
     std::memcpy(row.data(), &first, sizeof first);
 }
 
+/// meshoptimizer keeps the version that it writes in variables of its own: one thread at a time.
+std::mutex& encoding() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 std::optional<std::vector<unsigned char>> pack_triangles(std::span<const std::uint32_t> indices) {
     const std::size_t vertices =
         indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices));
+    const std::lock_guard lock(encoding());
     meshopt_encodeIndexVersion(kIndexVersion);
     const std::size_t size = meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size());
     if (size == 0) return std::nullopt;
@@ -126,6 +134,7 @@ bool encode_rows(const CodecHeader& header, bool is_zstd, Bytes payload, std::ve
     for (std::size_t row = 0; row < *rows; ++row)
         std::memcpy(padded.data() + row * wide, rest.data() + row * header.stride, header.stride);
     std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(*rows, wide));
+    const std::lock_guard lock(encoding());
     meshopt_encodeVertexVersion(kVertexVersion);
     const std::size_t size = meshopt_encodeVertexBuffer(packed.data(), packed.size(), padded.data(), *rows, wide);
     if (size == 0) return false;

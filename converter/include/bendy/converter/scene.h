@@ -38,6 +38,7 @@ struct Joint {
     std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
     std::string extras;               ///< JSON text or empty
     std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
+    bool in_skin = false;             ///< a skin of the source names it, used or not; not written
 };
 
 /// An IK chain. A joint on the path from record.effector up to record.start may have a weight of its own in it.
