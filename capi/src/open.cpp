@@ -54,7 +54,7 @@ bendy_model* bendy_open(const char* path, const bendy_open_options* options, ben
     guarded(error, [&] {
         if (const bendy_status status = check_pointer(path, "path", error)) return status;
         auto file = bendy::MappedFile::open(path);
-        if (!file) return fail(error, BENDY_IO, std::string(path) + ": " + bendy::describe(file.error()));
+        if (!file) return fail(error, file.error(), {});
         Source source;
         source.file = *std::move(file);
         source.bytes = source.file.bytes();
