@@ -20,7 +20,8 @@ def declared(header):
     structs = {}
     for name, body in re.findall(r"typedef struct (bendy_\w+) \{(.*?)\} \1;", text, re.S):
         structs[name] = re.findall(r"(\w+)(?:\[\w+\])?;", body)
-    constants = [name for body in re.findall(r"typedef enum \w+ \{(.*?)\}", text, re.S) for name in re.findall(r"BENDY_\w+", body)]
+    enums = re.findall(r"typedef enum \w+ \{(.*?)\}", text, re.S)
+    constants = [name for body in enums for name in re.findall(r"BENDY_\w+", body)]
     return functions, structs, constants + ["BENDY_NONE"]
 
 
