@@ -41,6 +41,12 @@ endfunction()
 
 function(bendy_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  bendy_private_options(${target})
+endfunction()
+
+# The same without a word to those who use the target.
+function(bendy_private_options target)
+  target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
