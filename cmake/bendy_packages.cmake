@@ -38,10 +38,22 @@ changes them. A bendy file holds a character's skeleton, skin, cycles,
 materials, levels of detail, joint limits and chains for inverse kinematics.")
 endif()
 
+if(BENDY_C AND BENDY_C_SHARED)
+  list(APPEND CPACK_COMPONENTS_ALL c_library)
+  set(CPACK_DEBIAN_C_LIBRARY_PACKAGE_NAME libbendy${PROJECT_VERSION_MAJOR})
+  set(CPACK_DEBIAN_C_LIBRARY_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_C_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
+  set(CPACK_COMPONENT_C_LIBRARY_DESCRIPTION "library for animated characters in bendy files, for C
+What programs need that pose characters through bendy.h, from C or any language
+that binds to it.")
+  set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+  list(APPEND CPACK_COMPONENT_DEVELOPMENT_DEPENDS c_library)
+endif()
+
 if(BUILD_SHARED_LIBS)
   list(APPEND CPACK_COMPONENTS_ALL libraries)
   set(abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME libbendy${abi})
+  set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME libbendy-cpp${abi})
   set(CPACK_DEBIAN_LIBRARIES_PACKAGE_SECTION libs)
   set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
   file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
@@ -49,7 +61,7 @@ if(BUILD_SHARED_LIBS)
   set(CPACK_DEBIAN_LIBRARIES_DESCRIPTION "library for animated characters in bendy files
 What programs need that open bendy files and pose the characters in them.")
   set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
-  set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS libraries)
+  list(APPEND CPACK_COMPONENT_DEVELOPMENT_DEPENDS libraries)
   set(CPACK_COMPONENT_PROGRAM_DEPENDS libraries)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/format ${PROJECT_BINARY_DIR}/runtime)
 endif()

@@ -10,7 +10,7 @@ from email.utils import formatdate
 from pathlib import Path
 
 PACKAGING = Path(__file__).resolve().parent
-PACKAGES = {"program": "bendy", "development": "libbendy-dev"}
+PACKAGES = {"program": "bendy", "development": "libbendy-dev", "c_library": "libbendy{major}", "libraries": "libbendy-cpp{major}.{minor}"}
 CHANGELOG = """{source} ({version}) unstable; urgency=medium
 
   * See changelog.gz.
@@ -32,11 +32,12 @@ def main():
     parser.add_argument("--maintainer", required=True)
     arguments = parser.parse_args()
 
+    major, minor = arguments.version.split(".")[:2]
     date = formatdate(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())))
     for component in arguments.folder.iterdir():
         if not (component / "usr").is_dir():
             continue
-        package = PACKAGES.get(component.name, f"libbendy{'.'.join(arguments.version.split('.')[:2])}")
+        package = PACKAGES[component.name].format(major=major, minor=minor)
         documents = component / "usr/share/doc" / package
         documents.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(PACKAGING / "copyright", documents / "copyright")

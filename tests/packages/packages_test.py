@@ -97,8 +97,9 @@ class Packages(Case):
         cls.version = (ARGUMENTS.source / "CMakeLists.txt").read_text(encoding="utf-8").split("project(bendy VERSION ")[1].split()[0]
 
     def test_fields(self):
-        self.assertEqual(sorted(self.packages), ["bendy", "libbendy-dev"])
-        for name, wanted in {"bendy": "libc6 libstdc++6 libzstd1", "libbendy-dev": "libglm-dev libzstd-dev libmeshoptimizer-dev"}.items():
+        self.assertEqual(sorted(self.packages), ["bendy", "libbendy-dev", "libbendy0"])
+        for name, wanted in {"bendy": "libc6 libstdc++6 libzstd1", "libbendy-dev": "libglm-dev libzstd-dev libmeshoptimizer-dev libbendy0",
+                             "libbendy0": "libc6 libstdc++6 libzstd1"}.items():
             path = self.packages[name]
             self.assertEqual(path.name, f"{name}_{self.version}-1_{run('dpkg', '--print-architecture').strip()}.deb")
             fields = dict(re.findall(r"^ (\S+): (.*)", run("dpkg-deb", "-I", path), re.M))
@@ -110,7 +111,8 @@ class Packages(Case):
             "bendy": "usr/bin/bendy usr/share/man/man1/bendy.1.gz usr/share/man/man1/bendy-convert.1.gz usr/share/bash-completion/completions/bendy "
                      "usr/share/fish/vendor_completions.d/bendy.fish usr/share/mime/packages/bendy.xml usr/share/bendy/bendy.magic "
                      "usr/share/doc/bendy/copyright usr/share/doc/bendy/changelog.Debian.gz",
-            "libbendy-dev": "usr/include/bendy/runtime.h usr/include/bendy/format/records.def usr/share/doc/libbendy-dev/copyright",
+            "libbendy-dev": "usr/include/bendy/runtime.h usr/include/bendy/format/records.def usr/include/bendy.h usr/share/doc/libbendy-dev/copyright",
+            "libbendy0": "usr/share/doc/libbendy0/copyright",
         }
         for name, path in self.packages.items():
             lines = run("dpkg-deb", "-c", path).splitlines()
@@ -123,6 +125,8 @@ class Packages(Case):
             self.assertEqual("usr/bin/bendy" in files, name == "bendy")
             self.assertEqual(any(file.endswith("pkgconfig/bendy-runtime.pc") for file in files), name == "libbendy-dev")
             self.assertEqual(any(file.endswith("libbendy-runtime.a") for file in files), name == "libbendy-dev")
+            self.assertEqual(any(file.endswith("libbendy.so") for file in files), name == "libbendy-dev")
+            self.assertEqual(any(file.endswith("libbendy.so.0") for file in files), name == "libbendy0")
             self.assertEqual("usr/share/applications/bendy-view.desktop" in files, name == "bendy" and ARGUMENTS.viewer)
 
     def test_program_runs_from_the_package(self):
