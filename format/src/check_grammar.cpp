@@ -20,8 +20,7 @@ struct Rule {
 };
 
 constexpr Rule kRules[] = {
-#define BENDY_CHUNK(id, shape, parents, times, what) \
-    {FourCC(#id), Shape::shape, parents, Times::times},
+#define BENDY_CHUNK(id, shape, parents, times, what) {FourCC(#id), Shape::shape, parents, Times::times},
 #include <bendy/format/chunk_ids.def>
 #undef BENDY_CHUNK
 };

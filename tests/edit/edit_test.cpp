@@ -119,8 +119,7 @@ TEST(Strip, TracksThatStayKeepTheirKeys) {
 Buffer marked() {
     Node root = test::sample();
     at(root, "HEAD/OBJE/CYCL")
-        .children.push_back(
-            test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {1.0f, 7}}, "stephit")));
+        .children.push_back(test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {1.0f, 7}}, "stephit")));
     return test::to_file(root);
 }
 

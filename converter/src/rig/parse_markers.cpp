@@ -59,7 +59,9 @@ std::vector<SourceMarker> parse_markers(const OrderedJson& value, const std::str
         return markers;
     }
     if (!value.is_object()) fail(place, "it must be a list of markers, not " + shown(value));
-    for (const auto& [name, times] : value.items()) {
+    for (auto entry = value.begin(); entry != value.end(); ++entry) {
+        const std::string& name = entry.key();
+        const OrderedJson& times = *entry;
         const std::string where = member(place, name);
         if (!times.is_array()) {
             add(where, [&] { return Marker{to_float(times, where), name}; });

@@ -96,7 +96,8 @@ TEST(GltfAnimation, MarkersThatAreWrongAreNamedAndLeftOut) {
         }
         return std::string("nothing");
     };
-    EXPECT_EQ(place_of("2.0 s is outside the cycle, which lasts from 0.0 s to 1.0 s"), "animations[0].extras.markers[0]");
+    EXPECT_EQ(place_of("2.0 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+              "animations[0].extras.markers[0]");
     EXPECT_EQ(place_of("it is required and missing"), "animations[0].extras.markers[2].time");
     EXPECT_EQ(place_of("it must be an object, not 7"), "animations[0].extras.markers[3]");
 }

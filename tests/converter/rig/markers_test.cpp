@@ -139,8 +139,9 @@ TEST(RigMarkers, AreWrittenAsTheyWere) {
     Faults faults;
     const Document document = read_document(*tree, faults);
     const std::string rig = write_rig(document.objects.at(0));
-    EXPECT_NE(rig.find("\"Walk\": [\n      {\"time\": 0, \"name\": \"step\"},\n      {\"time\": 0.1, \"name\": \"step\"}"),
-              std::string::npos)
+    EXPECT_NE(
+        rig.find("\"Walk\": [\n      {\"time\": 0, \"name\": \"step\"},\n      {\"time\": 0.1, \"name\": \"step\"}"),
+        std::string::npos)
         << rig;
 
     Scene bare = scene;
