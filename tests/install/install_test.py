@@ -129,7 +129,7 @@ def own_name(symbol):
     symbol = symbol.replace("operator()", "operator").replace("(anonymous namespace)", "anonymous_namespace")
     while (shorter := re.sub(r"<[^<>]*>|\([^()]*\)|\[abi:\w+\]", "", symbol)) != symbol:
         symbol = shorter
-    return symbol.removesuffix(" const").split(" ")[-1]
+    return re.sub(r"( const| &&?)+$", "", symbol).split(" ")[-1]
 
 
 def main():
