@@ -1,5 +1,5 @@
-// lanes.h for WebAssembly SIMD, and what the kernels' bodies need of that instruction set. A body, too: included by each
-// source in its own namespace.
+// lanes.h for WebAssembly SIMD, and what the kernels' bodies need of that instruction set. A body, too: included by
+// each source in its own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 4

@@ -1,5 +1,5 @@
-// Poses a file in several ways and prints what comes out, to the bit: pose_with_kernel KERNEL FILE. Compiled with the library, and
-// with bendy_runtime.cpp alone: both must print the same.
+// Poses a file in several ways and prints what comes out, to the bit: pose_with_kernel KERNEL FILE. Compiled with the
+// library, and with bendy_runtime.cpp alone: both must print the same.
 #ifdef BENDY_AMALGAMATED
 #include "bendy_runtime.h"
 #else
