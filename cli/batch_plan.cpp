@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string list_extensions() {
-    std::string list;
-    for (const std::string_view extension : converter::kReadableExtensions)
-        list += (list.empty() ? "" : ", ") + std::string(extension);
-    return list;
-}
-
 /// A path that is the same for the same file, however it was written.
 fs::path plain(const fs::path& path) {
     std::error_code unknown;
@@ -66,7 +59,7 @@ private:
         if (error) {
             plan_.unread.push_back(folder.string() + ": cannot be read to its end: " + error.message());
         } else if (inputs_.size() == before) {
-            warn(folder, "has no file to convert (" + list_extensions() + ')');
+            warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
         }
     }
 

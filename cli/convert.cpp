@@ -7,6 +7,7 @@
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/readable_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
@@ -187,12 +188,14 @@ void run(ConvertArguments arguments) {
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<ConvertArguments>();
-    CLI::App* command = program.add_subcommand(
-        "convert", "Convert glTF 2.0 characters (.gltf, .glb, .vrm), or bendy files, to bendy files");
+    const std::string extensions = converter::list_readable_extensions();
+    CLI::App* command =
+        program.add_subcommand("convert", "Convert characters (" + extensions + "), or bendy files, to bendy files");
     command
         ->add_option("IN", arguments->inputs,
-                     "a .gltf, .glb, .vrm or bendy file, told apart by content; or several, or folders: all such files "
-                     "in them and below, bendy files apart")
+                     "a file (" + extensions +
+                         ", or a bendy file), told apart by content; or several, or folders: all such files "
+                         "in them and below, bendy files apart")
         ->required();
     command->add_option("-o,--output", arguments->output,
                         "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "

@@ -13,6 +13,14 @@ namespace bendy::converter {
 /// its content tells.
 inline constexpr std::array<std::string_view, 3> kReadableExtensions{".gltf", ".glb", ".vrm"};
 
+/// ".gltf, .glb, ...": for messages.
+inline std::string list_readable_extensions() {
+    std::string list;
+    for (const std::string_view extension : kReadableExtensions)
+        list.append(list.empty() ? "" : ", ").append(extension);
+    return list;
+}
+
 /// True if the file's name ends in one of them, in capitals or not.
 inline bool has_readable_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
