@@ -182,15 +182,17 @@ void run(ConvertArguments arguments) {
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<ConvertArguments>();
-    CLI::App* command = program.add_subcommand(
-        "convert", "Convert a glTF 2.0 character (.gltf, .glb), or a bendy file, to a bendy file");
-    command->add_option("IN", arguments->input, "a .gltf, .glb or bendy file, told apart by content")->required();
+    CLI::App* command = program.add_subcommand("convert",
+                                               "Convert a glTF 2.0 character (.gltf, .glb), an X-file (.x), a Quake II "
+                                               "model (.md2) or a bendy file to a bendy file");
+    command->add_option("IN", arguments->input, "a .gltf, .glb, .x, .md2 or bendy file, told apart by content")
+        ->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
     command->add_option("--scene", arguments->scene,
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,
