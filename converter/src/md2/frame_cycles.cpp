@@ -2,17 +2,20 @@
 
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <string_view>
+#include <system_error>
 
 namespace bendy::converter::md2 {
 namespace {
 
 constexpr std::size_t kCountingDigits = 2;
+constexpr std::uint64_t kNoNumber = std::numeric_limits<std::uint64_t>::max();
 
 struct FrameName {
     std::string_view letters;
     std::string_view digits;
-    std::uint64_t number = 0;
+    std::uint64_t number = 0;  ///< or kNoNumber
 };
 
 FrameName take_apart(std::string_view name) {
@@ -21,7 +24,9 @@ FrameName take_apart(std::string_view name) {
     FrameName parts;
     parts.letters = name.substr(0, last == std::string_view::npos ? 0 : last + 1);
     parts.digits = name.substr(parts.letters.size());
-    std::from_chars(parts.digits.data(), parts.digits.data() + parts.digits.size(), parts.number);
+    const char* const end = parts.digits.data() + parts.digits.size();
+    const auto read = std::from_chars(parts.digits.data(), end, parts.number);
+    if (read.ec != std::errc()) parts.number = kNoNumber;
     return parts;
 }
 
@@ -39,8 +44,8 @@ std::vector<FrameRun> find_runs(std::span<const std::string> names) {
     FrameName before;
     for (std::size_t frame = 0; frame < names.size(); ++frame) {
         const FrameName name = take_apart(names[frame]);
-        const bool goes_on = !runs.empty() && name.letters == before.letters && !name.digits.empty() &&
-                             !before.digits.empty() && name.number == before.number + 1;
+        const bool goes_on = !runs.empty() && name.letters == before.letters && name.number != kNoNumber &&
+                             before.number != kNoNumber && name.number == before.number + 1;
         if (!goes_on) runs.push_back({name_of(name), frame, 0});
         ++runs.back().count;
         before = name;

@@ -21,6 +21,13 @@ void check_affine(const Matrix& matrix, const std::string& place) {
     if (!is_affine) fail(place, "the last column of its matrix is not 0 0 0 1: no affine transform");
 }
 
+bool is_finite(const Transform& rest) {
+    for (const glm::vec3& vector : {rest.translation, rest.scale, rest.shear}) {
+        if (!std::isfinite(vector.x) || !std::isfinite(vector.y) || !std::isfinite(vector.z)) return false;
+    }
+    return true;
+}
+
 /// A joint by its number, as rigs name it.
 JointKey key_of(std::uint32_t joint) {
     JointKey key;
@@ -85,10 +92,7 @@ void import_joints(const XFile& file, Scene& scene, Report& report) {
         joint.name = frame.name;
         joint.parent = frame.parent;
         joint.rest = gltf::decompose(mirrored(frame.matrix));
-        const glm::vec3& t = joint.rest.translation;
-        const glm::vec3& s = joint.rest.scale;
-        if (!std::isfinite(t.x + t.y + t.z) || !std::isfinite(s.x + s.y + s.z))
-            fail(frame.place, "the numbers of its matrix are too large");
+        if (!is_finite(joint.rest)) fail(frame.place, "the numbers of its matrix are too large");
     }
     std::unordered_map<std::string_view, std::uint32_t> count;
     for (const Frame& frame : file.frames) {
@@ -107,10 +111,13 @@ void import_rig(const XFile& file, const FrameIndex& frames, Scene& scene, Repor
     attach_rig(scene, rig, index, claims, report);
 }
 
-glm::mat4 to_floats(const Matrix& matrix) {
+glm::mat4 to_floats(const Matrix& matrix, const std::string& place) {
     glm::mat4 floats(1.0f);
-    for (std::size_t i = 0; i < matrix.size(); ++i)
-        floats[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = static_cast<float>(matrix[i]);
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+        const auto number = static_cast<float>(matrix[i]);
+        if (!std::isfinite(number)) fail(place, "the numbers of its matrix are too large");
+        floats[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = number;
+    }
     return floats;
 }
 

@@ -29,7 +29,7 @@ void import_joints(const XFile& file, Scene& scene, Report& report);
 /// The constraints and chains of our own templates.
 void import_rig(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report);
 
-/// 16 numbers as a matrix of floats.
-glm::mat4 to_floats(const Matrix& matrix);
+/// 16 numbers as a matrix of floats. Fails at `place` on numbers too large.
+glm::mat4 to_floats(const Matrix& matrix, const std::string& place);
 
 }  // namespace bendy::converter::x

@@ -140,7 +140,7 @@ private:
         for (std::uint32_t bone = 0; bone < source.skins.size(); ++bone) {
             const Skin& skin = source.skins[bone];
             mesh.palette.joints.push_back(frames_.find(skin.frame, "SkinWeights", skin.place));
-            mesh.palette.inverse_bind.push_back(to_floats(mirrored(skin.offset)));
+            mesh.palette.inverse_bind.push_back(to_floats(mirrored(skin.offset), skin.place));
             for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
                 const std::size_t place = skin.vertices[i] * most + used[skin.vertices[i]]++;
                 all.bones[place] = bone;

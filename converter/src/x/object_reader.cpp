@@ -158,7 +158,7 @@ double ObjectReader::exact_number() {
     } else if (token_.kind != Token::Kind::word || parse(token_.text, value) == Parsed::no) {
         refuse_due("a number");
     }
-    if (!(std::abs(value) <= double{std::numeric_limits<float>::max()})) refuse("the number is not finite");
+    if (!std::isfinite(value)) refuse("the number is not finite");
     return value;
 }
 
