@@ -1,5 +1,5 @@
-// An outside witness: assimp opens the X-files that we write, and its world positions are held against evaluate(), which
-// knows nothing of X-files.
+// An outside witness: assimp opens the X-files that we write, and its world positions are held against evaluate(),
+// which knows nothing of X-files.
 #include "converter/posed_scene.h"
 #include "cycle_span.h"
 #include "evaluate.h"
@@ -219,7 +219,9 @@ void compare(const std::vector<std::byte>& bendy, double& worst, int& poses) {
         const aiNode* parent = opened->nodes[joint]->mParent;
         const bool is_root = parent == nullptr || std::string(parent->mName.C_Str()) == "$dummy_root";
         ASSERT_EQ(is_root, scene.joints[joint].parent == kNone);
-        if (!is_root) { ASSERT_EQ(parent, opened->nodes[scene.joints[joint].parent]); }
+        if (!is_root) {
+            ASSERT_EQ(parent, opened->nodes[scene.joints[joint].parent]);
+        }
     }
     EvaluatedPose pose;
     evaluate_rest(scene, pose);
@@ -267,8 +269,8 @@ TEST(XFileByAssimp, ExamplesStandAndMove) {
 TEST(XFileByAssimp, FilesOfTheCorpusStandAndMove) {
     const std::filesystem::path models = kSource / "../shared/corpus/visible/models";
     if (!std::filesystem::exists(models)) GTEST_SKIP() << "there is no corpus";
-    for (const char* name : {"fox.glb", "cesium_man.gltf", "rigged_simple.gltf", "simple_skin.gltf", "box_animated.gltf",
-                             "left_hand_high.glb", "kenney_tile.glb"})
+    for (const char* name : {"fox.glb", "cesium_man.gltf", "rigged_simple.gltf", "simple_skin.gltf",
+                             "box_animated.gltf", "left_hand_high.glb", "kenney_tile.glb"})
         compare_source(models / name);
 }
 
@@ -298,8 +300,7 @@ TEST(XFileByAssimp, MadeUpScenesStandAndMove) {
             for (std::uint32_t bone = 0; bone < 3; ++bone) {
                 mesh.palette.joints.push_back(5 - bone);
                 glm::mat4 matrix(1.0f);
-                for (int column = 0; column < 4; ++column)
-                    matrix[column] += glm::vec4(numbers.vector(0.4f), 0.0f);
+                for (int column = 0; column < 4; ++column) matrix[column] += glm::vec4(numbers.vector(0.4f), 0.0f);
                 mesh.palette.inverse_bind.push_back(matrix);
             }
             for (std::uint32_t vertex = 0; vertex < 12; ++vertex) {
@@ -331,7 +332,8 @@ TEST(XFileByAssimp, NodesBonesAndCyclesHaveTheirNames) {
     const std::unique_ptr<Opened> opened = open(*bendy);
     ASSERT_NE(opened->scene, nullptr);
     const auto plain = [](std::string name) {
-        std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
         return name;
     };
     ASSERT_EQ(opened->nodes.size(), imported->joints.size());
@@ -341,7 +343,8 @@ TEST(XFileByAssimp, NodesBonesAndCyclesHaveTheirNames) {
     for (unsigned m = 0; m < opened->scene->mNumMeshes; ++m) {
         const aiMesh& mesh = *opened->scene->mMeshes[m];
         for (unsigned b = 0; b < mesh.mNumBones; ++b)
-            EXPECT_NE(opened->scene->mRootNode->FindNode(mesh.mBones[b]->mName), nullptr) << mesh.mBones[b]->mName.C_Str();
+            EXPECT_NE(opened->scene->mRootNode->FindNode(mesh.mBones[b]->mName), nullptr)
+                << mesh.mBones[b]->mName.C_Str();
     }
     ASSERT_EQ(opened->scene->mNumAnimations, imported->cycles.size());
     for (unsigned a = 0; a < opened->scene->mNumAnimations; ++a)

@@ -22,8 +22,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
-from md2_file import md2_file
 from gltf_file import strange_file  # noqa: E402
+from md2_file import md2_file  # noqa: E402
 from schema import is_valid  # noqa: E402
 
 BENDY = ""
@@ -1548,11 +1548,10 @@ class XFiles(Case):
         self.assertTrue(text.startswith("xof 0303txt 0032\n"))
         self.assertIn("BendyIkChain {\n", text)
         self.done("convert", "-q", "t.x", "-o", "again.bendy")
-        for option in ("--json",):
-            before = json.loads(self.done("rig", "tentacle.bendy"))
-            after = json.loads(self.done("rig", "again.bendy"))
-            self.assertEqual(before["chains"], after["chains"], option)
-            self.assertEqual(before["joints"], after["joints"])
+        before = json.loads(self.done("rig", self.convert("tentacle")))
+        after = json.loads(self.done("rig", "again.bendy"))
+        self.assertGreater(len(before["chains"]), 0)
+        self.assertEqual(before, after)
 
     def test_the_format_goes_before_the_name(self):
         self.done("export", self.convert("tentacle"), "--format", "x", "-q", "-o", "odd.name")
@@ -1566,7 +1565,7 @@ class XFiles(Case):
         self.assertIn("IMAG", self.done("inspect", "again.bendy").decode())
 
     def test_what_is_wrong_in_an_x_file_has_line_and_column(self):
-        (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 3; 1;2;oops;\n")
+        (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 1; 1;2;oops; 0;}\n")
         message = self.failed("convert", "bad.x", file="bad.x")
         self.assertIn("line 3, column 9: a number is due here, not 'oops'", message)
         (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + bytes(32))
@@ -1580,10 +1579,10 @@ class QuakeModels(Case):
     def test_frames_become_targets_and_cycles(self):
         md2_file(self.folder / "man.md2")
         shown = self.done("convert", "man.md2").decode()
-        self.assertIn("targets    3: stand02, run1, run2", shown)
+        self.assertIn("targets    3: run1, run2, stand02", shown)
         self.assertIn("cycles     2: stand 0.1 s, run 0.1 s", shown)
-        posed = self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "-", "--format", "obj")
-        heights = sorted({corner[1] for corner in read_obj(posed)[0]})
+        self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
+        heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
         # The fourth frame: 3 units up, and from 0 to 2 of its own.
         self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
 

@@ -1,5 +1,5 @@
-// Reads an X-file: whatever the bytes are, an error or a Scene that makes a valid bendy file, which can be written as an
-// X-file that is read again.
+// Reads an X-file: whatever the bytes are, an error or a Scene that makes a valid bendy file, which can be written as
+// an X-file that is read again.
 #include "check.h"
 
 #include <bendy/converter/build_chunks.h>

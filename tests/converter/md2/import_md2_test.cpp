@@ -58,7 +58,8 @@ private:
         for (int i = 0; i < size; ++i) bytes_.push_back(static_cast<std::byte>(number >> (8 * i)));
     }
     void text(const std::string& text, std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i) bytes_.push_back(i < text.size() ? static_cast<std::byte>(text[i]) : std::byte{0});
+        for (std::size_t i = 0; i < size; ++i)
+            bytes_.push_back(i < text.size() ? static_cast<std::byte>(text[i]) : std::byte{0});
     }
 
     std::vector<std::string> names_;
@@ -168,7 +169,8 @@ TEST(ImportMd2, FaultsNameTheByte) {
     EXPECT_EQ(fault_with(52, 1000), "byte 52: offset of triangles: 1000 is past the end of the file");
     EXPECT_EQ(fault_with(64, 1000), "byte 64: the file is truncated: its header says 1000 bytes, it has 288");
     EXPECT_EQ(fault_with(148, 4, 2), "byte 148: index 4 of a triangle is out of range: there are 4 vertices");
-    EXPECT_EQ(fault_with(154, 4, 2), "byte 154: index 4 of a triangle is out of range: there are 4 texture coordinates");
+    EXPECT_EQ(fault_with(154, 4, 2),
+              "byte 154: index 4 of a triangle is out of range: there are 4 texture coordinates");
     EXPECT_EQ(fault_with(172, 0x7f800000), "byte 172: the number is not finite");
     EXPECT_EQ(fault_with(172, 0x7f000000), "byte 172: the frame's scale or origin is implausibly large");
 }

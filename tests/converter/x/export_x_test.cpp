@@ -223,8 +223,8 @@ TEST(ExportX, EveryFieldOfARigComesBack) {
 
 TEST(ExportX, NamesThatAreNoIdentifiersAndNamesThatAreDoubledComeBack) {
     Scene scene = small_scene();
-    const std::vector<std::string> names{"mixamorig:Hips", "", "", "Frame", "Same", "Same", "same", "1st", "a\"b\\%41{",
-                                         "\xe8\x85\xb0",   "Same_2"};
+    const std::vector<std::string> names{"mixamorig:Hips", "",    "",           "Frame",        "Same",  "Same",
+                                         "same",           "1st", "a\"b\\%41{", "\xe8\x85\xb0", "Same_2"};
     for (const std::string& name : names) {
         Joint& joint = scene.joints.emplace_back();
         joint.name = name;
@@ -276,12 +276,12 @@ TEST(ExportX, WhatIsNotLinearIsSampledAndSaid) {
     Cycle& bow = scene.cycles.emplace_back();
     bow.name = "Bow";
     // From 0 to 1 without speed at either end: 3 t^2 - 2 t^3.
-    bow.tracks.push_back(moving(Interpolation::cubic, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0}));
+    bow.tracks.push_back(
+        moving(Interpolation::cubic, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0}));
     const Trip trip = travel(scene);
-    EXPECT_EQ(losses_of(trip),
-              (std::map<std::string, std::uint64_t>{
-                  {"track that jumps gets two keys for each jump, a tick apart", 1},
-                  {"cubic track is sampled, 60 times a second: X-files have linear keys only", 1}}));
+    EXPECT_EQ(losses_of(trip), (std::map<std::string, std::uint64_t>{
+                                   {"track that jumps gets two keys for each jump, a tick apart", 1},
+                                   {"cubic track is sampled, 60 times a second: X-files have linear keys only", 1}}));
     ASSERT_EQ(trip.after.cycles.size(), 2u);
     const Track& jump = trip.after.cycles[0].tracks.at(0);
     ASSERT_EQ(jump.times.size(), 3u);
@@ -300,7 +300,8 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
     Scene scene = small_scene();
     Mesh& mesh = scene.meshes[0];
     mesh.tangents.assign(3, {1, 0, 0, 1});
-    for (std::uint32_t set = 0; set < 3; ++set) mesh.texture_coords.push_back({"", set, 2, std::vector<float>(6, 0.5f)});
+    for (std::uint32_t set = 0; set < 3; ++set)
+        mesh.texture_coords.push_back({"", set, 2, std::vector<float>(6, 0.5f)});
     for (std::uint32_t set = 0; set < 2; ++set) mesh.colours.push_back({"", set, 4, std::vector<float>(12, 0.5f)});
     mesh.attributes.push_back({"_HEAT", 0, 1, {1, 2, 3}});
     mesh.parts.push_back({Topology::lines, kNone, {0, 1}});

@@ -195,9 +195,8 @@ Frame F:1-2.b { <22222222-2222-2222-2222-222222222222>
     ASSERT_EQ(file.scene.meshes.size(), 1u);
     EXPECT_EQ(file.scene.joints[0].name, "F:1-2.b");
     EXPECT_EQ(file.scene.meshes[0].positions[1], glm::vec3(1.5f, 0, 0));
-    EXPECT_EQ(warnings_of(file),
-              (std::vector<std::string>{"line 7, column 1: data object of type 'Unknown' left out",
-                                        "line 9, column 31: what is no number is taken as 0"}));
+    EXPECT_EQ(warnings_of(file), (std::vector<std::string>{"line 7, column 1: data object of type 'Unknown' left out",
+                                                           "line 9, column 31: what is no number is taken as 0"}));
 }
 
 TEST(ImportX, NamesThatAreNotUtf8AreTakenForLatin1) {
@@ -227,11 +226,12 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
               "line 5, column 29: the list that begins at line 5, column 1 has 0 materials, but says 2");
     EXPECT_EQ(fault_of(kSquare + R"(SkinWeights { "Gone"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } })"),
               "line 5, column 1: SkinWeights names a frame 'Gone', which is not there");
-    EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"), "line 2, column 43: there are no keys of type 7");
-    EXPECT_EQ(fault_of("Frame A { } AnimationSet { Animation { {A} AnimationKey { 2; 2; 5;3;0,0,0;;, 4;3;0,0,0;;; } } }"),
-              "line 2, column 28: key 1: key times must increase");
-    EXPECT_EQ(fault_of("AnimTicksPerSecond { 0; }"),
-              "line 2, column 22: there must be more than 0 ticks in a second");
+    EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"),
+              "line 2, column 43: there are no keys of type 7");
+    EXPECT_EQ(
+        fault_of("Frame A { } AnimationSet { Animation { {A} AnimationKey { 2; 2; 5;3;0,0,0;;, 4;3;0,0,0;;; } } }"),
+        "line 2, column 28: key 1: key times must increase");
+    EXPECT_EQ(fault_of("AnimTicksPerSecond { 0; }"), "line 2, column 22: there must be more than 0 ticks in a second");
     EXPECT_EQ(fault_of("Frame A { \"open"), "line 2, column 11: a string is not ended");
     EXPECT_EQ(fault_of("Odd {{{"), "line 2, column 1: the file ends inside this data object");
 }
@@ -251,7 +251,8 @@ TEST(ImportX, OtherVariantsAreRefusedByName) {
 /// Writes the binary variant's tokens.
 class Binary {
 public:
-    explicit Binary(bool is_double) : is_double_(is_double), bytes_(is_double ? "xof 0303bin 0064" : "xof 0303bin 0032") {}
+    explicit Binary(bool is_double)
+        : is_double_(is_double), bytes_(is_double ? "xof 0303bin 0064" : "xof 0303bin 0032") {}
     Binary& name(const std::string& text) { return put(1, 2).put(text.size(), 4).append(text); }
     Binary& string(const std::string& text) { return put(2, 2).put(text.size(), 4).append(text).put(20, 2); }
     Binary& open() { return put(10, 2); }
@@ -324,7 +325,8 @@ TEST(ImportX, DeepAndWideFilesTakeTimeLinearInTheirSize) {
 }
 
 TEST(ImportX, EveryPrefixIsAnErrorOrAFile) {
-    const std::string file = kHeader + R"(Frame A { FrameTransformMatrix { 1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1;; } )" + kSquare +
+    const std::string file = kHeader + R"(Frame A { FrameTransformMatrix { 1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1;; } )" +
+                             kSquare +
                              R"(SkinWeights { "A"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } } }
 AnimationSet S { Animation { {A} AnimationKey { 0; 1; 0;4;-1,0,0,0;;; } } })";
     for (std::size_t size = 0; size < file.size(); ++size) {
