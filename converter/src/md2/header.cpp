@@ -77,10 +77,11 @@ Header read_header(std::span<const std::byte> file) {
                                std::to_string(file.size()));
     }
     const std::uint64_t frame_size = kFrameHeadSize + std::uint64_t{header.vertices} * kVertexSize;
-    if (header.frame_size < frame_size)
+    if (header.frame_size < frame_size) {
         fail(place_of(16), "a frame of " + std::to_string(header.vertices) + " vertices takes " +
                                std::to_string(frame_size) + " bytes, the header says " +
                                std::to_string(header.frame_size));
+    }
     for (const List& list : {List{"skins", header.skins, kSkinSize, header.skins_at, 20, 44},
                              List{"texture coordinates", header.coords, kCoordSize, header.coords_at, 28, 48},
                              List{"triangles", header.triangles, kTriangleSize, header.triangles_at, 32, 52},

@@ -159,9 +159,10 @@ private:
     }
 
     std::uint32_t add_joint(const Mesh& source) {
-        if (scene_.joints.size() == kMaxJoints)
+        if (scene_.joints.size() == kMaxJoints) {
             fail(source.place,
                  "there are more than " + std::to_string(kMaxJoints) + " frames and meshes outside of them");
+        }
         Joint joint;
         joint.name = source.name;
         scene_.joints.push_back(std::move(joint));

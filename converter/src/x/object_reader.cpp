@@ -34,8 +34,7 @@ Parsed parse(std::string_view text, Number& number) {
 
 /// What Microsoft's library writes for numbers that are none: 1.#QNAN, -1.#IND00, 1.#INF00.
 bool is_no_number(std::string_view text) {
-    const std::size_t sign = text.find(".#");
-    return sign != std::string_view::npos && sign <= 2;
+    return text.find(".#") <= 2;
 }
 
 std::string shown(const Token& token) {

@@ -24,9 +24,10 @@ void read_keys(ObjectReader& in, Animation& animation) {
     keys.values.reserve(std::size_t{count} * numbers);
     for (std::uint32_t key = 0; key < count; ++key) {
         keys.times.push_back(in.exact_number());
-        if (const std::uint32_t said = in.integer(); said != numbers)
+        if (const std::uint32_t said = in.integer(); said != numbers) {
             in.refuse("a key of type " + std::to_string(type) + " has " + std::to_string(numbers) + " numbers, not " +
                       std::to_string(said));
+        }
         for (std::uint32_t i = 0; i < numbers; ++i) keys.values.push_back(in.number());
     }
     in.end_of("AnimationKey");

@@ -8,7 +8,7 @@ namespace bendy::converter::x {
 class TextTokens : public Tokens {
 public:
     /// \param at  where the first may stand
-    TextTokens(std::string_view file, std::size_t at) : file_(file), at_(at), line_start_(0) {}
+    TextTokens(std::string_view file, std::size_t at) : file_(file), at_(at) {}
 
     Token next() override;
     /// A digit and what ends it.
@@ -21,7 +21,7 @@ private:
 
     std::string_view file_;
     std::size_t at_;
-    std::size_t line_start_;
+    std::size_t line_start_ = 0;
     std::uint64_t line_ = 1;
 };
 

@@ -30,6 +30,8 @@ public:
     virtual ~Tokens() = default;
     Tokens(const Tokens&) = delete;
     Tokens& operator=(const Tokens&) = delete;
+    Tokens(Tokens&&) = delete;
+    Tokens& operator=(Tokens&&) = delete;
 
     /// Fails at its place on what can be no token.
     virtual Token next() = 0;

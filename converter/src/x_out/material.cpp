@@ -98,9 +98,10 @@ private:
         const auto lose = [&](bool is_lost, const char* what) {
             if (is_lost) report_.warn(std::string(what) + " left out: X-files have no place for it", place);
         };
-        if (material.metallic != 0.0f || material.roughness != 1.0f)
+        if (material.metallic != 0.0f || material.roughness != 1.0f) {
             report_.warn("metallic and roughness are written as specular colour and power, which only resemble them",
                          place);
+        }
         lose(material.metallic_roughness_texture.texture != kNone, "metallic-roughness texture");
         lose(material.normal_texture.texture != kNone, "normal texture");
         lose(material.occlusion_texture.texture != kNone, "occlusion texture");

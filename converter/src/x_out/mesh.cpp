@@ -173,9 +173,10 @@ private:
         bones.entries.resize(bones.begin.back());
         std::vector<std::size_t> next(bones.begin.begin(), bones.begin.end() - 1);
         for (std::size_t i = 0; i < mesh_.bones.size(); ++i) {
-            if (mesh_.weights[i] > 0.0f)
+            if (mesh_.weights[i] > 0.0f) {
                 bones.entries[next[mesh_.bones[i]]++] = {static_cast<std::uint32_t>(i / mesh_.influences),
                                                          mesh_.weights[i]};
+            }
         }
         return bones;
     }
