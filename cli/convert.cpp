@@ -212,7 +212,7 @@ void add_convert(CLI::App& program) {
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command->add_option("--rig", arguments->rig,

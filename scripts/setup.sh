@@ -39,6 +39,7 @@ if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need /usr/include/tbb/parallel_for.h libtbb-dev
+    need /usr/include/assimp/Importer.hpp libassimp-dev
     need valgrind valgrind
     need clang++ clang
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)

@@ -27,6 +27,7 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
+from md2_file import md2_file  # noqa: E402
 from schema import is_valid  # noqa: E402
 
 BENDY = ""
@@ -1916,6 +1917,58 @@ class Export(Case):
         self.assertIn("would be the input", self.failed("export", "same.glb", file="same.glb"))
         self.failed("export", self.convert(), "-o", "no/such/folder.glb")
         self.assertIn("--format", self.misused("export", "x.bendy", "--format", "fbx"))
+
+
+class XFiles(Case):
+    def test_an_x_file_holds_the_rig_and_converts(self):
+        shown = self.done("export", self.convert("tentacle"), "-o", "t.x").decode()
+        self.assertIn("t.x: ", shown)
+        text = (self.folder / "t.x").read_text()
+        self.assertTrue(text.startswith("xof 0303txt 0032\n"))
+        self.assertIn("BendyIkChain {\n", text)
+        self.done("convert", "-q", "t.x", "-o", "again.bendy")
+        before = json.loads(self.done("rig", self.convert("tentacle")))
+        after = json.loads(self.done("rig", "again.bendy"))
+        self.assertGreater(len(before["chains"]), 0)
+        self.assertEqual(before, after)
+
+    def test_the_format_goes_before_the_name(self):
+        self.done("export", self.convert("tentacle"), "--format", "x", "-q", "-o", "odd.name")
+        self.assertTrue((self.folder / "odd.name").read_text().startswith("xof "))
+
+    def test_embedded_images_are_written_beside(self):
+        shown = self.done("export", self.convert(), "-o", "m.x").decode()
+        self.assertIn("images beside it: m_0.png", shown)
+        self.assertTrue((self.folder / "m_0.png").read_bytes().startswith(b"\x89PNG"))
+        self.done("convert", "-q", "m.x", "-o", "again.bendy")
+        self.assertIn("IMAG", self.done("inspect", "again.bendy").decode())
+
+    def test_what_is_wrong_in_an_x_file_has_line_and_column(self):
+        (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 1; 1;2;oops; 0;}\n")
+        message = self.failed("convert", "bad.x", file="bad.x")
+        self.assertIn("line 3, column 9: a number is due here, not 'oops'", message)
+        (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + bytes(32))
+        self.assertIn("compressed (tzip)", self.failed("convert", "packed.x", file="packed.x"))
+        (self.folder / "other.x").write_bytes(b"solid")
+        self.assertIn("no X-file", self.failed("convert", "other.x", file="other.x"))
+        self.assertIn("glTF files only", self.failed("convert", "bad.x", "--scene", "0", file="bad.x"))
+
+
+class QuakeModels(Case):
+    def test_frames_become_targets_and_cycles(self):
+        md2_file(self.folder / "man.md2")
+        shown = self.done("convert", "man.md2").decode()
+        self.assertIn("targets    3: run1, run2, stand02", shown)
+        self.assertIn("cycles     2: stand 0.1 s, run 0.1 s", shown)
+        self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
+        heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
+        # The fourth frame: 3 units up, and from 0 to 2 of its own.
+        self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
+
+    def test_what_is_wrong_has_its_byte(self):
+        path = md2_file(self.folder / "man.md2")
+        path.write_bytes(path.read_bytes()[:150])
+        self.assertIn("byte 64: the file is truncated", self.failed("convert", "man.md2", file="man.md2"))
 
 
 def main():

@@ -15,7 +15,7 @@
 namespace bendy::converter {
 
 struct ConvertOptions {
-    GltfOptions gltf;  ///< for glTF sources; a scene chosen in a bendy file is an error
+    GltfOptions gltf;  ///< for glTF sources, embed_images for X-files too; a scene chosen in others is an error
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
@@ -36,9 +36,9 @@ struct ConvertOptions {
     bool sort_vertices = false;
 };
 
-/// Converts a glTF file, or a bendy file (told by its content), to the bytes of a bendy file. The result passes
-/// bendy::validate; what it does not hold is named in `report`, with the files that were read. Throws nothing. Keeps
-/// nothing between calls: threads may convert side by side.
+/// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy file.
+/// The result passes bendy::validate; what it does not hold is named in `report`, with the files that were read. Throws
+/// nothing. Keeps nothing between calls: threads may convert side by side.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 

@@ -11,7 +11,7 @@ namespace bendy::converter {
 
 /// What the names of files that `convert` reads end in, bendy files apart; the one list of them. What a file really is
 /// its content tells.
-inline constexpr std::array<std::string_view, 3> kReadableExtensions{".gltf", ".glb", ".vrm"};
+inline constexpr std::array<std::string_view, 5> kReadableExtensions{".gltf", ".glb", ".vrm", ".x", ".md2"};
 
 /// ".gltf, .glb, ...": for messages.
 inline std::string list_readable_extensions() {
