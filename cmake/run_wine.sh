@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Runs a program of Windows under wine: run_wine.sh PROGRAM.exe [ARGUMENT...]. Its registry and drives lie in build/cross/windows.
+export WINEPREFIX=${BENDY_WINE_PREFIX:-$(dirname "$(readlink -f "$0")")/../build/cross/windows/wine}
+export WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml,winemenubuilder.exe='
+[ -n "${LC_ALL:-}" ] || export LC_ALL=C.UTF-8 # file names are UTF-8
+exec wine "$@"
