@@ -89,6 +89,17 @@ class FileNames(unittest.TestCase):
         self.run_in_folder("edit", "狐.bendy", "-o", "имя.bendy", "--rename-joint", "*=корень 根 *")
         self.assertIn("корень 根".encode(), self.run_in_folder("inspect", "имя.bendy").stdout)
 
+    def test_edit_in_place_with_other_files(self):
+        self.put("狐")
+        self.run_in_folder("convert", "-q", "狐.glb", "-o", "狐.bendy")
+        self.run_in_folder("edit", "狐.bendy", "-o", "бег.bendy", "--rename", "cycle:*=далее *")
+        (self.folder / "имена.json").write_text('{"*": "x *"}', encoding="utf-8")
+        self.run_in_folder("edit", "狐.bendy", "-o", "狐.bendy", "--merge", "бег.bendy", "--rename-joints", "имена.json")
+        self.run_in_folder("validate", "狐.bendy")
+        self.assertIn("далее".encode(), self.run_in_folder("inspect", "狐.bendy").stdout)
+        result = self.run_in_folder("edit", "狐.bendy", "-o", "狐.bendy", "--merge", "нет.bendy", status=1)
+        self.assertIn("нет.bendy".encode(), result.stderr)
+
     def test_what_is_not_there_is_named(self):
         for command in ("convert", "inspect", "validate"):
             result = self.run_in_folder(command, "нет.bendy", status=1)
