@@ -20,7 +20,8 @@ namespace {
 
 std::string to_utf8(std::wstring_view text) {
     const auto convert = [text](char* out, int size) {
-        return ::WideCharToMultiByte(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), out, size, nullptr, nullptr);
+        return ::WideCharToMultiByte(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), out, size, nullptr,
+                                     nullptr);
     };
     std::string bytes(static_cast<std::size_t>(convert(nullptr, 0)), '\0');
     convert(bytes.data(), static_cast<int>(bytes.size()));
@@ -46,9 +47,10 @@ void prepare_console() {
 }
 
 bool is_terminal() {
-    const HANDLE error = ::GetStdHandle(STD_ERROR_HANDLE);
+    auto* const error = ::GetStdHandle(STD_ERROR_HANDLE);
     DWORD mode = 0;
-    return ::GetConsoleMode(error, &mode) != 0 && ::SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+    return ::GetConsoleMode(error, &mode) != 0 &&
+           ::SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
 }
 
 }  // namespace bendy::cli

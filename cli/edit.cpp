@@ -156,7 +156,8 @@ private:
             const Buffer other = read_other(path);
             const auto first = log.warnings.size();
             auto merged = edit::merge_cycles(file, other, same_name, log);
-            for (std::size_t k = first; k < log.warnings.size(); ++k) log.warnings[k] = path.string() + ": " + log.warnings[k];
+            for (std::size_t k = first; k < log.warnings.size(); ++k)
+                log.warnings[k] = path.string() + ": " + log.warnings[k];
             if (merged) return merged;
             const bool is_clash = merged.error().message.ends_with("already");
             return edit::Problem{"merging " + path.string() + ": " + merged.error().message +

@@ -25,28 +25,17 @@ struct Meaning {
 
 /// What errors of Windows are called elsewhere, so that they read alike on all systems.
 constexpr std::array<Meaning, 22> kMeanings{{
-    {ERROR_FILE_NOT_FOUND, ENOENT},
-    {ERROR_PATH_NOT_FOUND, ENOENT},
-    {ERROR_INVALID_NAME, ENOENT},
-    {ERROR_BAD_PATHNAME, ENOENT},
-    {ERROR_BAD_NETPATH, ENOENT},
-    {ERROR_INVALID_DRIVE, ENOENT},
-    {ERROR_DIRECTORY, ENOTDIR},
-    {ERROR_FILENAME_EXCED_RANGE, ENAMETOOLONG},
-    {ERROR_ACCESS_DENIED, EACCES},
-    {ERROR_SHARING_VIOLATION, EBUSY},
-    {ERROR_LOCK_VIOLATION, EBUSY},
-    {ERROR_USER_MAPPED_FILE, EBUSY},
-    {ERROR_WRITE_PROTECT, EROFS},
-    {ERROR_DISK_FULL, ENOSPC},
-    {ERROR_HANDLE_DISK_FULL, ENOSPC},
-    {ERROR_FILE_TOO_LARGE, EFBIG},
-    {ERROR_FILE_EXISTS, EEXIST},
-    {ERROR_ALREADY_EXISTS, EEXIST},
-    {ERROR_TOO_MANY_OPEN_FILES, EMFILE},
-    {ERROR_NOT_ENOUGH_MEMORY, ENOMEM},
-    {ERROR_OUTOFMEMORY, ENOMEM},
-    {ERROR_COMMITMENT_LIMIT, ENOMEM},
+    {ERROR_FILE_NOT_FOUND, ENOENT},      {ERROR_PATH_NOT_FOUND, ENOENT},
+    {ERROR_INVALID_NAME, ENOENT},        {ERROR_BAD_PATHNAME, ENOENT},
+    {ERROR_BAD_NETPATH, ENOENT},         {ERROR_INVALID_DRIVE, ENOENT},
+    {ERROR_DIRECTORY, ENOTDIR},          {ERROR_FILENAME_EXCED_RANGE, ENAMETOOLONG},
+    {ERROR_ACCESS_DENIED, EACCES},       {ERROR_SHARING_VIOLATION, EBUSY},
+    {ERROR_LOCK_VIOLATION, EBUSY},       {ERROR_USER_MAPPED_FILE, EBUSY},
+    {ERROR_WRITE_PROTECT, EROFS},        {ERROR_DISK_FULL, ENOSPC},
+    {ERROR_HANDLE_DISK_FULL, ENOSPC},    {ERROR_FILE_TOO_LARGE, EFBIG},
+    {ERROR_FILE_EXISTS, EEXIST},         {ERROR_ALREADY_EXISTS, EEXIST},
+    {ERROR_TOO_MANY_OPEN_FILES, EMFILE}, {ERROR_NOT_ENOUGH_MEMORY, ENOMEM},
+    {ERROR_OUTOFMEMORY, ENOMEM},         {ERROR_COMMITMENT_LIMIT, ENOMEM},
 }};
 
 int number_of(DWORD system) {
@@ -120,7 +109,8 @@ bool write_all(HANDLE file, Bytes bytes) {
     while (!bytes.empty()) {
         constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
         DWORD written = 0;
-        if (::WriteFile(file, bytes.data(), static_cast<DWORD>(std::min(bytes.size(), kMostAtOnce)), &written, nullptr) == 0)
+        if (::WriteFile(file, bytes.data(), static_cast<DWORD>(std::min(bytes.size(), kMostAtOnce)), &written,
+                        nullptr) == 0)
             return false;
         if (written == 0) {
             ::SetLastError(ERROR_DISK_FULL);
@@ -157,7 +147,8 @@ Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
     const std::uint64_t size = std::uint64_t{status.nFileSizeHigh} << 32 | status.nFileSizeLow;
     if (size == 0) return mapped;
     if (size > SIZE_MAX) return error_of(ErrorCode::kCannotRead, ENOMEM);
-    const Handle mapping(::CreateFileMappingW(file.get(), nullptr, PAGE_READONLY, status.nFileSizeHigh, status.nFileSizeLow, nullptr));
+    const Handle mapping(
+        ::CreateFileMappingW(file.get(), nullptr, PAGE_READONLY, status.nFileSizeHigh, status.nFileSizeLow, nullptr));
     if (!mapping.is_open()) return system_error(ErrorCode::kCannotRead);
     const void* const data = ::MapViewOfFile(mapping.get(), FILE_MAP_READ, 0, 0, static_cast<std::size_t>(size));
     if (data == nullptr) return system_error(ErrorCode::kCannotRead);
