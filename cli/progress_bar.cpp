@@ -1,13 +1,13 @@
 #include "progress_bar.h"
 
-#include <unistd.h>
+#include "console.h"
 
 #include <algorithm>
 #include <iostream>
 
 namespace bendy::cli {
 
-ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), is_terminal_(is_terminal()) {}
 
 ProgressBar::~ProgressBar() {
     clear();

@@ -1,5 +1,11 @@
 # What every target of this project shares.
 
+# Ends the name of a source that there is one of for each kind of system.
+set(BENDY_SYSTEM posix)
+if(WIN32)
+  set(BENDY_SYSTEM windows)
+endif()
+
 # bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME;
 # its public headers, which must compile by themselves, and the .def tables, which need not, lie under include/. One that is
 # EMBEDDABLE is installed, and shared if BUILD_SHARED_LIBS says so; the others are parts of the program.

@@ -14,6 +14,9 @@ ROOT = Path(__file__).resolve().parent.parent
 # Also in the header, beside the runtime's own: errors in words.
 FURTHER_HEADERS = ["bendy/format/diagnostics.h"]
 WRITES_FILES = re.compile(r"src/(write_\w+|encode_\w+|\w+_writer)\.cpp")
+# In the name of a source that there is one of for each kind of system.
+SYSTEM = "${BENDY_SYSTEM}"
+SYSTEMS = {"posix": "!defined(_WIN32)", "windows": "defined(_WIN32)"}
 # A source that includes the header is compiled where the macro is defined, and gives way to the other one where it is not.
 LIBRARIES = {"zstd.h": "ZSTD", "meshoptimizer.h": "MESHOPTIMIZER"}
 
@@ -91,7 +94,7 @@ def for_processor(instructions, lines):
             "#pragma clang diagnostic pop", "#pragma clang attribute pop", "#else", "#pragma GCC pop_options", "#endif", "#endif"]
 
 
-def make_source(joiner, folder, name, instructions):
+def make_source(joiner, folder, name, instructions, condition=None):
     file = ROOT / folder / name
     own_headers = re.findall(r'^#include [<"]([^>"]+)[>"]', file.read_text(encoding="utf-8"), re.M)
     libraries = [LIBRARIES[header] for header in own_headers if header in LIBRARIES]
@@ -105,6 +108,8 @@ def make_source(joiner, folder, name, instructions):
         body = for_processor(instructions, body)
     for library in libraries:
         body = [f"#ifdef BENDY_WITH_{library}", *body, "#endif"]
+    if condition:
+        body = [f"#if {condition}", *body, "#endif"]
     return lines + body
 
 
@@ -133,6 +138,10 @@ def main():
             if WRITES_FILES.fullmatch(name):
                 continue
             instructions = targets.get(name)
+            if SYSTEM in name:
+                for system, condition in SYSTEMS.items():
+                    source += make_source(joiner, folder, name.replace(SYSTEM, system), None, condition)
+                continue
             (kernels if instructions else source).extend(make_source(joiner, folder, name, instructions))
     for library in LIBRARIES.values():
         source += [f"#ifdef BENDY_WITHOUT_{library}", *joiner.expand(ROOT / f"format/src/without_{library.lower()}.inc"), "#endif"]

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test]   build (default): compiler and libraries; test: also what only the tests need
+#   scripts/setup.sh [build|test|cross]   build (default): compiler and libraries; test: also what only the tests need;
+#                                         cross: also what scripts/cross.sh needs
 set -euo pipefail
 
 need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
@@ -35,6 +36,17 @@ need /usr/include/webp/mux.h libwebp-dev
 need /usr/include/gif_lib.h libgif-dev
 need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
 need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
+if [ "${1:-build}" = cross ]; then
+    need python3 python3
+    need /usr/src/googletest/CMakeLists.txt googletest
+    need /usr/include/gtest/gtest.h libgtest-dev
+    need dpkg-source dpkg-dev
+    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+    need qemu-aarch64 qemu-user
+    need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
+    need wine wine
+    need /usr/lib/wine/wine64 wine64
+fi
 if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
