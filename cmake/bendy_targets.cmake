@@ -40,7 +40,7 @@ function(bendy_export_public_headers target)
   if(BUILD_SHARED_LIBS AND CMAKE_EXECUTABLE_FORMAT STREQUAL ELF)
     # Else instances of the C++ library's templates would be exported too.
     set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bendy_exports.map)
-    target_link_options(${target} PRIVATE LINKER:--version-script=${exports} LINKER:--no-undefined)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
     set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exports})
   endif()
 endfunction()

@@ -21,8 +21,14 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s: no cycles\n", file);
         return 1;
     }
-    const bendy::RootPath root(*model, model->joint(argc > 2 ? argv[2] : "mixamorig:Hips"));
-    const bendy::Socket hand = bendy::make_socket(*model, argc > 3 ? argv[3] : "mixamorig:RightHand");
+    const char* const root_name = argc > 2 ? argv[2] : "mixamorig:Hips";
+    const char* const hand_name = argc > 3 ? argv[3] : "mixamorig:RightHand";
+    const bendy::RootPath root(*model, model->joint(root_name));
+    const bendy::Socket hand = bendy::make_socket(*model, hand_name);
+    for (const char* const name : {root_name, hand_name}) {
+        if (model->joint(name) == bendy::kNone)
+            std::fprintf(stderr, "%s: no joint %s: it stays where it is\n", file, name);
+    }
     const bendy::Bounds bounds(*model);
     bendy::Pose pose(*model);
     bendy::Pose scratch(*model);

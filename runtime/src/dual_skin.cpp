@@ -222,15 +222,15 @@ bool DualSkinning::find_motions(std::uint32_t pool, Pose& pose) {
     return true;
 }
 
-bool DualSkinning::skin_pool(std::uint32_t number, std::uint32_t vertices, Pose& pose, const Vertices& out) {
-    const Pool& pool = model_->pools()[number];
+bool DualSkinning::skin_pool(std::uint32_t pool, std::uint32_t vertices, Pose& pose, const Vertices& out) {
+    const Pool& source = model_->pools()[pool];
     if (vertices == 0) return true;
     SkinBlock wanted{};
     wanted.vertices = vertices;
     wanted.out_positions = output_of(out.positions);
     wanted.out_normals = output_of(out.normals);
     wanted.out_tangents = output_of(out.tangents);
-    Staging staging(pool, nullptr, pose.target_weights().subspan(model_->first_target(number), pool.targets.size()),
+    Staging staging(source, nullptr, pose.target_weights().subspan(model_->first_target(pool), source.targets.size()),
                     wanted);
     SkinBlock block = wanted;
     for (std::size_t first = 0; first < vertices; first += block.vertices) {

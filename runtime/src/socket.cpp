@@ -23,7 +23,8 @@ glm::mat4 socket_matrix(const Socket& socket, Pose& pose, const glm::mat4& model
         joint = glm::dmat4(pose.model_space()[socket.joint]);
         if (socket.keeps_size) joint = rigid_part(joint);
     }
-    return glm::mat4(glm::dmat4(model_to_world) * joint * glm::dmat4(socket.offset));
+    const glm::dmat4 world = glm::dmat4(model_to_world) * joint * glm::dmat4(socket.offset);
+    return {world};
 }
 
 }  // namespace bendy

@@ -9,6 +9,7 @@ import contextlib
 import json
 import math
 import os
+import platform
 import re
 import resource
 import shutil
@@ -1364,6 +1365,8 @@ class Bench(Case):
     def test_wrong_options(self):
         path = self.convert()
         self.assertIn("dance", self.misused("bench", path, "--kernel", "dance"))
+        foreign = "avx2" if platform.machine() == "aarch64" else "neon"
+        self.assertRegex(self.misused("bench", path, "--kernel", foreign), rf"{foreign} does not run here; these do: .*plain")
         self.misused("bench", path, "--rounds", "0")
         self.assertIn("Dance", self.failed("bench", path, "--clip", "Dance", file=path))
 
