@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,7 @@
 #include <vector>
 
 // MARK: named times of a cycle.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A footstep, a hit, a sound to be played: what happens at a time of a cycle.
 struct Marker {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/marker.h>
+#include <bendy/format/public.h>
 #include <bendy/runtime/playback.h>
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include <type_traits>
 
 // Markers that a walk meets: footsteps, hits, the moment when a hand lets go.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Those of a stretch: `markers` ascend by seconds. In the order of the time line, whichever way it was walked.
 std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretch& stretch);
