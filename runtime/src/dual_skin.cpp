@@ -149,11 +149,11 @@ private:
         const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
         if (block_.out_normals.data != nullptr) {
             const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-            put(block_.out_normals, vertex, normalised(side * (cofactors * vec3_at(block_.normals + 3 * vertex))));
+            put(block_.out_normals, vertex, unit_or_zero(side * (cofactors * vec3_at(block_.normals + 3 * vertex))));
         }
         if (block_.out_tangents.data == nullptr) return;
         const float* const tangent = block_.tangents + 4 * vertex;
-        put(block_.out_tangents, vertex, normalised(m * vec3_at(tangent)));
+        put(block_.out_tangents, vertex, unit_or_zero(m * vec3_at(tangent)));
         block_.out_tangents.data[vertex * block_.out_tangents.stride + 3] = static_cast<float>(side) * tangent[3];
     }
 

@@ -48,11 +48,11 @@ void skin_plain(const SkinBlock& block) {
         const double determinant = glm::determinant(linear);
         if (block.out_normals.data != nullptr) {
             const glm::dvec3 normal = vec3_at(block.normals + 3 * vertex);
-            put(block.out_normals, vertex, normalised(normal_matrix(linear, determinant) * normal));
+            put(block.out_normals, vertex, unit_or_zero(normal_matrix(linear, determinant) * normal));
         }
         if (block.out_tangents.data != nullptr) {
             const float* const tangent = block.tangents + 4 * vertex;
-            put(block.out_tangents, vertex, normalised(linear * vec3_at(tangent)));
+            put(block.out_tangents, vertex, unit_or_zero(linear * vec3_at(tangent)));
             // A mirrored surface turns its bitangent round.
             block.out_tangents.data[vertex * block.out_tangents.stride + 3] =
                 determinant < 0.0 ? -tangent[3] : tangent[3];

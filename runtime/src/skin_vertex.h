@@ -19,7 +19,7 @@ inline void put(const SkinOutput& out, std::size_t vertex, const glm::dvec3& v) 
 }
 
 /// Zero stays zero.
-inline glm::dvec3 normalised(const glm::dvec3& v) {
+inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
