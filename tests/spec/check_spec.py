@@ -126,12 +126,12 @@ def read_stream_rules(check):
             rules[rule].append((' '.join(types.split(', ')), *width, numbers))
     check.understood(rules, 'the StreamForm constants of pool.cpp')
     uses = {}
-    for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), (k\w+)', code):
+    for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), forms::(k\w+)', code):
         parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
         uses[parent, chunk] = rules[rule]
-    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, (k\w+)', code):
+    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, forms::(k\w+)', code):
         uses['VECT', chunk] = rules[rule]
-    for rule in re.findall(r'stream\(index_chunk, (k\w+)', code):
+    for rule in re.findall(r'stream\(index_chunk, forms::(k\w+)', code):
         uses['TARG', 'INDX'] = rules[rule]
     check.understood(len(uses) >= 13, 'all uses of the StreamForm constants of pool.cpp')
     return uses
