@@ -61,6 +61,8 @@ if [ "${1:-build}" = test ]; then
     need npm npm
     need chromium chromium
     need Xvfb xvfb
+    need xauth xauth
+    need /usr/share/doc/mkdocs-material mkdocs-material
     need xdotool xdotool
     need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
     need qemu-aarch64 qemu-user
