@@ -3,9 +3,11 @@
 #include "warnings.h"
 
 #include <bendy/converter/export_gltf.h>
+#include <bendy/converter/export_x.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <span>
@@ -28,7 +30,57 @@ void write(const std::filesystem::path& file, Bytes bytes) {
 /// What the output's name says, if nothing else does.
 std::string format_of(const ExportArguments& arguments) {
     if (!arguments.format.empty()) return arguments.format;
-    return arguments.output.extension() == ".gltf" ? "gltf" : "glb";
+    const std::string extension = arguments.output.extension().string();
+    if (extension == ".x" || extension == ".X") return "x";
+    return extension == ".gltf" ? "gltf" : "glb";
+}
+
+void refuse_input(const std::filesystem::path& input, const std::filesystem::path& output) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, output, ignored))
+        fail(input, "the output would be the input: give another name with -o");
+}
+
+/// \return bytes that were written
+std::uint64_t export_gltf(const ExportArguments& arguments, bool is_glb, converter::Report& report) {
+    std::filesystem::path buffer_file;
+    if (!is_glb) {
+        buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
+        refuse_input(arguments.file, buffer_file);
+    }
+    const auto asset = converter::export_gltf(arguments.file, buffer_file.filename(), report);
+    print_warnings(arguments.file, report);
+    if (!asset) fail(arguments.file, printable(asset.error().message));
+    if (is_glb) {
+        const auto glb = converter::make_glb(*asset);
+        if (!glb) fail(arguments.output, glb.error().message);
+        write(arguments.output, *glb);
+        return glb->size();
+    }
+    if (!asset->buffer.empty()) write(buffer_file, asset->buffer);
+    write(arguments.output, std::as_bytes(std::span(asset->json)));
+    return asset->json.size() + asset->buffer.size();
+}
+
+/// \return bytes that were written
+std::uint64_t export_x(const ExportArguments& arguments, converter::Report& report) {
+    const auto asset = converter::export_x(arguments.file, arguments.output.stem().string(), report);
+    print_warnings(arguments.file, report);
+    if (!asset) fail(arguments.file, printable(asset.error().message));
+    std::uint64_t size = asset->text.size();
+    for (const converter::XAsset::File& image : asset->images) {
+        const std::filesystem::path file = arguments.output.parent_path() / image.name;
+        refuse_input(arguments.file, file);
+        write(file, image.bytes);
+        size += image.bytes.size();
+    }
+    write(arguments.output, std::as_bytes(std::span(asset->text)));
+    if (!arguments.quiet && !asset->images.empty()) {
+        std::cout << "images beside it:";
+        for (const converter::XAsset::File& image : asset->images) std::cout << ' ' << printable(image.name);
+        std::cout << '\n';
+    }
+    return size;
 }
 
 void run(ExportArguments arguments) {
@@ -37,29 +89,10 @@ void run(ExportArguments arguments) {
         arguments.output = arguments.file;
         arguments.output.replace_extension(format);
     }
-    const bool is_glb = format == "glb";
-    std::filesystem::path buffer_file;
-    if (!is_glb) buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
-    std::error_code ignored;
-    for (const auto& output : {arguments.output, buffer_file}) {
-        if (std::filesystem::equivalent(arguments.file, output, ignored))
-            fail(arguments.file, "the output would be the input: give another name with -o");
-    }
-
+    refuse_input(arguments.file, arguments.output);
     converter::Report report;
-    const auto asset = converter::export_gltf(arguments.file, buffer_file.filename(), report);
-    print_warnings(arguments.file, report);
-    if (!asset) fail(arguments.file, printable(asset.error().message));
-    std::size_t size = asset->json.size() + asset->buffer.size();
-    if (is_glb) {
-        const auto glb = converter::make_glb(*asset);
-        if (!glb) fail(arguments.output, glb.error().message);
-        size = glb->size();
-        write(arguments.output, *glb);
-    } else {
-        if (!asset->buffer.empty()) write(buffer_file, asset->buffer);
-        write(arguments.output, std::as_bytes(std::span(asset->json)));
-    }
+    const std::uint64_t size =
+        format == "x" ? export_x(arguments, report) : export_gltf(arguments, format == "glb", report);
     if (!arguments.quiet) std::cout << printable(arguments.output.string()) << ": " << grouped(size) << " bytes\n";
 }
 
@@ -67,19 +100,21 @@ void run(ExportArguments arguments) {
 
 void add_export(CLI::App& program) {
     const auto arguments = std::make_shared<ExportArguments>();
-    CLI::App* command = program.add_subcommand("export", "Write a bendy file as glTF 2.0");
+    CLI::App* command = program.add_subcommand("export", "Write a bendy file as glTF 2.0, or as a DirectX X-file");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .glb if not given");
     command
         ->add_option(
             "--format", arguments->format,
-            "glb: one file; gltf: JSON, and the numbers in a .bin file beside it; by the output's name if not given")
-        ->check(CLI::IsMember({"glb", "gltf"}));
+            "glb: one file; gltf: JSON, and the numbers in a .bin file beside it; x: a DirectX X-file in text, images "
+            "beside it; by the output's name if not given")
+        ->check(CLI::IsMember({"glb", "gltf", "x"}));
     command->add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
     command->footer(
-        "Numbers are kept to the bit; constraints and IK chains go into the scene's extras, where `bendy convert` "
-        "finds "
-        "them.\nExample: bendy export fox.bendy -o fox.glb");
+        "glTF: numbers are kept to the bit; constraints and IK chains go into the scene's extras, where `bendy "
+        "convert` "
+        "finds them.\nX-files: constraints and chains go into templates of our own (spec/xfile.md); what has no place "
+        "is named.\nExample: bendy export fox.bendy -o fox.glb");
     command->callback([arguments] { run(*arguments); });
 }
 

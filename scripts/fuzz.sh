@@ -29,7 +29,7 @@ fi
 fuzz() { # fuzz TARGET: one process, its last lines printed
     local target=$1 seeds=$build/seeds/bendy
     case $target in
-        gltf | rig | text) seeds=$build/seeds/$target ;;
+        gltf | md2 | rig | text | x) seeds=$build/seeds/$target ;;
         codec) seeds=$build/seeds/codec ;;
     esac
     mkdir -p "$build/corpus/$target" "$build/findings"

@@ -3,12 +3,16 @@
 #include "compact/build_compact.h"
 #include "failure.h"
 #include "passes/attach_rigs.h"
+#include "passes/auto_skin.h"
 #include "passes/collapse_vertices.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
+#include "source_format.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import_md2.h>
+#include <bendy/converter/import_x.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
@@ -21,17 +25,32 @@ namespace {
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 
+Result<Scene, ImportError> read_source(const std::filesystem::path& file, SourceFormat format,
+                                       const ConvertOptions& options, Report& report) {
+    switch (format) {
+        case SourceFormat::bendy:
+            return import_bendy(file, report);
+        case SourceFormat::x:
+            return import_x(file, options.gltf.embed_images, report);
+        case SourceFormat::md2:
+            return import_md2(file, report);
+        default:
+            return import_gltf(file, options.gltf, report);
+    }
+}
+
 /// The scene of a source of any kind, with its rig.
 Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
                                          const std::optional<Rig>& rig, Report& report) {
-    const bool is_bendy = is_bendy_file(file);
-    if (is_bendy && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
-    auto scene = is_bendy ? import_bendy(file, report) : import_gltf(file, options.gltf, report);
+    const SourceFormat format = find_source_format(file);
+    if (format != SourceFormat::gltf && options.gltf.scene)
+        return ImportError{{}, "a scene can be chosen in glTF files only"};
+    auto scene = read_source(file, format, options, report);
     if (!scene) return scene;
-    if (is_bendy) {
-        change_rig(*scene, rig, options.auto_rig, report);
-    } else {
+    if (format == SourceFormat::gltf) {
         attach_rigs(*scene, rig, options.auto_rig, report);
+    } else {
+        change_rig(*scene, rig, options.auto_rig, report);
     }
     return scene;
 }
@@ -42,9 +61,14 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
                                                     Report& report) {
     std::optional<Rig> rig;
     try {
+        report.add_source(file);
+        if (options.rig) report.add_source(*options.rig);
         if (options.rig) rig = read_rig(*options.rig, report);
         auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
+        if (options.auto_skin) {
+            if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
+        }
         if (options.lod) collapse_vertices(*scene);
         if (options.sort_vertices && !options.lod && !options.compact)
             std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);

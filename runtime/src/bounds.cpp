@@ -16,7 +16,8 @@
 namespace bendy {
 namespace {
 
-constexpr double kRounding = 4e-6;  // 32 units in the last place: kernels promise 8, matrices and boxes are rounded too
+// 32 units in the last place: kernels promise 8, matrices and boxes are rounded too.
+constexpr double kKernelRounding = 4e-6;
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -43,7 +44,7 @@ Box moved(const Box& box, const glm::dmat4& matrix) {
         reach += half[c] * glm::abs(column);
         rounding += most[c] * glm::abs(column);
     }
-    reach += kRounding * rounding;
+    reach += kKernelRounding * rounding;
     if (!is_finite(place) || !is_finite(reach)) return {};
     return {place - reach, place + reach};
 }

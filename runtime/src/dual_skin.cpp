@@ -4,6 +4,7 @@
 #include <bendy/runtime/skin.h>
 
 #include "rigid_part.h"
+#include "skin_vertex.h"
 #include "staging.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
@@ -68,19 +69,6 @@ Motion motion_of(const glm::dmat4& matrix, const glm::dvec3& place) {
     const glm::dvec3 translation = glm::dvec3(matrix * glm::dvec4(place, 1.0)) - motion.real * place;
     motion.dual = 0.5 * (glm::dquat(0.0, translation) * motion.real);
     return motion;
-}
-
-glm::dvec3 vector_at(const float* from) {
-    return {from[0], from[1], from[2]};
-}
-
-void put(const SkinOutput& out, std::size_t vertex, const glm::dvec3& v) {
-    for (int c = 0; c < 3; ++c) out.data[vertex * out.stride + static_cast<std::size_t>(c)] = static_cast<float>(v[c]);
-}
-
-glm::dvec3 normalised(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
 /// v -> linear * v + translation, for one vertex.
@@ -154,18 +142,18 @@ private:
     void write(std::size_t vertex, const Moved& moved) const {
         if (block_.out_positions.data != nullptr) {
             put(block_.out_positions, vertex,
-                moved.linear * vector_at(block_.positions + 3 * vertex) + moved.translation);
+                moved.linear * vec3_at(block_.positions + 3 * vertex) + moved.translation);
         }
         if (block_.out_normals.data == nullptr && block_.out_tangents.data == nullptr) return;
         const glm::dmat3& m = moved.linear;
         const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
         if (block_.out_normals.data != nullptr) {
             const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-            put(block_.out_normals, vertex, normalised(side * (cofactors * vector_at(block_.normals + 3 * vertex))));
+            put(block_.out_normals, vertex, unit_or_zero(side * (cofactors * vec3_at(block_.normals + 3 * vertex))));
         }
         if (block_.out_tangents.data == nullptr) return;
         const float* const tangent = block_.tangents + 4 * vertex;
-        put(block_.out_tangents, vertex, normalised(m * vector_at(tangent)));
+        put(block_.out_tangents, vertex, unit_or_zero(m * vec3_at(tangent)));
         block_.out_tangents.data[vertex * block_.out_tangents.stride + 3] = static_cast<float>(side) * tangent[3];
     }
 

@@ -38,7 +38,7 @@ inline glm::dmat4 rigid_part(const glm::dmat4& matrix) {
     return rigid;
 }
 
-inline glm::dquat rotation_of(const glm::dmat4& matrix) {
+inline glm::dquat rigid_rotation(const glm::dmat4& matrix) {
     return glm::normalize(glm::quat_cast(rigid_axes(glm::dmat3(matrix))));
 }
 

@@ -97,13 +97,13 @@ RootPath::RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes
     glm::dmat4 rest(1.0);
     for (const std::uint32_t at : path_) rest *= to_matrix(model.joints()[at].rest, model.joints()[at].shear);
     rest_position_ = glm::dvec3(rest[3]);
-    rest_rotation_ = rotation_of(rest);
+    rest_rotation_ = rigid_rotation(rest);
 }
 
 RootMotion RootPath::motion_of(const glm::dmat4& root) const {
     RootMotion motion;
     if (axes_.turn != RootTurn::none) {
-        motion.rotation = glm::normalize(rotation_of(root) * glm::conjugate(rest_rotation_));
+        motion.rotation = glm::normalize(rigid_rotation(root) * glm::conjugate(rest_rotation_));
         if (axes_.turn == RootTurn::yaw) motion.rotation = yaw_of(motion.rotation);
     }
     // So that undoing it brings the chosen numbers of the position to those at rest.
@@ -150,7 +150,7 @@ RootMotion RootPath::take_out(Pose& pose) const {
     if (!(std::abs(glm::determinant(glm::dmat3(above))) > 0.0)) return {};
     const RootMotion motion = motion_of(root);
     const RootMotion back = inverse(motion);
-    const glm::dquat turn = rotation_of(above);
+    const glm::dquat turn = rigid_rotation(above);
     JointTransform& local = pose.change_local()[joint];
     const glm::dvec3 to = back.translation + back.rotation * glm::dvec3(root[3]);
     local.translation = glm::dvec3(glm::inverse(above) * glm::dvec4(to, 1.0));

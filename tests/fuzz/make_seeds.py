@@ -5,7 +5,7 @@
 
 OUT/gltf gets glTF files: some that are made here, and those of the FOLDERs with their buffers packed into them;
 OUT/bendy bendy files: their conversions by the program BENDY, and the specification's and the tests' own; OUT/codec the
-leaves of these; OUT/rig their rig files; OUT/text their text twins. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
+leaves of these; OUT/rig their rig files; OUT/text their text twins; OUT/x X-files; OUT/md2 Quake II models. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
 """
 
 import argparse
@@ -24,10 +24,39 @@ sys.path.insert(0, str(ROOT / "tests" / "cli"))
 
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
+from md2_file import md2_file  # noqa: E402
 
 LARGEST = 48_000  # bytes
 PACKED = 8  # what fuzz_codec takes for a packed cycle: the number after the last codec's
 OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--sort-vertices"])
+
+
+# What other writers' files have and ours do not.
+X_FILES = [
+    """xof 0302txt 0064
+// a remark
+template Odd { <00000000-0000-0000-0000-000000000000> array Vector a[n]; [...] }
+Header { 1; 0; 1; }
+Material Red { 1;0;0;1;; 5; 1;1;1;; 0;0;0;; TextureFilename { "a\\\\b.bmp"; } }
+Frame A { Mesh M { 5; 0;0;0;, 1;0;0;, 1;1;0;, 0;1;0;, 2;2;2;; 2; 4;0,3,2,1;, 3;0,1,4;;
+ MeshNormals { 2; 0;0;1;, 0;1;-1.#IND00;; 2; 4;0,0,0,1;, 3;1,1,1;; }
+ MeshVertexColors { 1; 2; 0.5;0.25;0;1;;; } MeshMaterialList { 2; 1; 1; { Red } Material { 0;1;0;0.5;; 30; 0;0;0;; 0;0;0;; } }
+ XSkinMeshHeader { 1; 1; 1; } SkinWeights { "B"; 2; 0,4; 0.5,1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } } Frame B { } }
+AnimationSet S { Animation { { B } AnimationOptions { 0; 1; }
+ AnimationKey { 4; 2; 0;16;1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;;, 9;16;0,0,-1,0,0,1,0,0,1,0,0,0,2,3,4,1;;; } } }
+""",
+]
+
+
+def binary_x_file():
+    """A frame with a matrix, in tokens."""
+    def name(text):
+        return struct.pack("<HI", 1, len(text)) + text
+    matrix = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1)
+    return (b"xof 0303bin 0032" + name(b"Frame") + name(b"F") + struct.pack("<H", 10)
+            + name(b"FrameTransformMatrix") + struct.pack("<HHI16f", 10, 7, 16, *matrix) + struct.pack("<H", 11)
+            + name(b"Mesh") + struct.pack("<HHIHI9fHI5I", 10, 3, 3, 7, 9, *range(9), 6, 5, 1, 3, 0, 1, 2)
+            + struct.pack("<HH", 11, 11))
 
 
 def character(path, interpolation):
@@ -160,6 +189,15 @@ def gather(bendy, out, folders, work):
                 if rig.returncode == 0:
                     keep(out / "rig", rig.stdout)
                 keep_texts(bendy, out / "text", converted)
+                written = work / "written.x"
+                exported = subprocess.run([bendy, "export", converted, "-o", written], capture_output=True, check=False)
+                if exported.returncode == 0:
+                    keep(out / "x", written.read_bytes())
+    for text in X_FILES:
+        keep(out / "x", text.encode())
+    keep(out / "x", binary_x_file())
+    for names in (("only",), ("stand01", "stand02", "run1"), ("pain101", "pain102", "pain201")):
+        keep(out / "md2", md2_file(work / "model.md2", names).read_bytes())
     for folder in ("spec", "tests"):
         for file in sorted((ROOT / folder).rglob("*.bendy")):
             keep(out / "bendy", file.read_bytes())

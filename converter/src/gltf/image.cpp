@@ -12,23 +12,6 @@
 namespace bendy::converter::gltf {
 namespace {
 
-/// The media type that the first bytes show, or empty.
-std::string media_type_of(std::span<const std::byte> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const auto starts = [&](std::string_view magic, std::size_t offset = 0) {
-        return text.size() >= offset + magic.size() && text.substr(offset, magic.size()) == magic;
-    };
-    if (starts("\x89PNG\r\n\x1a\n")) return "image/png";
-    if (starts("\xff\xd8\xff")) return "image/jpeg";
-    if (starts("\xabKTX 20\xbb\r\n\x1a\n")) return "image/ktx2";
-    if (starts("RIFF") && starts("WEBP", 8)) return "image/webp";
-    if (starts("ftypavif", 4) || starts("ftypavis", 4)) return "image/avif";
-    if (starts("GIF8")) return "image/gif";
-    if (starts("BM")) return "image/bmp";
-    if (starts("DDS ")) return "image/vnd-ms.dds";
-    return {};
-}
-
 class ImageImporter {
 public:
     ImageImporter(const Document& document, bool embed) : document_(document), embed_(embed) {}
@@ -66,6 +49,7 @@ private:
             image.uri = uri;
             if (!embed_) return;
             const auto file = resolve_uri(uri, document_.file, place);
+            document_.report.add_source(file);
             image.bytes = read_file(file, place);
             image.uri.clear();
         } catch (const Failure& failure) {
@@ -79,6 +63,22 @@ private:
 };
 
 }  // namespace
+
+std::string media_type_of(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto starts = [&](std::string_view magic, std::size_t offset = 0) {
+        return text.size() >= offset + magic.size() && text.substr(offset, magic.size()) == magic;
+    };
+    if (starts("\x89PNG\r\n\x1a\n")) return "image/png";
+    if (starts("\xff\xd8\xff")) return "image/jpeg";
+    if (starts("\xabKTX 20\xbb\r\n\x1a\n")) return "image/ktx2";
+    if (starts("RIFF") && starts("WEBP", 8)) return "image/webp";
+    if (starts("ftypavif", 4) || starts("ftypavis", 4)) return "image/avif";
+    if (starts("GIF8")) return "image/gif";
+    if (starts("BM")) return "image/bmp";
+    if (starts("DDS ")) return "image/vnd-ms.dds";
+    return {};
+}
 
 void import_images(const Document& document, bool embed, Scene& scene) {
     const ImageImporter importer(document, embed);

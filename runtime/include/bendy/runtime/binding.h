@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Whose translations a bound cycle brings along.
 enum class BoundTranslations : std::uint8_t {

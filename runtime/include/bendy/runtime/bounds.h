@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/vec3.hpp>
@@ -9,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// An axis-aligned box, both corners in it; empty where a minimum is above its maximum, as at first.
 struct Box {

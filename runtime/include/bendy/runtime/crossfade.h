@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
 
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 enum class Easing : std::uint8_t {
     linear,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/vertices.h>
@@ -11,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Skinning by dual quaternions (Kavan, Collins, Zara, O'Sullivan, Skinning with Dual Quaternions, 2007): joints that
 /// twist or bend keep the limb's volume, where `skin` makes it thinner. For characters that were made for it: elbows

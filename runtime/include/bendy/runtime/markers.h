@@ -1,26 +1,16 @@
 #pragma once
 
-#include <bendy/runtime/playback.h>
-#if __has_include(<bendy/format/marker.h>)
 #include <bendy/format/marker.h>
-#endif
+#include <bendy/format/public.h>
+#include <bendy/runtime/playback.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <type_traits>
 
 // Markers that a walk meets: footsteps, hits, the moment when a hand lets go.
-namespace bendy {
-
-#if !__has_include(<bendy/format/marker.h>)
-/// A named moment of a cycle.
-struct Marker {
-    float seconds = 0.0f;  ///< on the cycle's own time line
-    std::string_view name;
-};
-#endif
+namespace BENDY_PUBLIC bendy {
 
 /// Those of a stretch: `markers` ascend by seconds. In the order of the time line, whichever way it was walked.
 std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretch& stretch);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/model.h>
 
 #include <cstdint>
 
 // A cycle's clock: where it stands, and what it has walked on its time line since it was last asked.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 enum class LoopMode : std::uint8_t {
     once,       ///< stops at the end and holds it; backwards, at the start

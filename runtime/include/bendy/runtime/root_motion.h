@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
 
@@ -12,7 +13,7 @@
 
 // Root motion: what a cycle's root joint does on the ground is taken out of the pose and moves the character instead,
 // through walls and slopes as the game has them. In doubles, since it adds up over hours.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A turn, then a shift.
 struct RootMotion {

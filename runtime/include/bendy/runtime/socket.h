@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/mat4x4.hpp>
@@ -7,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A place on a character for what is not part of it: a hand that holds a sword, a camera behind a head.
 struct Socket {

@@ -1,0 +1,208 @@
+#include "read_mesh.h"
+
+#include "encoded_text.h"
+
+#include <utility>
+
+namespace bendy::converter::x {
+namespace {
+
+void begin(ObjectReader& in, Named& object) {
+    object.place = in.place();
+    object.identifier = in.head();
+    object.name = to_utf8(object.identifier);
+}
+
+class MeshReader {
+public:
+    MeshReader(ObjectReader& in, std::vector<Material>& materials) : in_(in), materials_(materials) {}
+
+    Mesh read() {
+        begin(in_, mesh_);
+        mesh_.positions = in_.vectors<glm::vec3>(in_.count(3, "vertices"));
+        read_faces();
+        std::string_view type;
+        while (in_.inner(type, "Mesh")) read_inner(type);
+        return std::move(mesh_);
+    }
+
+private:
+    void read_faces() {
+        const std::uint32_t faces = in_.count(2, "faces");
+        mesh_.face_sizes.reserve(faces);
+        for (std::uint32_t face = 0; face < faces; ++face) {
+            const std::uint32_t corners = in_.count(1, "corners of a face");
+            if (corners == 0) in_.refuse("a face has no corners");
+            mesh_.face_sizes.push_back(corners);
+            for (std::uint32_t corner = 0; corner < corners; ++corner)
+                mesh_.corners.push_back(in_.index(mesh_.positions.size(), "vertices"));
+        }
+    }
+
+    void read_inner(std::string_view type) {
+        if (type == "MeshNormals") {
+            read_normals();
+        } else if (type == "MeshTextureCoords") {
+            read_coords();
+        } else if (type == "MeshVertexColors") {
+            read_colours();
+        } else if (type == "MeshMaterialList") {
+            read_materials();
+        } else if (type == "SkinWeights") {
+            read_skin();
+        } else if (type == "BendyName") {
+            mesh_.name = read_name(in_);
+        } else if (type == "XSkinMeshHeader" || type == "VertexDuplicationIndices") {
+            in_.skip(type);  // it follows from the rest
+        } else {
+            in_.skip_unknown(type);
+        }
+    }
+
+    /// The number of things of which every vertex or face has one.
+    std::uint32_t count_as(std::size_t due, std::uint32_t numbers_each, const char* what) {
+        const std::uint32_t count = in_.count(numbers_each, what);
+        if (count != due) in_.refuse(std::to_string(count) + ' ' + what + ", but " + std::to_string(due) + " are due");
+        return count;
+    }
+
+    /// Where one mesh has several sets.
+    bool is_second(bool is_there, const char* what) {
+        if (is_there)
+            in_.report().warn("second " + std::string(what) + " of a mesh left out, the first is kept", in_.place());
+        return is_there;
+    }
+
+    void read_normals() {
+        if (is_second(!mesh_.normals.empty(), "MeshNormals")) return in_.skip("MeshNormals");
+        in_.head();
+        mesh_.normals = in_.vectors<glm::vec3>(in_.count(3, "normals"));
+        const std::uint32_t faces = count_as(mesh_.face_sizes.size(), 2, "faces of normals");
+        mesh_.normal_corners.reserve(mesh_.corners.size());
+        for (std::uint32_t face = 0; face < faces; ++face) {
+            count_as(mesh_.face_sizes[face], 1, "normals of a face");
+            for (std::uint32_t corner = 0; corner < mesh_.face_sizes[face]; ++corner)
+                mesh_.normal_corners.push_back(in_.index(mesh_.normals.size(), "normals"));
+        }
+        in_.end_of("MeshNormals");
+    }
+
+    void read_coords() {
+        if (is_second(!mesh_.coords.empty(), "MeshTextureCoords")) return in_.skip("MeshTextureCoords");
+        in_.head();
+        mesh_.coords = in_.vectors<glm::vec2>(count_as(mesh_.positions.size(), 2, "texture coordinates"));
+        in_.end_of("MeshTextureCoords");
+    }
+
+    /// Colours come with their vertices' numbers, not each vertex need have one.
+    void read_colours() {
+        if (is_second(!mesh_.colours.empty(), "MeshVertexColors")) return in_.skip("MeshVertexColors");
+        in_.head();
+        const std::uint32_t colours = in_.count(5, "colours");
+        mesh_.colours.assign(mesh_.positions.size(), glm::vec4(1.0f));
+        for (std::uint32_t i = 0; i < colours; ++i) {
+            glm::vec4& colour = mesh_.colours[in_.index(mesh_.positions.size(), "vertices")];
+            for (int component = 0; component < 4; ++component) colour[component] = in_.number();
+        }
+        in_.end_of("MeshVertexColors");
+    }
+
+    void read_materials() {
+        if (is_second(!mesh_.face_slots.empty(), "MeshMaterialList")) return in_.skip("MeshMaterialList");
+        const std::string list = in_.place();
+        in_.head();
+        const std::uint32_t slots = in_.count(1, "materials");
+        const std::uint32_t faces = in_.count(1, "faces' materials");
+        const std::size_t due = mesh_.face_sizes.size();
+        // Some writers give one number for all faces.
+        if (faces != due && faces != 1)
+            in_.refuse(std::to_string(faces) + " faces' materials, but " + std::to_string(due) + " are due");
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t face = 0; face < faces; ++face) numbers.push_back(in_.index(slots, "materials"));
+        if (due != 0) numbers.resize(due, numbers.front());
+        if (due == 0) numbers.clear();
+        std::string_view type;
+        while (in_.inner(type, "MeshMaterialList")) read_slot(type);
+        if (mesh_.slots.size() < slots) {
+            in_.refuse("the list that begins at " + list + " has " + std::to_string(mesh_.slots.size()) +
+                       " materials, but says " + std::to_string(slots));
+        }
+        mesh_.face_slots = std::move(numbers);
+    }
+
+    void read_slot(std::string_view type) {
+        MaterialSlot slot;
+        slot.place = in_.place();
+        if (type == "{") {
+            slot.identifier = in_.reference();
+        } else if (type == "Material") {
+            slot.material = static_cast<std::uint32_t>(materials_.size());
+            materials_.push_back(read_material(in_));
+        } else {
+            return in_.skip_unknown(type);
+        }
+        mesh_.slots.push_back(std::move(slot));
+    }
+
+    void read_skin() {
+        Skin skin;
+        skin.place = in_.place();
+        in_.head();
+        skin.frame = in_.string();
+        const std::uint32_t count = in_.count(2, "weights");
+        skin.vertices.reserve(count);
+        skin.weights.reserve(count);
+        for (std::uint32_t i = 0; i < count; ++i)
+            skin.vertices.push_back(in_.index(mesh_.positions.size(), "vertices"));
+        for (std::uint32_t i = 0; i < count; ++i) skin.weights.push_back(in_.number());
+        for (double& number : skin.offset) number = in_.exact_number();
+        in_.end_of("SkinWeights");
+        mesh_.skins.push_back(std::move(skin));
+    }
+
+    ObjectReader& in_;
+    std::vector<Material>& materials_;
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_mesh(ObjectReader& in, std::vector<Material>& materials) {
+    return MeshReader(in, materials).read();
+}
+
+Material read_material(ObjectReader& in) {
+    Material material;
+    begin(in, material);
+    for (int i = 0; i < 4; ++i) material.colour[i] = in.number();
+    material.power = in.number();
+    for (int i = 0; i < 3; ++i) material.specular[i] = in.number();
+    for (int i = 0; i < 3; ++i) material.emissive[i] = in.number();
+    std::string_view type;
+    while (in.inner(type, "Material")) {
+        if (type == "TextureFilename" || type == "TextureFileName") {
+            in.head();
+            std::string file(in.string());
+            if (!material.texture.empty()) {
+                in.report().warn("further texture of a material left out", in.place());
+            } else {
+                material.texture = std::move(file);
+            }
+            in.end_of("TextureFilename");
+        } else if (type == "BendyName") {
+            material.name = read_name(in);
+        } else {
+            in.skip_unknown(type);
+        }
+    }
+    return material;
+}
+
+std::string read_name(ObjectReader& in) {
+    in.head();
+    std::string name = decode_text(in.string());
+    in.end_of("BendyName");
+    return name;
+}
+
+}  // namespace bendy::converter::x

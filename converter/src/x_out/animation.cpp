@@ -1,0 +1,187 @@
+#include "animation.h"
+
+#include "cycle_span.h"
+#include "evaluate.h"
+#include "failure.h"
+#include "ticks.h"
+#include "x/encoded_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter::x_out {
+namespace {
+
+constexpr double kSamplesPerSecond = 60.0;  ///< of a cubic track
+constexpr double kMostSamples = 64.0;       ///< between two of its keys
+
+/// Linear keys as they are written.
+struct Keys {
+    std::vector<std::uint64_t> ticks;
+    std::vector<float> values;
+};
+
+/// What X-files call the kinds of keys.
+int type_of(TrackPath path) {
+    return path == TrackPath::rotation ? 0 : path == TrackPath::scale ? 1 : 2;
+}
+
+class Exporter {
+public:
+    Exporter(const Scene& scene, const Names& names, Text& text, Report& report)
+        : scene_(scene), names_(names), text_(text), report_(report), ticks_(scene) {}
+
+    void run() {
+        if (scene_.cycles.empty()) return;
+        text_.open("AnimTicksPerSecond");
+        text_.line(std::to_string(ticks_.per_second()) + ';');
+        text_.close();
+        for (std::size_t i = 0; i < scene_.cycles.size(); ++i)
+            write(scene_.cycles[i], names_.cycles[i], at("cycles", i));
+    }
+
+private:
+    using TracksOfJoint = std::array<const Track*, 3>;  ///< by type of key
+
+    void write(const Cycle& cycle, const std::string& identifier, const std::string& place) {
+        shift_ = shift_of(cycle);
+        std::map<std::uint32_t, TracksOfJoint> joints;
+        std::uint64_t weights = 0;
+        for (const Track& track : cycle.tracks) {
+            if (track.path == TrackPath::weights) {
+                ++weights;
+            } else {
+                joints[track.target][static_cast<std::size_t>(type_of(track.path))] = &track;
+            }
+        }
+        if (weights != 0) report_.warn("weights of inbetweening targets left out of a cycle", place, weights);
+        if (!(span_of(cycle).end + shift_ <= Ticks::kLongest)) {
+            report_.warn("a cycle of more than a million seconds is left out", place);
+            return;
+        }
+        if (joints.empty()) {
+            report_.warn("a cycle that moves no joint is left out", place);
+            return;
+        }
+        if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
+        if (!cycle.extras.empty()) report_.warn("extras of a cycle left out: X-files have no place for it", place);
+        rounded_ = 0;
+        text_.open("AnimationSet", identifier);
+        for (const auto& [joint, tracks] : joints) write_joint(joint, tracks, cycle, place);
+        text_.close();
+        if (rounded_ != 0) report_.warn("key time rounded to a tick of the file", place, rounded_);
+        if (identifier == cycle.name) return;
+        text_.open("BendyCycle");
+        text_.line('"' + identifier + "\";");
+        text_.line('"' + x::encode_text(cycle.name) + "\";");
+        text_.close();
+    }
+
+    /// All three kinds of keys: readers differ in what they take where one is missing.
+    void write_joint(std::uint32_t joint, const TracksOfJoint& tracks, const Cycle& cycle, const std::string& place) {
+        const Transform& rest = scene_.joints[joint].rest;
+        if (rest.shear != glm::vec3(0.0f))
+            report_.warn("shear of an animated joint is left out while it moves", at("joints", joint));
+        text_.open("Animation");
+        text_.line("{ " + names_.joints[joint] + " }");
+        text_.open("AnimationOptions");
+        text_.line(cycle.loop ? "0;" : "1;");
+        text_.line("1;");
+        text_.close();
+        const std::uint64_t start = ticks_.of({span_of(cycle).start}, shift_, unheard_).front();
+        const auto write = [&](int type, std::vector<float> resting) {
+            const Track* track = tracks[static_cast<std::size_t>(type)];
+            write_keys(type, track != nullptr ? keys_of(*track, place) : Keys{{start}, std::move(resting)});
+        };
+        write(0, {rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w});
+        write(1, {rest.scale.x, rest.scale.y, rest.scale.z});
+        write(2, {rest.translation.x, rest.translation.y, rest.translation.z});
+        text_.close();
+    }
+
+    Keys keys_of(const Track& track, const std::string& place) {
+        const std::vector<std::uint64_t> ticks = ticks_.of(track.times, shift_, rounded_);
+        if (track.interpolation == Interpolation::linear) return {ticks, track.values};
+        if (track.interpolation == Interpolation::step) {
+            report_.warn("track that jumps gets two keys for each jump, a tick apart", place);
+            return jumping(track, ticks);
+        }
+        report_.warn("cubic track is sampled, 60 times a second: X-files have linear keys only", place);
+        return sampled(track, ticks);
+    }
+
+    static Keys jumping(const Track& track, const std::vector<std::uint64_t>& ticks) {
+        Keys keys;
+        const auto add = [&](std::uint64_t tick, std::size_t key) {
+            const auto first = track.values.begin() + static_cast<std::ptrdiff_t>(key * track.components);
+            keys.ticks.push_back(tick);
+            keys.values.insert(keys.values.end(), first, first + track.components);
+        };
+        for (std::size_t key = 0; key < ticks.size(); ++key) {
+            if (key > 0 && ticks[key] - 1 > ticks[key - 1]) add(ticks[key] - 1, key - 1);
+            add(ticks[key], key);
+        }
+        return keys;
+    }
+
+    [[nodiscard]] Keys sampled(const Track& track, const std::vector<std::uint64_t>& ticks) const {
+        Keys keys;
+        std::vector<double> value;
+        const auto add = [&](std::uint64_t tick) {
+            evaluate_track(track, ticks_.seconds(tick) - shift_, value);
+            keys.ticks.push_back(tick);
+            for (const double component : value) keys.values.push_back(static_cast<float>(component));
+        };
+        for (std::size_t key = 0; key + 1 < ticks.size(); ++key) {
+            const std::uint64_t span = ticks[key + 1] - ticks[key];
+            const double wanted = std::clamp(std::ceil(ticks_.seconds(span) * kSamplesPerSecond), 1.0, kMostSamples);
+            const std::uint64_t pieces = std::min(static_cast<std::uint64_t>(wanted), span);
+            for (std::uint64_t piece = 0; piece < pieces; ++piece) add(ticks[key] + span * piece / pieces);
+        }
+        add(ticks.back());
+        return keys;
+    }
+
+    /// Rotations as w x y z of the mirrored, inverse turn; see read_value of the reader.
+    void write_keys(int type, const Keys& keys) {
+        const std::size_t components = type == 0 ? 4 : 3;
+        text_.open("AnimationKey");
+        text_.line(std::to_string(type) + ';');
+        text_.line(std::to_string(keys.ticks.size()) + ';');
+        for (std::size_t key = 0; key < keys.ticks.size(); ++key) {
+            const float* const value = keys.values.data() + key * components;
+            text_.begin_line();
+            text_.add(keys.ticks[key]).add(";").add(std::uint64_t{components}).add(";");
+            if (type == 0) {
+                text_.add(value[3]).add(",").add(value[0]).add(",").add(value[1]).add(",").add(0.0f - value[2]);
+            } else {
+                text_.add(value[0]).add(",").add(value[1]).add(",").add(type == 2 ? 0.0f - value[2] : value[2]);
+            }
+            text_.add(key + 1 < keys.ticks.size() ? ";;," : ";;;");
+            text_.end_line();
+        }
+        text_.close();
+    }
+
+    const Scene& scene_;
+    const Names& names_;
+    Text& text_;
+    Report& report_;
+    Ticks ticks_;
+    float shift_ = 0.0f;         ///< seconds, of the cycle that is being written
+    std::uint64_t rounded_ = 0;  ///< its key times that do not come back
+    std::uint64_t unheard_ = 0;
+};
+
+}  // namespace
+
+void write_cycles(const Scene& scene, const Names& names, Text& text, Report& report) {
+    Exporter(scene, names, text, report).run();
+}
+
+}  // namespace bendy::converter::x_out

@@ -1,0 +1,65 @@
+#include <bendy/converter/export_x.h>
+
+#include "animation.h"
+#include "failure.h"
+#include "frames.h"
+#include "material.h"
+#include "names.h"
+#include "rig.h"
+#include "templates.h"
+
+#include <bendy/converter/import_bendy.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace bendy::converter {
+namespace x_out {
+namespace {
+
+XAsset write(const Scene& scene, const std::string& image_stem, Report& report) {
+    XAsset asset;
+    Text text;
+    text.line("xof 0303txt 0032");
+    text.line("// bendy " BENDY_VERSION);
+    write_templates(text);
+    const Names names(scene);
+    write_materials(scene, names, image_stem, text, asset.images, report);
+    write_frames(scene, names, text, report);
+    write_chains(scene, names, text);
+    write_cycles(scene, names, text, report);
+    if (!scene.levels.empty()) report.warn("levels of detail left out: X-files have no place for them");
+    if (!scene.extras.empty() || !scene.source_extras.empty() || !scene.extensions.empty())
+        report.warn("extras or extensions of the scene left out: X-files have no place for them");
+    asset.text = std::move(text).take();
+    return asset;
+}
+
+}  // namespace
+}  // namespace x_out
+
+Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report) {
+    try {
+        const Result<Scene, ImportError> scene = import_bendy(bytes, report);
+        if (!scene) return scene.error();
+        return x_out::write(*scene, image_stem, report);
+    } catch (const Failure& failure) {
+        return failure.error;
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, std::string("unexpected: ") + error.what()};
+    }
+}
+
+Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, const std::string& image_stem,
+                                     Report& report) {
+    const Result<MappedFile> mapped = MappedFile::open(bendy_file);
+    if (!mapped) return ImportError{{}, describe(mapped.error())};
+    return export_x(mapped->bytes(), image_stem, report);
+}
+
+}  // namespace bendy::converter

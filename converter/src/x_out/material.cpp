@@ -1,0 +1,136 @@
+#include "material.h"
+
+#include "failure.h"
+#include "x/encoded_text.h"
+#include "x/materials.h"
+
+#include <algorithm>
+#include <array>
+#include <unordered_set>
+#include <utility>
+
+namespace bendy::converter::x_out {
+namespace {
+
+std::string ending_of(const std::string& media_type) {
+    constexpr std::array<std::pair<const char*, const char*>, 8> kEndings{{{"image/png", ".png"},
+                                                                           {"image/jpeg", ".jpg"},
+                                                                           {"image/ktx2", ".ktx2"},
+                                                                           {"image/webp", ".webp"},
+                                                                           {"image/avif", ".avif"},
+                                                                           {"image/gif", ".gif"},
+                                                                           {"image/bmp", ".bmp"},
+                                                                           {"image/vnd-ms.dds", ".dds"}}};
+    const auto* const found =
+        std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& ending) { return media_type == ending.first; });
+    return found == kEndings.end() ? ".bin" : found->second;
+}
+
+/// Strings of X-files have no escapes, and a backslash means different things to different readers.
+std::string file_name(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20; },
+        '_');
+    return name;
+}
+
+/// A URI's percent signs as what they stand for.
+std::string decode_uri(const std::string& uri) {
+    return file_name(x::decode_text(uri));
+}
+
+bool is_transformed(const TextureUse& use) {
+    const TextureUse usual;
+    return use.offset != usual.offset || use.rotation != usual.rotation || use.scale != usual.scale;
+}
+
+class Exporter {
+public:
+    Exporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
+             Report& report)
+        : scene_(scene), image_stem_(image_stem), text_(text), images_(images), report_(report) {}
+
+    void write(const Material& material, const std::string& identifier, const std::string& place) {
+        report_losses(material, place);
+        text_.open("Material", identifier);
+        line(material.base_colour);
+        text_.begin_line();
+        text_.add(x::power_of(material.roughness)).add(";");
+        text_.end_line();
+        glm::vec3 specular(0.0f);
+        for (int i = 0; i < 3; ++i)
+            specular[i] = x::kDielectric + material.metallic * (material.base_colour[i] - x::kDielectric);
+        line(material.roughness < 1.0f ? specular : glm::vec3(0.0f));
+        line(material.emissive);
+        if (material.base_colour_texture.texture != kNone) write_texture(material.base_colour_texture.texture, place);
+        write_name(identifier, material.name, text_);
+        text_.close();
+    }
+
+private:
+    template <class Vector>
+    void line(const Vector& vector) {
+        text_.begin_line();
+        text_.add_vector(vector).add(";");
+        text_.end_line();
+    }
+
+    void write_texture(std::uint32_t number, const std::string& place) {
+        const Texture& texture = scene_.textures[number];
+        if (texture.images.size() > 1) report_.warn("further image of a texture left out", place);
+        if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat || texture.mag_filter == Filter::nearest)
+            report_.warn("how a texture is sampled is left out", place);
+        if (texture.images.empty()) return;
+        text_.open("TextureFilename");
+        text_.line('"' + file_of(texture.images.front()) + "\";");
+        text_.close();
+    }
+
+    std::string file_of(std::uint32_t number) {
+        const Image& image = scene_.images[number];
+        if (image.bytes.empty()) return decode_uri(image.uri);
+        const std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image.media_type);
+        if (is_written_.insert(number).second) images_.push_back({name, image.bytes});
+        return name;
+    }
+
+    void report_losses(const Material& material, const std::string& place) {
+        const auto lose = [&](bool is_lost, const char* what) {
+            if (is_lost) report_.warn(std::string(what) + " left out: X-files have no place for it", place);
+        };
+        if (material.metallic != 0.0f || material.roughness != 1.0f) {
+            report_.warn("metallic and roughness are written as specular colour and power, which only resemble them",
+                         place);
+        }
+        lose(material.metallic_roughness_texture.texture != kNone, "metallic-roughness texture");
+        lose(material.normal_texture.texture != kNone, "normal texture");
+        lose(material.occlusion_texture.texture != kNone, "occlusion texture");
+        lose(material.emissive_texture.texture != kNone, "emissive texture");
+        const TextureUse& colour = material.base_colour_texture;
+        lose(colour.texture != kNone && colour.coords != 0, "the choice of a further set of texture coordinates");
+        lose(colour.texture != kNone && is_transformed(colour), "texture transform");
+        lose(material.alpha_mode == AlphaMode::mask, "alpha mask");
+        lose(material.double_sided, "that a material has two sides");
+        lose(material.unlit, "that a material is unlit");
+        lose(!material.extensions.empty(), "extensions of a material");
+        lose(!material.extras.empty(), "extras of a material");
+    }
+
+    const Scene& scene_;
+    const std::string& image_stem_;
+    Text& text_;
+    std::vector<XAsset::File>& images_;
+    Report& report_;
+    std::unordered_set<std::uint32_t> is_written_;  ///< images
+};
+
+}  // namespace
+
+void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
+                     std::vector<XAsset::File>& images, Report& report) {
+    Exporter exporter(scene, image_stem, text, images, report);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        exporter.write(scene.materials[i], names.materials[i], at("materials", i));
+}
+
+}  // namespace bendy::converter::x_out

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace bendy::converter::x_out {
+
+/// The text of an X-file in the making: lines, and objects that open and close. Numbers are the shortest decimals that
+/// read back as the same, without exponents, which some readers do not know.
+class Text {
+public:
+    /// `TYPE NAME {`; `name` may be empty.
+    void open(std::string_view type, std::string_view name = {});
+    void close();
+    /// A line as it is.
+    void line(std::string_view text);
+
+    void begin_line();
+    void end_line() { text_ += '\n'; }
+    Text& add(std::string_view text) {
+        text_ += text;
+        return *this;
+    }
+    Text& add(float number);
+    Text& add(double number);
+    Text& add(std::uint64_t number) { return add(std::to_string(number)); }
+    /// Each with a semicolon after it.
+    template <class Vector>
+    Text& add_vector(const Vector& vector) {
+        for (int i = 0; i < Vector::length(); ++i) add(vector[i]).add(";");
+        return *this;
+    }
+    /// `1;2;3;,` ... `1;2;3;;`: a line for each.
+    template <class Vectors>
+    void vectors(const Vectors& list) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            begin_line();
+            add_vector(list[i]).add(i + 1 < list.size() ? "," : ";");
+            end_line();
+        }
+    }
+    /// 16 numbers, and two semicolons at the end.
+    void matrix(const std::array<double, 16>& matrix);
+    void matrix(const std::array<float, 16>& matrix);
+
+    [[nodiscard]] std::string take() && { return std::move(text_); }
+
+private:
+    template <class Number>
+    void write_matrix(const std::array<Number, 16>& matrix);
+
+    std::string text_;
+    std::size_t depth_ = 0;
+};
+
+}  // namespace bendy::converter::x_out

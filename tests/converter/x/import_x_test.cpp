@@ -1,0 +1,339 @@
+#include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_x.h>
+#include <bendy/format/validate.h>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+const std::string kHeader = "xof 0303txt 0032\n";
+
+struct Read {
+    Scene scene;
+    Report report;
+    std::string fault;  ///< place: message
+};
+
+Read read(const std::string& file) {
+    Read read;
+    auto scene = import_x(file, "nowhere/file.x", false, read.report);
+    if (scene) {
+        read.scene = *std::move(scene);
+    } else {
+        read.fault = scene.error().place + ": " + scene.error().message;
+    }
+    return read;
+}
+
+Read read_good(const std::string& file) {
+    Read result = read(file);
+    EXPECT_EQ(result.fault, "");
+    if (result.fault.empty()) {
+        Report unheard;
+        EXPECT_TRUE(validate(build_chunks(result.scene, "test", unheard)).empty());
+    }
+    return result;
+}
+
+std::string fault_of(const std::string& body) {
+    return read(kHeader + body).fault;
+}
+
+std::vector<std::string> warnings_of(const Read& read) {
+    std::vector<std::string> lines;
+    for (const Warning& warning : read.report.warnings()) lines.push_back(warning.first_place + ": " + warning.message);
+    return lines;
+}
+
+const std::string kSquare = R"(Mesh Square {
+ 4; 0;0;1;, 1;0;1;, 1;1;1;, 0;1;1;;
+ 1; 4;0,3,2,1;;
+)";
+
+TEST(ImportX, FramesBecomeJointsMirroredAlongZ) {
+    const Read file = read_good(kHeader + R"(
+Frame Root { FrameTransformMatrix { 1,0,0,0, 0,1,0,0, 0,0,1,0, 1,2,3,1;; }
+  Frame Arm { FrameTransformMatrix { 2,0,0,0, 0,3,0,0, 0,0,4,0, 0,0,-5,1;; } }
+  Frame { }
+}
+Frame Second { })");
+    ASSERT_EQ(file.scene.joints.size(), 4u);
+    EXPECT_EQ(file.scene.joints[0].name, "Root");
+    EXPECT_EQ(file.scene.joints[0].parent, kNone);
+    EXPECT_EQ(file.scene.joints[0].rest.translation, glm::vec3(1, 2, -3));
+    EXPECT_EQ(file.scene.joints[1].parent, 0u);
+    EXPECT_EQ(file.scene.joints[1].rest.translation, glm::vec3(0, 0, 5));
+    EXPECT_EQ(file.scene.joints[1].rest.scale, glm::vec3(2, 3, 4));
+    EXPECT_EQ(file.scene.joints[2].name, "");
+    EXPECT_EQ(file.scene.joints[2].parent, 0u);
+    EXPECT_EQ(file.scene.joints[3].parent, kNone);
+}
+
+/// Seen by Direct3D, clockwise from its front at smaller Z: here its front is at larger Z, and counter-clockwise.
+TEST(ImportX, FacesBecomeTrianglesThatShowTheSameSide) {
+    const Read file = read_good(kHeader + "Frame F {" + kSquare + "} }");
+    ASSERT_EQ(file.scene.meshes.size(), 1u);
+    const Mesh& mesh = file.scene.meshes[0];
+    EXPECT_EQ(mesh.joint, 0u);
+    EXPECT_EQ(mesh.positions[2], glm::vec3(1, 1, -1));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    EXPECT_EQ(mesh.parts[0].indices, (std::vector<std::uint32_t>{0, 2, 3, 0, 1, 2}));
+    for (std::size_t i = 0; i < 6; i += 3) {
+        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.parts[0].indices[i + k]]; };
+        const glm::vec3 a = corner(1) - corner(0);
+        const glm::vec3 b = corner(2) - corner(0);
+        EXPECT_GT(a.x * b.y - a.y * b.x, 0.0f) << "its front shows to +Z";
+    }
+}
+
+TEST(ImportX, CornersWithOtherNormalsBecomeVerticesOfTheirOwn) {
+    const Read file = read_good(kHeader + R"(Mesh {
+ 4; 0;0;0;, 1;0;0;, 1;1;0;, 0;1;0;;
+ 2; 3;0,1,2;, 3;0,2,3;;
+ MeshNormals { 2; 0;0;1;, 0;1;0;; 2; 3;0,0,0;, 3;1,1,1;; }
+ MeshTextureCoords { 4; 0;0;, 1;0;, 1;1;, 0;1;; }
+ MeshVertexColors { 1; 2; 0.5;0.25;0;1;;; }
+})");
+    const Mesh& mesh = file.scene.meshes.at(0);
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    EXPECT_EQ(mesh.parts[0].indices, (std::vector<std::uint32_t>{0, 2, 1, 3, 5, 4}));
+    EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, -1));
+    EXPECT_EQ(mesh.normals[3], glm::vec3(0, 1, 0));
+    EXPECT_EQ(mesh.positions[4], mesh.positions[2]);  // position 2 with each normal
+    EXPECT_EQ(mesh.texture_coords[0].values, (std::vector<float>{0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1}));
+    EXPECT_EQ(mesh.colours[0].values[4 * 2 + 1], 0.25f);
+    EXPECT_EQ(mesh.colours[0].values[4 * 1 + 1], 1.0f) << "a vertex of which nothing is said is white";
+    EXPECT_EQ(mesh.joint, 0u) << "a mesh outside of all frames gets a joint";
+    EXPECT_EQ(file.scene.joints.size(), 1u);
+}
+
+TEST(ImportX, SkinWeightsFindTheirFramesLaterInTheFile) {
+    const Read file = read_good(kHeader + kSquare + R"(
+ XSkinMeshHeader { 2; 2; 2; }
+ SkinWeights { "Tip"; 2; 2,3; 1.0,0.25; 1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,7,1;; }
+ SkinWeights { "Root"; 3; 0,1,3; 1.0,1.0,0.75; 1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1;; }
+}
+Frame Root { Frame Tip { } })");
+    const Mesh& mesh = file.scene.meshes.at(0);
+    EXPECT_EQ(mesh.palette.joints, (std::vector<std::uint32_t>{1, 0}));
+    EXPECT_EQ(mesh.palette.inverse_bind[0][3], glm::vec4(0, 0, -7, 1));
+    EXPECT_EQ(mesh.influences, 2u);
+    EXPECT_EQ(mesh.bones, (std::vector<std::uint32_t>{1, 0, 1, 0, 0, 0, 0, 1}));
+    EXPECT_EQ(mesh.weights, (std::vector<float>{1, 0, 1, 0, 1, 0, 0.25f, 0.75f}));
+}
+
+TEST(ImportX, MaterialsByReferenceAndInPlace) {
+    const Read file = read_good(kHeader + R"(Material Red { 1;0;0;1;; 0; 0;0;0;; 0;0;0;; })" + kSquare + R"(
+ MeshMaterialList { 2; 1; 1; { Red } Material { 0;1;0;0.5;; 30.0; 0;0;0;; 0.1;0.2;0.3;;
+   TextureFilename { "C:\\art\\skin one.bmp"; } } } })");
+    ASSERT_EQ(file.scene.materials.size(), 2u);
+    EXPECT_EQ(file.scene.materials[0].name, "Red");
+    const Material& green = file.scene.materials[1];
+    EXPECT_EQ(green.base_colour, glm::vec4(0, 1, 0, 0.5f));
+    EXPECT_EQ(green.emissive, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(green.alpha_mode, AlphaMode::blend);
+    EXPECT_FLOAT_EQ(green.roughness, 0.5f);  // 2 / 0.5^4 - 2 = 30
+    EXPECT_EQ(file.scene.meshes[0].parts[0].material, 1u);
+    EXPECT_EQ(file.scene.images.at(0).uri, "skin%20one.bmp");
+}
+
+/// D3DXMatrixRotationY(90 degrees) as a matrix key, and as what D3DX puts into a file for it: w negated.
+TEST(ImportX, RotationKeysTurnAsMatrixKeysDo) {
+    const Read file = read_good(kHeader + R"(AnimTicksPerSecond { 100; }
+Frame A { } Frame B { }
+AnimationSet Turn {
+ Animation { { A } AnimationKey { 0; 2; 0;4;-1,0,0,0;;, 50;4;-0.70710678,0,0.70710678,0;;; } }
+ Animation { { B } AnimationKey { 4; 2; 0;16; 1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1;;, 50;16; 0,0,-1,0, 0,1,0,0, 1,0,0,0, 2,3,4,1;;; } }
+})");
+    ASSERT_EQ(file.scene.cycles.size(), 1u);
+    const Cycle& cycle = file.scene.cycles[0];
+    EXPECT_EQ(cycle.name, "Turn");
+    EXPECT_FALSE(cycle.loop);
+    const auto track = [&](std::uint32_t target, TrackPath path) -> const Track& {
+        for (const Track& each : cycle.tracks) {
+            if (each.target == target && each.path == path) return each;
+        }
+        ADD_FAILURE() << "no such track";
+        return cycle.tracks.front();
+    };
+    const Track& by_quaternion = track(0, TrackPath::rotation);
+    const Track& by_matrix = track(1, TrackPath::rotation);
+    EXPECT_EQ(by_quaternion.times, (std::vector<float>{0.0f, 0.5f}));
+    double dot = 0.0;
+    for (std::size_t i = 4; i < 8; ++i) dot += double{by_quaternion.values[i]} * by_matrix.values[i];
+    EXPECT_NEAR(std::abs(dot), 1.0, 1e-6);
+    EXPECT_NEAR(std::abs(by_quaternion.values[5]), std::sqrt(0.5), 1e-6) << "about Y";
+    const Track& moved = track(1, TrackPath::translation);
+    EXPECT_EQ(std::vector<float>(moved.values.begin() + 3, moved.values.end()), (std::vector<float>{2, 3, -4}));
+}
+
+TEST(ImportX, OptionsSayThatACycleRepeats) {
+    const Read file = read_good(kHeader + R"(Frame A { } AnimationSet Walk { Animation { { A }
+ AnimationOptions { 0; 1; } AnimationKey { 2; 2; 0;3;0,0,0;;, 4800;3;1,2,3;;; } AnimationKey { 1; 1; 0;3;1,1,1;;; } } })");
+    ASSERT_EQ(file.scene.cycles.size(), 1u);
+    EXPECT_TRUE(file.scene.cycles[0].loop);
+    ASSERT_EQ(file.scene.cycles[0].tracks.size(), 1u) << "a scale that only rests is no track";
+    EXPECT_EQ(file.scene.cycles[0].tracks[0].times[1], 1.0f) << "4800 ticks in a second if nothing is said";
+}
+
+TEST(ImportX, QuirksOfWritersAreRead) {
+    const Read file = read_good("xof 0302txt 0064\r\n// a remark { \"\r\n# another }\r\n" + std::string(R"(
+template Odd { <00000000-0000-0000-0000-000000000000> array Vector a[n]; [ Binary <11> ] }
+Header { 1; 0; 1; }
+Unknown thing { 1; { Inner } "}"; }
+Frame F:1-2.b { <22222222-2222-2222-2222-222222222222>
+ Mesh m { +3; 0;0;0,, 1.5e0;0;-1.#IND00; .5;1.;0 ;; 1 3 0 1 2 } }
+)"));
+    ASSERT_EQ(file.scene.meshes.size(), 1u);
+    EXPECT_EQ(file.scene.joints[0].name, "F:1-2.b");
+    EXPECT_EQ(file.scene.meshes[0].positions[1], glm::vec3(1.5f, 0, 0));
+    EXPECT_EQ(warnings_of(file), (std::vector<std::string>{"line 7, column 1: data object of type 'Unknown' left out",
+                                                           "line 9, column 31: what is no number is taken as 0"}));
+}
+
+TEST(ImportX, NamesThatAreNotUtf8AreTakenForLatin1) {
+    const Read file = read_good(kHeader + "Frame K\xf6rper { }");
+    EXPECT_EQ(file.scene.joints[0].name, "K\xc3\xb6rper");
+}
+
+TEST(ImportX, FaultsHaveTheirPlaces) {
+    EXPECT_EQ(fault_of(""), ": there is nothing to convert: the file has neither frames nor meshes");
+    EXPECT_EQ(fault_of("Frame A {"), "line 2, column 10: the file ends inside a Frame");
+    EXPECT_EQ(fault_of("}"), "line 2, column 1: there is a '}' without a '{'");
+    EXPECT_EQ(fault_of("Frame A ; B"), "line 2, column 11: '{' is due here, not 'B'");
+    EXPECT_EQ(fault_of("Frame A {\n FrameTransformMatrix { 1,0,x"), "line 3, column 29: a number is due here, not 'x'");
+    EXPECT_EQ(fault_of("Frame A { FrameTransformMatrix { 1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1;; } }"),
+              "line 2, column 1: the last column of its matrix is not 0 0 0 1: no affine transform");
+    EXPECT_EQ(fault_of("Mesh { 4000000000; 1;2;3;"),
+              "line 2, column 8: 4000000000 vertices do not fit into what remains of the file");
+    EXPECT_EQ(fault_of("Mesh { -1;"), "line 2, column 8: a whole number of 32 bits is due here, not '-1'");
+    EXPECT_EQ(fault_of("Mesh { 1; 1e39;0;0;; 0; }"), "line 2, column 11: the number is not finite");
+    EXPECT_EQ(fault_of("Mesh { 1; 0;0;0;; 1; 3;0,1,0;; }"),
+              "line 2, column 26: index 1 is out of range: there are 1 vertices");
+    EXPECT_EQ(fault_of(kSquare + "MeshNormals { 1; 0;0;1;; 2; 3;0,0,0;; } }"),
+              "line 5, column 26: 2 faces of normals, but 1 are due");
+    EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 1; 1; 0; { None } } }"),
+              "line 5, column 29: there is no material 'None'");
+    EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 2; 1; 0; } }"),
+              "line 5, column 29: the list that begins at line 5, column 1 has 0 materials, but says 2");
+    EXPECT_EQ(fault_of(kSquare + R"(SkinWeights { "Gone"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } })"),
+              "line 5, column 1: SkinWeights names a frame 'Gone', which is not there");
+    EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"),
+              "line 2, column 43: there are no keys of type 7");
+    EXPECT_EQ(
+        fault_of("Frame A { } AnimationSet { Animation { {A} AnimationKey { 2; 2; 5;3;0,0,0;;, 4;3;0,0,0;;; } } }"),
+        "line 2, column 28: key 1: key times must increase");
+    EXPECT_EQ(fault_of("AnimTicksPerSecond { 0; }"), "line 2, column 22: there must be more than 0 ticks in a second");
+    EXPECT_EQ(fault_of("Frame A { \"open"), "line 2, column 11: a string is not ended");
+    EXPECT_EQ(fault_of("Odd {{{"), "line 2, column 1: the file ends inside this data object");
+}
+
+TEST(ImportX, OtherVariantsAreRefusedByName) {
+    EXPECT_EQ(read("<xml>").fault, ": this is no X-file: it does not begin with 'xof ', but with '<xml'");
+    EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: 16 bytes are due");
+    EXPECT_EQ(read("xof 0303tzip0032abc").fault,
+              ": the X-file is compressed (tzip), which is not read: save it as text (txt) or as plain binary (bin)");
+    EXPECT_EQ(read("xof 0303bzip0032abc").fault,
+              ": the X-file is compressed (bzip), which is not read: save it as text (txt) or as plain binary (bin)");
+    EXPECT_EQ(read("xof 0303txt 0016abc").fault,
+              ": the X-file's floats have an unknown size '0016': 0032 and 0064 are read");
+    EXPECT_EQ(read("xof 0303foo 0032abc").fault, ": the X-file is of an unknown variant 'foo ': txt and bin are read");
+}
+
+/// Writes the binary variant's tokens.
+class Binary {
+public:
+    explicit Binary(bool is_double)
+        : is_double_(is_double), bytes_(is_double ? "xof 0303bin 0064" : "xof 0303bin 0032") {}
+    Binary& name(const std::string& text) { return put(1, 2).put(text.size(), 4).append(text); }
+    Binary& string(const std::string& text) { return put(2, 2).put(text.size(), 4).append(text).put(20, 2); }
+    Binary& open() { return put(10, 2); }
+    Binary& close() { return put(11, 2); }
+    Binary& integer(std::uint32_t number) { return put(3, 2).put(number, 4); }
+    Binary& integers(const std::vector<std::uint32_t>& numbers) {
+        put(6, 2).put(numbers.size(), 4);
+        for (const std::uint32_t number : numbers) put(number, 4);
+        return *this;
+    }
+    Binary& floats(const std::vector<double>& numbers) {
+        put(7, 2).put(numbers.size(), 4);
+        for (const double number : numbers) {
+            if (is_double_) {
+                put(std::bit_cast<std::uint64_t>(number), 8);
+            } else {
+                put(std::bit_cast<std::uint32_t>(static_cast<float>(number)), 4);
+            }
+        }
+        return *this;
+    }
+    [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+private:
+    Binary& put(std::uint64_t number, int size) {
+        for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(number >> (8 * i));
+        return *this;
+    }
+    Binary& append(const std::string& text) {
+        bytes_ += text;
+        return *this;
+    }
+
+    bool is_double_;
+    std::string bytes_;
+};
+
+TEST(ImportX, BinaryFilesSayTheSame) {
+    for (const bool is_double : {false, true}) {
+        Binary file(is_double);
+        file.name("Frame").name("F").open();
+        file.name("FrameTransformMatrix").open();
+        file.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}).close();
+        file.name("Mesh").open().integer(3).floats({0, 0, 0, 1, 0, 0, 0, 1, 0.5}).integers({1, 3, 0, 1, 2});
+        file.name("MeshMaterialList").open().integers({1, 1, 0}).name("Material").name("M").open();
+        file.floats({1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
+        file.name("TextureFilename").open().string("a.png").close().close().close().close().close();
+        const Read scene = read_good(file.bytes());
+        ASSERT_EQ(scene.scene.meshes.size(), 1u);
+        EXPECT_EQ(scene.scene.joints[0].rest.translation, glm::vec3(1, 2, -3));
+        EXPECT_EQ(scene.scene.meshes[0].positions[2], glm::vec3(0, 1, -0.5f));
+        EXPECT_EQ(scene.scene.images.at(0).uri, "a.png");
+    }
+    Binary cut(false);
+    cut.name("Mesh").open().integers({1, 2, 3});
+    EXPECT_EQ(read(cut.bytes().substr(0, cut.bytes().size() - 4)).fault,
+              "byte 28: a list of 3 numbers does not fit into the file");
+    EXPECT_EQ(read(std::string("xof 0303bin 0032\x63\0", 18)).fault, "byte 16: there is no token of number 99");
+}
+
+TEST(ImportX, DeepAndWideFilesTakeTimeLinearInTheirSize) {
+    std::string deep = kHeader;
+    for (int i = 0; i < 60'000; ++i) deep += "Frame f{";
+    deep += std::string(60'000, '}');
+    EXPECT_EQ(read(deep).scene.joints.size(), 60'000u);
+    std::string wide = kHeader;
+    for (int i = 0; i < 65'001; ++i) wide += "Frame f{}";
+    EXPECT_NE(read(wide).fault.find("there are more than 65000 frames"), std::string::npos);
+    EXPECT_NE(read(kHeader + "Odd " + std::string(200'000, '{')).fault, "");
+}
+
+TEST(ImportX, EveryPrefixIsAnErrorOrAFile) {
+    const std::string file = kHeader + R"(Frame A { FrameTransformMatrix { 1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1;; } )" +
+                             kSquare +
+                             R"(SkinWeights { "A"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } } }
+AnimationSet S { Animation { {A} AnimationKey { 0; 1; 0;4;-1,0,0,0;;; } } })";
+    for (std::size_t size = 0; size < file.size(); ++size) {
+        const Read part = read(file.substr(0, size));
+        EXPECT_TRUE(!part.fault.empty() || !part.scene.joints.empty()) << size;
+    }
+}
+
+}  // namespace
+}  // namespace bendy::converter
