@@ -140,6 +140,30 @@ void add_crowds(const std::string& name, const Model& model) {
     }
 }
 
+// --- beside skinning
+
+/// What bounds cost, and dual quaternions; positions and normals, like the stage "skin positions, normals".
+void add_bounds_and_duals(const std::string& name, const Model& model) {
+    if (model.vertex_count() == 0) return;
+    add(name + "/bounds", [&model](auto& state) {
+        const Bounds bounds(model);
+        Pose pose(model);
+        while (state.KeepRunning()) benchmark::DoNotOptimize(bounds.of(pose));
+        per_item(state, "joint", static_cast<double>(model.joints().size()));
+    });
+    add(name + "/skin by dual quaternions", [&model](auto& state) {
+        DualSkinning dual(model);
+        Pose pose(model);
+        if (!model.cycles().empty()) sample(&model.cycles().front(), model.cycles().front().end, pose);
+        std::vector<glm::vec3> positions(model.vertex_count()), normals(model.vertex_count());
+        while (state.KeepRunning()) {
+            dual.skin(pose, {positions, normals, {}});
+            benchmark::ClobberMemory();
+        }
+        per_item(state, "vertex", static_cast<double>(model.vertex_count()));
+    });
+}
+
 void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
     auto model = Model::open(path);
     if (!model) {
@@ -154,6 +178,7 @@ void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
             per_item(state, stage.item, stage.items);
         });
     }
+    add_bounds_and_duals(name, files.back()->model);
     add_crowds(name, files.back()->model);
 }
 

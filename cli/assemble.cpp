@@ -38,7 +38,7 @@ void run(AssembleArguments arguments) {
     if (!bytes) {
         const twin::TextFault& fault = bytes.error();
         const std::string place = std::to_string(fault.line) + ':' + std::to_string(fault.column);
-        fail(arguments.file.string() + ':' + place, printable(fault.what));
+        fail(arguments.file += ':' + place, printable(fault.what));
     }
     if (const auto written = write_file(arguments.output, *bytes); !written)
         fail(arguments.output, describe(written.error()));

@@ -2,6 +2,16 @@
 
 #include <CLI/App.hpp>
 
+#include <filesystem>
+#include <string>
+
+/// How CLI11 makes a path of what was typed: as UTF-8. By itself it leaves the encoding to the C++ library.
+template <>
+inline bool CLI::detail::lexical_cast(const std::string& text, std::filesystem::path& path) {
+    path = std::u8string(text.begin(), text.end());
+    return true;
+}
+
 // One function a subcommand: each adds its options to the program and its work as the callback. Work that fails throws
 // Failed; main turns that into exit status 1.
 namespace bendy::cli {

@@ -161,6 +161,9 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
         if (chunk.id == FourCC("JNTS")) compare_joint_tables(leaves);
         if (chunk.id == FourCC("JNAM")) compare_joint_names(leaves);
         if (chunk.id == FourCC("LODD")) compare_collapses(leaves);
+    } else if (chunk.id == FourCC("MARK") && a_.cycles[chunk.parent] != nullptr &&
+               b_.cycles[b_.tree[leaves.b].parent] != nullptr) {
+        compare_markers(leaves, *a_.cycles[chunk.parent], *b_.cycles[b_.tree[leaves.b].parent]);
     } else {
         compare_fields(leaves);
         const bool is_read = !chunk_fields(a_.tree, leaves.a).empty() && chunk.id != FourCC("IMAG");

@@ -52,6 +52,7 @@ private:
     void compare_joint_tables(ChunkPair leaves);
     void compare_joint_names(ChunkPair leaves);
     void compare_collapses(ChunkPair leaves);
+    void compare_markers(ChunkPair leaves, const CycleView& a, const CycleView& b);
     void compare_fields(ChunkPair leaves);
     void compare_bytes(ChunkPair leaves, Bytes a, Bytes b);
     void compare_displacements(ChunkPair targets, const std::string& part, const StreamView* a_vertices,

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-// Comparing the tables that stand for many chunks: JNTS, JNAM, LODD.
+// Comparing the tables that stand for many chunks, JNTS, JNAM, LODD; and markers.
 namespace bendy::cli {
 namespace {
 
@@ -83,6 +83,17 @@ void ContentComparer::compare_joint_names(ChunkPair leaves) {
     if (a.size() != b.size()) add_value(leaves, "names", a.size(), b.size());
     for (std::size_t j = 0; j < std::min(a.size(), b.size()); ++j) {
         if (a[j] != b[j]) add_value(leaves, "joint " + std::to_string(j), a[j], b[j]);
+    }
+}
+
+void ContentComparer::compare_markers(ChunkPair leaves, const CycleView& a, const CycleView& b) {
+    if (a.markers.size() != b.markers.size()) add_value(leaves, "markers", a.markers.size(), b.markers.size());
+    for (std::size_t k = 0; k < std::min(a.markers.size(), b.markers.size()); ++k) {
+        const Marker& here = a.markers[k];
+        const Marker& there = b.markers[k];
+        const std::string part = "marker " + std::to_string(k) + ": ";
+        if (!is_near(here.seconds, there.seconds)) add_value(leaves, part + "seconds", here.seconds, there.seconds);
+        if (here.name != there.name) add_value(leaves, part + "name", here.name, there.name);
     }
 }
 

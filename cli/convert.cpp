@@ -1,9 +1,13 @@
 #include "commands.h"
+#include "convert_arguments.h"
+#include "convert_batch.h"
+#include "depfile.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/readable_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
@@ -13,6 +17,7 @@
 #include <iostream>
 #include <memory>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -20,21 +25,6 @@
 
 namespace bendy::cli {
 namespace {
-
-struct ConvertArguments {
-    std::filesystem::path input;
-    std::filesystem::path output;
-    std::string scene;
-    std::string images = "embed";
-    std::filesystem::path rig;
-    bool exact = true;
-    bool auto_rig = false;
-    bool compact = false;
-    std::string max_error;
-    bool lod = false;
-    bool sort_vertices = false;
-    bool quiet = false;
-};
 
 void print_proposals(const converter::Report& report) {
     for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
@@ -98,7 +88,7 @@ auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptio
             if (percent > shown) bar.show(shown = percent, 100);
         };
     }
-    return converter::convert(arguments.input, options, report);
+    return converter::convert(arguments.inputs.front(), options, report);
 }
 
 void print_summary(const ConvertArguments& arguments, Bytes bytes) {
@@ -149,45 +139,75 @@ void print_summary(const ConvertArguments& arguments, Bytes bytes) {
               << counted(model->textures().size(), "texture", "textures") << '\n';
 }
 
-void run(ConvertArguments arguments) {
-    if (arguments.output.empty()) arguments.output = std::filesystem::path(arguments.input).replace_extension(".bendy");
-    converter::ConvertOptions options;
-    if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
-    options.gltf.embed_images = arguments.images == "embed";
-    if (!arguments.rig.empty()) options.rig = arguments.rig;
-    options.auto_rig = arguments.auto_rig;
-    if (arguments.compact) options.compact = converter::ErrorBound();
-    if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
-    options.lod = arguments.lod;
-    options.sort_vertices = arguments.sort_vertices;
+void write_depfile(const ConvertArguments& arguments, const converter::Report& report) {
+    const std::string text = depfile_text(arguments.output, report.sources());
+    if (text.empty()) fail(arguments.depfile, "cannot hold a file name with a line break");
+    if (const auto written = write_file(arguments.depfile, std::as_bytes(std::span(text))); !written)
+        fail(arguments.depfile, bendy::describe(written.error()));
+}
+
+void convert_file(const ConvertArguments& arguments) {
+    const std::filesystem::path& input = arguments.inputs.front();
     converter::Report report;
-    const auto bytes = convert_with_bar(arguments, options, report);
-    if (!bytes) {
-        const converter::ImportError& error = bytes.error();
-        fail(error.file.empty() ? arguments.input : error.file,
-             printable(error.place.empty() ? error.message : error.place + ": " + error.message));
-    }
+    const auto bytes = convert_with_bar(arguments, options_of(arguments), report);
+    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
     std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.input, arguments.output, ignored))
-        fail(arguments.output, "is the input itself");
+    if (std::filesystem::equivalent(input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
     if (const auto written = write_file(arguments.output, *bytes); !written)
-        fail(arguments.output, describe(written.error()));
-    print_warnings(arguments.input, report);
+        fail(arguments.output, bendy::describe(written.error()));
+    if (!arguments.depfile.empty()) write_depfile(arguments, report);
+    print_warnings(input, report);
     print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, *bytes);
     if (!arguments.quiet && report.compact) print_compact(*report.compact);
+}
+
+void run(ConvertArguments arguments) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    std::error_code ignored;
+    const bool has_folder =
+        std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
+                    [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
+    if (arguments.output.empty()) {
+        if (arguments.inputs.size() > 1) {
+            throw CLI::ValidationError(arguments.inputs[1].string(),
+                                       "several inputs need a folder to go to, -o OUTDIR");
+        }
+        if (has_folder) fail(input, "is a folder: its files need one to go to, -o OUTDIR");
+        arguments.output = std::filesystem::path(input).replace_extension(".bendy");
+    }
+    const bool is_batch = has_folder || arguments.inputs.size() > 1 || !arguments.output.has_filename() ||
+                          std::filesystem::is_directory(arguments.output, ignored);
+    if (!is_batch) return convert_file(arguments);
+    if (!arguments.depfile.empty())
+        throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
+    convert_batch(arguments);
 }
 
 }  // namespace
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<ConvertArguments>();
-    CLI::App* command = program.add_subcommand("convert",
-                                               "Convert a glTF 2.0 character (.gltf, .glb), an X-file (.x), a Quake II "
-                                               "model (.md2) or a bendy file to a bendy file");
-    command->add_option("IN", arguments->input, "a .gltf, .glb, .x, .md2 or bendy file, told apart by content")
+    const std::string extensions = converter::list_readable_extensions();
+    CLI::App* command =
+        program.add_subcommand("convert", "Convert characters (" + extensions + "), or bendy files, to bendy files");
+    command
+        ->add_option("IN", arguments->inputs,
+                     "a file (" + extensions +
+                         ", or a bendy file), told apart by content; or several, or folders: all such files "
+                         "in them and below, bendy files apart")
         ->required();
-    command->add_option("-o,--output", arguments->output, "where to write; the input's name with .bendy if not given");
+    command->add_option("-o,--output", arguments->output,
+                        "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "
+                        "folder to write to, where files from a folder have the places that they have in it");
+    command
+        ->add_option("-j,--jobs", arguments->jobs,
+                     "of several inputs, how many at a time; one for each processor if not given")
+        ->check(CLI::Range(1u, 1024u));
+    command->add_flag("--force", arguments->force,
+                      "of several inputs, all; else only what has changed since it was converted into this folder");
+    command->add_option("--depfile", arguments->depfile,
+                        "of one input: write which files were read, as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
@@ -201,6 +221,11 @@ void add_convert(CLI::App& program) {
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint limits by the joints' names, and list them");
+    command->add_flag("--auto-skin", arguments->auto_skin,
+                      "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
+                      "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");
+    command->add_option("--skeleton", arguments->skeleton,
+                        "for --auto-skin, which it implies: the bones are this joint and all below it; a name, or #12");
     CLI::Option* compact =
         command
             ->add_flag(
@@ -230,7 +255,8 @@ void add_convert(CLI::App& program) {
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
-        "Example: bendy convert fox.glb -o build/fox.bendy");
+        "Example: bendy convert fox.glb -o build/fox.bendy\n"
+        "         bendy convert models/ -o build/models --compact");
     command->callback([arguments] { run(*arguments); });
 }
 

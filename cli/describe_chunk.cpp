@@ -4,6 +4,7 @@
 #include "problem.h"
 #include "record_at.h"
 
+#include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/record_table.h>
@@ -169,6 +170,22 @@ std::string packed_text(const ChunkTree& tree, std::uint32_t number) {
     return text;
 }
 
+/// The markers of a leaf; nothing if it is faulty.
+std::vector<Marker> markers_at(const ChunkTree& tree, std::uint32_t number) {
+    Faults unread;
+    if (number == kNone || tree[number].is_container() || tree.encoding_fault(number)) return {};
+    return read_markers(tree.payload(number), tree[number].offset, unread).value_or(std::vector<Marker>());
+}
+
+std::string markers_text(const ChunkTree& tree, std::uint32_t number) {
+    const std::vector<Marker> markers = markers_at(tree, number);
+    std::string text = grouped(markers.size()) + (markers.size() == 1 ? " marker" : " markers");
+    constexpr std::size_t kShown = 6;
+    for (std::size_t k = 0; k < std::min(markers.size(), kShown); ++k)
+        text += (k == 0 ? ": " : ", ") + quoted(markers[k].name) + " at " + brief(markers[k].seconds) + " s";
+    return markers.size() > kShown ? text + ", ..." : text;
+}
+
 std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
     const std::uint32_t table = tree.find(number, FourCC("TRAK"));
@@ -177,6 +194,8 @@ std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     std::string text = brief(info.start) + " to " + brief(info.end) + " s, " + grouped(tracks) + " tracks";
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
+    const std::size_t markers = markers_at(tree, tree.find(number, FourCC("MARK"))).size();
+    if (markers != 0) text += ", " + grouped(markers) + (markers == 1 ? " marker" : " markers");
     return text;
 }
 
@@ -265,6 +284,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
     if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
     if (chunk.id == FourCC("PACK")) return packed_text(tree, number);
+    if (chunk.id == FourCC("MARK")) return markers_text(tree, number);
     if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
     if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))
         return grouped(tree.payload(number).size() / sizeof(float)) + " f32";
@@ -319,6 +339,12 @@ nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number)
     if (is_text(chunk.id)) return {{"text", as_text(payload)}};
     const RecordLayout* record = layout_of(chunk.id);
     if (record == nullptr) return nlohmann::ordered_json::object();
+    if (chunk.id == FourCC("MARK")) {
+        nlohmann::ordered_json markers = nlohmann::ordered_json::array();
+        for (const Marker& marker : markers_at(tree, number))
+            markers.push_back({{"seconds", marker.seconds}, {"name", marker.name}});
+        return {{"markers", markers}};
+    }
     if (chunk.id != FourCC("TRAK")) return fields_at(payload, *record, 0);
     nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
     for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord))

@@ -39,7 +39,7 @@ Character read_character(const std::filesystem::path& path) {
         const std::string place = warning.first_place.empty() ? "" : warning.first_place + ": ";
         warn(path, printable("not compared: " + place + warning.message));
     }
-    return {*std::move(scene), converter::write_rig(read_file(file->bytes())->document.objects.front())};
+    return {*std::move(scene), converter::write_rig(read_file(file->bytes())->document.objects.front(), false)};
 }
 
 /// Three digits, in millimetres where that is not too many.

@@ -32,7 +32,8 @@ using Buffer = std::vector<std::byte>;
 struct Arguments {
     std::filesystem::path input;
     std::filesystem::path output;
-    std::vector<std::string> strips, renames, joint_renames, joint_tables, merges, extracts;
+    std::vector<std::string> strips, renames, joint_renames, extracts;
+    std::vector<std::filesystem::path> joint_tables, merges;
     std::string same_name = "error";
     bool quiet = false;
 };
@@ -136,7 +137,7 @@ private:
         rename_.names.push_back(*pair);
     }
 
-    void add_table(const std::string& path) {
+    void add_table(const std::filesystem::path& path) {
         close_rename();
         steps_.emplace_back([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
     }
@@ -148,17 +149,18 @@ private:
         rename_ = {};
     }
 
-    void add_merge(const std::string& path) {
+    void add_merge(const std::filesystem::path& path) {
         close_rename();
         const edit::SameName same_name = same_name_of(arguments_.same_name);
         steps_.emplace_back([path, same_name](Bytes file, edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path);
             const auto first = log.warnings.size();
             auto merged = edit::merge_cycles(file, other, same_name, log);
-            for (std::size_t k = first; k < log.warnings.size(); ++k) log.warnings[k] = path + ": " + log.warnings[k];
+            for (std::size_t k = first; k < log.warnings.size(); ++k)
+                log.warnings[k] = path.string() + ": " + log.warnings[k];
             if (merged) return merged;
             const bool is_clash = merged.error().message.ends_with("already");
-            return edit::Problem{"merging " + path + ": " + merged.error().message +
+            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
                                  (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
         });
     }
@@ -184,8 +186,9 @@ void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t 
 }
 
 void run(const Arguments& arguments, const std::vector<Step>& steps) {
-    const Result<MappedFile> file = MappedFile::open(arguments.input);
+    Result<MappedFile> file = MappedFile::open(arguments.input);
     if (!file) fail(arguments.input, file.error(), {});
+    const std::uint64_t size_before = file->bytes().size();
     Buffer bytes;
     edit::Log log;
     for (const Step& step : steps) {
@@ -193,11 +196,12 @@ void run(const Arguments& arguments, const std::vector<Step>& steps) {
         if (!edited) fail(arguments.input, printable(edited.error().message));
         bytes = *std::move(edited);
     }
+    *file = MappedFile();  // the output may be the input, and Windows replaces no mapped file
     if (const auto written = write_file(arguments.output, bytes); !written)
         fail(arguments.output, describe(written.error()));
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
     if (arguments.quiet) return;
-    print_size(arguments, file->bytes().size(), bytes.size());
+    print_size(arguments, size_before, bytes.size());
     for (const std::string& line : log.done) std::cout << "  " << printable(line) << '\n';
 }
 
@@ -208,8 +212,8 @@ void add_edit(CLI::App& program) {
     CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
     command->add_option("FILE", arguments->input, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write, always needed; may be FILE itself");
-    const auto add = [&](const char* name, std::vector<std::string>& texts, const std::string& help) {
-        command->add_option(name, texts, help)->allow_extra_args(false);
+    const auto add = [&](const char* name, auto& values, const std::string& help) {
+        command->add_option(name, values, help)->allow_extra_args(false);
     };
     add("--strip", arguments->strips,
         "take out all " + edit::strip_words() +

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "console.h"
 #include "problem.h"
 
 #include <CLI/Config.hpp>
@@ -9,6 +10,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -26,8 +28,9 @@ std::string explain(const CLI::App* program, const CLI::Error& problem) {
     return "bendy: error: " + bendy::cli::printable(what) + "\nTry `bendy --help` or `bendy COMMAND --help`.\n";
 }
 
-int run(int argc, char** argv) {
+int run(const std::vector<std::string>& words) {
     CLI::App program("Bendy: animated characters in one file of nested chunks.", "bendy");
+    program.allow_windows_style_options(false);  // /folder/file is a file on all systems
     program.set_version_flag("--version", "bendy " BENDY_VERSION);
     program.require_subcommand(1);
     program.failure_message(explain);
@@ -46,7 +49,7 @@ int run(int argc, char** argv) {
     bendy::cli::add_view(program);
     bendy::cli::add_bench(program);
     try {
-        program.parse(argc, argv);
+        program.parse(std::vector(words.rbegin(), words.rend()));  // the last one first: CLI11 takes them so
     } catch (const CLI::ParseError& problem) {
         if (program.exit(problem) != 0) return kWrongCommandLine;  // else it was a call for help
     } catch (const bendy::cli::Failed& failed) {
@@ -63,7 +66,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        bendy::cli::prepare_console();
+        return run(bendy::cli::command_line(argc, argv));
     } catch (const std::bad_alloc&) {
         std::fputs("bendy: error: not enough memory\n", stderr);
     } catch (const std::exception& problem) {

@@ -6,6 +6,7 @@
 #include <bendy/runtime/sample.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace bendy::cli {
@@ -61,6 +62,15 @@ Json target_names(const PoolView& pool) {
         names.push_back(brief(target.name));
     }
     return names;
+}
+
+/// What the page draws of a cycle's markers: [seconds, name] each, and not too many.
+Json shown_markers(const CycleView& cycle) {
+    constexpr std::size_t kMostMarkers = 200;
+    Json markers = Json::array();
+    for (const Marker& marker : std::span(cycle.markers).first(std::min(cycle.markers.size(), kMostMarkers)))
+        markers.push_back(Json::array({page_number(marker.seconds), brief(marker.name)}));
+    return markers;
 }
 
 }  // namespace
@@ -134,6 +144,7 @@ Json CurveSampler::cycles(const ObjectView& object) {
                         {"rate", page_number(cycle.frame_rate)},
                         {"loop", cycle.loop},
                         {"total", cycle.tracks.size()},
+                        {"markers", shown_markers(cycle)},
                         {"tracks", std::move(tracks)}});
     }
     return {{"total", object.cycles.size()}, {"list", std::move(list)}};

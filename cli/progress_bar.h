@@ -16,7 +16,10 @@ public:
     /// Clears the line.
     ~ProgressBar();
 
-    void show(std::uint64_t done, std::uint64_t all);
+    void show(std::uint64_t done, std::uint64_t all, const std::string& note = {});
+    /// Takes the bar away, so that lines can be printed; the next show() brings it back.
+    void clear() const;
+    [[nodiscard]] bool is_terminal() const { return is_terminal_; }
 
 private:
     std::string what_;

@@ -6,6 +6,7 @@
 #include "tentacle.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/readable_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/viewer/view.h>
@@ -37,8 +38,7 @@ std::vector<std::byte> open_any(const std::filesystem::path& file) {
     const Result<MappedFile> mapped = MappedFile::open(file);
     if (!mapped) throw viewer::ViewerError(name + ": " + describe(mapped.error()));
     const Bytes bytes = mapped->bytes();
-    const std::string extension = file.extension().string();
-    if (is_bendy(bytes) || (extension != ".glb" && extension != ".gltf")) return {bytes.begin(), bytes.end()};
+    if (is_bendy(bytes) || !converter::has_readable_extension(file)) return {bytes.begin(), bytes.end()};
     converter::Report report;
     auto converted = converter::convert(file, {}, report);
     if (!converted) {

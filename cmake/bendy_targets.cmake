@@ -1,10 +1,22 @@
 # What every target of this project shares.
 
-# bendy_library(NAME SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME; its public
-# headers, which must compile by themselves, and the .def tables, which need not, lie under include/.
+# Ends the name of a source that there is one of for each kind of system.
+set(BENDY_SYSTEM posix)
+if(WIN32)
+  set(BENDY_SYSTEM windows)
+endif()
+
+# bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME;
+# its public headers, which must compile by themselves, and the .def tables, which need not, lie under include/. One that is
+# EMBEDDABLE is installed, and shared if BUILD_SHARED_LIBS says so; the others are parts of the program.
 function(bendy_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;TABLES")
-  add_library(bendy_${name} ${arg_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "EMBEDDABLE" "" "SOURCES;HEADERS;TABLES")
+  if(arg_EMBEDDABLE)
+    add_library(bendy_${name} ${arg_SOURCES})
+    bendy_export_public_headers(bendy_${name})
+  else()
+    add_library(bendy_${name} STATIC ${arg_SOURCES})
+  endif()
   add_library(bendy::${name} ALIAS bendy_${name})
   set_target_properties(bendy_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY HEADERS)
@@ -18,8 +30,29 @@ function(bendy_library name)
   endif()
 endfunction()
 
+# What stands in a namespace block with BENDY_PUBLIC is all that a shared library exports: docs/decisions/0024.
+function(bendy_export_public_headers target)
+  string(REPLACE _ - file_name ${target})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${file_name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    DEFINE_SYMBOL "" INSTALL_RPATH $ORIGIN)
+  if(BUILD_SHARED_LIBS AND CMAKE_EXECUTABLE_FORMAT STREQUAL ELF)
+    # Else instances of the C++ library's templates would be exported too.
+    set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bendy_exports.map)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
+    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exports})
+  endif()
+endfunction()
+
 function(bendy_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  bendy_private_options(${target})
+endfunction()
+
+# The same without a word to those who use the target.
+function(bendy_private_options target)
+  target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test]   build (default): compiler and libraries; test: also what only the tests need
+#   scripts/setup.sh [build|test|cross]   build (default): compiler and libraries; test: also what only the tests need;
+#                                         cross: also what scripts/cross.sh needs
 set -euo pipefail
 
 need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
@@ -23,6 +24,7 @@ need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
+need python3 python3
 need /usr/include/GL/glcorearb.h libgl-dev
 need /usr/include/EGL/egl.h libegl-dev
 need /usr/include/GL/osmesa.h libosmesa6-dev
@@ -34,6 +36,17 @@ need /usr/include/webp/mux.h libwebp-dev
 need /usr/include/gif_lib.h libgif-dev
 need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
 need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
+if [ "${1:-build}" = cross ]; then
+    need python3 python3
+    need /usr/src/googletest/CMakeLists.txt googletest
+    need /usr/include/gtest/gtest.h libgtest-dev
+    need dpkg-source dpkg-dev
+    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+    need qemu-aarch64 qemu-user
+    need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
+    need wine wine
+    need /usr/lib/wine/wine64 wine64
+fi
 if [ "${1:-build}" = test ]; then
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
@@ -45,7 +58,13 @@ if [ "${1:-build}" = test ]; then
     need clang-format clang-format
     need clang-tidy clang-tidy
     need git git
-    need python3 python3
+    need dpkg-shlibdeps dpkg-dev
+    need file file
+    need groff groff-base
+    need mandoc mandoc
+    need update-mime-database shared-mime-info
+    need gio libglib2.0-bin
+    need desktop-file-validate desktop-file-utils
     need node nodejs
     need npm npm
     need chromium chromium

@@ -56,6 +56,7 @@ types:
           or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or header.id == "COLR"
           or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or header.id == "INDX" or header.id == "LODD"
           or header.id == "CINF" or header.id == "TRAK" or header.id == "PACK" or header.id == "TIME" or header.id == "KEYV"
+          or header.id == "MARK"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -110,6 +111,7 @@ types:
             '"PACK"': packed_tracks
             '"TIME"': float_list
             '"KEYV"': float_list
+            '"MARK"': marker_list
   encoded:
     doc: "codecs.md."
     seq:
@@ -212,6 +214,16 @@ types:
   track_table:
     seq:
       - {id: tracks, type: track_record, repeat: eos}
+  marker_list:
+    seq:
+      - {id: record, type: markers_record}
+      - {id: markers, type: marker_record, repeat: expr, repeat-expr: record.markers}
+      - {id: names, type: 'marker_name(markers[_index].name_end - (_index == 0 ? 0 : markers[_index - 1].name_end))', repeat: expr, repeat-expr: record.markers}
+  marker_name:
+    params:
+      - {id: size, type: u4}
+    seq:
+      - {id: value, type: str, size: size}
   packed_tracks:
     doc: "chunks/PACK.md."
     seq:
@@ -413,6 +425,14 @@ types:
       - {id: frame_rate, type: f4, doc: "frames per second of tracks with fixed frames; 0 if there are none"}
       - {id: loop, type: u1, doc: "0 plays once, 1 repeats"}
       - {id: reserved, size: 3, doc: "zero"}
+  marker_record:
+    seq:
+      - {id: seconds, type: f4, doc: "seconds, on the cycle's own time: from start to end"}
+      - {id: name_end, type: u4, doc: "byte of the names behind its name's last; the name begins where the one before ends"}
+  markers_record:
+    seq:
+      - {id: markers, type: u4, doc: "number of MarkerRecords, which follow this record; behind them the names, UTF-8, without gaps"}
+      - {id: reserved, type: u4, doc: "zero"}
   pack_record:
     seq:
       - {id: frames, type: u4, doc: "number of frames, 1 or more; 2 or more if a track is animated"}

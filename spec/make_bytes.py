@@ -351,6 +351,16 @@ def packed_tracks():
             u8([0] * 4, 'tail')]
 
 
+def marked(*markers):
+    """(seconds, name) each"""
+    pieces = [u32(len(markers), 'markers %d' % len(markers)), u32(0, 'reserved')]
+    end = 0
+    for number, (seconds, word) in enumerate(markers):
+        end += len(word.encode())
+        pieces += [f32(seconds, 'marker %d: seconds %g' % (number, seconds)), u32(end, 'marker %d: name_end %d' % (number, end))]
+    return leaf('MARK', *pieces, *(raw(word.encode(), '"%s"' % word) for _, word in markers))
+
+
 def smallest_png():
     """One red pixel. Its only block is stored, so that every zlib makes the same bytes."""
     def part(kind, data):
@@ -433,7 +443,8 @@ def make_every_chunk():
                 stream('INDX', 'u16', [[0], [1], [2]])),
             collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
-                leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values))),
+                leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values),
+                marked((0.25, 'up'), (0.75, 'down')))),
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),

@@ -79,6 +79,9 @@ def leaf_forms(records):
                         "required": ["values"], "additionalProperties": False}
     forms["TRAK"] = {"type": "object", "properties": {"tracks": {"type": "array", "items": ref("TrackRecord")}, "more": ref("digits")},
                      "required": ["tracks"], "additionalProperties": False}
+    forms["MARK"] = {"type": "object", "properties": {"markers": {"type": "array", "items": {
+        "type": "object", "properties": {"seconds": ref("f32"), "name": {"type": "string"}}, "required": ["seconds", "name"],
+        "additionalProperties": False}}}, "required": ["markers"], "additionalProperties": False}
     forms["PALT"] = record(records, "PaletteRecord", {"joints": array("u32"), "matrices": array("f32")})
     forms["JNTS"] = record(records, "JointsRecord", {"rests": {"type": "array", "items": ref("RestRecord")},
                                                      "ranges": {"type": "array", "items": ref("JointPolygons")}})

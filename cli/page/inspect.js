@@ -487,6 +487,7 @@ function chart(cycle, track) {
     svg.replaceChildren();
     for (const v of ticks(low, high, 4)) svg.append(draw('line', { class: 'grid', x1: left, x2: w - right, y1: y(v), y2: y(v) }), draw('text', { x: left - 8, y: y(v) + 4, 'text-anchor': 'end' }, short(v)));
     for (const t of ticks(start, end, 8)) svg.append(draw('line', { class: 'grid', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { x: x(t), y: h - 7, 'text-anchor': 'middle' }, `${short(t)} s`));
+    for (const [t, name] of cycle.markers) if (t !== null) svg.append(draw('line', { class: 'marker', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { class: 'marker', x: x(t) + 3, y: top + 9 }, name));
     values.forEach((list, c) => {
       let path = '', pen = 'M', before = 0;
       list.forEach((v, k) => {
@@ -548,7 +549,7 @@ function cycleSection(object) {
     targets = [...groups.values()];
     $('target').replaceChildren(...targets.map((group, i) => make('option', { value: i }, group.name)));
     $('target').value = Math.max(0, targets.findIndex(group => group.key === kept));
-    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${plural(cycle.total, 'track')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}` : 'No cycles.';
+    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${plural(cycle.total, 'track')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
     charts();
   }
   $('cycle').onchange = choose;

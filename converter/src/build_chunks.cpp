@@ -7,6 +7,7 @@
 #include "passes/narrow.h"
 #include "rest_record.h"
 
+#include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/records.h>
 
@@ -477,6 +478,16 @@ void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
     info.end = cycle.tracks.empty() ? last : std::max(info.end, last);
 }
 
+/// Packed frames may end a float before the keys that they stand for: markers stay inside.
+void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
+    if (cycle.markers.empty()) return;
+    std::vector<bendy::Marker> markers;
+    markers.reserve(cycle.markers.size());
+    for (const Marker& marker : cycle.markers)
+        markers.push_back({std::clamp(marker.seconds, info.start, info.end), marker.name});
+    out.leaf(FourCC("MARK"), write_markers(markers));
+}
+
 void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
@@ -509,6 +520,7 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         out.leaf(FourCC("TIME"), times.bytes(), kFloats);
         out.leaf(FourCC("KEYV"), values.bytes(), kFloats);
     }
+    put_markers(out, cycle, info);
     out.end();
 }
 

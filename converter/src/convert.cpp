@@ -3,6 +3,7 @@
 #include "compact/build_compact.h"
 #include "failure.h"
 #include "passes/attach_rigs.h"
+#include "passes/auto_skin.h"
 #include "passes/collapse_vertices.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
@@ -60,9 +61,14 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
                                                     Report& report) {
     std::optional<Rig> rig;
     try {
+        report.add_source(file);
+        if (options.rig) report.add_source(*options.rig);
         if (options.rig) rig = read_rig(*options.rig, report);
         auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
+        if (options.auto_skin) {
+            if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
+        }
         if (options.lod) collapse_vertices(*scene);
         if (options.sort_vertices && !options.lod && !options.compact)
             std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);

@@ -13,4 +13,8 @@ void Report::warn(std::string message, std::string place, std::uint64_t count) {
     warnings_.push_back({std::move(message), std::move(place), count});
 }
 
+void Report::add_source(const std::filesystem::path& file) {
+    if (known_sources_.insert(file).second) sources_.push_back({file, stamp_of(file)});
+}
+
 }  // namespace bendy::converter

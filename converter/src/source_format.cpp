@@ -1,8 +1,10 @@
 #include "source_format.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace bendy::converter {

@@ -21,13 +21,21 @@ struct Word {
     std::string_view one;  // with a name; empty: the part stands alone
     std::string_view many;
 };
-constexpr std::array kWords{Word{Part::textures, "texture", "textures"}, Word{Part::materials, "material", "materials"},
-                            Word{Part::meshes, "mesh", "meshes"},        Word{Part::targets, "target", "targets"},
-                            Word{Part::cycles, "cycle", "cycles"},       Word{Part::chains, "chain", "chains"},
-                            Word{Part::limits, "limit", "limits"},       Word{Part::lod, "", "lod"},
-                            Word{Part::tangents, "", "tangents"},        Word{Part::colours, "", "colours"},
-                            Word{Part::attributes, "", "attributes"},    Word{Part::extras, "", "extras"},
-                            Word{Part::extensions, "", "extensions"},    Word{Part::unknown, "chunk", "unknown"}};
+constexpr std::array kWords{Word{Part::textures, "texture", "textures"},
+                            Word{Part::materials, "material", "materials"},
+                            Word{Part::meshes, "mesh", "meshes"},
+                            Word{Part::targets, "target", "targets"},
+                            Word{Part::cycles, "cycle", "cycles"},
+                            Word{Part::markers, "", "markers"},
+                            Word{Part::chains, "chain", "chains"},
+                            Word{Part::limits, "limit", "limits"},
+                            Word{Part::lod, "", "lod"},
+                            Word{Part::tangents, "", "tangents"},
+                            Word{Part::colours, "", "colours"},
+                            Word{Part::attributes, "", "attributes"},
+                            Word{Part::extras, "", "extras"},
+                            Word{Part::extensions, "", "extensions"},
+                            Word{Part::unknown, "chunk", "unknown"}};
 
 const Word& word_of(Part part) {
     return *std::find_if(kWords.begin(), kWords.end(), [&](const Word& word) { return word.part == part; });
@@ -75,6 +83,8 @@ private:
                 return strip_limits();
             case Part::unknown:
                 return strip_unknown();
+            case Part::markers:
+                return strip_leaves(FourCC("MARK"));
             case Part::lod:
                 return strip_leaves(FourCC("LODD"));
             case Part::tangents:

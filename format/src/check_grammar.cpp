@@ -17,12 +17,10 @@ struct Rule {
     Shape shape;
     std::string_view parents;
     Times times;
-    bool is_reserved;  // a later version's: to this one, unknown
 };
 
 constexpr Rule kRules[] = {
-#define BENDY_CHUNK(id, shape, parents, times, what) \
-    {FourCC(#id), Shape::shape, parents, Times::times, std::string_view(what).ends_with("(reserved)")},
+#define BENDY_CHUNK(id, shape, parents, times, what) {FourCC(#id), Shape::shape, parents, Times::times},
 #include <bendy/format/chunk_ids.def>
 #undef BENDY_CHUNK
 };
@@ -53,7 +51,6 @@ struct Grammar {
         rule_at.fill(kRuleCount);
         for (std::size_t rule = 0; rule < kRuleCount; ++rule) {
             if (kRules[rule].times == Times::many) may_repeat |= only(rule);
-            if (kRules[rule].is_reserved) continue;
             std::size_t slot = slot_of(kRules[rule].id);
             while (rule_at[slot] != kRuleCount) slot = (slot + 1) % kSlots;
             rule_at[slot] = static_cast<std::uint8_t>(rule);

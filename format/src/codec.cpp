@@ -3,6 +3,7 @@
 #include "cycle_codec.h"
 #include "mesh_codecs.h"
 #include "planes.h"
+#include "sums_codec.h"
 #include "zstd_frame.h"
 
 #include <new>
@@ -11,6 +12,32 @@ namespace bendy {
 namespace {
 
 constexpr std::align_val_t kAlignment{16};
+
+// The two files that scripts/amalgamate.py makes have the libraries only where they are asked for.
+#ifdef BENDY_WITHOUT_ZSTD
+constexpr bool kHasZstd = false;
+#else
+constexpr bool kHasZstd = true;
+#endif
+#ifdef BENDY_WITHOUT_MESHOPTIMIZER
+constexpr bool kHasMeshoptimizer = false;
+#else
+constexpr bool kHasMeshoptimizer = true;
+#endif
+
+/// Whether this program holds what the codec needs.
+bool is_built_in(Codec codec) {
+    switch (codec) {
+        case Codec::vertices:
+        case Codec::indices:
+            return kHasMeshoptimizer;
+        case Codec::vertices_zstd:
+        case Codec::indices_zstd:
+            return kHasMeshoptimizer && kHasZstd;
+        default:
+            return kHasZstd;
+    }
+}
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
     if (header.head != 0) return false;
@@ -31,7 +58,8 @@ void AlignedBytes::Delete::operator()(std::byte* bytes) const {
 }
 
 std::optional<Error> check_encoded(unsigned codec, Bytes encoded, CodecHeader& header) {
-    if (codec == 0 || codec >= kCodecs) return Error{ErrorCode::kUnsupportedCodec, 0, codec};
+    if (codec == 0 || codec >= kCodecs || !is_built_in(static_cast<Codec>(codec)))
+        return Error{ErrorCode::kUnsupportedCodec, 0, codec};
     if (encoded.size() < sizeof(CodecHeader)) {
         return Error{ErrorCode::kRecordTooShort, 0, encoded.size(), sizeof(CodecHeader)};
     }

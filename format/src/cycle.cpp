@@ -118,6 +118,16 @@ void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults&
     }
 }
 
+std::vector<Marker> read_marker_leaf(const ChunkTree& tree, std::uint32_t cycle, Faults& faults) {
+    const std::uint32_t number = tree.find(cycle, FourCC("MARK"));
+    if (number == kNone || tree[number].is_container()) return {};
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
+        return {};
+    }
+    return read_markers(tree.payload(number), tree[number].offset, faults).value_or(std::vector<Marker>());
+}
+
 std::optional<PackedView> read_packed_leaf(const ChunkTree& tree, std::uint32_t cycle, std::uint32_t joints,
                                            Faults& faults) {
     const std::uint32_t number = tree.find(cycle, FourCC("PACK"));
@@ -127,6 +137,22 @@ std::optional<PackedView> read_packed_leaf(const ChunkTree& tree, std::uint32_t 
         return std::nullopt;
     }
     return read_packed(tree.payload(number), joints, tree[number].offset, faults);
+}
+
+void check_markers(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
+    const auto first_of = [&](auto is_wrong, ErrorCode code) {
+        for (std::size_t k = 0; k < cycle.markers.size(); ++k) {
+            if (!is_wrong(k)) continue;
+            faults.add({code, offset, k});
+            return;
+        }
+    };
+    const auto time = [&](std::size_t k) { return cycle.markers[k].seconds; };
+    first_of([&](std::size_t k) { return !std::isfinite(time(k)); }, ErrorCode::kNotFinite);
+    first_of([&](std::size_t k) { return k > 0 && !(time(k - 1) <= time(k)); }, ErrorCode::kMarkerOrder);
+    if (!cycle.has_info) return;
+    first_of([&](std::size_t k) { return !(time(k) >= cycle.start && time(k) <= cycle.end); },
+             ErrorCode::kMarkerOutside);
 }
 
 }  // namespace
@@ -149,6 +175,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     check_reserved(info.reserved, info_offset, faults);
 
     cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
+    cycle.markers = read_marker_leaf(tree, chunk, faults);
     const auto read_times = read_floats(tree, chunk, FourCC("TIME"), faults);
     const auto read_values = read_floats(tree, chunk, FourCC("KEYV"), faults);
 
@@ -225,6 +252,7 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
     check_shared_values(cycle, table_offset, faults);
     if (cycle.has_info && !holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
     check_repeated_tracks(cycle, table_offset, faults);
+    check_markers(cycle, offset_of(tree, cycle.chunk, FourCC("MARK")), faults);
     if (cycle.packed) check_packed_values(*cycle.packed, offset_of(tree, cycle.chunk, FourCC("PACK")), faults);
 }
 

@@ -3,6 +3,7 @@
 #include "cycle_codec.h"
 #include "mesh_codecs.h"
 #include "planes.h"
+#include "sums_codec.h"
 #include "zstd_frame.h"
 
 #include <algorithm>

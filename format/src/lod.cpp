@@ -48,16 +48,20 @@ public:
         }
         const auto table =
             view_at<PoolCollapseRecord>(cutter.take(record.pools * sizeof(PoolCollapseRecord)), 0, record.pools);
-        view_.pools.reserve(record.pools);
-        for (const PoolCollapseRecord& pool : table) {
-            if (!read_pool(pool)) return std::nullopt;
-        }
         const std::uint64_t row = (std::uint64_t{1} + record.pools) * sizeof(std::uint32_t);
         if (record.levels > cutter.left() / row) {
             return fault({ErrorCode::kRecordSize, offset_, payload_.size(), payload_.size() - cutter.left() + row});
         }
         view_.levels = record.levels;
         view_.rows = cutter.take(record.levels * row);
+        for (const PoolCollapseRecord& pool : table) check_reserved(pool.reserved, offset_, faults_);
+        const bool sizes_are_known =
+            std::all_of(pools_.begin(), pools_.end(), [](const PoolView& pool) { return pool.has_info; });
+        if (!sizes_are_known) return std::nullopt;  // a fault has said so
+        view_.pools.reserve(record.pools);
+        for (const PoolCollapseRecord& pool : table) {
+            if (!read_pool(pool)) return std::nullopt;
+        }
         if (!read_targets(cutter)) return std::nullopt;
         if (!check_levels()) return std::nullopt;
         return std::move(view_);
@@ -70,7 +74,6 @@ private:
     }
 
     bool read_pool(const PoolCollapseRecord& record) {
-        check_reserved(record.reserved, offset_, faults_);
         if (record.pool >= pools_.size()) {
             faults_.add({ErrorCode::kPoolRange, offset_, record.pool, pools_.size()});
             return false;
@@ -197,8 +200,6 @@ std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t o
         faults.add(record.error());
         return std::nullopt;
     }
-    const bool sizes_are_known = std::all_of(pools.begin(), pools.end(), [](const PoolView& p) { return p.has_info; });
-    if (!sizes_are_known) return std::nullopt;  // a fault has said so
     return CollapseReader(tree, chunk, pools, faults).read(*record);
 }
 

@@ -1,12 +1,13 @@
 #include "mesh_codecs.h"
 
-#include "planes.h"
+#include "coded_rows.h"
 #include "zstd_frame.h"
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 namespace bendy {
 namespace {
@@ -46,41 +47,21 @@ bool has_version(Bytes packed, unsigned mark, int version) {
     return !packed.empty() && std::to_integer<unsigned>(packed[0]) == (mark | static_cast<unsigned>(version));
 }
 
-/// The payload's head goes as it is; false if it is not there.
-bool take_head(const CodecHeader& header, Bytes& body, std::span<std::byte>& out) {
-    if (header.head > out.size() || header.head > body.size()) return false;
-    std::copy_n(body.begin(), header.head, out.begin());
-    body = body.subspan(header.head);
-    out = out.subspan(header.head);
-    return true;
-}
-
-/// A number of rows or triangles: none if the bytes are no whole number of them.
-std::optional<std::size_t> count_of(std::size_t size, std::size_t step) {
-    if (step == 0 || size % step != 0) return std::nullopt;
-    return size / step;
-}
-
 const unsigned char* raw(Bytes bytes) {
     return reinterpret_cast<const unsigned char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
 }
 
-/// Adds a row's other u16 to its first, or takes them away, modulo 65536.
-void change_first(std::span<std::byte> row, bool add) {
-    std::uint16_t first = 0;
-    copy_at(row, 0, first);
-    for (std::size_t at = sizeof first; at < row.size(); at += sizeof first) {
-        std::uint16_t other = 0;
-        copy_at(row, at, other);
-        first = static_cast<std::uint16_t>(add ? first + other : first - other);
-    }
-    std::memcpy(row.data(), &first, sizeof first);
+/// meshoptimizer keeps the version that it writes in variables of its own: one thread at a time.
+std::mutex& encoding() {
+    static std::mutex mutex;
+    return mutex;
 }
 
 std::optional<std::vector<unsigned char>> pack_triangles(std::span<const std::uint32_t> indices) {
     const std::size_t vertices =
         indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     std::vector<unsigned char> packed(meshopt_encodeIndexBufferBound(indices.size(), vertices));
+    const std::lock_guard lock(encoding());
     meshopt_encodeIndexVersion(kIndexVersion);
     const std::size_t size = meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size());
     if (size == 0) return std::nullopt;
@@ -126,34 +107,11 @@ bool encode_rows(const CodecHeader& header, bool is_zstd, Bytes payload, std::ve
     for (std::size_t row = 0; row < *rows; ++row)
         std::memcpy(padded.data() + row * wide, rest.data() + row * header.stride, header.stride);
     std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(*rows, wide));
+    const std::lock_guard lock(encoding());
     meshopt_encodeVertexVersion(kVertexVersion);
     const std::size_t size = meshopt_encodeVertexBuffer(packed.data(), packed.size(), padded.data(), *rows, wide);
     if (size == 0) return false;
     return put_packed(is_zstd, std::span(packed).first(size), out);
-}
-
-bool decode_sums(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
-    if (!take_head(header, body, out) || header.stride % 2 != 0) return false;
-    const auto rows = count_of(out.size(), header.stride);
-    if (!rows) return false;
-    AlignedBytes planes(out.size());
-    if (!take_zstd(body, planes.span())) return false;
-    from_planes(planes.bytes(), header.stride, out);
-    for (std::size_t row = 0; row < *rows; ++row) change_first(out.subspan(row * header.stride, header.stride), false);
-    return true;
-}
-
-bool encode_sums(const CodecHeader& header, Bytes payload, std::vector<std::byte>& out) {
-    if (header.head > payload.size() || header.stride % 2 != 0) return false;
-    out.insert(out.end(), payload.begin(), payload.begin() + header.head);
-    std::vector<std::byte> numbers(payload.begin() + header.head, payload.end());
-    const auto rows = count_of(numbers.size(), header.stride);
-    if (!rows) return false;
-    for (std::size_t row = 0; row < *rows; ++row)
-        change_first(std::span(numbers).subspan(row * header.stride, header.stride), true);
-    std::vector<std::byte> planes(numbers.size());
-    to_planes(numbers, header.stride, planes);
-    return put_zstd(planes, out);
 }
 
 bool decode_triangles(const CodecHeader& header, bool is_zstd, Bytes body, std::span<std::byte> out) {

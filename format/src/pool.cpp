@@ -21,9 +21,6 @@ T load(Bytes data, std::uint64_t at) {
     return value;
 }
 
-using enum ComponentType;
-using enum Numbers;
-
 /// A set of types.
 template <class... Types>
 constexpr unsigned any_of(Types... types) {
@@ -38,6 +35,11 @@ struct StreamForm {
     Numbers numbers;
 };
 using StreamRule = std::span<const StreamForm>;
+
+namespace forms {
+
+using enum ComponentType;
+using enum Numbers;
 
 constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16, u32), 3, 3, boxed}};
 constexpr StreamForm kShifts[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, i8, u16, i16), 3, 3, boxed}};
@@ -55,6 +57,8 @@ constexpr StreamForm kIndices[] = {{any_of(u16, u32), 1, 1, plain}};
 constexpr StreamForm kAnything[] = {{any_of(u8, i8, u16, i16, u32, f32), 1, 0xffff, plain},
                                     {any_of(u8, i8, u16, i16), 1, 0xffff, normalised}};
 
+}  // namespace forms
+
 bool takes(StreamRule rule, const StreamRecord& record) {
     return std::any_of(rule.begin(), rule.end(), [&](const StreamForm& form) {
         return (form.types >> record.component_type & 1u) != 0 && record.components >= form.fewest_components &&
@@ -69,7 +73,7 @@ bool is_one_of(StreamRule rule, StreamRule a, StreamRule b) {
 
 /// Bytes between a StreamRecord and the integers.
 std::uint64_t box_size(const StreamRecord& record) {
-    const bool is_boxed = record.normalised == static_cast<std::uint8_t>(boxed);
+    const bool is_boxed = record.normalised == static_cast<std::uint8_t>(Numbers::boxed);
     return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
@@ -83,8 +87,8 @@ std::uint32_t largest_of(const StreamView& stream) {
 
 /// Of kBones or kIndices: u8, u16 or u32.
 std::uint32_t largest_index(const StreamView& stream) {
-    if (stream.type == u8) return largest_of<std::uint8_t>(stream);
-    if (stream.type == u16) return largest_of<std::uint16_t>(stream);
+    if (stream.type == ComponentType::u8) return largest_of<std::uint8_t>(stream);
+    if (stream.type == ComponentType::u16) return largest_of<std::uint16_t>(stream);
     return largest_of<std::uint32_t>(stream);
 }
 
@@ -103,7 +107,7 @@ public:
         check_reserved(std::array{record->reserved}, chunk.offset, faults_);
         const auto type = static_cast<ComponentType>(record->component_type);
         if (!takes(rule, *record)) return fault({ErrorCode::kStreamType, chunk.offset});
-        if (record->set != 0 && !is_one_of(rule, kCoords, kColour))
+        if (record->set != 0 && !is_one_of(rule, forms::kCoords, forms::kColour))
             return fault({ErrorCode::kStreamSet, chunk.offset, record->set});
         if (elements && record->elements != *elements) {
             return fault({ErrorCode::kStreamCount, chunk.offset, record->elements, *elements});
@@ -115,7 +119,7 @@ public:
         if (payload.size() != before + size)
             return fault({ErrorCode::kRecordSize, chunk.offset, payload.size(), before + size});
         StreamView view{type,
-                        record->normalised == static_cast<std::uint8_t>(normalised),
+                        record->normalised == static_cast<std::uint8_t>(Numbers::normalised),
                         record->components,
                         record->elements,
                         record->set,
@@ -127,7 +131,7 @@ public:
                                       before - sizeof(StreamRecord) - view.boxes.size_bytes()),
                       chunk.offset);
         }
-        view.is_octahedral = view.normalised && is_one_of(rule, kNormals, kTangents);
+        view.is_octahedral = view.normalised && is_one_of(rule, forms::kNormals, forms::kTangents);
         return view;
     }
 
@@ -211,7 +215,7 @@ public:
         std::uint32_t touched = vertices;
         const std::uint32_t index_chunk = tree_.find(number, FourCC("INDX"));
         if (index_chunk != kNone) {
-            target.vertices = stream(index_chunk, kIndices, std::nullopt);
+            target.vertices = stream(index_chunk, forms::kIndices, std::nullopt);
             if (!target.vertices) return target;
             touched = target.vertices->elements;
             check_indices(target.vertices, vertices, ErrorCode::kIndexRange);
@@ -221,9 +225,9 @@ public:
                 break;
             }
         }
-        target.positions = find(number, FourCC("POSI"), kShifts, touched);
-        target.normals = find(number, FourCC("NORM"), kShifts, touched);
-        target.tangents = find(number, FourCC("TANG"), kShifts, touched);
+        target.positions = find(number, FourCC("POSI"), forms::kShifts, touched);
+        target.normals = find(number, FourCC("NORM"), forms::kShifts, touched);
+        target.tangents = find(number, FourCC("TANG"), forms::kShifts, touched);
         return target;
     }
 
@@ -235,8 +239,8 @@ private:
 void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>& stream, Faults& faults) {
     if (!stream) return;
     const std::uint64_t offset = tree[stream->chunk].offset;
-    if (stream->type == f32) check_finite(stream->as<float>(), offset, faults);
-    const float most_steps = stream->type == u32 ? 4294967296.0f : 65536.0f;
+    if (stream->type == ComponentType::f32) check_finite(stream->as<float>(), offset, faults);
+    const float most_steps = stream->type == ComponentType::u32 ? 4294967296.0f : 65536.0f;
     for (const StreamBox& box : stream->boxes)  // the largest number must be finite, too
         check_finite(std::array{box.minimum, box.step, box.minimum + most_steps * box.step}, offset, faults);
 }
@@ -257,15 +261,15 @@ float scaled(T value, const StreamView& stream, std::uint32_t component) {
 template <class Visit>
 auto with_type(const StreamView& stream, const Visit& visit) {
     switch (stream.type) {
-        case u8:
+        case ComponentType::u8:
             return visit([&](std::uint64_t at) { return load<std::uint8_t>(stream.data, at); });
-        case i8:
+        case ComponentType::i8:
             return visit([&](std::uint64_t at) { return load<std::int8_t>(stream.data, at); });
-        case u16:
+        case ComponentType::u16:
             return visit([&](std::uint64_t at) { return load<std::uint16_t>(stream.data, at); });
-        case i16:
+        case ComponentType::i16:
             return visit([&](std::uint64_t at) { return load<std::int16_t>(stream.data, at); });
-        case u32:
+        case ComponentType::u32:
             return visit([&](std::uint64_t at) { return load<std::uint32_t>(stream.data, at); });
         default:
             return visit([&](std::uint64_t at) { return load<float>(stream.data, at); });
@@ -303,7 +307,7 @@ Vector vector_at(const StreamView& stream, const Load& load, std::uint64_t eleme
 template <class Vector>
 void decode_vectors(const StreamView& stream, std::span<Vector> out) {
     assert(out.size() <= stream.elements);
-    if (stream.type == f32) {
+    if (stream.type == ComponentType::f32) {
         const auto source = view_at<Vector>(stream.data, 0, out.size());
         std::copy(source.begin(), source.end(), out.begin());
         return;
@@ -328,7 +332,8 @@ glm::vec3 decode_octahedral(float x, float y) {
 
 glm::vec3 StreamView::vec3(std::uint32_t element) const {
     assert(element < elements && components >= (is_octahedral ? 2u : 3u));
-    if (type == f32) return load<glm::vec3>(data.subspan(std::size_t{element} * components * sizeof(float)), 0);
+    if (type == ComponentType::f32)
+        return load<glm::vec3>(data.subspan(std::size_t{element} * components * sizeof(float)), 0);
     return with_type(*this, [&](const auto& load) { return vector_at<glm::vec3>(*this, load, element); });
 }
 
@@ -386,13 +391,13 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     for (const std::uint32_t number : tree.children(chunk)) {
         const FourCC id = tree[number].id;
         if (id == FourCC("TEXC")) {
-            const auto coords = reader.stream(number, kCoords, pool.vertices);
+            const auto coords = reader.stream(number, forms::kCoords, pool.vertices);
             if (coords) pool.texture_coords.push_back(*coords);
         } else if (id == FourCC("COLR")) {
-            const auto colour = reader.stream(number, kColour, pool.vertices);
+            const auto colour = reader.stream(number, forms::kColour, pool.vertices);
             if (colour) pool.colours.push_back(*colour);
         } else if (id == FourCC("USER")) {
-            const auto values = reader.find(number, FourCC("VALS"), kAnything, pool.vertices);
+            const auto values = reader.find(number, FourCC("VALS"), forms::kAnything, pool.vertices);
             if (values) pool.attributes.push_back({read_text(tree, number, FourCC("NAME"), faults), *values});
         } else if (id == FourCC("TARG")) {
             pool.targets.push_back(reader.target(number, pool.vertices));
@@ -402,17 +407,17 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     reader.check_sets(pool.texture_coords);
     reader.check_sets(pool.colours);
 
-    const auto positions = reader.find(chunk, FourCC("POSI"), kPositions, pool.vertices);
+    const auto positions = reader.find(chunk, FourCC("POSI"), forms::kPositions, pool.vertices);
     if (positions) {
         pool.positions = *positions;
     } else if (pool.vertices != 0 && tree.find(chunk, FourCC("POSI")) == kNone) {
         faults.add({ErrorCode::kChunkMissing, offset, FourCC("POSI").value});
     }
-    pool.normals = reader.find(chunk, FourCC("NORM"), kNormals, pool.vertices);
-    pool.tangents = reader.find(chunk, FourCC("TANG"), kTangents, pool.vertices);
+    pool.normals = reader.find(chunk, FourCC("NORM"), forms::kNormals, pool.vertices);
+    pool.tangents = reader.find(chunk, FourCC("TANG"), forms::kTangents, pool.vertices);
 
-    pool.bones = reader.find(chunk, FourCC("BONE"), kBones, pool.vertices);
-    pool.weights = reader.find(chunk, FourCC("WGHT"), kWeights, pool.vertices);
+    pool.bones = reader.find(chunk, FourCC("BONE"), forms::kBones, pool.vertices);
+    pool.weights = reader.find(chunk, FourCC("WGHT"), forms::kWeights, pool.vertices);
     const std::uint32_t palette_chunk = tree.find(chunk, FourCC("PALT"));
     const bool has_palette = palette_chunk != kNone;
     std::optional<PaletteView> palette;
@@ -431,7 +436,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     }
     if (pool.bones) reader.check_indices(pool.bones, pool.palette.joints.size(), ErrorCode::kBoneRange);
 
-    pool.indices = reader.find(chunk, FourCC("INDX"), kIndices, std::nullopt);
+    pool.indices = reader.find(chunk, FourCC("INDX"), forms::kIndices, std::nullopt);
     reader.check_indices(pool.indices, pool.vertices, ErrorCode::kIndexRange);
     return pool;
 }

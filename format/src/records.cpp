@@ -5,6 +5,7 @@
 // Holds the structs against the table: every field where the table says, of the size that it says, and no gaps.
 namespace bendy {
 namespace {
+namespace layout {
 
 using u8 = std::uint8_t;
 using u16 = std::uint16_t;
@@ -42,5 +43,6 @@ constexpr std::size_t sum_of_fields(const char* record) {
 #undef BENDY_RECORD
 #undef BENDY_FIELD
 
+}  // namespace layout
 }  // namespace
 }  // namespace bendy

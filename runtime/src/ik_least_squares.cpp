@@ -207,7 +207,8 @@ void begin_anew(IkProblem& problem, std::uint32_t attempt, Dice& dice) {
             const auto& preferred = link.constraint->record.preferred;
             turn = {preferred[0], preferred[1], preferred[2]};
         } else {
-            turn = glm::dvec3(dice.next(), dice.next(), dice.next()) * 2.0;
+            // One after another: in which order arguments are computed is the compiler's choice.
+            for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
         }
         link.local = legal_local(
             link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));

@@ -1,16 +1,10 @@
-// lanes.h for 64-bit ARM, and what the kernels' bodies need of that instruction set. Has its own functions in each
-// source.
+// lanes.h for 64-bit ARM, and what the kernels' bodies need of that instruction set. A body, too: included by each
+// source in its own namespace.
 
-#include <arm_neon.h>
-
-#include <cstddef>
-
+#undef BENDY_LANES
 #define BENDY_LANES 4
 
 // NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): that is what this file is
-namespace bendy {
-namespace {
-
 #include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
@@ -30,7 +24,4 @@ inline void stream(float* to, Quad quad) {
 inline void end_streams() {}
 
 #include "lanes.h"
-
-}  // namespace
-}  // namespace bendy
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)

@@ -2,10 +2,13 @@
 
 #if defined(__AVX2__)
 
-#include "lanes_avx2.h"
+#include <immintrin.h>
 
 namespace bendy {
+namespace pose_with_avx2 {
 namespace {
+
+#include "lanes_avx2.h"
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
@@ -15,9 +18,14 @@ namespace {
 #include "unpack_lanes.h"
 
 }  // namespace
+}  // namespace pose_with_avx2
 
-const PoseKernels kPoseAvx2{pose_lanes,   palette_lanes,           sample_lanes,
-                            unpack_lanes, blend_lanes<mix_joints>, blend_lanes<add_joints>};
+const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
+                            pose_with_avx2::palette_lanes,
+                            pose_with_avx2::sample_lanes,
+                            pose_with_avx2::unpack_lanes,
+                            pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints>,
+                            pose_with_avx2::blend_lanes<pose_with_avx2::add_joints>};
 
 }  // namespace bendy
 

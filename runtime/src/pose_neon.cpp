@@ -2,10 +2,13 @@
 
 #if defined(__aarch64__)
 
-#include "lanes_neon.h"
+#include <arm_neon.h>
 
 namespace bendy {
+namespace pose_with_neon {
 namespace {
+
+#include "lanes_neon.h"
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
@@ -15,9 +18,14 @@ namespace {
 #include "unpack_lanes.h"
 
 }  // namespace
+}  // namespace pose_with_neon
 
-const PoseKernels kPoseNeon{pose_lanes,   palette_lanes,           sample_lanes,
-                            unpack_lanes, blend_lanes<mix_joints>, blend_lanes<add_joints>};
+const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
+                            pose_with_neon::palette_lanes,
+                            pose_with_neon::sample_lanes,
+                            pose_with_neon::unpack_lanes,
+                            pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
+                            pose_with_neon::blend_lanes<pose_with_neon::add_joints>};
 
 }  // namespace bendy
 

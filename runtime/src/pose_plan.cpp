@@ -16,8 +16,6 @@
 namespace bendy {
 namespace {
 
-constexpr std::uint32_t kFloats = sizeof(JointTransform) / sizeof(float);
-
 std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
     std::vector<std::uint32_t> depths(joints.size());
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
@@ -120,7 +118,7 @@ void add_rotation(const TrackView& track, SampleLine& line) {
     if (lane == 0) line.rotations.emplace_back();
     for (std::size_t k = lane; k < RotationTracks::kMost; ++k) {
         line.rotations.back().keys[k] = track.values.data();
-        line.rotations.back().places[k] = kFloats * track.target;
+        line.rotations.back().places[k] = kJointFloats * track.target;
     }
 }
 
@@ -147,7 +145,7 @@ SamplePlan make_sample_plan(const CycleView& cycle, std::span<const JointTransfo
             add_rotation(track, line);
         } else {
             const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
-            line.vectors.push_back({track.values.data(), kFloats * track.target + place});
+            line.vectors.push_back({track.values.data(), kJointFloats * track.target + place});
         }
     }
     return plan;

@@ -2,10 +2,13 @@
 
 #if defined(__SSE4_1__)
 
-#include "lanes_sse4.h"
+#include <immintrin.h>
 
 namespace bendy {
+namespace pose_with_sse4 {
 namespace {
+
+#include "lanes_sse4.h"
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
@@ -15,9 +18,14 @@ namespace {
 #include "unpack_lanes.h"
 
 }  // namespace
+}  // namespace pose_with_sse4
 
-const PoseKernels kPoseSse4{pose_lanes,   palette_lanes,           sample_lanes,
-                            unpack_lanes, blend_lanes<mix_joints>, blend_lanes<add_joints>};
+const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
+                            pose_with_sse4::palette_lanes,
+                            pose_with_sse4::sample_lanes,
+                            pose_with_sse4::unpack_lanes,
+                            pose_with_sse4::blend_lanes<pose_with_sse4::mix_joints>,
+                            pose_with_sse4::blend_lanes<pose_with_sse4::add_joints>};
 
 }  // namespace bendy
 

@@ -2,10 +2,13 @@
 
 #if defined(__wasm_simd128__)
 
-#include "lanes_wasm.h"
+#include <wasm_simd128.h>
 
 namespace bendy {
+namespace pose_with_wasm {
 namespace {
+
+#include "lanes_wasm.h"
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
@@ -15,9 +18,14 @@ namespace {
 #include "unpack_lanes.h"
 
 }  // namespace
+}  // namespace pose_with_wasm
 
-const PoseKernels kPoseWasm{pose_lanes,   palette_lanes,           sample_lanes,
-                            unpack_lanes, blend_lanes<mix_joints>, blend_lanes<add_joints>};
+const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
+                            pose_with_wasm::palette_lanes,
+                            pose_with_wasm::sample_lanes,
+                            pose_with_wasm::unpack_lanes,
+                            pose_with_wasm::blend_lanes<pose_with_wasm::mix_joints>,
+                            pose_with_wasm::blend_lanes<pose_with_wasm::add_joints>};
 
 }  // namespace bendy
 

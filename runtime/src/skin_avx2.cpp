@@ -2,17 +2,21 @@
 
 #if defined(__AVX2__)
 
-#include "lanes_avx2.h"
+#include <immintrin.h>
 
 namespace bendy {
+namespace skin_with_avx2 {
 namespace {
+
+#include "lanes_avx2.h"
 
 #include "skin_lanes.h"
 
 }  // namespace
+}  // namespace skin_with_avx2
 
 void skin_avx2(const SkinBlock& block) {
-    skin_lanes(block);
+    skin_with_avx2::skin_lanes(block);
 }
 
 }  // namespace bendy

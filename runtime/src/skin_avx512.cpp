@@ -4,10 +4,12 @@
 
 #include <immintrin.h>
 
+// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
+#undef BENDY_LANES
 #define BENDY_LANES 16
 
-// NOLINTBEGIN(portability-simd-intrinsics): that is what this file is
 namespace bendy {
+namespace skin_with_avx512 {
 namespace {
 
 #include "lane_types.h"
@@ -32,9 +34,10 @@ inline void end_streams() {
 #include "skin_lanes.h"
 
 }  // namespace
+}  // namespace skin_with_avx512
 
 void skin_avx512(const SkinBlock& block) {
-    skin_lanes(block);
+    skin_with_avx512::skin_lanes(block);
 }
 
 }  // namespace bendy

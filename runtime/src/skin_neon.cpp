@@ -2,17 +2,21 @@
 
 #if defined(__aarch64__)
 
-#include "lanes_neon.h"
+#include <arm_neon.h>
 
 namespace bendy {
+namespace skin_with_neon {
 namespace {
+
+#include "lanes_neon.h"
 
 #include "skin_lanes.h"
 
 }  // namespace
+}  // namespace skin_with_neon
 
 void skin_neon(const SkinBlock& block) {
-    skin_lanes(block);
+    skin_with_neon::skin_lanes(block);
 }
 
 }  // namespace bendy

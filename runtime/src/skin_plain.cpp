@@ -1,4 +1,5 @@
 #include "skin_block.h"
+#include "skin_vertex.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -8,12 +9,6 @@
 
 namespace bendy {
 namespace {
-
-/// Zero stays zero.
-glm::dvec3 normalised(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0.0 ? v / length : glm::dvec3(0.0);
-}
 
 /// The inverse transpose times |determinant|: the same direction, and defined for matrices without an inverse.
 glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
@@ -41,31 +36,23 @@ glm::dmat4x3 blend(const SkinBlock& block, std::size_t vertex) {
     return sum;
 }
 
-void put(const SkinOutput& out, std::size_t vertex, const glm::dvec3& v) {
-    for (int c = 0; c < 3; ++c) out.data[vertex * out.stride + static_cast<std::size_t>(c)] = static_cast<float>(v[c]);
-}
-
-glm::dvec3 vector_at(const float* from) {
-    return {from[0], from[1], from[2]};
-}
-
 }  // namespace
 
 void skin_plain(const SkinBlock& block) {
     for (std::size_t vertex = 0; vertex < block.vertices; ++vertex) {
         const glm::dmat4x3 matrix = blend(block, vertex);
         if (block.out_positions.data != nullptr)
-            put(block.out_positions, vertex, matrix * glm::dvec4(vector_at(block.positions + 3 * vertex), 1.0));
+            put(block.out_positions, vertex, matrix * glm::dvec4(vec3_at(block.positions + 3 * vertex), 1.0));
         if (block.out_normals.data == nullptr && block.out_tangents.data == nullptr) continue;
         const glm::dmat3 linear(matrix);
         const double determinant = glm::determinant(linear);
         if (block.out_normals.data != nullptr) {
-            const glm::dvec3 normal = vector_at(block.normals + 3 * vertex);
-            put(block.out_normals, vertex, normalised(normal_matrix(linear, determinant) * normal));
+            const glm::dvec3 normal = vec3_at(block.normals + 3 * vertex);
+            put(block.out_normals, vertex, unit_or_zero(normal_matrix(linear, determinant) * normal));
         }
         if (block.out_tangents.data != nullptr) {
             const float* const tangent = block.tangents + 4 * vertex;
-            put(block.out_tangents, vertex, normalised(linear * vector_at(tangent)));
+            put(block.out_tangents, vertex, unit_or_zero(linear * vec3_at(tangent)));
             // A mirrored surface turns its bitangent round.
             block.out_tangents.data[vertex * block.out_tangents.stride + 3] =
                 determinant < 0.0 ? -tangent[3] : tangent[3];

@@ -2,17 +2,21 @@
 
 #if defined(__SSE4_1__)
 
-#include "lanes_sse4.h"
+#include <immintrin.h>
 
 namespace bendy {
+namespace skin_with_sse4 {
 namespace {
+
+#include "lanes_sse4.h"
 
 #include "skin_lanes.h"
 
 }  // namespace
+}  // namespace skin_with_sse4
 
 void skin_sse4(const SkinBlock& block) {
-    skin_lanes(block);
+    skin_with_sse4::skin_lanes(block);
 }
 
 }  // namespace bendy

@@ -2,17 +2,21 @@
 
 #if defined(__wasm_simd128__)
 
-#include "lanes_wasm.h"
+#include <wasm_simd128.h>
 
 namespace bendy {
+namespace skin_with_wasm {
 namespace {
+
+#include "lanes_wasm.h"
 
 #include "skin_lanes.h"
 
 }  // namespace
+}  // namespace skin_with_wasm
 
 void skin_wasm(const SkinBlock& block) {
-    skin_lanes(block);
+    skin_with_wasm::skin_lanes(block);
 }
 
 }  // namespace bendy

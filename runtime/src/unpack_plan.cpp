@@ -11,7 +11,6 @@
 namespace bendy {
 namespace {
 
-constexpr std::uint32_t kFloats = sizeof(JointTransform) / sizeof(float);
 static_assert(UnpackGroup::kLanes == kPackedGroup &&
               UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
 static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
@@ -26,7 +25,7 @@ std::uint32_t place_in_joint(TrackPath path) {
 UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, const JointTransform& rest) {
     JointTransform joint = rest;
     set_unpacked(group, track, 0.0, joint);
-    const std::uint32_t place = group.joints[track] * kFloats + place_in_joint(group.kind.path);
+    const std::uint32_t place = group.joints[track] * kJointFloats + place_in_joint(group.kind.path);
     if (group.kind.path == TrackPath::rotation) {
         const glm::quat& q = joint.rotation;
         return {place, 4, {q.x, q.y, q.z, q.w}};
@@ -51,7 +50,7 @@ UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> 
     group.count = walked.count;
     for (std::uint32_t lane = 0; lane < kPackedGroup; ++lane) {
         const std::uint32_t joint = walked.joints[lane < walked.count ? lane : walked.count - 1];
-        group.places[lane] = joint * kFloats + place_in_joint(walked.kind.path);
+        group.places[lane] = joint * kJointFloats + place_in_joint(walked.kind.path);
         const glm::vec4 at_rest = rest_of(walked.kind.path, rest[joint]);
         for (int c = 0; c < 4; ++c) group.rest[c][lane] = at_rest[c];
     }

@@ -13,6 +13,8 @@
 // What playing a packed cycle on a model takes that no frame changes: made once, when the model is opened.
 namespace bendy {
 
+inline constexpr std::uint32_t kJointFloats = sizeof(JointTransform) / sizeof(float);
+
 /// A track that never changes, rest included.
 struct UnpackedConstant {
     std::uint32_t place = 0;   ///< floats from the first joint's transform to what the track sets

@@ -9,6 +9,7 @@ from pathlib import Path
 MAY_USE = {
     "format": set(),
     "runtime": {"format"},
+    "capi": {"format", "runtime"},
     "converter": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},

@@ -5,24 +5,29 @@
 """
 
 import argparse
+import contextlib
 import json
 import math
 import os
+import platform
 import re
 import resource
 import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
+import urllib.parse
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
-from gltf_file import strange_file  # noqa: E402
+from gltf_file import GltfFile, strange_file  # noqa: E402
 from md2_file import md2_file  # noqa: E402
 from schema import is_valid  # noqa: E402
 
@@ -318,10 +323,9 @@ class Convert(Case):
     def test_an_output_that_cannot_be_written_is_named(self):
         (self.folder / "folder").mkdir()
         (self.folder / "file").write_bytes(b"")
-        for output in ("missing/out.bendy", "folder", "file/out.bendy"):
+        for output in ("missing/out.bendy", "file/out.bendy"):
             self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output)
         self.assertEqual(self.files(), ["file", "folder"])
-        self.assertEqual(list((self.folder / "folder").iterdir()), [])
 
     def test_a_full_disk_leaves_nothing_behind(self):
         (self.folder / "old.bendy").write_bytes(b"old")
@@ -369,6 +373,305 @@ class Convert(Case):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
         self.assertIn("slide\\x09now", text)
         self.assertFalse(any(ord(c) < 0x20 and c != "\n" for c in text))
+
+
+class ConvertBatch(Case):
+    """Several files and folders at once."""
+
+    def setUp(self):
+        super().setUp()
+        self.write_model("in/a.gltf")
+        self.write_model("in/deeper/b.GLTF")
+        shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / "deeper" / "c.glb")
+
+    def write_model(self, place):
+        """A triangle with its corners and a picture in files beside it."""
+        path = self.folder / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.with_suffix(".bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        path.with_suffix(".png").write_bytes(b"\x89PNG\r\n\x1a\n" + place.encode())
+        path.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": place, "mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"uri": path.stem + ".png"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": path.stem + ".bin"}]}))
+        return path
+
+    def batch(self, *arguments, status=0):
+        """Runs it: which inputs were converted, the table's numbers, the lines of standard error."""
+        result = self.bendy("convert", *arguments)
+        self.assertEqual(result.returncode, status, (arguments, result.stderr))
+        lines = result.stdout.decode().splitlines()
+        converted = sorted(line.split(" -> ")[0] for line in lines if " -> " in line)
+        table = dict(re.findall(r"^  (files|converted|up to date|failed|time) +([\d.]+)", "\n".join(lines), re.M))
+        self.assertEqual(list(table), ["files", "converted", "up to date", "failed", "time"], lines)
+        self.assertEqual(int(table["converted"]), len(converted))
+        return converted, table, result.stderr.decode().splitlines()
+
+    def outputs(self, folder="out"):
+        return sorted(str(path.relative_to(self.folder / folder)) for path in (self.folder / folder).rglob("*.bendy"))
+
+    def test_outputs_have_the_places_of_the_inputs_and_the_bytes_of_single_conversions(self):
+        for jobs in ("1", "3"):
+            for folder in ("in", "in/"):
+                out = f"out{jobs}{len(folder)}"
+                converted, table, _ = self.batch(folder, "-o", out, "--jobs", jobs)
+                self.assertEqual(converted, ["in/a.gltf", "in/deeper/b.GLTF", "in/deeper/c.glb"])
+                self.assertEqual((table["files"], table["up to date"], table["failed"]), ("3", "0", "0"))
+                self.assertEqual(self.outputs(out), ["a.bendy", "deeper/b.bendy", "deeper/c.bendy"])
+                for name in converted:
+                    self.done("convert", name, "-o", "single.bendy")
+                    place = Path(name).relative_to("in").with_suffix(".bendy")
+                    self.assertEqual((self.folder / out / place).read_bytes(),
+                                     (self.folder / "single.bendy").read_bytes())
+
+    def test_compact_files_too_are_those_of_single_conversions(self):
+        # meshoptimizer keeps settings in variables of its own
+        options = ("--compact", "--max-error", "1mm")
+        for number in range(3):
+            shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / f"{number}.glb")
+        self.batch("in", "-o", "out", "-j", "3", *options)
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "single.bendy", *options)
+        for number in range(3):
+            self.assertEqual((self.folder / "out" / f"{number}.bendy").read_bytes(),
+                             (self.folder / "single.bendy").read_bytes())
+
+    def test_files_go_by_their_names(self):
+        self.batch("in/a.gltf", "in/deeper/c.glb", "in/deeper/../a.gltf", "-o", "out")
+        self.assertEqual(self.outputs(), ["a.bendy", "c.bendy"])
+        (self.folder / "one").mkdir()
+        self.batch("in/a.gltf", "-o", "one")  # a single file into a folder that is there
+        self.batch("in/a.gltf", "-o", "two/")  # or is said to be one
+        self.assertEqual([self.outputs("one"), self.outputs("two")], [["a.bendy"], ["a.bendy"]])
+
+    def test_only_what_has_changed_is_converted(self):
+        everything = ["in/a.gltf", "in/deeper/b.GLTF", "in/deeper/c.glb"]
+        self.assertEqual(self.batch("in", "-o", "out")[0], everything)
+        converted, table, errors = self.batch("in", "-o", "out")
+        self.assertEqual((converted, table["up to date"], errors), ([], "3", []))
+        self.assertEqual(self.batch("./in", "-o", self.folder / "out")[0], [])  # the same, written otherwise
+        self.assertEqual(self.batch("in", "-o", "out", "--force")[0], everything)
+        self.assertEqual(self.batch("in", "-o", "out", "--lod")[0], everything)  # other options
+        self.assertEqual(self.batch("in", "-o", "out")[0], everything)
+
+        os.utime(self.folder / "in" / "a.bin", ns=(1, 1))  # older than the output, but another one
+        self.assertEqual(self.batch("in", "-o", "out")[0], ["in/a.gltf"])
+        (self.folder / "in" / "deeper" / "b.png").write_bytes(b"another")
+        self.assertEqual(self.batch("in", "-o", "out")[0], ["in/deeper/b.GLTF"])
+        (self.folder / "in" / "deeper" / "b.png").unlink()  # an image may be missing
+        self.assertEqual(self.batch("in", "-o", "out")[0], ["in/deeper/b.GLTF"])
+        self.assertEqual(self.batch("in", "-o", "out")[0], [])
+        (self.folder / "in" / "deeper" / "b.png").write_bytes(b"here it is")
+        self.assertEqual(self.batch("in", "-o", "out")[0], ["in/deeper/b.GLTF"])
+
+        (self.folder / "out" / "a.bendy").write_bytes(b"spoilt")
+        (self.folder / "out" / "deeper" / "c.bendy").unlink()
+        self.assertEqual(self.batch("in", "-o", "out")[0], ["in/a.gltf", "in/deeper/c.glb"])
+        self.done("validate", "out/a.bendy")
+        self.write_model("else/a.gltf")  # another file for the same output
+        self.assertEqual(self.batch("else", "-o", "out")[0], ["else/a.gltf"])
+
+    def test_the_rig_file_counts_as_read(self):
+        (self.folder / "rig.json").write_text('{"bendy_rig": 1}')
+        options = ("in/a.gltf", "-o", "out/", "--rig", "rig.json")
+        self.assertEqual(len(self.batch(*options)[0]), 1)
+        self.assertEqual(len(self.batch(*options)[0]), 0)
+        (self.folder / "rig.json").write_text('{"bendy_rig": 1, "chains": []}')
+        self.assertEqual(len(self.batch(*options)[0]), 1)
+
+    def test_a_record_that_cannot_be_read_is_made_anew(self):
+        self.batch("in", "-o", "out")
+        record = self.folder / "out" / ".bendy_batch.json"
+        good = record.read_text()
+        for text in ("", "{", "[]", good[: len(good) // 2], good.replace("sources", "source"), good.replace('"', "7")):
+            record.write_text(text)
+            self.assertEqual(len(self.batch("in", "-o", "out")[0]), 3, text)
+            self.assertEqual(len(self.batch("in", "-o", "out")[0]), 0, text)
+
+    def test_a_bad_file_stops_nothing_else(self):
+        (self.folder / "in" / "bad.glb").write_bytes(b"glTF")
+        converted, table, errors = self.batch("in", "missing.glb", "-o", "out", "-j", "2", status=1)
+        self.assertEqual(len(converted), 3)
+        self.assertEqual((table["files"], table["failed"]), ("5", "2"))
+        self.assertEqual(self.outputs(), ["a.bendy", "deeper/b.bendy", "deeper/c.bendy"])
+        told = sorted(line for line in errors if line.startswith("bendy: error: "))
+        self.assertEqual(len(told), 2)
+        self.assertIn("in/bad.glb: GLB header truncated", told[0])
+        self.assertIn("missing.glb: file not found", told[1])
+        converted, table, _ = self.batch("in", "missing.glb", "-o", "out", status=1)  # tried again, the others not
+        self.assertEqual((converted, table["up to date"], table["failed"]), ([], "3", "2"))
+
+    def test_outputs_that_clash_are_an_error_before_anything_is_done(self):
+        shutil.copy(self.folder / "in" / "deeper" / "c.glb", self.folder / "in" / "a.glb")
+        shutil.copy(self.folder / "in" / "deeper" / "c.glb", self.folder / "in" / "deeper" / "b.glb")
+        result = self.bendy("convert", "in", "-o", "out")
+        lines = result.stderr.decode().splitlines()
+        self.assertEqual((result.returncode, result.stdout, len(lines)), (1, b"", 2), lines)
+        for place in ("a", "deeper/b"):
+            line = next(line for line in lines if f"out/{place}.bendy: both " in line)
+            self.assertIn(f"in/{place}.gl", line)
+        self.assertEqual(self.files(), ["in"])
+        self.done("convert", "in/a.gltf", "-o", "a.bendy")
+        before = (self.folder / "a.bendy").read_bytes()
+        self.assertIn("input as well", self.failed("convert", "a.bendy", "-o", "./", file="./a.bendy"))
+        self.assertEqual((self.folder / "a.bendy").read_bytes(), before)
+
+    def test_wrong_command_lines(self):
+        self.assertIn("OUTDIR", self.misused("convert", "in/a.gltf", "in/deeper/c.glb"))
+        self.assertIn("OUTDIR", self.failed("convert", "in", file="in"))
+        self.assertIn("--depfile", self.misused("convert", "in", "-o", "out", "--depfile", "d"))
+        self.assertIn("--jobs", self.misused("convert", "in", "-o", "out", "--jobs", "0"))
+        (self.folder / "file").write_bytes(b"")
+        self.failed("convert", "in", "-o", "file", file="file")
+        (self.folder / "empty").mkdir()
+        result = self.bendy("convert", "empty", "-o", "out", "-q")
+        self.assertEqual((result.returncode, result.stdout), (0, b""))
+        self.assertIn(b"empty: has no file to convert (.gltf, .glb, .vrm", result.stderr)
+
+    def test_an_output_that_cannot_be_written_is_one_failure(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "deeper").write_bytes(b"a file where a folder should be")
+        converted, table, errors = self.batch("in", "-o", "out", status=1)
+        self.assertEqual((converted, table["failed"]), (["in/a.gltf"], "2"))
+        self.assertTrue(all("out/deeper: " in line for line in errors if "error" in line), errors)
+
+    def test_an_interrupt_leaves_whole_outputs_only(self):
+        for number in range(40):
+            shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / f"{number}.glb")
+        with subprocess.Popen([BENDY, "convert", "in", "-o", "out", "-j", "2", "--compact"], cwd=self.folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            process.stdout.readline()  # the first file is done
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertRegex(errors.decode().splitlines()[-1], r"^bendy: interrupted: \d+ of 43 files converted$")
+        left = self.outputs()
+        self.assertTrue(0 < len(left) < 43, left)
+        self.assertEqual([path.name for path in (self.folder / "out").rglob(".bendy-*")], [])
+        self.done("validate", *[f"out/{name}" for name in left])
+        for path in (self.folder / "in").rglob("*.gl*"):  # what was done by then is known
+            if str(path.relative_to(self.folder / "in").with_suffix(".bendy")) not in left:
+                path.unlink()
+        self.assertGreater(int(self.batch("in", "-o", "out", "--compact")[1]["up to date"]), 0)
+
+    def test_a_terminal_shows_a_bar(self):
+        ours, its = os.openpty()
+        result = subprocess.run([BENDY, "convert", "in", "-o", "out"], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=its, timeout=120, check=False)
+        os.close(its)
+        shown = b""
+        with contextlib.suppress(OSError):  # Linux says so at the end
+            while piece := os.read(ours, 4096):
+                shown += piece
+        os.close(ours)
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(shown.decode(), r"converting \[#{40}\] 3/3, [\d.]+ files/s")
+        self.assertNotIn(b" -> ", result.stdout)
+        self.assertIn(b"  converted ", result.stdout)
+
+    def test_names_are_escaped(self):
+        self.write_model("in/x\x1b[31m.gltf")
+        for status in (0, 1):
+            result = self.bendy("convert", "in", "-o", "out", "--force")
+            self.assertEqual(result.returncode, status)
+            self.assertNotIn(b"\x1b", result.stdout + result.stderr)
+            (self.folder / "in" / "x\x1b[31m.bin").unlink(missing_ok=True)
+
+    @unittest.skipUnless(sys.platform == "linux", "file names elsewhere are Unicode")
+    def test_names_that_are_not_utf8(self):
+        shutil.copy(self.folder / "in" / "a.gltf", os.fsencode(self.folder) + b"/in/\xff.gltf")
+        for count in (4, 1):  # the record cannot hold it, so it is converted again
+            result = self.bendy("convert", "in", "-o", "out")
+            self.assertEqual((result.returncode, result.stdout.count(b" -> ")), (0, count))
+
+
+class ConvertDepfile(Case):
+    def write_odd_model(self):
+        """A model in files whose names are hard to write in a rule."""
+        self.name = "odd $name #1\\ .bin"
+        (self.folder / self.name).write_bytes(bytes(36))
+        (self.folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+        (self.folder / "rig.json").write_text('{"bendy_rig": 1}')
+        (self.folder / "m.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "images": [{"uri": "picture.png"}, {"uri": "missing.png"}, {"uri": "data:image/png;base64,iVBORw=="}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": urllib.parse.quote(self.name)}]}))
+
+    def test_it_lists_what_was_read(self):
+        self.write_odd_model()
+        self.done("convert", "m.gltf", "-o", "out.bendy", "--depfile", "d", "--rig", "rig.json")
+        self.assertEqual((self.folder / "d").read_text(),
+                         "out.bendy: \\\n  m.gltf \\\n  rig.json \\\n"
+                         "  odd\\ $$name\\ \\#1\\\\\\ .bin \\\n  picture.png\n")
+        self.done("convert", "m.gltf", "-o", "out.bendy", "--depfile", "d", "--images", "link")
+        self.assertNotIn("picture", (self.folder / "d").read_text())
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "a #b.bendy", "--depfile", "d")
+        self.assertTrue((self.folder / "d").read_text().startswith("a\\ \\#b.bendy: \\\n  /"))
+
+    def test_a_failure_writes_none(self):
+        self.failed("convert", "missing.gltf", "-o", "out.bendy", "--depfile", "d", file="missing.gltf")
+        self.assertEqual(self.files(), [])
+        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x", "--depfile", "no/d", file="no/d")
+        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x\ny", "--depfile", "d", file="d")
+
+    def test_make_and_ninja_read_it(self):
+        (self.folder / "Makefile").write_text(
+            f"make.bendy: m.gltf\n\t{BENDY} convert m.gltf -o $@ --depfile make.d -q\n-include make.d\n")
+        (self.folder / "build.ninja").write_text(
+            f"rule convert\n  command = {BENDY} convert $in -o $out --depfile $out.d -q\n"
+            "  depfile = $out.d\n  deps = gcc\nbuild ninja.bendy: convert m.gltf\n")
+        self.write_odd_model()
+        for tool in ("make", "ninja"):
+            with self.subTest(tool):
+                if not shutil.which(tool):
+                    self.skipTest(f"there is no {tool}")
+                output = self.folder / f"{tool}.bendy"
+
+                def is_made_again():
+                    before = output.stat().st_mtime_ns if output.exists() else None
+                    subprocess.run([tool], cwd=self.folder, check=True, capture_output=True, timeout=120)
+                    return output.stat().st_mtime_ns != before
+
+                self.assertEqual([is_made_again(), is_made_again()], [True, False])
+                for name in (self.name, "picture.png"):
+                    later = output.stat().st_mtime_ns + 10_000_000
+                    os.utime(self.folder / name, ns=(later, later))
+                    time.sleep(0.02)
+                    self.assertEqual([is_made_again(), is_made_again()], [True, False], name)
+
+
+class ConvertAutoSkin(Case):
+    def write_model(self):
+        """Two bones, one on the other, and a mesh beside them: two corners by the lower one, four by the upper one."""
+        file = GltfFile(scenes=[{"nodes": [0, 2]}],
+                        nodes=[{"name": "Low", "children": [1]}, {"name": "High", "translation": [0, 1, 0]},
+                               {"name": "Body", "mesh": 0}])
+        corners = file.add([(0.1, 0, 0), (0.1, 0.9, 0), (0.1, 1.1, 0), (0.1, 1.5, 0), (0.2, 2, 0), (0, 9, 0)], "VEC3")
+        file.document["meshes"] = [{"name": "body", "primitives": [{"attributes": {"POSITION": corners}}]}]
+        return file.write(self.folder / "m.gltf")
+
+    def test_vertices_are_bound_and_counted(self):
+        result = self.bendy("convert", self.write_model(), "--auto-skin")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr.decode(),
+                         "bendy: proposed: skin of mesh 'body': 6 vertices bound to 2 joints\n")
+        self.assertIn(b"up to 1 influence a vertex", result.stdout)
+        self.done("validate", "m.bendy")
+        result = self.bendy("convert", "m.gltf", "--skeleton", "High")
+        self.assertIn(b"6 vertices bound to 1 joint\n", result.stderr)
+        self.assertIn("'Higher'", self.failed("convert", "m.gltf", "--skeleton", "Higher", file="m.gltf"))
+
+    def test_nothing_to_bind_is_a_warning(self):
+        result = self.bendy("convert", SOURCE / "examples" / "tentacle.glb", "-o", "t.bendy", "--auto-skin")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"no vertices bound: every mesh has a skin", result.stderr)
+        self.assertEqual((self.folder / "t.bendy").read_bytes(), self.convert("tentacle").read_bytes())
 
 
 class Inspect(Case):
@@ -1062,6 +1365,8 @@ class Bench(Case):
     def test_wrong_options(self):
         path = self.convert()
         self.assertIn("dance", self.misused("bench", path, "--kernel", "dance"))
+        foreign = "avx2" if platform.machine() == "aarch64" else "neon"
+        self.assertRegex(self.misused("bench", path, "--kernel", foreign), rf"{foreign} does not run here; these do: .*plain")
         self.misused("bench", path, "--rounds", "0")
         self.assertIn("Dance", self.failed("bench", path, "--clip", "Dance", file=path))
 
@@ -1207,6 +1512,83 @@ class Rig(Case):
             path.write_text(json.dumps({"asset": {"version": "2.0"}, "nodes": [
                 {"name": "seg_00", "children": [1]}, {"name": "seg_01", "children": [2]}, {"name": "x"}]}))
         return path
+
+
+class Markers(Case):
+    STEPS = [{"time": 0.25, "name": "left"}, {"time": 0.75, "name": "right"}]
+
+    def write(self, markers, **members):
+        (self.folder / "rig.json").write_text(json.dumps({"bendy_rig": 1, "markers": markers, **members}))
+        return "rig.json"
+
+    def marked(self, markers, source="mannequin", out="marked.bendy", **members):
+        self.done("convert", self.convert(source), "--rig", self.write(markers, **members), "-q", "-o", out)
+        self.assertEqual(self.done("validate", out), b"")
+        return out
+
+    def test_they_are_seen_in_every_report(self):
+        self.marked({"Walk": self.STEPS})
+        text = self.done("inspect", "marked.bendy").decode()
+        self.assertRegex(text, r'CYCL 1  "Walk"  0 to 1 s, 59 tracks, repeats, 2 markers\n')
+        self.assertIn('2 markers: "left" at 0.25 s, "right" at 0.75 s', text)
+        chunks = json.loads(self.done("inspect", "marked.bendy", "--json"))["chunks"]
+        self.assertEqual([chunk["fields"] for chunk in chunks if chunk["id"] == "MARK"],
+                         [{"markers": [{"seconds": 0.25, "name": "left"}, {"seconds": 0.75, "name": "right"}]}])
+        self.done("inspect", "marked.bendy", "--html", "m.html")
+        self.assertIn('"markers":[[0.25,"left"],[0.75,"right"]]', (self.folder / "m.html").read_text())
+
+    def test_the_rig_file_gives_the_same_bytes(self):
+        self.marked({"Walk": {"right": 0.75, "left": 0.25}, "#0": []})
+        rig = json.loads(self.done("rig", "marked.bendy", "-o", "again.json") or (self.folder / "again.json").read_text())
+        self.assertEqual(rig["markers"], {"Walk": self.STEPS})
+        schema = json.loads((SOURCE / "spec" / "rig.schema.json").read_text())
+        self.assertTrue(is_valid(rig, schema, schema))
+        self.done("convert", self.convert(), "--rig", "again.json", "-q", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), (self.folder / "marked.bendy").read_bytes())
+
+    def test_from_gltf_and_back_the_chunks_are_the_same(self):
+        self.done("export", self.marked({"Walk": self.STEPS}), "-o", "m.gltf", "-q")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        extras = next(a["extras"] for a in document["animations"] if a["name"] == "Walk")
+        self.assertEqual(extras["markers"], self.STEPS)
+        self.assertNotIn("markers", document["scenes"][0]["extras"]["bendy_rig"])
+        for form in (self.STEPS, {"right": 0.75, "left": [0.25]}, json.dumps(self.STEPS)):
+            extras["markers"] = form
+            (self.folder / "m.gltf").write_text(json.dumps(document))
+            self.done("convert", "m.gltf", "-q", "-o", "once.bendy")
+            self.assertEqual((self.folder / "once.bendy").read_bytes(), (self.folder / "marked.bendy").read_bytes())
+
+    def test_compact_and_lod_files_keep_them(self):
+        self.marked({"Walk": self.STEPS})
+        self.done("convert", "marked.bendy", "--compact", "--lod", "-q", "-o", "small.bendy")
+        self.assertEqual(json.loads(self.done("rig", "small.bendy"))["markers"], {"Walk": self.STEPS})
+        self.done("diff", "marked.bendy", "small.bendy", "--tolerance", "1%")
+        self.done("edit", "small.bendy", "-o", "bare.bendy", "--strip", "markers")
+        self.assertNotIn("markers", json.loads(self.done("rig", "bare.bendy")))
+        result = self.bendy("diff", "small.bendy", "bare.bendy", "--tolerance", "1%")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b'! cycle "Walk": markers: 2 -> 0\n', result.stdout)
+
+    def test_differences_are_told_one_by_one(self):
+        self.marked({"Walk": self.STEPS})
+        self.marked({"Walk": {"left": 0.25, "hit": 0.5}}, out="other.bendy")
+        result = self.bendy("diff", "marked.bendy", "other.bendy")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual([line.split(": ", 1)[1] for line in result.stdout.decode().splitlines()],
+                         ["marker 1: seconds: 0.75 -> 0.5", 'marker 1: name: "right" -> "hit"'])
+
+    def test_what_is_wrong_in_a_rig_file(self):
+        for markers, message in (
+                ({"Walk": [{"time": 1.5, "name": "late"}]},
+                 "markers.Walk[0]: 1.5 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+                ({"Walk": {"step": "soon"}}, "markers.Walk.step: a number is due, not 'soon'"),
+                ([], "markers: it must be an object, not array")):
+            line = self.failed("convert", self.convert(), "--rig", self.write(markers), "-o", "x.bendy")
+            self.assertEqual(line, f"bendy: error: rig.json: {message}")
+            self.assertFalse((self.folder / "x.bendy").exists())
+        result = self.bendy("convert", self.convert(), "--rig", self.write({"Fly": []}), "-q", "-o", "x.bendy")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"rig.json: markers.Fly: no cycle takes 'Fly'", result.stderr)
 
 
 class Diff(Case):

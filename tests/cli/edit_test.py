@@ -101,6 +101,7 @@ class Strip(EditCase):
         "meshes": ({"VECT", "POLY", "LODD"}, {"JNTS", "TRAK", "TIME", "KEYV"}),
         "targets": ({"TARG"}, {"TRAK", "TIME", "KEYV"}),
         "cycles": ({"CYCL"}, set()),
+        "markers": ({"MARK"}, set()),
         "chains": ({"IKCH", "PULL"}, set()),
         "limits": ({"LIMT"}, set()),
         "lod": ({"LODD"}, set()),

@@ -36,10 +36,12 @@ CONTAINERS, STRUCTS = read_tables()
 RECORD_OF = {'VERS': 'VersionRecord', 'BNDS': 'BoundRecord', 'SAMP': 'SamplerRecord', 'SAME': 'SameRecord',
              'SURF': 'SurfaceRecord', 'REST': 'RestRecord', 'LIMT': 'LimitRecord', 'PULL': 'PullRecord', 'KINF': 'ChainRecord',
              'POLY': 'PolygonRecord', 'JNTS': 'JointsRecord', 'VINF': 'PoolRecord', 'TINF': 'TargetRecord', 'CINF': 'CycleRecord',
-             'PACK': 'PackRecord', 'PALT': 'PaletteRecord', 'LODD': 'CollapseRecord', 'IMAG': 'ImageRecord'}
+             'PACK': 'PackRecord', 'PALT': 'PaletteRecord', 'LODD': 'CollapseRecord', 'IMAG': 'ImageRecord',
+             'MARK': 'MarkersRecord'}
 STREAMS = ('POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX')
 RECORD_OF.update(dict.fromkeys(STREAMS, 'StreamRecord'))
-ROWS = {('TRAK', 'TrackRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'PoolCollapseRecord'): 16}  # where a table starts
+ROWS = {('TRAK', 'TrackRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'PoolCollapseRecord'): 16,
+        ('MARK', 'MarkerRecord'): 8}  # where a table starts
 
 # What a field holds that no description sets; all others are 0. These are the pages' "none", "free" and "no change".
 DEFAULTS = {

@@ -3,9 +3,9 @@
 #include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
-#include <gtest/gtest.h>
+#include "temporary_folder.h"
 
-#include <unistd.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -132,13 +132,6 @@ INSTANTIATE_TEST_SUITE_P(Examples, ConvertExample,
 /// A folder of its own for each test, removed at the end.
 class ConvertFile : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) / ("bendy_convert_" + std::to_string(::getpid()));
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, std::string_view content) const {
         std::ofstream(folder_ / name, std::ios::binary) << content;
         return folder_ / name;
@@ -151,7 +144,8 @@ protected:
         return {};
     }
 
-    std::filesystem::path folder_;
+    bendy::test::TemporaryFolder temporary_;
+    std::filesystem::path folder_ = temporary_.path();
 };
 
 constexpr std::string_view kTwoScenes = R"({"asset":{"version":"2.0"},"scene":1,

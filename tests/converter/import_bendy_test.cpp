@@ -2,12 +2,14 @@
 #include <bendy/converter/convert.h>
 #include <bendy/converter/import_bendy.h>
 #include <bendy/format/file.h>
+#include <bendy/format/marker.h>
 
-#include "format/sample_file.h"
+#include "format/edit_file.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -161,6 +163,69 @@ TEST(ImportBendy, EmbeddedImagesThatNobodyUsesDoNotMoveTheTextures) {
     Report report;
     const Buffer once = build_chunks(scene, "g", report);
     EXPECT_EQ(once, build_chunks(import_good(once, report), "g", report));
+}
+
+/// A joint that goes from 0 to 1 s in so many keys, with markers from end to end.
+Scene marked_scene(std::size_t keys) {
+    Scene scene;
+    scene.joints.resize(1);
+    Cycle& cycle = scene.cycles.emplace_back();
+    Track& track = cycle.tracks.emplace_back();
+    track.target = 0;
+    track.components = 3;
+    for (std::size_t k = 0; k < keys; ++k) {
+        const float time = static_cast<float>(k) / static_cast<float>(keys - 1);
+        track.times.push_back(time);
+        track.values.insert(track.values.end(), {std::sin(3.0f * time), time * time, 0.0f});
+    }
+    cycle.markers = {{0.0f, "first"}, {0.3f, "step"}, {0.7f, "step"}, {1.0f, "last"}};
+    return scene;
+}
+
+TEST(ImportBendy, MarkersComeBackToTheByte) {
+    Report report;
+    const Buffer once = build_chunks(marked_scene(2), "g", report);
+    const Scene scene = import_good(once, report);
+    ASSERT_EQ(scene.cycles[0].markers.size(), 4u);
+    EXPECT_EQ(scene.cycles[0].markers[2].seconds, 0.7f);
+    EXPECT_EQ(scene.cycles[0].markers[2].name, "step");
+    EXPECT_EQ(build_chunks(scene, "g", report), once);
+    EXPECT_TRUE(report.warnings().empty());
+}
+
+TEST(ImportBendy, CompactFilesKeepMarkers) {
+    Report report;
+    const auto path = folder() / "exact.bendy";
+    ASSERT_TRUE(write_file(path, build_chunks(marked_scene(100), "g", report)));
+    ConvertOptions options;
+    options.compact = ErrorBound{1e-4, false};
+    const auto compact = convert(path, options, report);
+    ASSERT_TRUE(compact) << compact.error().message;
+    const Result<ChunkTree> tree = read_chunk_tree(*compact);
+    ASSERT_TRUE(tree);
+    const auto is_packed = [](const Chunk& chunk) { return chunk.id == FourCC("PACK"); };
+    EXPECT_EQ(std::count_if(tree->chunks().begin(), tree->chunks().end(), is_packed), 1);
+    const Scene scene = import_good(*compact, report);
+    ASSERT_EQ(scene.cycles[0].markers.size(), 4u);
+    EXPECT_EQ(scene.cycles[0].markers[1].seconds, 0.3f);
+    EXPECT_EQ(scene.cycles[0].markers[3].name, "last");
+    EXPECT_NEAR(scene.cycles[0].markers[3].seconds, 1.0f, 1e-6f);
+}
+
+/// A cycle of ours is as long as its keys.
+TEST(ImportBendy, MarkersBehindTheLastKeyAreNamed) {
+    test::Buffer payload = write_markers(std::vector<bendy::Marker>{{0.5f, "in"}, {1.5f, "behind"}});
+    Report report;
+    Buffer file = build_chunks(marked_scene(2), "g", report);
+    test::Node root = test::to_node(file);
+    test::edit<CycleRecord>(test::at(root, "HEAD/OBJE/CYCL/CINF"), [](CycleRecord& cycle) { cycle.end = 2.0f; });
+    test::at(root, "HEAD/OBJE/CYCL/MARK").payload = payload;
+    file = test::to_file(root);
+    const Scene scene = import_good(file, report);
+    ASSERT_EQ(scene.cycles[0].markers.size(), 1u);
+    EXPECT_EQ(scene.cycles[0].markers[0].name, "in");
+    EXPECT_EQ(messages_of(report).back(),
+              "HEAD/OBJE/CYCL: marker left out: 1.5 s is outside the cycle, which lasts from 0.0 s to 1.0 s");
 }
 
 TEST(ImportBendy, UnknownChunksAreNamed) {

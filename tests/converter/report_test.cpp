@@ -1,6 +1,12 @@
 #include <bendy/converter/report.h>
 
+#include "gltf/build_gltf.h"
+
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 
 namespace bendy::converter {
 namespace {
@@ -18,6 +24,25 @@ TEST(Report, EqualMessagesAreCountedTogetherInTheOrderInWhichTheyFirstCame) {
     EXPECT_EQ(report.warnings()[1].message, "cameras are left out");
     EXPECT_EQ(report.warnings()[1].first_place, "nodes[1]");
     EXPECT_EQ(report.warnings()[1].count, 5u);
+}
+
+TEST(Report, AFileIsNotedOnceAsItWasBeforeItWasRead) {
+    const std::filesystem::path file = test::test_folder() / "file";
+    Report report;
+    report.add_source(file);
+    std::ofstream(file) << "seven b";
+    report.add_source(file);
+    report.add_source(file.parent_path());
+    ASSERT_EQ(report.sources().size(), 2u);
+    EXPECT_EQ(report.sources()[0].file, file);
+    EXPECT_FALSE(report.sources()[0].stamp.is_there);
+    EXPECT_FALSE(report.sources()[1].stamp.is_there);  // a folder is no file
+    Report later;
+    later.add_source(file);
+    EXPECT_EQ(later.sources()[0].stamp, stamp_of(file));
+    EXPECT_EQ(later.sources()[0].stamp.size, 7u);
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type(std::chrono::seconds(1)));
+    EXPECT_NE(later.sources()[0].stamp, stamp_of(file));
 }
 
 TEST(Report, StartsEmpty) {

@@ -115,6 +115,40 @@ TEST(Strip, TracksThatStayKeepTheirKeys) {
     EXPECT_EQ(next, 5u);
 }
 
+/// The sample with markers in its cycle.
+Buffer marked() {
+    Node root = test::sample();
+    at(root, "HEAD/OBJE/CYCL")
+        .children.push_back(test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {1.0f, 7}}, "stephit")));
+    return test::to_file(root);
+}
+
+std::string markers_of(const Loaded& loaded, std::size_t cycle) {
+    std::string text;
+    for (const Marker& marker : loaded.document.objects.front().cycles.at(cycle).markers)
+        text += std::string(marker.name) + '@' + std::to_string(marker.seconds) + ' ';
+    return text;
+}
+
+TEST(Markers, StayWithTheirCycle) {
+    const std::string all = "step@0.500000 hit@1.000000 ";
+    ASSERT_EQ(markers_of(Loaded(marked()), 0), all);
+    EXPECT_EQ(markers_of(Loaded(stripped(marked(), Part::meshes)), 0), all);
+    EXPECT_TRUE(Loaded(stripped(marked(), Part::cycles)).document.objects.front().cycles.empty());
+    Log log;
+    const Edited part = extract(marked(), "spine", log);
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(markers_of(Loaded(*part), 0), all);
+    const Edited merged = merge_cycles(test::sample_file(), marked(), SameName::number, log);
+    ASSERT_TRUE(merged) << merged.error().message;
+    EXPECT_EQ(markers_of(Loaded(*merged), 0), "");
+    EXPECT_EQ(markers_of(Loaded(*merged), 1), all);
+}
+
+TEST(Markers, AreStrippedAlone) {
+    EXPECT_EQ(stripped(marked(), Part::markers), stripped(test::sample_file(), Part::unknown));
+}
+
 TEST(Names, Matches) {
     EXPECT_TRUE(matches("a*c", "abbc"));
     EXPECT_TRUE(matches("*", ""));

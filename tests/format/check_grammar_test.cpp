@@ -25,17 +25,15 @@ struct Row {
     std::string times;
 };
 
-/// The table, without what is reserved.
+/// The table.
 const std::vector<Row>& rows() {
     static const std::vector<Row> kRows = [] {
         std::vector<Row> list;
-        const auto add = [&](const char* id, const char* shape, const char* parents, const char* times,
-                             std::string_view what) {
-            if (what.ends_with("(reserved)")) return;  // unknown to this version
+        const auto add = [&](const char* id, const char* shape, const char* parents, const char* times) {
             std::istringstream words(parents);
             list.push_back({id, shape, {std::istream_iterator<std::string>(words), {}}, times});
         };
-#define BENDY_CHUNK(id, shape, parents, times, what) add(#id, #shape, parents, #times, what);
+#define BENDY_CHUNK(id, shape, parents, times, what) add(#id, #shape, parents, #times);
 #include <bendy/format/chunk_ids.def>
 #undef BENDY_CHUNK
         return list;
@@ -84,12 +82,12 @@ TEST(CheckGrammar, FindsNothingInTheSample) {
     EXPECT_EQ(grammar_faults(sample()), Lines{});
 }
 
-TEST(CheckGrammar, TheSampleHoldsEveryChunkThatIsNotReserved) {
+TEST(CheckGrammar, TheSampleHoldsEveryChunkOfExactFiles) {
     std::set<std::string> ids;
     const Loaded loaded(sample_file());
     for (const Chunk& chunk : loaded.tree.chunks()) ids.insert(chunk.id.letters().data());
-    // Only compact files hold these: joint_table_test.cpp and packed_cycle_test.cpp have them.
-    for (const char* id : {"BNDS", "JNTS", "JNAM", "PACK"}) EXPECT_TRUE(ids.insert(id).second) << id;
+    // Only compact files hold these: joint_table_test.cpp and packed_cycle_test.cpp have them. MARK: marker_test.cpp.
+    for (const char* id : {"BNDS", "JNTS", "JNAM", "PACK", "MARK"}) EXPECT_TRUE(ids.insert(id).second) << id;
     for (const Row& row : rows()) EXPECT_EQ(ids.count(row.id), 1u) << row.id;
 }
 
@@ -213,32 +211,6 @@ TEST(CheckGrammar, TakesKnownChunksThatAreMarkedRequired) {
         for (Node& node : container.children) node.flags |= kRequiredFlag;
     });
     EXPECT_EQ(faults_in(root), Lines{});
-}
-
-TEST(CheckGrammar, TakesReservedChunksWhateverTheyHold) {
-    Node root = sample();
-    const Bytes anything = as_byte_span("\xff\xfe anything");
-    at(root, "HEAD/OBJE/CYCL")
-        .children.push_back(
-            make_container(FourCC("MARK"), {make_leaf(FourCC("NAME"), anything), make_leaf(FourCC("NAME"))}));
-    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything, 0x0100));
-    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), anything));
-    EXPECT_EQ(faults_in(root), Lines{});
-}
-
-TEST(CheckGrammar, RefusesAReservedChunkThatIsRequired) {
-    Node root = sample();
-    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), {}, kRequiredFlag));
-    EXPECT_EQ(faults_in(root), Lines{"REQUIRED_CHUNK_UNKNOWN HEAD/OBJE/CYCL/MARK"});
-}
-
-TEST(CheckGrammar, ReservesNothingButMarkers) {
-    std::set<std::string> reserved;
-#define BENDY_CHUNK(id, shape, parents, times, what) \
-    if (std::string_view(what).ends_with("(reserved)")) reserved.insert(#id);
-#include <bendy/format/chunk_ids.def>
-#undef BENDY_CHUNK
-    EXPECT_EQ(reserved, (std::set<std::string>{"MARK"}));
 }
 
 TEST(CheckGrammar, RefusesConstraintsAndChainsInTheWrongPlaceOrShape) {

@@ -1,66 +1,25 @@
-#include <bendy/format/file.h>
+#include "format/file_fixture.h"
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+// What holds on all systems; file_posix_test.cpp and file_windows_test.cpp have the rest.
 namespace bendy {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// An empty folder that goes away with the test.
-class FileTest : public testing::Test {
-protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "bendy_file_test_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    [[nodiscard]] fs::path in(const char* name) const { return folder_ / name; }
-
-    [[nodiscard]] std::vector<std::string> names() const {
-        std::vector<std::string> list;
-        for (const auto& entry : fs::directory_iterator(folder_)) list.push_back(entry.path().filename().string());
-        std::sort(list.begin(), list.end());
-        return list;
-    }
-
-    static std::string content(const fs::path& path) {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-
-    static void put(const fs::path& path, std::string_view text) { std::ofstream(path, std::ios::binary) << text; }
-
-    fs::path folder_;
-};
-
-using MappedFileTest = FileTest;
-using WriteFileTest = FileTest;
-
-/// The code, and what the system said.
-void expect_error(const Error& error, ErrorCode code, int system) {
-    EXPECT_STREQ(code_name(error.code), code_name(code));
-    EXPECT_EQ(error.value, static_cast<std::uint64_t>(system));
-}
+using test::expect_error;
+using MappedFileTest = test::FileTest;
+using WriteFileTest = test::FileTest;
 
 TEST_F(MappedFileTest, GivesTheBytesOnAPageBoundary) {
     const std::string_view text("one\0two", 7);
@@ -89,31 +48,6 @@ TEST_F(MappedFileTest, RefusesAFolder) {
     const auto file = MappedFile::open(folder_);
     ASSERT_FALSE(file.has_value());
     expect_error(file.error(), ErrorCode::kCannotRead, EISDIR);
-}
-
-TEST_F(MappedFileTest, RefusesAPipeWithoutWaitingForIt) {
-    ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
-    const auto file = MappedFile::open(in("pipe"));
-    ASSERT_FALSE(file.has_value());
-    expect_error(file.error(), ErrorCode::kCannotRead, EINVAL);
-}
-
-TEST_F(MappedFileTest, FollowsALink) {
-    put(in("a"), "text");
-    fs::create_symlink(in("a"), in("link"));
-    const auto file = MappedFile::open(in("link"));
-    ASSERT_TRUE(file.has_value());
-    EXPECT_EQ(as_text(file->bytes()), "text");
-}
-
-TEST_F(MappedFileTest, OutlivesTheNameOfItsFile) {
-    put(in("a"), "text");
-    const auto file = MappedFile::open(in("a"));
-    ASSERT_TRUE(file.has_value());
-    ASSERT_TRUE(write_file(in("a"), as_byte_span("other")).has_value());
-    EXPECT_EQ(as_text(file->bytes()), "text");
-    fs::remove(in("a"));
-    EXPECT_EQ(as_text(file->bytes()), "text");
 }
 
 TEST_F(MappedFileTest, CanBeMoved) {
@@ -151,31 +85,6 @@ TEST_F(WriteFileTest, ReplacesALongerFile) {
     EXPECT_EQ(names(), std::vector<std::string>{"a"});
 }
 
-TEST_F(WriteFileTest, NeverShowsAnUnfinishedFile) {
-    // Whoever has opened the old file goes on reading it: the new one comes beside it, not into it.
-    put(in("a"), "old");
-    const int old = ::open(in("a").c_str(), O_RDONLY);
-    ASSERT_GE(old, 0);
-    ASSERT_TRUE(write_file(in("a"), as_byte_span("new")).has_value());
-    char text[4]{};
-    EXPECT_EQ(::read(old, text, 3), 3);
-    EXPECT_STREQ(text, "old");
-    ::close(old);
-}
-
-TEST_F(WriteFileTest, GivesTheRightsThatAnyNewFileGets) {
-    for (const mode_t mask : {mode_t{022}, mode_t{027}, mode_t{077}}) {
-        const mode_t before = ::umask(mask);
-        const bool written = write_file(in("a"), as_byte_span("text")).has_value();
-        const mode_t after = ::umask(before);
-        ASSERT_TRUE(written);
-        EXPECT_EQ(after, mask);  // left as it was
-        struct stat status {};
-        ASSERT_EQ(::stat(in("a").c_str(), &status), 0);
-        EXPECT_EQ(status.st_mode & 0777u, 0666u & ~mask);
-    }
-}
-
 TEST_F(WriteFileTest, RefusesAFolderThatIsNotThere) {
     const auto written = write_file(in("none") / "a", as_byte_span("text"));
     ASSERT_FALSE(written.has_value());
@@ -193,41 +102,84 @@ TEST_F(WriteFileTest, RefusesToReplaceAFolderAndLeavesNothingBehind) {
     EXPECT_EQ(content(in("a") / "inside"), "x");
 }
 
-/// Lets no file of this process grow past `bytes` while it lives.
-class FileSizeLimit {
+TEST_F(WriteFileTest, NamesMayHaveAnyLetters) {
+    for (const fs::path name : {u8"лиса.bendy", u8"狐.bendy", u8"Füchsin é.bendy", u8"\U0001F98A.bendy"}) {
+        ASSERT_TRUE(write_file(in(name), as_byte_span("old")).has_value()) << name;
+        ASSERT_TRUE(write_file(in(name), as_byte_span("new")).has_value()) << name;
+        const auto file = MappedFile::open(in(name));
+        ASSERT_TRUE(file.has_value()) << name;
+        EXPECT_EQ(as_text(file->bytes()), "new");
+    }
+    // As the system has them, not as some code page would.
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder_)) found.push_back(entry.path().filename());
+    EXPECT_EQ(found.size(), 4u);
+    for (const fs::path name : {u8"лиса.bendy", u8"狐.bendy", u8"Füchsin é.bendy", u8"\U0001F98A.bendy"})
+        EXPECT_EQ(std::count(found.begin(), found.end(), name), 1) << name;
+}
+
+TEST_F(WriteFileTest, FoldersMayHaveAnyLetters) {
+    const fs::path folder = in(u8"狐の模型");
+    fs::create_directory(folder);
+    ASSERT_TRUE(write_file(folder / u8"лиса.bendy", as_byte_span("text")).has_value());
+    const auto file = MappedFile::open(folder / u8"лиса.bendy");
+    ASSERT_TRUE(file.has_value());
+    EXPECT_EQ(as_text(file->bytes()), "text");
+}
+
+/// Folders in folders; created and removed one by one, by the name that Windows takes at any length.
+class DeepFolder {
 public:
-    explicit FileSizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
+    explicit DeepFolder(const fs::path& start, std::size_t depth) : path_(start) {
+        for (std::size_t i = 0; i < depth; ++i) {
+            path_ /= std::string(100, static_cast<char>('a' + i));
+            fs::create_directory(full(path_));
+            made_.push_back(path_);
+        }
     }
-    ~FileSizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, signal_);
+    ~DeepFolder() {
+        std::error_code ignored;
+        for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(full(*at), ignored);
     }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+    DeepFolder(const DeepFolder&) = delete;
+    DeepFolder& operator=(const DeepFolder&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    static fs::path full(const fs::path& path) {
+#ifdef _WIN32
+        return LR"(\\?\)" + fs::path(path).make_preferred().wstring();
+#else
+        return path;
+#endif
+    }
 
 private:
-    rlimit before_{};
-    void (*signal_)(int);
+    fs::path path_;
+    std::vector<fs::path> made_;
 };
 
-TEST_F(WriteFileTest, LeavesTheOldFileAloneWhenTheDiskIsFull) {
-    put(in("a"), "old");
-    const std::string much(100'000, 'x');
-    Error error;
-    bool written = true;
+TEST_F(WriteFileTest, PathsMayBeLong) {
+    const DeepFolder deep(folder_, 4);
+    const fs::path path = deep.path() / u8"狐.bendy";
+    ASSERT_GT(path.native().size(), 400u);
+    ASSERT_TRUE(write_file(path, as_byte_span("old")).has_value());
+    ASSERT_TRUE(write_file(path, as_byte_span("new")).has_value());
     {
-        const FileSizeLimit limit(4096);
-        const auto result = write_file(in("a"), as_byte_span(much));
-        written = result.has_value();
-        if (!written) error = result.error();
+        const auto file = MappedFile::open(path);
+        ASSERT_TRUE(file.has_value());
+        EXPECT_EQ(as_text(file->bytes()), "new");
     }
-    ASSERT_FALSE(written);
-    expect_error(error, ErrorCode::kCannotWrite, EFBIG);
-    EXPECT_EQ(content(in("a")), "old");
-    EXPECT_EQ(names(), std::vector<std::string>{"a"});
+    EXPECT_TRUE(fs::remove(DeepFolder::full(path)));
+}
+
+TEST_F(WriteFileTest, APathMayBeRelative) {
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_);
+    const bool written = write_file("a", as_byte_span("text")).has_value();
+    const auto file = MappedFile::open(fs::path(".") / "a");
+    fs::current_path(before);
+    EXPECT_TRUE(written);
+    ASSERT_TRUE(file.has_value());
+    EXPECT_EQ(as_text(file->bytes()), "text");
 }
 
 }  // namespace

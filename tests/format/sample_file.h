@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-// A small file that holds at least one of every chunk that is not reserved, and is good in every respect:
+// A small file that holds at least one of every chunk of exact files but MARK, and is good in every respect:
 //
 //     HEAD
 //      VERS
@@ -89,6 +89,15 @@ inline Buffer palette_payload(const std::vector<std::uint32_t>& joints) {
         const Bytes bytes = bytes_of(matrix);
         payload.insert(payload.end(), bytes.begin(), bytes.end());
     }
+    return payload;
+}
+
+/// A MARK's payload: record, markers, names. \param names  as they stand in the file
+inline Buffer markers_payload(const std::vector<MarkerRecord>& markers, std::string_view names) {
+    const MarkersRecord record{static_cast<std::uint32_t>(markers.size()), 0};
+    Buffer payload;
+    for (const Bytes bytes : {bytes_of(record), bytes_of_all(markers), as_byte_span(names)})
+        payload.insert(payload.end(), bytes.begin(), bytes.end());
     return payload;
 }
 

@@ -61,6 +61,13 @@ constexpr std::uint64_t kFlagsField = 14;
 constexpr std::size_t kNumbers = sizeof(StreamRecord);
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
+/// Markers in the sample's cycle, which lasts from 0.5 s to 1 s; their names are "stop".
+Provocation marked(ErrorCode code, const std::vector<MarkerRecord>& markers) {
+    return edited(code, "HEAD/OBJE/CYCL/MARK", [markers](Node& root) {
+        at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), markers_payload(markers, "stop")));
+    });
+}
+
 /// A leaf under zstd with nothing after its header.
 void put_encoded(Node& leaf, const CodecHeader& header) {
     leaf.flags = 0x0100;
@@ -206,6 +213,9 @@ const std::vector<Provocation> kProvocations{
            [](Node& root) {
                edit<RestRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/REST"), [](auto& rest) { rest.rotation = {}; });
            }),
+    marked(ErrorCode::kMarkerName, {{0.5f, 4}, {0.75f, 3}}),
+    marked(ErrorCode::kMarkerOrder, {{0.75f, 2}, {0.5f, 4}}),
+    marked(ErrorCode::kMarkerOutside, {{0.5f, 2}, {1.25f, 4}}),
     // LODD: its record, the pool's, two levels of 8 bytes, targets.
     edited(ErrorCode::kCollapsePool, "HEAD/OBJE/LODD",
            [](Node& root) {

@@ -154,6 +154,7 @@ void use_model(const Model& model, unsigned choice) {
     for (const Cycle& cycle : model.cycles()) {
         if (++cycles > 16) break;
         look_at(cycle.name);
+        for (const Marker& marker : cycle.markers) look_at(marker.name);
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
         for (const float seconds : {cycle.start, middle, cycle.end}) {
             sample(&cycle, seconds, pose);

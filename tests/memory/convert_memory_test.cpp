@@ -31,6 +31,7 @@ std::uint64_t fail_each_of(const std::filesystem::path& source, const ConvertOpt
                 if (bytes) {
                     // Compacting goes without what it has no memory for, and is good but larger.
                     if (options.compact) {
+                        if (test::is_failure_pending()) return;  // it would come in the next line
                         ASSERT_TRUE(validate(*bytes).empty());
                         return;
                     }

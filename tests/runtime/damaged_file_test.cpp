@@ -97,5 +97,24 @@ TEST(DamagedFile, ManyChangesAtOnceAreRefusedOrHarmless) {
     EXPECT_GT(accepted, 10);
 }
 
+TEST(DamagedFile, WhatIsMadeOfThemIsHarmless) {
+    const Buffer good = test::sample_file();
+    std::mt19937 random(6);
+    OpenOptions options;
+    options.sums = Sums::later;
+    int accepted = 0;
+    for (int round = 0; round < 600; ++round) {
+        Buffer file = good;
+        for (int change = 0; change < 3; ++change)
+            file[random() % file.size()] = static_cast<std::byte>(random() % 256);
+        const Result<Model> model = Model::from_memory(file, options);
+        if (!model) continue;
+        ++accepted;
+        test::play_all(*model);
+        if (testing::Test::HasFailure()) FAIL() << "round " << round;
+    }
+    EXPECT_GT(accepted, 50);
+}
+
 }  // namespace
 }  // namespace bendy

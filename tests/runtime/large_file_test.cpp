@@ -1,11 +1,10 @@
 #include <bendy/runtime.h>
 
 #include "runtime/build_model.h"
+#include "runtime/sparse_file.h"
+#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
@@ -27,22 +26,6 @@ struct Header {
 };
 static_assert(sizeof(Header) == kChunkHeaderSize);
 
-/// A file that is removed at the end.
-class Temporary {
-public:
-    Temporary() : path_(std::filesystem::temp_directory_path() / ("bendy_large_file_" + std::to_string(::getpid()))) {}
-    ~Temporary() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 template <class T>
 void put(std::ofstream& out, const T& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);  // NOLINT(*-reinterpret-cast)
@@ -50,8 +33,9 @@ void put(std::ofstream& out, const T& value) {
 
 /// A good file's bytes behind a leaf of kHole bytes that no reader knows. False where files cannot have holes.
 bool write_behind_hole(Bytes good, const std::filesystem::path& path) {
+    test::make_sparse_file(path);
     {
-        std::ofstream out(path, std::ios::binary);
+        std::ofstream out(path, std::ios::binary | std::ios::in);
         Header root;
         std::memcpy(&root, good.data(), sizeof root);
         root.size_and_flags += kChunkHeaderSize + kHole;
@@ -62,10 +46,8 @@ bool write_behind_hole(Bytes good, const std::filesystem::path& path) {
         out.write(as_text(children).data(), static_cast<std::streamsize>(children.size()));
         if (!out.flush()) return false;
     }
-    struct stat status {};
-    constexpr std::int64_t kBlock = 512;
-    constexpr std::int64_t kLittle = std::int64_t{1} << 26;
-    return ::stat(path.c_str(), &status) == 0 && status.st_blocks * kBlock < kLittle;
+    constexpr std::uint64_t kLittle = std::uint64_t{1} << 26;
+    return test::room_of(path) < kLittle;
 }
 
 std::vector<glm::vec3> pose_in_run(const Model& model) {
@@ -78,27 +60,29 @@ std::vector<glm::vec3> pose_in_run(const Model& model) {
 
 TEST(LargeFile, StreamsBeyondFourGigabytesArePosed) {
     const test::Buffer good = test::sample_file();
-    const Temporary file;
-    if (!write_behind_hole(good, file.path())) GTEST_SKIP() << "no sparse files here";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "large.bendy";
+    if (!write_behind_hole(good, file)) GTEST_SKIP() << "no sparse files here";
     OpenOptions options;
     options.sums = Sums::later;
-    const Result<Model> model = Model::open(file.path(), options);
+    const Result<Model> model = Model::open(file, options);
     ASSERT_TRUE(model.has_value()) << describe_with_place(model.error(), good);
     const test::Owned same(good);
     EXPECT_EQ(model->joints().size(), same->joints().size());
     EXPECT_EQ(pose_in_run(*model), pose_in_run(*same));
-    EXPECT_GT(std::filesystem::file_size(file.path()), kHole);
+    EXPECT_GT(std::filesystem::file_size(file), kHole);
 }
 
 TEST(LargeFile, AFaultBeyondFourGigabytesHasItsPlace) {
     test::Buffer bad = test::sample_file();
     const std::uint64_t indices = test::place_of(bad, "HEAD/OBJE/VECT/INDX");
     test::patch(bad, indices + kChunkHeaderSize + sizeof(StreamRecord), std::uint16_t{999});
-    const Temporary file;
-    if (!write_behind_hole(bad, file.path())) GTEST_SKIP() << "no sparse files here";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "large.bendy";
+    if (!write_behind_hole(bad, file)) GTEST_SKIP() << "no sparse files here";
     OpenOptions options;
     options.sums = Sums::later;
-    const Result<Model> model = Model::open(file.path(), options);
+    const Result<Model> model = Model::open(file, options);
     ASSERT_FALSE(model.has_value());
     EXPECT_EQ(model.error().code, ErrorCode::kIndexRange);
     EXPECT_EQ(model.error().offset, indices + kChunkHeaderSize + kHole);

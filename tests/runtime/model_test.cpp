@@ -4,15 +4,15 @@
 #include <bendy/runtime/skin.h>
 
 #include "runtime/build_model.h"
+#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -90,6 +90,20 @@ TEST(Model, FindsByNameTheFirstOfEqualNames) {
     EXPECT_EQ(model->joint("nobody"), kNone);
     EXPECT_EQ(model->chain("back"), model->chains().data());
     EXPECT_EQ(model->chain("front"), nullptr);
+}
+
+TEST(Model, HoldsItsCyclesMarkers) {
+    test::Node file = test::sample();
+    test::at(file, "HEAD/OBJE/CYCL")
+        .children.push_back(
+            test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {0.5f, 4}, {1.0f, 7}}, "stephit")));
+    const Owned model(test::to_file(file));
+    const std::span<const Marker> markers = model->cycle("run")->markers;
+    ASSERT_EQ(markers.size(), 3u);
+    EXPECT_EQ(markers[0].name, "step");
+    EXPECT_EQ(markers[1].name, "");
+    EXPECT_EQ(markers[2].name, "hit");
+    EXPECT_EQ(markers[2].seconds, 1.0f);
 }
 
 // --- draws
@@ -184,13 +198,14 @@ TEST(Model, MovesKeepEveryViewValid) {
 }
 
 TEST(Model, AFileStaysMappedThroughMoves) {
-    const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) / ("bendy_model_" + std::to_string(::getpid()));
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "file.bendy";
     const Buffer bytes = test::sample_file();
     std::ofstream(path, std::ios::binary).write(as_text(bytes).data(), static_cast<std::streamsize>(bytes.size()));
     Result<Model> opened = Model::open(path);
     ASSERT_TRUE(opened.has_value());
-    std::filesystem::remove(path);
+    std::error_code refused;  // on Windows, where a mapped file cannot be removed
+    std::filesystem::remove(path, refused);
     const Model model = *std::move(opened);
     EXPECT_EQ(model.joints()[2].name, "head");
     Pose pose(model);

@@ -85,6 +85,56 @@ TEST(NoAllocation, PlayingACrowdMakesNone) {
     EXPECT_TRUE(is_good);
 }
 
+TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
+    const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
+    const test::Owned skinned(test::sample_file());
+    const Cycle& cycle = *model->cycle("packed");
+    const Cycle& run = *skinned->cycle("run");
+    Pose pose(*model);
+    Pose scratch(*model);
+    Pose skinned_pose(*skinned);
+    Pose skinned_scratch(*skinned);
+    const RootPath path(*model, 2);
+    Binding binding(*skinned, *skinned);
+    const Bounds bounds(*skinned);
+    DualSkinning dual(*skinned);
+    Lod lod(*skinned);
+    const Socket socket = make_socket(*skinned, "head");
+    const std::vector<Marker> markers{{0.5f, "left"}, {1.0f, "right"}};
+    std::vector<const Marker*> met(4);
+    std::vector<glm::vec3> positions(skinned->vertex_count());
+    std::vector<glm::vec3> normals(skinned->vertex_count());
+
+    const std::uint64_t before = test::allocations().count;
+    bool is_good = true;
+    std::uint64_t count = 0;
+    RootMotion character;
+    Crossfade fade;
+    Crossfade skinned_fade;
+    for (int frame = 0; frame < 40; ++frame) {
+        if (frame % 7 == 0) fade.play(cycle, Playback(cycle.start, cycle.end, LoopMode::repeat), 0.5f);
+        if (frame % 9 == 0) skinned_fade.play(run, 0.2f);
+        fade.advance(0.05);
+        skinned_fade.advance(0.3);
+        for (const Playing& playing : fade.playing()) {
+            character = then(character, path.over(*playing.cycle, playing.walk));
+            visit_markers(markers, playing.walk, [&](const Marker&) { ++count; });
+            count += collect_markers(markers, playing.walk, met);
+        }
+        is_good = sample(fade, pose, scratch) && sample(skinned_fade, skinned_pose, skinned_scratch) && is_good;
+        path.take_out(pose);
+        is_good = sample(binding, &run, 0.7f, skinned_pose) && is_good;
+        is_good = !bounds.of(skinned_pose).is_empty() && !bounds.of(skinned_pose, 0).is_empty() && is_good;
+        is_good = socket_matrix(socket, skinned_pose)[3].w == 1.0f && is_good;
+        is_good = dual.skin(skinned_pose, {positions, normals, {}}) && is_good;
+        lod.set_share(0.02f * static_cast<float>(frame));
+        is_good = dual.skin(skinned_pose, lod, {positions, {}, {}}) && is_good;
+    }
+    EXPECT_EQ(test::allocations().count - before, 0u);
+    EXPECT_TRUE(is_good);
+    EXPECT_GT(count, 0u);
+}
+
 TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
     const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
     const test::Owned other(test::build_file(test::packed_spec(40, 50, 16)));

@@ -87,6 +87,36 @@ inline void reach_with_all(const Model& model, Pose& pose) {
     }
 }
 
+/// All that is made of a model beside its poses, from numbers of any kind.
+inline void play_all(const Model& model) {
+    Pose pose(model);
+    Pose scratch(model);
+    Binding binding(model, model);
+    const Bounds bounds(model);
+    DualSkinning dual(model);
+    std::vector<glm::vec3> positions(model.vertex_count());
+    std::vector<glm::vec3> normals(model.vertex_count());
+    std::vector<glm::vec4> tangents(model.vertex_count());
+    const auto last = static_cast<std::uint32_t>(model.joints().size()) - 1;
+    const RootPath path(model, last);
+    Crossfade fade;
+    for (const Cycle& cycle : model.cycles()) {
+        fade.play(cycle, 0.1f);
+        for (const double step : {0.0, 0.03, 0.4, -7.0, 1e30}) {
+            fade.advance(step);
+            static_cast<void>(path.over(cycle, fade.playing().back().walk));
+            sample(fade, pose, scratch);
+            path.take_out(pose);
+            sample(binding, &cycle, static_cast<float>(step), scratch);
+            EXPECT_TRUE(dual.skin(pose, {positions, normals, tangents}));
+            static_cast<void>(bounds.of(pose));
+            if (!model.joints().empty()) socket_matrix({last}, pose);
+        }
+    }
+    EXPECT_TRUE(dual.skin(pose, {positions, normals, tangents}));
+    EXPECT_EQ(binding.joints().size(), model.joints().size());
+}
+
 /// Poses and skins the model at every cycle's ends, in its middle, and at times that make no sense.
 inline void pose_all(const Model& model) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -1,6 +1,6 @@
-// Rules of cycles: CINF, TRAK, TIME, KEYV and PACK.
+// Rules of cycles: CINF, TRAK, TIME, KEYV, PACK and MARK.
 
-import { all_finite, all_zero, is_unit, kNone } from './numbers.mjs';
+import { all_finite, all_zero, is_unit, is_utf8, kNone } from './numbers.mjs';
 import { joints_of, kNumbers, kPaths, segments_of } from './packed.mjs';
 
 const kCubic = 2;
@@ -220,8 +220,32 @@ function check_packed(file, cycle, info, rig, animated) {
     });
 }
 
+/** MARK.md: names fill what is behind the records, one behind the other. */
+function check_markers(file, cycle, info) {
+    const chunk = file.child(cycle, 'MARK');
+    const record = file.record(chunk, 'MarkersRecord', 8);
+    if (!record) return;
+    const add = (code) => file.add(code, chunk);
+    if (record.reserved !== 0) add('RESERVED_FIELD');
+    const payload = file.payload(chunk);
+    const names_at = 8 + 8 * record.markers;
+    if (names_at > payload.length) return add('RECORD_SIZE');
+    const view = new DataView(payload.buffer, payload.byteOffset, payload.length);
+    const markers = Array.from({ length: record.markers }, (_, k) => ({
+        seconds: view.getFloat32(8 + 8 * k, true), end: names_at + view.getUint32(12 + 8 * k, true),
+    }));
+    const begin = (k) => (k === 0 ? names_at : markers[k - 1].end);
+    if (markers.some(({ end }, k) => end < begin(k) || end > payload.length)) return add('MARKER_NAME');
+    if (begin(markers.length) !== payload.length) return add('RECORD_SIZE');
+    if (markers.some(({ end }, k) => !is_utf8(payload.subarray(begin(k), end)))) return add('NOT_UTF8');
+    if (!all_finite(markers.map(({ seconds }) => seconds))) add('NOT_FINITE');
+    if (markers.some(({ seconds }, k) => k > 0 && !(seconds >= markers[k - 1].seconds))) add('MARKER_ORDER');
+    if (info && markers.some(({ seconds }) => !(seconds >= info.start && seconds <= info.end))) add('MARKER_OUTSIDE');
+}
+
 export function check_cycle(file, cycle, rig, pools) {
     const info = read_info(file, cycle);
     const animated = check_tracks(file, cycle, info, rig, pools);
     check_packed(file, cycle, info, rig, animated);
+    check_markers(file, cycle, info);
 }

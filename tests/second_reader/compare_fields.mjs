@@ -27,6 +27,11 @@ function compare_leaf(said, body) {
         if (said.tracks.length !== body.tracks.length) return ['number of tracks'];
         return said.tracks.flatMap((track, k) => same_fields(track, body.tracks[k]));
     }
+    if ('markers' in said) {
+        if (said.markers.length !== body.markers.length) return ['number of markers'];
+        return said.markers.flatMap(({ seconds, name }, k) =>
+            same_number(seconds, body.markers[k].seconds) && name === body.names[k].value ? [] : [`marker ${k}`]);
+    }
     return same_fields(said, body.record ?? body);
 }
 

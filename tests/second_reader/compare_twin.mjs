@@ -94,6 +94,7 @@ function twin_of(chunk, body) {
         case 'LODD': return collapse(body, chunk);
         case 'TRAK': return { tracks: body.tracks.map(fields_of) };
         case 'PACK': return packed(body);
+        case 'MARK': return { markers: body.markers.map(({ seconds }, k) => ({ seconds, name: body.names[k].value })) };
         case 'TIME': case 'KEYV': return { values: body.values };
         default:
     }

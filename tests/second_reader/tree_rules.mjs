@@ -11,7 +11,7 @@ IKCH: NAME? KINF EXTR?
 VECT: NAME? VINF EXTR? PALT? POSI? NORM? TANG? TEXC* COLR* BONE? WGHT? USER* TARG* INDX?
 USER: NAME? VALS
 TARG: NAME? TINF INDX? POSI? NORM? TANG?
-CYCL: NAME? CINF EXTR? TRAK? PACK? TIME? KEYV?`;
+CYCL: NAME? CINF EXTR? TRAK? PACK? TIME? KEYV? MARK?`;
 
 /** id -> id of child -> '' or '?' or '*' */
 export const kChildren = new Map();
@@ -20,7 +20,7 @@ for (const line of kTree.trim().split('\n')) {
     kChildren.set(id, new Map(children.split(' ').map((child) => [child.slice(0, 4), child.slice(4)])));
 }
 
-/** Ids with a page and a content; MARK is reserved, so unknown. */
+/** Ids with a page. */
 export const kKnown = new Set(['HEAD', ...[...kChildren.values()].flatMap((children) => [...children.keys()])]);
 
 export const kStreams = new Set(['POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX']);

@@ -70,12 +70,12 @@ def strip_comments(code):
 
 
 def read_chunks(check):
-    """id -> shape, parents, times, what, reserved"""
+    """id -> shape, parents, times, what"""
     pattern = r'^BENDY_CHUNK\(\s*(\w{4}),\s*(\w+),\s*"([^"]*)",\s*(\w+),\s*"([^"]*)"\s*\)'
     chunks = {}
     for chunk, shape, parents, times, what in re.findall(pattern, check.code('chunk_ids.def'), re.MULTILINE):
         chunks[chunk] = {'shape': shape, 'parents': set() if parents == '-' else set(parents.split()), 'times': times,
-                         'what': what, 'reserved': '(reserved)' in what}
+                         'what': what}
     return check.understood(chunks, 'chunk_ids.def')
 
 
@@ -126,12 +126,12 @@ def read_stream_rules(check):
             rules[rule].append((' '.join(types.split(', ')), *width, numbers))
     check.understood(rules, 'the StreamForm constants of pool.cpp')
     uses = {}
-    for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), (k\w+)', code):
+    for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), forms::(k\w+)', code):
         parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
         uses[parent, chunk] = rules[rule]
-    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, (k\w+)', code):
+    for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, forms::(k\w+)', code):
         uses['VECT', chunk] = rules[rule]
-    for rule in re.findall(r'stream\(index_chunk, (k\w+)', code):
+    for rule in re.findall(r'stream\(index_chunk, forms::(k\w+)', code):
         uses['TARG', 'INDX'] = rules[rule]
     check.understood(len(uses) >= 13, 'all uses of the StreamForm constants of pool.cpp')
     return uses
@@ -181,14 +181,13 @@ def check_chunk_pages(check, chunks):
         check.same_keys(name, 'fact', list(facts), ['path', 'shape', 'occurs', 'since'])
         check.same(name, 'shape', facts.get('shape'), rule['shape'])
         check.same(name, 'occurs', facts.get('occurs'), rule['times'])
-        since = re.fullmatch(r'(\d+)\.(\d+)(, reserved)?', facts.get('since', ''))
+        since = re.fullmatch(r'(\d+)\.(\d+)', facts.get('since', ''))
         if not since:
-            check.fail(name, 'since is not like "0.1" or "0.1, reserved"')
+            check.fail(name, 'since is not like "0.1"')
         else:
             now = (limits['kVersionMajor'], limits['kVersionMinor'])
             if (int(since[1]), int(since[2])) > now:
                 check.fail(name, 'since %s.%s is later than the version, %d.%d' % (since[1], since[2], *now))
-            check.same(name, 'reserved', bool(since[3]), rule['reserved'])
         parents = set()
         for path in re.findall(r'`([^`]+)`', facts.get('path', '')):
             steps = path.split('/')
@@ -200,7 +199,7 @@ def check_chunk_pages(check, chunks):
             parents |= parents_of_path(path)
         check.same(name, 'parents', parents, rule['parents'])
         has_example = '<!-- make_bytes: chunk %s -->' % chunk in page
-        check.same(name, 'has an example', has_example, not rule['reserved'])
+        check.same(name, 'has an example', has_example, True)
 
 
 def check_index(check, chunks):
@@ -239,8 +238,6 @@ def check_tree(check, chunks):
         if depth:
             edges.add((open_chunks[-1], entry[2], marks[entry[3]]))
         open_chunks.append(entry[2])
-        if entry[2] in chunks:
-            check.same(name, '%s is marked reserved' % entry[2], '(reserved)' in line, chunks[entry[2]]['reserved'])
     expected = {(parent, chunk, rule['times']) for chunk, rule in chunks.items() for parent in rule['parents']}
     check.same_keys(name, 'line', sorted(edges), sorted(expected))
 
@@ -421,9 +418,8 @@ def check_grammar_enumerations(check, name, found):
 
 
 def check_grammar_ids(check, name, containers, leaves, chunks):
-    known = {chunk: rule for chunk, rule in chunks.items() if not rule['reserved']}
-    check.same_keys(name, 'container', sorted(containers), sorted(c for c, rule in known.items() if rule['shape'] == 'container'))
-    check.same_keys(name, 'leaf', sorted(leaves), sorted(c for c, rule in known.items() if rule['shape'] == 'leaf'))
+    check.same_keys(name, 'container', sorted(containers), sorted(c for c, rule in chunks.items() if rule['shape'] == 'container'))
+    check.same_keys(name, 'leaf', sorted(leaves), sorted(c for c, rule in chunks.items() if rule['shape'] == 'leaf'))
 
 
 def check_kaitai(check, chunks, records):

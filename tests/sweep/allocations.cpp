@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
+
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 namespace bendy::test {
 namespace {
@@ -15,16 +20,32 @@ std::atomic<std::uint64_t> largest{0};
 std::atomic<std::int64_t> live{0};
 std::atomic<std::uint64_t> until_failure{0};
 
+#ifdef _WIN32
+// There, what is aligned otherwise cannot be given to free(): all of it is taken as aligned.
+void* take(std::size_t size, std::size_t alignment) {
+    return ::_aligned_malloc(size, alignment);
+}
+void give_back(void* memory) {
+    ::_aligned_free(memory);
+}
+#else
+// As malloc gives it where that will do: a sanitizer then sees one byte too many.
+void* take(std::size_t size, std::size_t alignment) {
+    if (alignment <= alignof(std::max_align_t)) return std::malloc(size);
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+void give_back(void* memory) {
+    std::free(memory);
+}
+#endif
+
 void* allocate(std::size_t size, std::size_t alignment) {
     if (until_failure != 0 && --until_failure == 0) return nullptr;
     ++count;
     bytes += size;
     largest = std::max(largest.load(), std::uint64_t{size});
     size = std::max(size, std::size_t{1});
-    // As malloc gives it where that will do: a sanitizer then sees one byte too many.
-    void* const memory = alignment <= alignof(std::max_align_t)
-                             ? std::malloc(size)
-                             : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    void* const memory = take(size, alignment);
     if (memory != nullptr) ++live;
     return memory;
 }
@@ -39,7 +60,7 @@ void* allocate_or_throw(std::size_t size, std::size_t alignment) {
 [[gnu::noinline]] void release(void* memory) noexcept {
     if (memory == nullptr) return;
     --live;
-    std::free(memory);
+    give_back(memory);
 }
 
 }  // namespace

@@ -207,13 +207,13 @@ struct Place {
 
 const std::multimap<std::string_view, Place>& places() {
     static const std::multimap<std::string_view, Place> found = [] {
-        std::multimap<std::string_view, Place>
-            all{
-                {"LODD", {"CollapseRecord"}},     {"LODD", {"PoolCollapseRecord", 16, 16}},
-                {"TRAK", {"TrackRecord", 0, 32}}, {"JNTS", {"JointsRecord"}},
-                {"JNTS", {"PolygonRecord", 20}},  // not on its place: words of rest poses and ranges are set too
-                {"SURF", {"SurfaceRecord"}},
-            };
+        std::multimap<std::string_view, Place> all{
+            {"LODD", {"CollapseRecord"}},     {"LODD", {"PoolCollapseRecord", 16, 16}},
+            {"TRAK", {"TrackRecord", 0, 32}}, {"JNTS", {"JointsRecord"}},
+            {"MARK", {"MarkersRecord"}},      {"MARK", {"MarkerRecord", 8, 8}},
+            {"JNTS", {"PolygonRecord", 20}},  // not on its place: words of rest poses and ranges are set too
+            {"SURF", {"SurfaceRecord"}},
+        };
         for (const std::string_view stream : {"POSI", "NORM", "TANG", "TEXC", "COLR", "BONE", "WGHT", "INDX", "VALS"})
             all.insert({stream, {"StreamRecord"}});
 #define BENDY_RECORD(chunk, Struct, shortest) \

@@ -52,6 +52,24 @@ TEST(EditedText, ChunksAddedAndRemoved) {
     EXPECT_EQ(assembled(text), to_file(root));
 }
 
+/// The sample with markers, as a file.
+Buffer marked(const std::vector<MarkerRecord>& markers, std::string_view names) {
+    Node root = sample();
+    at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), markers_payload(markers, names)));
+    return to_file(root);
+}
+
+/// A marker is renamed, moved, added: where names end need not be told.
+TEST(EditedText, Markers) {
+    const std::string text = dumped(marked({{0.5f, 4}, {0.75f, 4}}, "step"));
+    const std::string as_it_is = R"({"seconds": 0.75, "name": ""})";
+    ASSERT_NE(text.find(R"({"seconds": 0.5, "name": "step"})"), std::string::npos) << text;
+    EXPECT_EQ(assembled(edited(text, as_it_is, R"({"name": "h\u00e9 \"hit\"", "seconds": 0.8})")),
+              marked({{0.5f, 4}, {0.8f, 13}}, "steph\xc3\xa9 \"hit\""));
+    EXPECT_EQ(assembled(edited(text, as_it_is, as_it_is + R"(, {"seconds": 1, "name": "\u0000"})")),
+              marked({{0.5f, 4}, {0.75f, 4}, {1.0f, 5}}, std::string_view("step\0", 5)));
+}
+
 /// Members may be given in another order, by a program that sorts them.
 TEST(EditedText, MembersInAnyOrder) {
     const auto file = assembled(R"({"HEAD": [

@@ -2,9 +2,12 @@
 
 #include "hex.h"
 
+#include <bendy/format/marker.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 
 namespace bendy::twin {
 namespace {
@@ -396,6 +399,39 @@ void LeafAssembler::names() {
         payload_.insert(payload_.end(), bytes.begin(), bytes.end());
         payload_.push_back(std::byte{0});
     }
+}
+
+void LeafAssembler::markers() {
+    const std::uint64_t value = array_part("markers");
+    if (value == kNowhere) return;
+    std::vector<Marker> markers;
+    std::uint64_t size = 0;
+    Object object;
+    std::vector<std::byte> seconds;
+    for (std::uint64_t each = LeafValues::first(value); each != values_.next(value); each = values_.next(each)) {
+        if (!read_object(each, object)) return;
+        Member* const time = need(object, "seconds");
+        Member* const name = need(object, "name");
+        if (fault_) return;
+        time->is_used = name->is_used = true;
+        seconds.clear();
+        if (!append_number(time->value, NumberType::f32, "seconds", seconds)) return;
+        if (values_.kind(name->value) != ValueKind::string) {
+            fail(name->value,
+                 "\"name\": there should be a string, not " + std::string(kind_name(values_.kind(name->value))));
+            return;
+        }
+        if (!check_all_used(object)) return;
+        Marker& marker = markers.emplace_back();
+        copy_at(Bytes(seconds), 0, marker.seconds);
+        marker.name = values_.characters(name->value);
+        size += marker.name.size();
+        if (size > std::numeric_limits<std::uint32_t>::max()) {
+            fail(name->value, "\"markers\": all names together are longer than 4 GiB");
+            return;
+        }
+    }
+    payload_ = write_markers(markers);
 }
 
 std::optional<std::uint64_t> LeafAssembler::collapsed_vertices(const PoolCollapseRecord&, std::string_view name) {

@@ -50,6 +50,7 @@ public:
     void bytes(std::string_view name);
     void text();
     void names();
+    void markers();
     /// What has been made so far.
     [[nodiscard]] Bytes payload() const { return payload_; }
     [[nodiscard]] std::uint64_t payload_done() const { return payload_.size(); }

@@ -2,6 +2,7 @@
 
 #include "hex.h"
 
+#include <bendy/format/marker.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
@@ -142,6 +143,26 @@ void LeafDumper::names() {
         new_line(depth_ + 2);
         append_json_string(out_, text.substr(0, end));
         text.remove_prefix(end + 1);
+    }
+    out_ += ']';
+    at_ = payload_.size();
+}
+
+/// Names are what people edit, not where they end: a payload that is not all that it says has no form.
+void LeafDumper::markers() {
+    Faults unread;
+    const auto markers = read_markers(payload_, 0, unread);
+    if (!markers || !unread.empty()) return;
+    begin_member("markers");
+    out_ += '[';
+    for (std::size_t k = 0; k < markers->size(); ++k) {
+        if (k != 0) out_ += ',';
+        new_line(depth_ + 2);
+        out_ += "{\"seconds\": ";
+        append_number(out_, NumberType::f32, payload_, sizeof(MarkersRecord) + k * sizeof(MarkerRecord));
+        out_ += ", \"name\": ";
+        append_json_string(out_, (*markers)[k].name);
+        out_ += '}';
     }
     out_ += ']';
     at_ = payload_.size();

@@ -48,6 +48,7 @@ public:
     void bytes(std::string_view name);
     void text();
     void names();
+    void markers();
     [[nodiscard]] Bytes payload() const { return payload_; }
     [[nodiscard]] std::uint64_t payload_done() const { return at_; }
     bool joint_bits(std::string_view name, std::uint32_t joints, std::uint32_t& tracks);

@@ -24,6 +24,7 @@
 //     Io::bytes(name)               all that is left
 //     Io::plain_record(layout)      a record and nothing else
 //     Io::text(), Io::names()       UTF-8; names with a zero behind each
+//     Io::markers()                 all of MARK
 //     Io::payload()                 all of it, or what has been assembled so far; payload_done() is how far we are
 //     Io::joint_bits, packed_frames, zeros, has_packed_tracks   the parts of PACK
 //     Io::collapsed_vertices(pool, name)  how many targets LODD has of a pool; the file does not say it in one place
@@ -186,6 +187,7 @@ void walk_leaf(FourCC chunk, Io& io) {
     if (chunk == FourCC("LODD")) return walk_collapse(io);
     if (chunk == FourCC("IMAG")) return walk_image(io);
     if (chunk == FourCC("PACK")) return walk_packed(io);
+    if (chunk == FourCC("MARK")) return io.markers();
     if (chunk == FourCC("TRAK")) {
         io.records("tracks", *find_layout("TrackRecord"), kTheRest);
         return;

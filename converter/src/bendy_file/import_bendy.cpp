@@ -5,6 +5,7 @@
 #include "bendy_file/source_facts.h"
 #include "cycle_span.h"
 #include "failure.h"
+#include "rig/parse_markers.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
@@ -103,6 +104,7 @@ public:
         if (view.packed) unpack(*view.packed, place, cycle);
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
         check_ends(view, cycle, place);
+        import_markers(view, place, cycle);
         return cycle;
     }
 
@@ -115,6 +117,16 @@ private:
             cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
                                     std::move(track.times), std::move(track.values)});
         }
+    }
+
+    void import_markers(const CycleView& view, const std::string& place, Cycle& cycle) {
+        std::vector<SourceMarker> markers;
+        markers.reserve(view.markers.size());
+        for (const bendy::Marker& marker : view.markers) {
+            budget_.take(sizeof(SourceMarker) + marker.name.size() + place.size(), 1, place);
+            markers.push_back({{marker.seconds, std::string(marker.name)}, place});
+        }
+        set_markers(cycle, std::move(markers), {}, WrongMarkers::left_out, report_);
     }
 
     void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {

@@ -225,6 +225,24 @@ private:
                     text_of(there.end) + " s");
         }
         if (a.loop != b.loop) add(Kind::value, place, a.loop ? "repeats -> does not" : "does not repeat -> does");
+        compare_markers(a, b, place);
+    }
+
+    void compare_markers(const Cycle& a, const Cycle& b, const std::string& place) {
+        const auto text = [](const Marker& marker) {
+            return '"' + marker.name + "\" at " + text_of(marker.seconds) + " s";
+        };
+        if (a.markers.size() != b.markers.size()) {
+            add(Kind::value, place,
+                "markers: " + std::to_string(a.markers.size()) + " -> " + std::to_string(b.markers.size()));
+            return;
+        }
+        for (std::size_t k = 0; k < a.markers.size(); ++k) {
+            const Marker& here = a.markers[k];
+            const Marker& there = b.markers[k];
+            if (here.name == there.name && std::abs(here.seconds - there.seconds) <= kSameTime) continue;
+            add(Kind::value, place, "marker " + std::to_string(k) + ": " + text(here) + " -> " + text(there));
+        }
     }
 
     // --- materials

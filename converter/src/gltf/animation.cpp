@@ -2,6 +2,7 @@
 
 #include "accessor.h"
 #include "failure.h"
+#include "rig/parse_markers.h"
 #include "transform.h"
 
 #include <algorithm>
@@ -98,6 +99,7 @@ public:
                 }
             }
         }
+        take_markers_from_extras(cycle, place_ + ".extras", document_.report);
         scene_.cycles.push_back(std::move(cycle));
     }
 

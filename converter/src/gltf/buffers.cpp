@@ -39,7 +39,8 @@ bool is_fallback(const Json& buffer) {
 
 }  // namespace
 
-Buffers::Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget) {
+Buffers::Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget,
+                 Report& report) {
     const Json& buffers = array_of(root, "buffers");
     buffers_.resize(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -52,6 +53,7 @@ Buffers::Buffers(const Json& root, const Container& container, const std::filesy
                 buffer.owned = decode_data_uri(text, place + ".uri").bytes;
             } else {
                 const auto file = resolve_uri(text, source, place + ".uri");
+                report.add_source(file);
                 std::error_code ignored;
                 if (is_fallback(buffers[i]) && !std::filesystem::exists(file, ignored)) continue;
                 buffer.owned = read_file(file, place + ".uri", length);

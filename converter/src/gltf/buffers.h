@@ -4,6 +4,8 @@
 #include "check_json.h"
 #include "container.h"
 
+#include <bendy/converter/report.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -32,7 +34,8 @@ class Buffers {
 public:
     /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error
     /// only when something reads it (fallback buffers of meshopt compression have none).
-    Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget);
+    Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget,
+            Report& report);
 
     /// The decoded bytes of a view; `index` must be in range.
     std::span<const std::byte> view(std::size_t index, Budget& budget);

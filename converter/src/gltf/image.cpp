@@ -49,6 +49,7 @@ private:
             image.uri = uri;
             if (!embed_) return;
             const auto file = resolve_uri(uri, document_.file, place);
+            document_.report.add_source(file);
             image.bytes = read_file(file, place);
             image.uri.clear();
         } catch (const Failure& failure) {

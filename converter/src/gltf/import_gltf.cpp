@@ -48,7 +48,7 @@ Scene import(const std::filesystem::path& file, const GltfOptions& options, Repo
     const Json root = parse_json(container.json, report);
     Budget budget;
     budget.add_source(container.bytes.size());
-    Buffers buffers(root, container, file, budget);
+    Buffers buffers(root, container, file, budget, report);
     const tinygltf::Model model = read_structure(root);
     const Document document{file, root, model, buffers, budget, report};
 

@@ -84,6 +84,7 @@ public:
         skeleton.joint_of_node.assign(nodes_.size(), kNone);
         // Trees in the order in which the scene names them, then those that only hold joints of skins.
         for (const std::uint32_t root : tops_) add_tree(root, skeleton);
+        mark_skins(skeleton);
         const auto left_out = static_cast<std::uint64_t>(nodes_.size() - skeleton.node_of_joint.size());
         if (left_out > 0) document_.report.warn("node outside the chosen scene left out", "nodes", left_out);
         return skeleton;
@@ -141,6 +142,15 @@ private:
             for (std::size_t c = children.size(); c-- > 0;) {  // the first child ends up on top
                 const auto child = static_cast<std::uint32_t>(children[c]);
                 if (included_[child]) pending.push_back(child);
+            }
+        }
+    }
+
+    void mark_skins(const Skeleton& skeleton) {
+        for (const tinygltf::Skin& skin : document_.model.skins) {
+            for (const int node : skin.joints) {
+                const std::uint32_t joint = skeleton.joint_of_node[static_cast<std::size_t>(node)];
+                if (joint != kNone) scene_.joints[joint].in_skin = true;
             }
         }
     }

@@ -114,7 +114,12 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
         fail(place, "only files beside the source and data URIs are read, not " + quote(uri));
     }
     const auto path_of = [&](const std::string& name) {
-        const std::filesystem::path path(std::u8string(name.begin(), name.end()));
+        std::filesystem::path path;
+        try {
+            path = std::u8string(name.begin(), name.end());
+        } catch (const std::system_error&) {  // on Windows, where names are UTF-16
+            fail(place, "the file name is not UTF-8: " + quote(uri));
+        }
         if (path.is_absolute() || path.has_root_path() || name.find('\0') != std::string::npos) {
             fail(place, "absolute paths are refused: " + quote(uri));
         }

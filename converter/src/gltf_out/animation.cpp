@@ -4,6 +4,8 @@
 #include "failure.h"
 #include "gltf_out/skeleton.h"
 
+#include <array>
+#include <charconv>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -36,6 +38,15 @@ const char* interpolation_name(Interpolation interpolation) {
     }
 }
 
+/// The number of the fewest digits that rounds to this float.
+double shortest(float number) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    double back = 0.0;
+    std::from_chars(text.data(), end, back);
+    return back;
+}
+
 class Exporter {
 public:
     Exporter(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report)
@@ -63,19 +74,36 @@ private:
         const float start = span_of(cycle).start;
         shift_ = start < 0.0f ? -start : 0.0f;
         if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
+        add_markers(cycle, animation, place);
         weights_of_node_.clear();
         for (const Track& track : cycle.tracks) add_channel(track, animation, place);
         return animation;
     }
 
-    void mark_as_loop(Json& animation, const std::string& place) {
+    /// The animation's extras to put something into; null, which is said, if they are no object.
+    Json* extras_of(Json& animation, const char* what, const std::string& place) {
         Json& extras = animation["extras"];
         if (extras.is_null()) extras = Json::object();
-        if (!extras.is_object()) {
-            report_.warn("that a cycle repeats is left out: its extras are no object", place);
-        } else if (const auto loop = extras.find("loop"); loop == extras.end() || (*loop != true && *loop != 1)) {
-            extras["loop"] = true;
-        }
+        if (extras.is_object()) return &extras;
+        report_.warn(std::string(what) + " left out: the cycle's extras are no object", place);
+        return nullptr;
+    }
+
+    void mark_as_loop(Json& animation, const std::string& place) {
+        Json* extras = extras_of(animation, "that a cycle repeats is", place);
+        if (extras == nullptr) return;
+        const auto loop = extras->find("loop");
+        if (loop == extras->end() || (*loop != true && *loop != 1)) (*extras)["loop"] = true;
+    }
+
+    void add_markers(const Cycle& cycle, Json& animation, const std::string& place) {
+        if (cycle.markers.empty()) return;
+        Json* extras = extras_of(animation, "markers are", place);
+        if (extras == nullptr) return;
+        Json list = Json::array();
+        for (const Marker& marker : cycle.markers)
+            list.push_back({{"time", shortest(marker.seconds + shift_)}, {"name", marker.name}});
+        (*extras)["markers"] = std::move(list);
     }
 
     void add_channel(const Track& track, Json& animation, const std::string& place) {

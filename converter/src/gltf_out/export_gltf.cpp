@@ -67,7 +67,7 @@ void add_rig(Json& scene, const ObjectView& object, Report& report) {
         report.warn("constraints and chains left out: the scene's own data is no object that they could be put into");
         return;
     }
-    extras[kRigInExtras] = parse_json_text<Json>(write_rig(object), report);
+    extras[kRigInExtras] = parse_json_text<Json>(write_rig(object, false), report);
 }
 
 /// glTF has no empty lists.

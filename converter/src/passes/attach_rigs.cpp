@@ -5,6 +5,7 @@
 #include "humanoid/vrm.h"
 #include "rig/articulations.h"
 #include "rig/attach_extras.h"
+#include "rig/attach_markers.h"
 #include "rig/attach_rig.h"
 #include "rig/rig_in_extras.h"
 
@@ -15,11 +16,12 @@ namespace bendy::converter {
 namespace {
 
 /// The rig that `bendy export` has left in the scene. True if nothing else may speak.
-bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, Report& report) {
+bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, bool markers_are_told, Report& report) {
     const std::optional<Rig> rig = take_rig_from_extras(scene, report);
     if (!rig) return false;
     try {
         attach_rig(scene, *rig, index, claims, report);
+        if (!markers_are_told) attach_markers(scene, *rig, report);
         return rig->complete;
     } catch (const Failure& failure) {
         report.warn("rig left out: " + failure.error.message, rig->source + failure.error.place);
@@ -32,9 +34,13 @@ bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, 
 void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
     const JointIndex index(scene);
     Claims claims{std::vector<bool>(scene.joints.size()), {}};
-    if (rig_file) attach_rig(scene, *rig_file, index, claims, report);
+    if (rig_file) {
+        attach_rig(scene, *rig_file, index, claims, report);
+        attach_markers(scene, *rig_file, report);
+    }
     const bool is_told = rig_file && rig_file->complete;
-    if (is_told || attach_exported_rig(scene, index, claims, report)) return;
+    const bool markers_are_told = rig_file && rig_file->cycles;
+    if (is_told || attach_exported_rig(scene, index, claims, markers_are_told, report)) return;
     attach_extras(scene, index, claims, report);
     add_vrm_chains(scene, report);
     add_articulations(scene, claims.joints, report);
@@ -53,6 +59,7 @@ void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_prop
         std::erase_if(scene.chains,
                       [&](const Chain& chain) { return rig_file->complete || renewed.contains(chain.name); });
         attach_rig(scene, *rig_file, index, claims, report);
+        attach_markers(scene, *rig_file, report);
         if (rig_file->complete) return;
     }
     if (with_proposals) auto_rig(scene, claims.joints, report);

@@ -40,6 +40,14 @@ Rig parse_rig(std::string_view text, Report& report) {
             rig.chains.push_back(std::move(chain));
         }
     }
+    if (const OrderedJson* cycles = fields.find("markers"); cycles != nullptr) {
+        Fields entries(*cycles, "markers", AngleUnit::degrees);
+        rig.cycles.emplace();
+        for (const auto& [key, value] : cycles->items()) {
+            const std::string place = entries.place_of(key);
+            rig.cycles->push_back({key, place, parse_markers(value, place, WrongMarkers::fail, report)});
+        }
+    }
     std::string schema;
     fields.read("$schema", schema);  // for editors
     fields.refuse_others();

@@ -10,7 +10,7 @@ namespace bendy::converter {
 
 std::optional<Rig> take_rig_from_extras(Scene& scene, Report& report) {
     if (scene.extras.find(kRigInExtras) == std::string::npos) return std::nullopt;
-    const std::string place = std::string("scene.extras.") + kRigInExtras;
+    const std::string place = "scene.extras." + std::string(kRigInExtras);
     try {
         auto extras = parse_json_text<Json>(scene.extras, report);
         if (!extras.is_object() || !extras.contains(kRigInExtras)) return std::nullopt;

@@ -152,7 +152,8 @@ public:
             weights_[pull.chain].add(key_of(pull.joint), plain(pull.weight));
     }
 
-    std::string write() const {
+    /// \param with_markers  of all cycles, too
+    std::string write(bool with_markers) const {
         std::string text = "{\n  \"bendy_rig\": 1,\n  \"complete\": true";
         const std::vector<LimitView>& limits = object_.skeleton.limits;  // ordered by joint
         std::string entries;
@@ -169,14 +170,15 @@ public:
         for (std::size_t i = 0; i < object_.chains.size(); ++i)
             chains += (chains.empty() ? "\n    " : ",\n    ") + write_chain(i);
         if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
+        const std::string markers = with_markers ? write_markers() : std::string();
+        if (!markers.empty()) text += ",\n  \"markers\": {" + markers + "\n  }";
         return text + "\n}\n";
     }
 
 private:
-    static std::string joined(const std::vector<std::string>& constraints) {
+    static std::string joined(const std::vector<std::string>& lines) {
         std::string text;
-        for (const std::string& constraint : constraints)
-            text += (text.empty() ? "\n      " : ",\n      ") + constraint;
+        for (const std::string& line : lines) text += (text.empty() ? "\n      " : ",\n      ") + line;
         return text;
     }
 
@@ -196,6 +198,30 @@ private:
         std::uint64_t number = 0;
         const bool means_itself = is_named(joint) && !parse_joint_number(name, number);
         return means_itself ? std::string(name) : '#' + std::to_string(joint);
+    }
+
+    /// The entries of all cycles that have markers.
+    [[nodiscard]] std::string write_markers() const {
+        std::unordered_map<std::string_view, std::size_t> count;
+        for (const CycleView& cycle : object_.cycles) ++count[cycle.name];
+        std::string text;
+        for (std::size_t i = 0; i < object_.cycles.size(); ++i) {
+            const CycleView& cycle = object_.cycles[i];
+            if (cycle.markers.empty()) continue;
+            std::uint64_t unused = 0;
+            const bool means_itself =
+                !cycle.name.empty() && count.at(cycle.name) == 1 && !parse_joint_number(cycle.name, unused);
+            const std::string key = means_itself ? std::string(cycle.name) : '#' + std::to_string(i);
+            std::vector<std::string> entries;
+            for (const bendy::Marker& marker : cycle.markers) {
+                Line line;
+                line.add("time", plain(marker.seconds));
+                line.add("name", json_string(marker.name));
+                entries.push_back(line.text());
+            }
+            text += (text.empty() ? "\n    " : ",\n    ") + json_string(key) + ": [" + joined(entries) + "\n    ]";
+        }
+        return text;
     }
 
     [[nodiscard]] std::string write_chain(std::size_t number) const {
@@ -245,8 +271,8 @@ private:
 
 }  // namespace
 
-std::string write_rig(const ObjectView& object) {
-    return Writer(object).write();
+std::string write_rig(const ObjectView& object, bool with_markers) {
+    return Writer(object).write(with_markers);
 }
 
 }  // namespace bendy::converter

@@ -62,7 +62,9 @@ private:
 
     void embed(Image& image, const std::string& place) {
         try {
-            image.bytes = gltf::read_file(gltf::resolve_uri(image.uri, file_, place), place);
+            const auto file = gltf::resolve_uri(image.uri, file_, place);
+            report_.add_source(file);
+            image.bytes = gltf::read_file(file, place);
             image.media_type = gltf::media_type_of(image.bytes);
             image.uri.clear();
         } catch (const Failure& failure) {  // the character converts without it

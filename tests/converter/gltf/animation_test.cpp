@@ -56,6 +56,63 @@ TEST(GltfAnimation, OrderAndNumberStayEvenIfNothingMoves) {
     EXPECT_EQ(import.warned("animates 'pointer' left out"), 1u);
 }
 
+/// One cycle from 0 to 1 s with these extras.
+Import import_extras(const Json& extras) {
+    Gltf gltf = make_triangle();
+    gltf.add_animation(0, "translation", gltf.add_accessor<float>({0, 1}, "SCALAR"),
+                       gltf.add_accessor<float>({0, 0, 0, 1, 0, 0}, "VEC3"));
+    gltf.json["animations"][0]["extras"] = extras;
+    return gltf.import();
+}
+
+std::string markers_of(const Import& import) {
+    std::string text;
+    for (const Marker& marker : import->cycles.at(0).markers)
+        text += marker.name + '@' + std::to_string(marker.seconds) + ' ';
+    return text;
+}
+
+TEST(GltfAnimation, MarkersStandInExtras) {
+    const Import list = import_extras(
+        {{"markers", {{{"time", 0.75}, {"name", "right"}}, {{"time", 0.25}, {"name", "left"}}}}, {"mine", 1}});
+    EXPECT_EQ(markers_of(list), "left@0.250000 right@0.750000 ");
+    EXPECT_EQ(list->cycles[0].extras, R"({"mine":1})");
+    const Import object = import_extras({{"markers", {{"step", {0.25, 1}}, {"hit", 0}}}});
+    EXPECT_EQ(markers_of(object), "hit@0.000000 step@0.250000 step@1.000000 ");
+    EXPECT_EQ(object->cycles[0].extras, "");
+    const Import text = import_extras({{"markers", R"([{"time": 0.5, "name": "in text"}])"}, {"loop", true}});
+    EXPECT_EQ(markers_of(text), "in text@0.500000 ");
+    EXPECT_TRUE(text->cycles[0].loop);
+}
+
+TEST(GltfAnimation, MarkersThatAreWrongAreNamedAndLeftOut) {
+    const Import import = import_extras(Json::parse(
+        R"({"markers": [{"time": 2, "name": "late"}, {"time": 0.5, "name": "good"}, {"name": "when"}, 7, {"time": 1.0005, "name": "end"}]})"));
+    EXPECT_EQ(markers_of(import), "good@0.500000 end@1.000000 ");
+    EXPECT_EQ(import->cycles[0].extras, "");
+    const auto place_of = [&](const char* message) {
+        for (const Warning& warning : import.report.warnings()) {
+            if (warning.message.find(message) != std::string::npos) return warning.first_place;
+        }
+        return std::string("nothing");
+    };
+    EXPECT_EQ(place_of("2.0 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+              "animations[0].extras.markers[0]");
+    EXPECT_EQ(place_of("it is required and missing"), "animations[0].extras.markers[2].time");
+    EXPECT_EQ(place_of("it must be an object, not 7"), "animations[0].extras.markers[3]");
+}
+
+TEST(GltfAnimation, OtherThingsNamedMarkersStayInExtras) {
+    for (const char* extras : {R"({"markers":3})", R"({"markers":[1,2]})", R"({"markers":"no JSON"})"}) {
+        const Import import = import_extras(Json::parse(extras));
+        EXPECT_EQ(markers_of(import), "");
+        EXPECT_EQ(import->cycles[0].extras, extras);
+        EXPECT_FALSE(import.report.warnings().empty());
+    }
+    const Import elsewhere = import_extras(Json::parse(R"({"a":{"markers":3}})"));
+    EXPECT_TRUE(elsewhere.report.warnings().empty());
+}
+
 TEST(GltfAnimation, ChannelsWithoutANodeOfTheSceneAreCounted) {
     Gltf gltf = make_triangle();
     gltf.add_node(Json::object());

@@ -161,6 +161,46 @@ TEST(ExportGltf, ThatACycleRepeatsIsSaidInItsExtras) {
     EXPECT_TRUE(import_again(exported.asset).cycles[0].loop);
 }
 
+TEST(ExportGltf, MarkersStandInExtras) {
+    Scene scene = triangle();
+    Cycle cycle;
+    cycle.extras = R"({"mine":1})";
+    cycle.tracks.push_back(
+        {TrackPath::translation, Interpolation::linear, 0, 3, {0.0f, 1.0f}, {1.0f, 2.0f, 3.0f, 0.0f, 0.0f, 0.0f}});
+    cycle.markers = {{0.1f, "left"}, {1.0f / 3.0f, ""}, {1.0f, "left"}};
+    scene.cycles.push_back(cycle);
+    scene.cycles.push_back(cycle);
+    scene.cycles[1].extras = "[7]";
+    const Exported exported = export_scene(scene);
+    const json& extras = exported.document["animations"][0]["extras"];
+    EXPECT_EQ(extras["mine"], 1);
+    EXPECT_EQ(extras["markers"][0].dump(), R"({"name":"left","time":0.1})");
+    EXPECT_EQ(exported.document["animations"][1]["extras"], json::parse("[7]"));
+    EXPECT_TRUE(exported.warns("markers are left out"));
+    const Scene again = import_again(exported.asset);
+    ASSERT_EQ(again.cycles[0].markers.size(), 3u);
+    EXPECT_EQ(again.cycles[0].extras, cycle.extras);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(again.cycles[0].markers[k].name, cycle.markers[k].name);
+        EXPECT_EQ(again.cycles[0].markers[k].seconds, cycle.markers[k].seconds);
+    }
+    EXPECT_TRUE(again.cycles[1].markers.empty());
+}
+
+TEST(ExportGltf, MarkersMoveWithACycleThatBeginsBeforeZero) {
+    Scene scene = triangle();
+    Cycle cycle;
+    cycle.tracks.push_back(
+        {TrackPath::scale, Interpolation::step, 0, 3, {-2.1f, 1.0f}, {1.0f, 1.0f, 1.0f, 2.0f, 2.0f, 2.0f}});
+    cycle.markers = {{-2.1f, "first"}, {0.0f, "middle"}, {1.0f, "last"}};
+    scene.cycles.push_back(cycle);
+    const Scene again = import_again(export_scene(scene).asset);
+    ASSERT_EQ(again.cycles[0].markers.size(), 3u);
+    EXPECT_EQ(again.cycles[0].markers[0].seconds, 0.0f);
+    EXPECT_EQ(again.cycles[0].markers[1].seconds, 2.1f);
+    EXPECT_EQ(again.cycles[0].markers[2].seconds, again.cycles[0].tracks[0].times[1]);
+}
+
 TEST(ExportGltf, MeshesOfOneJointShareItsNodeOnlyIfTheyCan) {
     Scene scene = triangle();
     scene.meshes.push_back(scene.meshes[0]);  // the same name, extras, no skin

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace bendy::converter {
@@ -19,6 +20,11 @@ struct ConvertOptions {
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
     bool auto_rig = false;
+    /// Bind each vertex of meshes without a skin to the bone that is nearest, see docs/convert.md; how many went to how
+    /// many joints is noted with the proposals.
+    bool auto_skin = false;
+    /// For auto_skin, where not empty: the bones are this joint and all below it; a name, or `#` and a number.
+    std::string skeleton;
     /// Encode for size: no point of the skin moves further than this. Nothing: exact.
     std::optional<ErrorBound> compact;
     /// Called now and then with the share of the work that is done, 0 to 1; may be empty.
@@ -30,8 +36,9 @@ struct ConvertOptions {
     bool sort_vertices = false;
 };
 
-/// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy
-/// file. The result passes bendy::validate; what it does not hold is named in `report`. Throws nothing.
+/// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy file.
+/// The result passes bendy::validate; what it does not hold is named in `report`, with the files that were read. Throws
+/// nothing. Keeps nothing between calls: threads may convert side by side.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 

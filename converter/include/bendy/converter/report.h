@@ -1,11 +1,13 @@
 #pragma once
 
 #include <bendy/converter/compact_report.h>
+#include <bendy/converter/file_stamp.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -29,7 +31,7 @@ struct Warning {
 };
 
 /// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
-/// And what was proposed.
+/// And what was proposed, and which files were read.
 class Report {
 public:
     void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
@@ -39,12 +41,18 @@ public:
     void propose(std::string line) { proposals_.push_back(std::move(line)); }
     [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
 
+    /// Notes that a file is about to be read; once for each.
+    void add_source(const std::filesystem::path& file);
+    [[nodiscard]] const std::vector<SourceFile>& sources() const { return sources_; }
+
     /// What was made smaller, at which error; nothing after an exact conversion.
     std::optional<CompactReport> compact;
 
 private:
     std::vector<Warning> warnings_;
     std::vector<std::string> proposals_;
+    std::vector<SourceFile> sources_;
+    std::set<std::filesystem::path> known_sources_;
     std::unordered_map<std::string, std::size_t> place_of_;  // message: index into warnings_
 };
 

@@ -38,6 +38,7 @@ struct Joint {
     std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
     std::string extras;               ///< JSON text or empty
     std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
+    bool in_skin = false;             ///< a skin of the source names it, used or not; not written
 };
 
 /// An IK chain. A joint on the path from record.effector up to record.start may have a weight of its own in it.
@@ -122,12 +123,19 @@ struct Track {
     std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
 };
 
+/// A named time of a cycle: a footstep, a hit, a sound.
+struct Marker {
+    float seconds = 0.0f;  ///< between the cycle's first and last key
+    std::string name;      ///< UTF-8, may be empty or doubled
+};
+
 struct Cycle {
     std::string name;
     bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
     std::vector<Track> tracks;  ///< at most one per target and path; may be empty
     std::string extras;
     std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
+    std::vector<Marker> markers = {};    ///< times ascend, and may be equal
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.

@@ -16,6 +16,7 @@ enum class Part : std::uint8_t {
     meshes,      ///< VECT, with polygons, weights tracks and levels of detail
     targets,     ///< TARG, with their weights in cycles
     cycles,      ///< CYCL
+    markers,     ///< MARK
     chains,      ///< IKCH and PULL
     limits,      ///< LIMT; by name: of a joint
     lod,         ///< LODD
@@ -33,7 +34,7 @@ struct Strip {
 };
 
 /// "cycles", "cycle:Run", "mesh:Hat*": the part's name in one of its two numbers, and which of them. A part that stands
-/// alone (lod, tangents, colours, attributes, extras, extensions) takes no name.
+/// alone (markers, lod, tangents, colours, attributes, extras, extensions) takes no name.
 Result<Strip, Problem> parse_strip(std::string_view text);
 /// The words that parse_strip takes, for help and errors: "textures, materials, ...".
 std::string strip_words();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <glm/mat4x4.hpp>
@@ -8,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Matrices from joint space to model space in the rest pose. `parents` as many as rests, each smaller than its own
 /// index or kNone. Additions, multiplications and divisions of doubles alone, so the same on every machine.

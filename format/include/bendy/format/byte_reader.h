@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -11,7 +13,7 @@
 
 // The only place where bytes become numbers. Files are little-endian and so are all machines we build for; a port to
 // another kind would swap here and nowhere else.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 static_assert(std::endian::native == std::endian::little,
               "bendy files are used in place, which needs a little-endian machine");

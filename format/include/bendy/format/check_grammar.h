@@ -2,8 +2,9 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Holds every chunk against the table chunk_ids.def: a known one stands where it may, is leaf or container as it must
 /// be, as often as it may; an unknown one is skipped with all inside it, unless it is marked required.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/fourcc.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 
@@ -10,7 +11,7 @@
 //     u32 sum        CRC-32C: see check_sums.h
 //     u64 size+flags low 48 bits: payload bytes, children and their padding included, own tail padding not;
 //                    high 16 bits: flags
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::uint64_t kChunkHeaderSize = 16;
 inline constexpr std::uint64_t kChunkAlignment = 16;

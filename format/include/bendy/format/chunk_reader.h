@@ -4,6 +4,7 @@
 #include <bendy/format/chunk.h>
 #include <bendy/format/codec.h>
 #include <bendy/format/limits.h>
+#include <bendy/format/public.h>
 #include <bendy/format/result.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Where decode_leaves has put an encoded leaf's payload, or why it could not.
 struct DecodedLeaf {

@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk.h>
+#include <bendy/format/public.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Builds a file in memory: begin and end containers, put leaves; sizes, padding and sums happen here. Misuse (an end
 /// too many, a payload of 2^48 bytes) is the caller's bug and is asserted.

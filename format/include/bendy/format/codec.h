@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/error.h>
+#include <bendy/format/public.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 // Encodings of a leaf's whole payload: bits 8 to 15 of the header's flags. An encoded payload is a CodecHeader and what
 // the codec makes of the rest; spec/codecs.md describes each to the bit.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 enum class Codec : std::uint8_t {
     raw = 0,

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
 
 // LIMT: what a joint may do. Both readers and writers hold constraints against the same rules.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A constraint of a joint.
 struct LimitView {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// CRC-32C (Castagnoli polynomial 0x1EDC6F41, reflected, initial value and final exclusive-or 0xffffffff) as in RFC
 /// 3720 appendix B.4. To go on with more bytes pass the last result: crc32c(b, crc32c(a)) is the sum of a followed by

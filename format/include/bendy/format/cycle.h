@@ -1,8 +1,10 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/pool.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
@@ -12,7 +14,7 @@
 #include <vector>
 
 // CYCL: an animation cycle, with tracks of timed keys or of fixed frames.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values
 /// are keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each
@@ -38,6 +40,7 @@ struct CycleView {
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::string_view extras;
+    std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
 };
 
 /// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints`
@@ -45,9 +48,9 @@ struct CycleView {
 CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
                      Faults& faults);
 
-/// Faults of meaning that do not endanger memory: key times that do not ascend or lie outside [start, end], numbers
-/// that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one property or
-/// with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
+/// Faults of meaning that do not endanger memory: key times and markers that do not ascend or lie outside [start, end],
+/// numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one
+/// property or with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
 void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& faults);
 
 inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1

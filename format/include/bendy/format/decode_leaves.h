@@ -1,8 +1,9 @@
 #pragma once
 
 #include <bendy/format/chunk_reader.h>
+#include <bendy/format/public.h>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Decodes every encoded leaf whose id is known, so that ChunkTree::payload gives what it means. One allocation for all
 /// of them, at most kMaxCodecRatio times the encoded bytes. A leaf that cannot be decoded is empty from here on, and

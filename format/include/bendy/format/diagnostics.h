@@ -2,13 +2,14 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/error.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 // Words for people. The readers themselves carry no text.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The fault's text with its numbers filled in, e.g. "the chunk's payload of 96 bytes does not fit the 48 bytes left in
 /// its container".

@@ -6,13 +6,14 @@
 #include <bendy/format/lod.h>
 #include <bendy/format/material.h>
 #include <bendy/format/pool.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// OBJE: an object, normally the file's one character.
 struct ObjectView {

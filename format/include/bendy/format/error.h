@@ -1,8 +1,10 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// What is wrong; the table is error_codes.def.
 enum class ErrorCode : std::uint8_t {

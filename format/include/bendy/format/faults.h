@@ -1,11 +1,12 @@
 #pragma once
 
 #include <bendy/format/error.h>
+#include <bendy/format/public.h>
 
 #include <cstddef>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Gathers faults where more than the first is wanted. Keeps at most kMost, so that a hostile file cannot make the list
 /// larger than itself, and counts the rest.

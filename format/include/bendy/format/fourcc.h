@@ -1,9 +1,11 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <array>
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A chunk's id: four capital letters or digits, stored in reading order (the first letter is the first byte in the
 /// file).

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <bendy/format/joint.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 // IKCH: an IK chain of an object; PULL: the weight of a joint in one.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A chain. Its links are the joints on the path from the effector up to the start: no list is stored.
 struct ChainView {

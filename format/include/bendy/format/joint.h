@@ -2,6 +2,7 @@
 
 #include <bendy/format/constraint.h>
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <vector>
 
 // SKIN: a joint, nested as the skeleton is nested; PIVO: what belongs to the joint itself; POLY: its polygons.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A range of a pool's index list that belongs to a joint.
 struct PolygonView {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <cstdint>
 
 // The limits that every reader and writer shares; spec/limits.md is the same list for people.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::uint16_t kVersionMajor = 0;
 inline constexpr std::uint16_t kVersionMinor = 1;

@@ -2,6 +2,7 @@
 
 #include <bendy/format/faults.h>
 #include <bendy/format/pool.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <vector>
 
 // LODD: the sequence in which the vertices of an object's pools are collapsed.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The collapse sequence of one pool, in place. The pool's first N vertices are those alive at N, base <= N <=
 /// vertices.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <vector>
 
 // MATE: a material; TEXT: a texture, which is a sampler and one or more encodings of an image.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 struct MaterialView {
     std::uint32_t chunk = 0;

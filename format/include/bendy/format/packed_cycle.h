@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <array>
@@ -13,7 +14,7 @@
 
 // PACK: tracks of a cycle as quantised samples on one grid of frames, decoded in place. spec/chunks/PACK.md has the
 // layout.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// What a list of PACK's tracks holds. Numbers are relative to the joint's rest transform: rotations are rotation
 /// vectors (radians, along the joint's axes at rest: q = rest * exp(v)), translations and scales are added.

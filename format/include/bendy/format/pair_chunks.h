@@ -1,11 +1,12 @@
 #pragma once
 
 #include <bendy/format/chunk_reader.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A chunk of one tree and the one of another tree that stands for the same thing; kNone: there is none.
 struct ChunkPair {

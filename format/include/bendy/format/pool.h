@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <glm/mat4x4.hpp>
@@ -14,7 +15,7 @@
 #include <vector>
 
 // VECT: a pool of vertices, one leaf chunk per stream.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The smallest number of a component, and what one step of its integers adds.
 struct StreamBox {

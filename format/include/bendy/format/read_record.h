@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 #include <span>
 
 // Small steps that the readers of all record families share.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The record in the container's one leaf of this id. A missing leaf gives nothing and no fault (check_grammar has said
 /// so); a faulty one gives nothing and its fault.

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <bendy/format/fourcc.h>
+#include <bendy/format/public.h>
 
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 // The table records.def as data, for code that treats all records alike: shows, compares, or rewrites them.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 enum class FieldType : std::uint8_t { u8, u16, u32, u64, f32, record };
 

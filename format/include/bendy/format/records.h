@@ -2,6 +2,7 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/limits.h>
+#include <bendy/format/public.h>
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <type_traits>
 
 // The fixed records as they lie in the file: what each field means, its unit and range, stands in records.def.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 0x59, 0x0d, 0x0a, 0x1a};
 
@@ -166,6 +167,16 @@ struct CycleRecord {
     float frame_rate = 0.0f;
     std::uint8_t loop = 0;
     std::array<std::uint8_t, 3> reserved{};
+};
+
+struct MarkerRecord {
+    float seconds = 0.0f;
+    std::uint32_t name_end = 0;
+};
+
+struct MarkersRecord {
+    std::uint32_t markers = 0;
+    std::uint32_t reserved = 0;
 };
 
 struct PackRecord {

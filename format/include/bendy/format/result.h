@@ -1,12 +1,13 @@
 #pragma once
 
 #include <bendy/format/error.h>
+#include <bendy/format/public.h>
 
 #include <cassert>
 #include <optional>
 #include <utility>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A value of type T, or the reason why there is none. The spelling is that of std::expected, which our compilers lack;
 /// it neither throws nor needs RTTI. Reading the absent side is the caller's bug and is asserted.

@@ -2,10 +2,11 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/faults.h>
+#include <bendy/format/public.h>
 
 #include <string_view>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// True for well-formed UTF-8 (Unicode 15, table 3-7): no overlong forms, no surrogates, nothing past U+10FFFF.
 bool is_utf8(std::string_view text);

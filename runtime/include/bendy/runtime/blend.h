@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 // Several poses of one model become one. Weights are 0 to 1 and may lie outside; a mask scales the weight joint by
 // joint (see mask_below), and is empty or has a number for each joint. Nothing allocates but mask_below. Each returns
 // false, and changes nothing, for poses of different models, a mask of another size or a weight that is not finite.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Moves `pose` towards `other`: 0 leaves it, 1 makes it the other. Translations, scales and target weights are mixed,
 /// rotations too, the short way round, and normalised ("nlerp"). To mix several poses evenly, blend in the second by

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The legal rotation nearest to R by angle; see Constraint for R. Inside the limits it is R itself, clamping twice is
 /// clamping once, and nothing jumps where an angle passes pi. For the Euler box it is the nearest that an ascent over

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/format/constraint.h>
+#include <bendy/format/public.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
@@ -8,7 +9,7 @@
 #include <array>
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// An interval of angles on the circle.
 struct AngleRange {

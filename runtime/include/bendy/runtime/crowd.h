@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/pose.h>
@@ -19,7 +20,7 @@
 //     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 8), [&](const auto& range) {
 //         crowd.play(members.subspan(range.begin(), range.size()), tbb::this_task_arena::current_thread_index());
 //     });
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// One character of a crowd: what it plays and where that is to be written. Members must not share what is written.
 struct CrowdMember {

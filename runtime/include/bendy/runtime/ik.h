@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/gtc/quaternion.hpp>
@@ -9,7 +10,7 @@
 #include <optional>
 
 // Inverse kinematics: chains of the model reach for targets, inside their joints' constraints.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// What a chain is to reach, in model space.
 struct ReachTarget {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/constraint.h>
 
 #include <glm/gtc/quaternion.hpp>
@@ -8,7 +9,7 @@
 
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A joint of a chain while an IK solver works on it; a Pose keeps as many as its model's longest chain has, so that
 /// reaching allocates nothing. Rotations and bones in the space of the start's parent, lengths in chain lengths.

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/vertices.h>
 
 #include <cstdint>
 #include <span>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Inbetweening: a pool's vertices plus the weighted displacements of its targets, in pool space, not yet skinned.
 /// `weights`: one per target of the pool, any number (usually 0 to 1). Each span of `out` that is not empty must hold

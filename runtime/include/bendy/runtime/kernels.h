@@ -1,11 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 // The ways in which this program can do the bulk of its arithmetic: see skin.
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 enum class Kernel : std::uint8_t {
     plain,   ///< one number at a time; every other one is held against it

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/model.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A model at one level of detail: which vertices are alive, and what is drawn of them. Allocates all that it needs
 /// when it is made; starts at full detail. The model must outlive it where it stands. A model whose file has no

@@ -2,6 +2,7 @@
 
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
+#include <bendy/format/public.h>
 #include <bendy/format/result.h>
 #include <bendy/runtime/constraint.h>
 #include <bendy/runtime/transform.h>
@@ -15,6 +16,13 @@
 #include <vector>
 
 namespace bendy {
+
+class Sampling;  // not exported
+class Skinning;
+
+}  // namespace bendy
+
+namespace BENDY_PUBLIC bendy {
 
 // The format's views are the runtime's data: they lie in the mapped file.
 using Cycle = CycleView;

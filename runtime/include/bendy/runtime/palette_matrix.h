@@ -1,6 +1,8 @@
 #pragma once
 
-namespace bendy {
+#include <bendy/format/public.h>
+
+namespace BENDY_PUBLIC bendy {
 
 /// Rows of a 3x4 matrix, pool space to model space: what a bone does to a vertex. As long as a cache line. Nothing but
 /// numbers, since kernels for other processors include this.

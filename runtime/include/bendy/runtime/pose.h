@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/ik_link.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/palette_matrix.h>
@@ -10,6 +11,12 @@
 #include <vector>
 
 namespace bendy {
+
+class Reach;  // not exported
+
+}  // namespace bendy
+
+namespace BENDY_PUBLIC bendy {
 
 /// A model in one position: the joints' local transforms, the inbetweening targets' weights, and what follows from
 /// them. Allocates all that posing and skinning need when it is made. The model must outlive it where it stands.

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/pose.h>
 
 #include <span>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Sets the pose to the cycle at `seconds` on the cycle's own time line (Cycle::start to Cycle::end): what a track
 /// animates gets its value there, the rest is at rest. Times outside a track's keys are held at its first or last key;

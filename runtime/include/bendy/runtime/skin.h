@@ -1,12 +1,13 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/vertices.h>
 
 #include <cstdint>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// Poses the vertices of one pool: inbetweening with the pose's target weights, then skinning, v' = sum(w_i M_i v) with
 /// M_i = model space of joint i * its inverse bind matrix; a rigid pool's vertices move with their joint. Normals go by

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// A joint's transform relative to its parent.
 struct JointTransform {

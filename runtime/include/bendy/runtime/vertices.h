@@ -1,12 +1,14 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <span>
 
-namespace bendy {
+namespace BENDY_PUBLIC bendy {
 
 /// The caller's memory for posed vertices, in model space. An empty span means: not wanted.
 struct Vertices {

@@ -1,0 +1,185 @@
+// What is in a model: counts, names, and a struct for each thing.
+#include "handles.h"
+#include "sized.h"
+#include "transform.h"
+
+#include <algorithm>
+
+namespace bendy::capi {
+namespace {
+
+using NameList = std::vector<std::string> Names::*;
+
+std::uint32_t count_of(const bendy_model* model, NameList list) {
+    return model == nullptr ? 0 : static_cast<std::uint32_t>((model->character->names.*list).size());
+}
+
+/// `there is no cycle "Rum"; there are: "Walk", "Run"`
+std::string not_found(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
+    constexpr std::size_t kEnough = 400;  // what a message shows
+    std::string text = "there is no " + std::string(kind) + " \"" + std::string(name) + '"';
+    if (names.empty()) return text + ", the model has none at all";
+    text += names.size() == 1 ? "; there is: " : "; there are: ";
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (text.size() > kEnough) return text + ", ...";
+        text += (k == 0 ? "\"" : ", \"") + names[k] + '"';
+    }
+    return text;
+}
+
+std::uint32_t find(const bendy_model* model, NameList list, const char* kind, const char* name, bendy_error* error) {
+    std::uint32_t found = BENDY_NONE;
+    guarded(error, [&] {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        if (const bendy_status status = check_pointer(name, "name", error)) return status;
+        const auto& names = model->character->names.*list;
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end()) return fail(error, BENDY_NOT_FOUND, not_found(kind, name, names));
+        found = static_cast<std::uint32_t>(at - names.begin());
+        return BENDY_OK;
+    });
+    return found;
+}
+
+/// Fills `out` with make(model, names), if `index` is one of `list`.
+template <class Out, class Make>
+bendy_status get(const bendy_model* model, NameList list, const char* kind, std::uint32_t index, Out* out,
+                 bendy_error* error, const Make& make) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        if (const bendy_status status = check_index(index, count_of(model, list), kind, error)) return status;
+        if (const bendy_status status = check_out(out, "out", error)) return status;
+        Out value{};
+        value.name = (model->character->names.*list)[index].c_str();
+        make(model->get(), value);
+        put(*out, value);
+        return BENDY_OK;
+    });
+}
+
+void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
+    const Pool& pool = model.pools()[number];
+    out.vertices = pool.vertices;
+    out.first_vertex = model.first_vertex(number);
+    out.indices = pool.indices ? pool.indices->elements : 0;
+    out.joint = pool.joint;
+    out.first_target = model.first_target(number);
+    out.targets = static_cast<std::uint32_t>(pool.targets.size());
+    out.has_normals = pool.normals ? 1 : 0;
+    out.has_tangents = pool.tangents ? 1 : 0;
+    out.texture_coord_sets = static_cast<std::uint32_t>(pool.texture_coords.size());
+    out.bones = pool.is_rigid() ? 0 : static_cast<std::uint32_t>(pool.palette.joints.size());
+    out.influences = pool.is_rigid() ? 0 : pool.bones->components;
+}
+
+}  // namespace
+}  // namespace bendy::capi
+
+using namespace bendy::capi;
+
+uint32_t bendy_joint_count(const bendy_model* model) {
+    return count_of(model, &Names::joints);
+}
+uint32_t bendy_cycle_count(const bendy_model* model) {
+    return count_of(model, &Names::cycles);
+}
+uint32_t bendy_chain_count(const bendy_model* model) {
+    return count_of(model, &Names::chains);
+}
+uint32_t bendy_target_count(const bendy_model* model) {
+    return count_of(model, &Names::targets);
+}
+uint32_t bendy_mesh_count(const bendy_model* model) {
+    return count_of(model, &Names::meshes);
+}
+uint32_t bendy_draw_count(const bendy_model* model) {
+    return model == nullptr ? 0 : static_cast<std::uint32_t>(model->get().draws().size());
+}
+uint32_t bendy_material_count(const bendy_model* model) {
+    return count_of(model, &Names::materials);
+}
+uint64_t bendy_vertex_count(const bendy_model* model) {
+    return model == nullptr ? 0 : model->get().vertex_count();
+}
+
+uint32_t bendy_find_joint(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::joints, "joint", name, error);
+}
+uint32_t bendy_find_cycle(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::cycles, "cycle", name, error);
+}
+uint32_t bendy_find_chain(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::chains, "chain", name, error);
+}
+uint32_t bendy_find_target(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::targets, "target", name, error);
+}
+uint32_t bendy_find_mesh(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::meshes, "mesh", name, error);
+}
+uint32_t bendy_find_material(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::materials, "material", name, error);
+}
+
+const uint32_t* bendy_joint_parents(const bendy_model* model) {
+    return model == nullptr || model->get().parents().empty() ? nullptr : model->get().parents().data();
+}
+
+const char* bendy_model_name(const bendy_model* model) {
+    return model == nullptr ? nullptr : model->character->names.model.c_str();
+}
+
+bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error) {
+    return get(model, &Names::joints, "joint", joint, out, error, [&](const bendy::Model& from, bendy_joint& value) {
+        const bendy::Joint& view = from.joints()[joint];
+        value.parent = view.parent;
+        value.rest = to_c(view.rest);
+        for (int c = 0; c < 3; ++c) value.shear[c] = view.shear[c];
+    });
+}
+
+bendy_status bendy_get_cycle(const bendy_model* model, uint32_t cycle, bendy_cycle* out, bendy_error* error) {
+    return get(model, &Names::cycles, "cycle", cycle, out, error, [&](const bendy::Model& from, bendy_cycle& value) {
+        const bendy::Cycle& view = from.cycles()[cycle];
+        value.start = view.start;
+        value.end = view.end;
+        value.frame_rate = view.frame_rate;
+        value.loops = view.loop ? 1 : 0;
+    });
+}
+
+bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_chain* out, bendy_error* error) {
+    return get(model, &Names::chains, "chain", chain, out, error, [&](const bendy::Model& from, bendy_chain& value) {
+        const bendy::Chain& view = from.chains()[chain];
+        value.start = view.start;
+        value.effector = view.effector;
+        value.links = view.links;
+        value.target = view.target;
+        value.pole = view.pole;
+    });
+}
+
+bendy_status bendy_get_target(const bendy_model* model, uint32_t target, bendy_target* out, bendy_error* error) {
+    return get(
+        model, &Names::targets, "target", target, out, error, [&](const bendy::Model& from, bendy_target& value) {
+            value.mesh = model->character->target_meshes[target];
+            value.rest_weight = from.pools()[value.mesh].targets[target - from.first_target(value.mesh)].rest_weight;
+        });
+}
+
+bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error) {
+    return get(model, &Names::meshes, "mesh", mesh, out, error,
+               [&](const bendy::Model& from, bendy_mesh& value) { describe_mesh(from, mesh, value); });
+}
+
+bendy_status bendy_get_material(const bendy_model* model, uint32_t material, bendy_material* out, bendy_error* error) {
+    return get(model, &Names::materials, "material", material, out, error,
+               [&](const bendy::Model& from, bendy_material& value) {
+                   const bendy::SurfaceRecord& surface = from.materials()[material].surface;
+                   value.metallic = surface.metallic;
+                   value.roughness = surface.roughness;
+                   std::copy(surface.base_colour.begin(), surface.base_colour.end(), value.base_colour);
+                   std::copy(surface.emissive.begin(), surface.emissive.end(), value.emissive);
+                   value.double_sided = surface.double_sided != 0 ? 1 : 0;
+               });
+}

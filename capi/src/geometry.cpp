@@ -1,0 +1,89 @@
+// What a model's meshes hold that posing does not change: draws, index lists, texture coordinates, influences.
+#include "draw.h"
+#include "handles.h"
+
+namespace bendy::capi {
+namespace {
+
+bendy_status check_mesh(const bendy_model* model, std::uint32_t mesh, bendy_error* error) {
+    if (const bendy_status status = check_pointer(model, "model", error)) return status;
+    return check_index(mesh, model->get().pools().size(), "mesh", error);
+}
+
+/// The mesh' texture coordinates of that set; null if there are none.
+const StreamView* texture_coords(const Pool& pool, std::uint32_t set) {
+    for (const StreamView& stream : pool.texture_coords) {
+        if (stream.set == set) return &stream;
+    }
+    return nullptr;
+}
+
+void copy_influences(const Pool& pool, std::uint32_t* bones, float* weights) {
+    const std::uint32_t influences = pool.bones->components;
+    for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+        for (std::uint32_t k = 0; k < influences; ++k) {
+            *bones++ = pool.bones->index(vertex, k);
+            *weights++ = pool.weights->number(vertex, k);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace bendy::capi
+
+using namespace bendy::capi;
+
+bendy_status bendy_get_draw(const bendy_model* model, uint32_t draw, bendy_draw* out, bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        return get_draw(model->get().draws(), draw, out, error);
+    });
+}
+
+bendy_status bendy_get_indices(const bendy_model* model, uint32_t mesh, uint32_t* indices, size_t count,
+                               bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
+        const auto& stream = model->get().pools()[mesh].indices;
+        const std::uint32_t elements = stream ? stream->elements : 0;
+        if (elements == 0) return BENDY_OK;
+        if (const bendy_status status = check_pointer(indices, "indices", error)) return status;
+        if (const bendy_status status = check_room(count, elements, "indices", error)) return status;
+        for (std::uint32_t k = 0; k < elements; ++k) indices[k] = stream->index(k, 0);
+        return BENDY_OK;
+    });
+}
+
+bendy_status bendy_get_texture_coords(const bendy_model* model, uint32_t mesh, uint32_t set, float* uv, size_t count,
+                                      bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
+        const bendy::Pool& pool = model->get().pools()[mesh];
+        const bendy::StreamView* stream = texture_coords(pool, set);
+        if (stream == nullptr)
+            return fail(error, BENDY_BAD_ARGUMENT,
+                        "mesh " + std::to_string(mesh) + " has no texture coordinates of set " + std::to_string(set));
+        if (const bendy_status status = check_pointer(uv, "uv", error)) return status;
+        if (const bendy_status status = check_room(count, std::uint64_t{2} * pool.vertices, "uv", error)) return status;
+        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+            for (std::uint32_t c = 0; c < 2; ++c) *uv++ = stream->number(vertex, c);
+        }
+        return BENDY_OK;
+    });
+}
+
+bendy_status bendy_get_influences(const bendy_model* model, uint32_t mesh, uint32_t* bones, float* weights,
+                                  size_t count, bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
+        const bendy::Pool& pool = model->get().pools()[mesh];
+        if (pool.is_rigid())
+            return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is rigid: it has no bones");
+        if (const bendy_status status = check_pointer(bones, "bones", error)) return status;
+        if (const bendy_status status = check_pointer(weights, "weights", error)) return status;
+        const std::uint64_t needed = std::uint64_t{pool.vertices} * pool.bones->components;
+        if (const bendy_status status = check_room(count, needed, "bones", error)) return status;
+        copy_influences(pool, bones, weights);
+        return BENDY_OK;
+    });
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <bendy.h>
+#include <bendy/format/codec.h>
+#include <bendy/format/file.h>
+#include <bendy/runtime/lod.h>
+#include <bendy/runtime/model.h>
+#include <bendy/runtime/pose.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+// What stands behind the handles. All of one model's share the Character, which goes with the last of them.
+namespace bendy::capi {
+
+/// As C wants names: with a zero after them.
+struct Names {
+    std::string model;
+    std::vector<std::string> joints, cycles, chains, targets, meshes, materials;
+};
+
+/// The bytes of a file, in one of three ways.
+struct Source {
+    MappedFile file;
+    AlignedBytes copy;
+    Bytes bytes;  ///< of either, or the caller's
+};
+
+struct Character {
+    Source source;
+    Model model;
+    Names names;
+    std::vector<std::uint32_t> target_meshes;  ///< of each target of the model
+
+    Character(Source from, Model loaded);
+};
+
+}  // namespace bendy::capi
+
+struct bendy_model {
+    std::shared_ptr<const bendy::capi::Character> character;
+
+    [[nodiscard]] const bendy::Model& get() const { return character->model; }
+};
+
+struct bendy_pose {
+    explicit bendy_pose(std::shared_ptr<const bendy::capi::Character> of)
+        : character(std::move(of)), pose(character->model) {}
+
+    std::shared_ptr<const bendy::capi::Character> character;
+    bendy::Pose pose;
+};
+
+struct bendy_lod {
+    explicit bendy_lod(std::shared_ptr<const bendy::capi::Character> of)
+        : character(std::move(of)), lod(character->model) {}
+
+    std::shared_ptr<const bendy::capi::Character> character;
+    bendy::Lod lod;
+};

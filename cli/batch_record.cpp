@@ -1,0 +1,93 @@
+#include "batch_record.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <span>
+#include <system_error>
+
+namespace bendy::cli {
+namespace {
+
+using converter::FileStamp;
+using converter::SourceFile;
+using nlohmann::json;
+
+/// The same for a file however its folder was written. Not what a link names: other files are looked for beside the
+/// link.
+std::filesystem::path plain(const std::filesystem::path& file) {
+    const std::filesystem::path whole = std::filesystem::absolute(file);
+    std::error_code unknown;
+    return std::filesystem::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
+}
+
+json as_json(const FileStamp& stamp) {
+    return stamp.is_there ? json::array({stamp.size, stamp.modified}) : json();
+}
+
+FileStamp as_stamp(const json& numbers) {
+    if (numbers.is_null()) return {};
+    return {true, numbers.at(0).get<std::uint64_t>(), numbers.at(1).get<std::int64_t>()};
+}
+
+}  // namespace
+
+BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(folder / ".bendy_batch.json") {
+    try {
+        read();
+    } catch (const json::exception&) {
+        entries_.clear();  // damaged, or of another version: all is made again
+    }
+}
+
+void BatchRecord::read() {
+    const Result<MappedFile> mapped = MappedFile::open(file_);
+    if (!mapped) return;
+    const Bytes bytes = mapped->bytes();
+    const auto* text = reinterpret_cast<const char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
+    const json record = json::parse(text, text + bytes.size());
+    for (const auto& [output, members] : record.at("outputs").items()) {
+        Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
+        for (const json& source : members.at("sources"))
+            entry.sources.push_back({source.at(0).get<std::string>(), as_stamp(source.at(1))});
+        entries_.emplace(output, std::move(entry));
+    }
+}
+
+bool BatchRecord::is_up_to_date(const BatchFile& file, const std::string& recipe) const {
+    const auto found = entries_.find(file.place.generic_string());
+    if (found == entries_.end()) return false;
+    const Entry& entry = found->second;
+    return entry.recipe == recipe && entry.output.is_there && entry.output == converter::stamp_of(file.output) &&
+           !entry.sources.empty() && plain(entry.sources.front().file) == plain(file.input) &&
+           std::all_of(entry.sources.begin(), entry.sources.end(),
+                       [](const SourceFile& source) { return source.stamp == converter::stamp_of(source.file); });
+}
+
+void BatchRecord::note(const BatchFile& file, const std::string& recipe, const std::vector<SourceFile>& sources) {
+    Entry entry{recipe, converter::stamp_of(file.output), sources};
+    for (SourceFile& source : entry.sources) source.file = std::filesystem::absolute(source.file);
+    entries_[file.place.generic_string()] = std::move(entry);
+}
+
+std::string BatchRecord::write() const {
+    json outputs = json::object();
+    for (const auto& [output, entry] : entries_) {
+        if (!converter::stamp_of(folder_ / output).is_there) continue;
+        json sources = json::array();
+        for (const SourceFile& source : entry.sources)
+            sources.push_back(json::array({source.file.string(), as_json(source.stamp)}));
+        outputs[output] = {
+            {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
+    }
+    // A name that is no UTF-8 is not found again, and its file made again.
+    const std::string text = json{{"outputs", std::move(outputs)}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    const auto written = write_file(file_, std::as_bytes(std::span(text)));
+    return written ? std::string() : bendy::describe(written.error());
+}
+
+}  // namespace bendy::cli

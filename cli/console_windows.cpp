@@ -1,0 +1,56 @@
+#include "console.h"
+
+#include <fcntl.h>
+#include <io.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#define WIN32_LEAN_AND_MEAN
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+
+#include <shellapi.h>
+
+namespace bendy::cli {
+namespace {
+
+std::string to_utf8(std::wstring_view text) {
+    const auto convert = [text](char* out, int size) {
+        return ::WideCharToMultiByte(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), out, size, nullptr,
+                                     nullptr);
+    };
+    std::string bytes(static_cast<std::size_t>(convert(nullptr, 0)), '\0');
+    convert(bytes.data(), static_cast<int>(bytes.size()));
+    return bytes;
+}
+
+}  // namespace
+
+std::vector<std::string> command_line(int argc, const char* const* argv) {
+    // argv is in the code page of the system, which may lack what file names have.
+    int count = 0;
+    wchar_t** const words = ::CommandLineToArgvW(::GetCommandLineW(), &count);
+    if (words == nullptr) return {argv + std::min(argc, 1), argv + argc};
+    std::vector<std::string> list;
+    for (int i = 1; i < count; ++i) list.push_back(to_utf8(words[i]));
+    ::LocalFree(words);
+    return list;
+}
+
+void prepare_console() {
+    ::_setmode(::_fileno(stdout), _O_BINARY);
+    ::SetConsoleOutputCP(CP_UTF8);
+}
+
+bool is_terminal() {
+    auto* const error = ::GetStdHandle(STD_ERROR_HANDLE);
+    DWORD mode = 0;
+    return ::GetConsoleMode(error, &mode) != 0 &&
+           ::SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+}  // namespace bendy::cli

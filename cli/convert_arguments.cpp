@@ -1,0 +1,47 @@
+#include "convert_arguments.h"
+
+#include "problem.h"
+
+#include <nlohmann/json.hpp>
+
+namespace bendy::cli {
+
+converter::ConvertOptions options_of(const ConvertArguments& arguments) {
+    converter::ConvertOptions options;
+    if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
+    options.gltf.embed_images = arguments.images == "embed";
+    if (!arguments.rig.empty()) options.rig = arguments.rig;
+    options.auto_rig = arguments.auto_rig;
+    options.auto_skin = arguments.auto_skin || !arguments.skeleton.empty();
+    options.skeleton = arguments.skeleton;
+    if (arguments.compact) options.compact = converter::ErrorBound();
+    if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
+    options.lod = arguments.lod;
+    options.sort_vertices = arguments.sort_vertices;
+    return options;
+}
+
+std::string recipe_of(const ConvertArguments& arguments) {
+    const nlohmann::json recipe{{"bendy", BENDY_VERSION},
+                                {"scene", arguments.scene},
+                                {"images", arguments.images},
+                                {"rig", arguments.rig.empty() ? "" : std::filesystem::absolute(arguments.rig).string()},
+                                {"auto_rig", arguments.auto_rig},
+                                {"auto_skin", arguments.auto_skin},
+                                {"skeleton", arguments.skeleton},
+                                {"compact", arguments.compact},
+                                {"max_error", arguments.max_error},
+                                {"lod", arguments.lod},
+                                {"sort_vertices", arguments.sort_vertices}};
+    return recipe.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input) {
+    return error.file.empty() ? input : error.file;
+}
+
+std::string describe(const converter::ImportError& error) {
+    return printable(error.place.empty() ? error.message : error.place + ": " + error.message);
+}
+
+}  // namespace bendy::cli

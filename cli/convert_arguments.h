@@ -1,0 +1,42 @@
+#pragma once
+
+#include <bendy/converter/convert.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bendy::cli {
+
+/// What `bendy convert` is told.
+struct ConvertArguments {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;  ///< a file; of several inputs, a folder
+    std::string scene;
+    std::string images = "embed";
+    std::filesystem::path rig;
+    std::filesystem::path depfile;
+    bool exact = true;
+    bool auto_rig = false;
+    bool auto_skin = false;
+    std::string skeleton;
+    bool compact = false;
+    std::string max_error;
+    bool lod = false;
+    bool sort_vertices = false;
+    unsigned jobs = 0;  ///< files at a time; 0: one for each processor
+    bool force = false;
+    bool quiet = false;
+};
+
+converter::ConvertOptions options_of(const ConvertArguments& arguments);
+
+/// All that decides which bytes come out, with the program's version, as one line of text.
+std::string recipe_of(const ConvertArguments& arguments);
+
+/// The file that an error is about.
+std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input);
+/// What is wrong with it, in one line.
+std::string describe(const converter::ImportError& error);
+
+}  // namespace bendy::cli

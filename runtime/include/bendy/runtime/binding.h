@@ -1,0 +1,89 @@
+#pragma once
+
+#include <bendy/format/public.h>
+#include <bendy/runtime/pose.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace BENDY_PUBLIC bendy {
+
+/// Whose translations a bound cycle brings along.
+enum class BoundTranslations : std::uint8_t {
+    all,        ///< every track as it is: right for skeletons of one size
+    root_only,  ///< limbs keep the lengths of the model that is posed
+};
+
+struct BindingOptions {
+    BoundTranslations translations = BoundTranslations::all;
+    /// For root_only: this joint of the model that is posed, and all above it, take translations: hips, usually. kNone:
+    /// only joints with no matched joint above them.
+    std::uint32_t root = kNone;
+    /// Times what root_only takes: the posed model's hip height by the other's, so that feet reach the ground.
+    float root_scale = 1.0f;
+};
+
+/// The cycles of one model for another one, joint by joint and target by target of the same name: files that hold
+/// nothing but a skeleton and cycles, shared by many characters. Names must be the same to the letter; of names that
+/// are doubled the first counts, empty ones match nothing.
+///
+/// What a track animates gets its value as it is, relative to the parent; everything else is at the posed model's own
+/// rest. Rotations are not corrected: where two skeletons' rest poses differ in how joints are turned, or in which
+/// joints lie between, the pose does too.
+///
+/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do). Both models must outlive it
+/// where they stand.
+class Binding {
+public:
+    /// \param animated  has the cycles
+    /// \param posed     has the skeleton that is to move
+    Binding(const Model& animated, const Model& posed, const BindingOptions& options = {});
+
+    [[nodiscard]] const Model& animated() const { return *animated_; }
+    [[nodiscard]] const Model& posed() const { return *posed_; }
+    /// For each joint of the animated model the posed model's, or kNone.
+    [[nodiscard]] std::span<const std::uint32_t> joints() const { return joints_; }
+    /// For each target of the animated model (see Model::first_target) the posed model's, or kNone. Of pools of the
+    /// same name if there are such, else the first of its name.
+    [[nodiscard]] std::span<const std::uint32_t> targets() const { return targets_; }
+    /// What some cycle animates in vain: joints of the animated model, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> unmatched_joints() const { return unmatched_joints_; }
+    [[nodiscard]] std::span<const std::uint32_t> unmatched_targets() const { return unmatched_targets_; }
+
+private:
+    friend bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose);
+
+    /// What a cycle animates of a joint that is matched.
+    struct BoundJoint {
+        std::uint32_t from = 0, to = 0;
+        bool rotation = false, translation = false, scale = false;
+        float translation_scale = 1.0f;
+    };
+    struct BoundTarget {
+        std::uint32_t from = 0, to = 0;
+    };
+    struct BoundCycle {
+        std::vector<BoundJoint> joints;
+        std::vector<BoundTarget> targets;
+    };
+
+    void match_joints();
+    void match_targets();
+    void bind(const Cycle& cycle, const std::vector<bool>& is_root, float root_scale, bool has_all,
+              std::vector<bool>& missed_joints, std::vector<bool>& missed_targets);
+    [[nodiscard]] std::vector<bool> find_roots(std::uint32_t root) const;
+
+    const Model* animated_;
+    const Model* posed_;
+    Pose sampled_;  // of the animated model
+    std::vector<std::uint32_t> joints_, targets_;
+    std::vector<std::uint32_t> unmatched_joints_, unmatched_targets_;
+    std::vector<BoundCycle> cycles_;
+};
+
+/// As sample, of a cycle of the animated model, for a pose of the posed one. The rest pose, and false, for NaN seconds
+/// and for a cycle that is null or not the animated model's; false, and nothing changes, for a pose of another model.
+bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose);
+
+}  // namespace bendy

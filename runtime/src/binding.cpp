@@ -1,0 +1,178 @@
+#include <bendy/runtime/binding.h>
+
+#include <bendy/runtime/sample.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace bendy {
+namespace {
+
+using ByName = std::unordered_map<std::string_view, std::uint32_t>;
+
+std::uint32_t find(const ByName& numbers, std::string_view name) {
+    const auto found = numbers.find(name);
+    return name.empty() || found == numbers.end() ? kNone : found->second;
+}
+
+std::vector<std::uint32_t> places_of(const std::vector<bool>& is_there) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t k = 0; k < is_there.size(); ++k) {
+        if (is_there[k]) places.push_back(k);
+    }
+    return places;
+}
+
+struct Paths {
+    bool rotation = false, translation = false, scale = false;
+};
+
+void add(Paths& paths, TrackPath path) {
+    paths.rotation = paths.rotation || path == TrackPath::rotation;
+    paths.translation = paths.translation || path == TrackPath::translation;
+    paths.scale = paths.scale || path == TrackPath::scale;
+}
+
+/// What a cycle animates of each joint.
+std::vector<Paths> find_paths(const Cycle& cycle, std::size_t joints) {
+    std::vector<Paths> paths(joints);
+    for (const TrackView& track : cycle.tracks) {
+        if (track.path != TrackPath::weights && track.target < joints) add(paths[track.target], track.path);
+    }
+    if (!cycle.packed) return paths;
+    for (std::uint32_t joint = 0; joint < joints && joint < cycle.packed->record.joints; ++joint) {
+        for (const TrackPath path : {TrackPath::rotation, TrackPath::translation, TrackPath::scale}) {
+            if (cycle.packed->animates(joint, path)) add(paths[joint], path);
+        }
+    }
+    return paths;
+}
+
+}  // namespace
+
+Binding::Binding(const Model& animated, const Model& posed, const BindingOptions& options)
+    : animated_(&animated), posed_(&posed), sampled_(animated) {
+    match_joints();
+    match_targets();
+    const bool has_all = options.translations == BoundTranslations::all;
+    const std::vector<bool> is_root = find_roots(options.root);
+    std::vector<bool> missed_joints(joints_.size());
+    std::vector<bool> missed_targets(targets_.size());
+    cycles_.reserve(animated.cycles().size());
+    for (const Cycle& cycle : animated.cycles())
+        bind(cycle, is_root, options.root_scale, has_all, missed_joints, missed_targets);
+    unmatched_joints_ = places_of(missed_joints);
+    unmatched_targets_ = places_of(missed_targets);
+}
+
+void Binding::match_joints() {
+    ByName numbers;
+    for (std::uint32_t joint = 0; joint < posed_->joints().size(); ++joint)
+        numbers.emplace(posed_->joints()[joint].name, joint);  // the first stays
+    std::vector<bool> is_taken(posed_->joints().size());
+    joints_.reserve(animated_->joints().size());
+    for (const Joint& joint : animated_->joints()) {
+        std::uint32_t found = find(numbers, joint.name);
+        if (found != kNone && is_taken[found]) found = kNone;
+        if (found != kNone) is_taken[found] = true;
+        joints_.push_back(found);
+    }
+}
+
+void Binding::match_targets() {
+    ByName anywhere;
+    std::unordered_map<std::string_view, ByName> in_pool;
+    for (std::uint32_t pool = 0; pool < posed_->pools().size(); ++pool) {
+        std::uint32_t number = posed_->first_target(pool);
+        for (const TargetView& target : posed_->pools()[pool].targets) {
+            anywhere.emplace(target.name, number);
+            in_pool[posed_->pools()[pool].name].emplace(target.name, number);
+            ++number;
+        }
+    }
+    for (const Pool& pool : animated_->pools()) {
+        const auto same = in_pool.find(pool.name);
+        for (const TargetView& target : pool.targets) {
+            const std::uint32_t found = same == in_pool.end() ? kNone : find(same->second, target.name);
+            targets_.push_back(found == kNone ? find(anywhere, target.name) : found);
+        }
+    }
+}
+
+/// The joints of the posed model whose translations are taken by root_only.
+std::vector<bool> Binding::find_roots(std::uint32_t root) const {
+    const auto parents = posed_->parents();
+    std::vector<bool> is_root(parents.size());
+    if (root < parents.size()) {
+        for (; root != kNone; root = parents[root]) is_root[root] = true;
+        return is_root;
+    }
+    std::vector<bool> has_matched(parents.size());  // it, or one above it
+    for (const std::uint32_t joint : joints_) {
+        if (joint != kNone) has_matched[joint] = true;
+    }
+    for (std::size_t joint = 0; joint < parents.size(); ++joint) {  // parents come first
+        const bool is_below = parents[joint] != kNone && has_matched[parents[joint]];
+        is_root[joint] = has_matched[joint] && !is_below;
+        has_matched[joint] = has_matched[joint] || is_below;
+    }
+    return is_root;
+}
+
+void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float root_scale, bool has_all,
+                   std::vector<bool>& missed_joints, std::vector<bool>& missed_targets) {
+    BoundCycle bound;
+    const std::vector<Paths> paths = find_paths(cycle, joints_.size());
+    for (std::uint32_t joint = 0; joint < paths.size(); ++joint) {
+        BoundJoint made{joint, joints_[joint], paths[joint].rotation, paths[joint].translation, paths[joint].scale,
+                        1.0f};
+        if (!made.rotation && !made.translation && !made.scale) continue;
+        if (made.to == kNone) {
+            missed_joints[joint] = true;
+            continue;
+        }
+        if (!has_all) {
+            made.translation = made.translation && is_root[made.to];
+            made.translation_scale = root_scale;
+        }
+        bound.joints.push_back(made);
+    }
+    for (const TrackView& track : cycle.tracks) {
+        if (track.path != TrackPath::weights || track.target >= animated_->pools().size()) continue;
+        for (std::uint32_t k = 0; k < animated_->pools()[track.target].targets.size(); ++k) {
+            const std::uint32_t target = animated_->first_target(track.target) + k;
+            if (targets_[target] == kNone) {
+                missed_targets[target] = true;
+            } else {
+                bound.targets.push_back({target, targets_[target]});
+            }
+        }
+    }
+    cycles_.push_back(std::move(bound));
+}
+
+bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose) {
+    if (&pose.model() != binding.posed_) return false;
+    pose.set_rest();
+    const auto cycles = binding.animated_->cycles();
+    std::size_t number = 0;
+    while (number < cycles.size() && &cycles[number] != cycle) ++number;
+    if (number == cycles.size() || !sample(cycle, seconds, binding.sampled_)) return false;
+    const std::span<JointTransform> local = pose.change_local();
+    for (const Binding::BoundJoint& joint : binding.cycles_[number].joints) {
+        const JointTransform& from = binding.sampled_.local()[joint.from];
+        JointTransform& to = local[joint.to];
+        if (joint.rotation) to.rotation = from.rotation;
+        if (joint.translation) to.translation = joint.translation_scale * from.translation;
+        if (joint.scale) to.scale = from.scale;
+    }
+    const std::span<float> weights = pose.change_target_weights();
+    for (const Binding::BoundTarget& target : binding.cycles_[number].targets)
+        weights[target.to] = binding.sampled_.target_weights()[target.from];
+    return true;
+}
+
+}  // namespace bendy

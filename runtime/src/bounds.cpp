@@ -1,0 +1,180 @@
+#include <bendy/runtime/bounds.h>
+
+#include <bendy/runtime/local_to_model.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace bendy {
+namespace {
+
+// 32 units in the last place: kernels promise 8, matrices and boxes are rounded too.
+constexpr double kKernelRounding = 4e-6;
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void put_in(Box& box, const glm::dvec3& point) {
+    if (!is_finite(point)) return;
+    box.minimum = glm::min(box.minimum, glm::vec3(point));
+    box.maximum = glm::max(box.maximum, glm::vec3(point));
+}
+
+/// The box around a box that a matrix has moved, rounding included.
+Box moved(const Box& box, const glm::dmat4& matrix) {
+    if (box.is_empty()) return box;
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(box.minimum) + glm::dvec3(box.maximum));
+    const glm::dvec3 half = glm::dvec3(box.maximum) - middle;
+    const glm::dvec3 most = glm::abs(middle) + half;
+    glm::dvec3 place(matrix[3]);
+    glm::dvec3 reach(0.0);
+    glm::dvec3 rounding = glm::abs(place);
+    for (int c = 0; c < 3; ++c) {
+        const glm::dvec3 column(matrix[c]);
+        place += middle[c] * column;
+        reach += half[c] * glm::abs(column);
+        rounding += most[c] * glm::abs(column);
+    }
+    reach += kKernelRounding * rounding;
+    if (!is_finite(place) || !is_finite(reach)) return {};
+    return {place - reach, place + reach};
+}
+
+/// Grown by that share of its largest number.
+Box grown(const Box& box, double share) {
+    if (box.is_empty() || share == 0.0) return box;
+    const glm::vec3 most = glm::max(glm::abs(box.minimum), glm::abs(box.maximum));
+    const auto by = static_cast<float>(share * std::max({most.x, most.y, most.z}));
+    return {box.minimum - by, box.maximum + by};
+}
+
+}  // namespace
+
+Box unite(const Box& a, const Box& b) {
+    return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
+}
+
+/// Goes over the vertices.
+struct Bounds::Builder {
+    explicit Builder(Bounds& made) : bounds(made), model(*made.model_), shifts(made.joints_.size()) {}
+
+    void add_pool(std::uint32_t number) {
+        const Pool& pool = model.pools()[number];
+        std::vector<glm::vec3> vectors(pool.vertices);
+        pool.positions.decode(std::span(vectors).first(pool.positions.empty() ? 0 : vectors.size()));
+        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+            for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
+                put_in(bounds.joints_[joint].box, glm::dvec3(bind * glm::dvec4(glm::dvec3(vectors[vertex]), 1.0)));
+            });
+            if (!pool.is_rigid()) look_at_weights(pool, vertex);
+        }
+        for (std::uint32_t k = 0; k < pool.targets.size(); ++k) add_target(number, k);
+    }
+
+    void add_target(std::uint32_t number, std::uint32_t k) {
+        const TargetView& target = model.pools()[number].targets[k];
+        if (!target.positions) return;
+        const std::uint32_t place = model.first_target(number) + k;
+        for (std::uint32_t entry = 0; entry < target.positions->elements; ++entry) {
+            const glm::dvec3 displacement(target.positions->vec3(entry));
+            const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
+            for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
+                // The joint's other vertices stay: no displacement is in the box as well.
+                Box& box = shifts[joint].try_emplace(place, Box{glm::vec3(0.0f), glm::vec3(0.0f)}).first->second;
+                put_in(box, glm::dmat3(bind) * displacement);
+            });
+        }
+    }
+
+    /// visit(joint, inverse bind matrix) for each joint that moves the vertex; a rigid pool's are in joint space.
+    template <class Visit>
+    void for_each_mover(std::uint32_t number, std::uint32_t vertex, const Visit& visit) const {
+        const Pool& pool = model.pools()[number];
+        if (pool.is_rigid()) {
+            const std::uint32_t joint = model.rigid_mover(number, vertex);
+            visit(joint == kNone ? static_cast<std::uint32_t>(bounds.joints_.size() - 1) : joint, glm::dmat4(1.0));
+            return;
+        }
+        for (std::uint32_t k = 0; k < pool.bones->components; ++k) {
+            if (pool.weights->number(vertex, k) == 0.0f) continue;
+            const std::uint32_t bone = pool.bones->index(vertex, k);
+            visit(pool.palette.joints[bone], glm::dmat4(pool.palette.inverse_bind()[bone]));
+        }
+    }
+
+    /// With positive weights P and negative ones -N, a vertex is P times a point among its places less N times one.
+    void look_at_weights(const Pool& pool, std::uint32_t vertex) {
+        double above = 0.0;
+        double below = 0.0;
+        for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
+            const double weight = pool.weights->number(vertex, k);
+            (weight < 0.0 ? below : above) += std::abs(weight);
+        }
+        if (above == 0.0 && below == 0.0) {
+            bounds.has_origin_ = true;
+            return;
+        }
+        const double slack = std::abs(above - 1.0) + below;
+        if (std::isfinite(slack)) bounds.slack_ = std::max(bounds.slack_, slack);
+    }
+
+    void finish() {
+        for (std::size_t joint = 0; joint < shifts.size(); ++joint) {
+            JointBox& made = bounds.joints_[joint];
+            made.first_shift = static_cast<std::uint32_t>(bounds.shifts_.size());
+            made.shifts = static_cast<std::uint32_t>(shifts[joint].size());
+            for (const auto& [target, box] : shifts[joint]) bounds.shifts_.push_back({target, box});
+        }
+    }
+
+    Bounds& bounds;
+    const Model& model;
+    std::vector<std::map<std::uint32_t, Box>> shifts;  // of each joint, by target
+};
+
+Bounds::Bounds(const Model& model) : model_(&model), joints_(model.joints().size() + 1) {
+    Builder builder(*this);
+    for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) builder.add_pool(pool);
+    builder.finish();
+}
+
+Box Bounds::shifted(const JointBox& joint, std::span<const float> weights) const {
+    Box box = joint.box;
+    if (box.is_empty()) return box;
+    for (const Shift& shift : std::span(shifts_).subspan(joint.first_shift, joint.shifts)) {
+        const float weight = weights[shift.target];
+        if (weight == 0.0f || !std::isfinite(weight)) continue;
+        box.minimum += weight * (weight > 0.0f ? shift.box.minimum : shift.box.maximum);
+        box.maximum += weight * (weight > 0.0f ? shift.box.maximum : shift.box.minimum);
+    }
+    return box;
+}
+
+Box Bounds::of(Pose& pose, std::uint32_t joint) const {
+    assert(&pose.model() == model_ && joint < model_->joints().size());
+    if (pose.is_stale()) local_to_model(pose);
+    return moved(shifted(joints_[joint], pose.target_weights()), glm::dmat4(pose.model_space()[joint]));
+}
+
+Box Bounds::of(Pose& pose) const {
+    assert(&pose.model() == model_);
+    if (pose.is_stale()) local_to_model(pose);
+    Box all = moved(shifted(joints_.back(), pose.target_weights()), glm::dmat4(1.0));
+    for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
+        if (!joints_[joint].box.is_empty()) all = unite(all, of(pose, joint));
+    }
+    all = grown(all, slack_);
+    if (has_origin_) put_in(all, glm::dvec3(0.0));
+    return all;
+}
+
+}  // namespace bendy

@@ -1,0 +1,143 @@
+#include <bendy/runtime/playback.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+/// Whole passes in a walk of `seconds` (not negative), and what is left of it.
+struct Passes {
+    std::uint64_t whole = 0;
+    double rest = 0.0;  // [0, length)
+};
+
+Passes split(double seconds, double length) {
+    constexpr double kMost = 9e15;                   // whole numbers of doubles, to which a step is only known anyway
+    const double rest = std::fmod(seconds, length);  // exact
+    return {static_cast<std::uint64_t>(std::min(std::round((seconds - rest) / length), kMost)), rest};
+}
+
+/// Begins anew after 2^63, which only steps without sense reach.
+std::int64_t moved(std::int64_t pass, std::uint64_t by) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(pass) + by);
+}
+
+}  // namespace
+
+Playback::Playback(const Cycle& cycle)
+    : Playback(cycle.start, cycle.end, cycle.loop ? LoopMode::repeat : LoopMode::once) {}
+
+Playback::Playback(float start, float end, LoopMode mode) : mode_(mode) {
+    start_ = std::isfinite(start) ? double{start} : 0.0;
+    end_ = std::isfinite(start) && std::isfinite(end) && end > start ? double{end} : start_;
+    length_ = end_ - start_;
+}
+
+double Playback::time_at(double inside, bool is_back) const {
+    if (inside >= length_) return is_back ? start_ : end_;
+    if (inside <= 0.0) return is_back ? end_ : start_;
+    return std::clamp(is_back ? end_ - inside : start_ + inside, start_, end_);
+}
+
+Stretch Playback::stretch(double from, double to, bool has_end) const {
+    // Where it turns, the way back begins with what stands there.
+    return {time_at(from, is_back()), time_at(to, is_back()), has_end && mode_ != LoopMode::ping_pong};
+}
+
+Stretch Playback::whole_pass(bool forth) const {
+    return forth ? stretch(0.0, length_, true) : stretch(length_, 0.0, true);
+}
+
+double Playback::share() const {
+    return length_ > 0.0 ? (time_at(inside_, is_back()) - start_) / length_ : 0.0;
+}
+
+bool Playback::is_done() const {
+    if (mode_ != LoopMode::once) return false;
+    return speed_ < 0.0 ? inside_ <= 0.0 : inside_ >= length_;
+}
+
+void Playback::set_mode(LoopMode mode) {
+    const double seconds = time_at(inside_, is_back());
+    mode_ = mode;
+    seek(seconds);
+}
+
+void Playback::seek(double seconds) {
+    if (std::isnan(seconds)) return;
+    inside_ = std::clamp(seconds - start_, 0.0, length_);
+    pass_ = 0;
+    if (mode_ == LoopMode::once || inside_ < length_ || length_ == 0.0) return;
+    inside_ = 0.0;
+    pass_ = 1;
+}
+
+Walk Playback::advance(double seconds) {
+    const double step = seconds * speed_;
+    Walk walk;
+    walk.turns = mode_ == LoopMode::ping_pong;
+    const double here = time_at(inside_, is_back());
+    walk.first = walk.pass = walk.last = {here, here, false};
+    if (!std::isfinite(step) || step == 0.0 || length_ == 0.0) return walk;
+    if (mode_ == LoopMode::once) return walk_once(step);
+    return step > 0.0 ? walk_forth(step) : walk_back(-step);
+}
+
+Walk Playback::walk_once(double step) {
+    const double to = std::clamp(inside_ + step, 0.0, length_);
+    const bool is_stopped = step > 0.0 ? to >= length_ : to <= 0.0;
+    Walk walk;
+    walk.first = stretch(inside_, to, is_stopped && to != inside_);
+    inside_ = to;
+    const double here = time_at(to, false);
+    walk.pass = walk.last = {here, here, false};
+    return walk;
+}
+
+Walk Playback::walk_forth(double step) {
+    Walk walk;
+    walk.turns = mode_ == LoopMode::ping_pong;
+    const double beyond = (inside_ - length_) + step;
+    if (beyond < 0.0 && inside_ + step < length_) {
+        walk.first = stretch(inside_, inside_ + step, false);
+        inside_ += step;
+        walk.pass = walk.last = {walk.first.to, walk.first.to, false};
+        return walk;
+    }
+    const Passes passes = split(std::max(beyond, 0.0), length_);
+    walk.first = stretch(inside_, length_, true);
+    pass_ = moved(pass_, 1);
+    walk.pass = whole_pass(true);
+    walk.passes = passes.whole;
+    pass_ = moved(pass_, passes.whole);
+    walk.last = stretch(0.0, passes.rest, false);
+    inside_ = passes.rest;
+    return walk;
+}
+
+Walk Playback::walk_back(double step) {
+    Walk walk;
+    walk.turns = mode_ == LoopMode::ping_pong;
+    if (step < inside_) {
+        walk.first = stretch(inside_, inside_ - step, false);
+        inside_ -= step;
+        walk.pass = walk.last = {walk.first.to, walk.first.to, false};
+        return walk;
+    }
+    const Passes passes = split(step - inside_, length_);
+    walk.first = stretch(inside_, 0.0, inside_ > 0.0);
+    pass_ = moved(pass_, ~std::uint64_t{0});
+    walk.pass = whole_pass(false);
+    walk.passes = passes.whole;
+    pass_ = moved(pass_, 0 - passes.whole);
+    inside_ = length_ - passes.rest;
+    const bool has_moved = inside_ < length_;  // else it stands where the pass after this one begins
+    walk.last = stretch(length_, inside_, false);
+    if (has_moved) return walk;
+    inside_ = 0.0;
+    pass_ = moved(pass_, 1);
+    return walk;
+}
+
+}  // namespace bendy

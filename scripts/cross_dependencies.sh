@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Fills build/cross/SYSTEM/root with the libraries that the project needs there: scripts/cross_dependencies.sh SYSTEM
+#   aarch64   Debian's packages for that processor, unpacked
+#   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
+# Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
+# of other processors and of sources stays in build/cross/apt.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64}
+here=$PWD/build/cross
+root=$here/$system/root
+versions=$(cat "$0" cmake/"$system".cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
+    nlohmann-json3-dev rapidjson-dev libcli11-dev libtinygltf-dev)
+[ "$(cat "$root/versions" 2>/dev/null)" != "$versions" ] || exit 0
+rm -rf "$root"
+mkdir -p "$root"
+
+# apt for other processors and for sources, with a state of its own.
+mkdir -p "$here"/apt/{state/lists/partial,cache/archives/partial}
+apt=(-qq -o Dir::State="$here/apt/state" -o Dir::State::status=/var/lib/dpkg/status -o Dir::Cache="$here/apt/cache"
+    -o Dir::Etc::sourcelist="$here/apt/sources.list" -o Dir::Etc::sourceparts=/dev/null
+    -o APT::Architectures::=amd64 -o APT::Architectures::=arm64 -o APT::Sandbox::User=root)
+if [ ! -e "$here/apt/sources.list" ]; then
+    read -r site release component < <(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
+        grep -v -e '-security ' -e '-updates ' | head -n 1)
+    key='signed-by=/usr/share/keyrings/debian-archive-keyring.gpg'
+    printf '%s\n' "deb [arch=arm64 $key] $site $release $component" "deb-src [$key] $site $release $component" >"$here/apt/sources.list"
+    apt-get "${apt[@]}" update
+fi
+
+copy_headers() {
+    for package in libglm-dev nlohmann-json3-dev rapidjson-dev libcli11-dev; do dpkg -L "$package"; done |
+        sed -nE 's,^/(usr/(include|share/cmake)/.*),\1,p' | tar -C / --no-recursion -T - -c | tar -C "$root" -x
+    cp /usr/include/tiny_gltf.h "$root/usr/include"
+}
+
+fetch_aarch64() {
+    mkdir -p "$here/aarch64/packages"
+    cd "$here/aarch64/packages"
+    apt-get "${apt[@]}" download libzstd1:arm64 libzstd-dev:arm64 libmeshoptimizer2d:arm64 libmeshoptimizer-dev:arm64 libdraco7:arm64 \
+        libdraco-dev:arm64 libgtest-dev:arm64 libgmock-dev:arm64
+    for package in *.deb; do dpkg-deb -x "$package" "$root"; done
+    # Its targets name the place that they would be installed to.
+    sed -i "s,\"/usr/*,\"$root/usr/," "$root"/usr/lib/*/cmake/draco/draco-targets*.cmake
+}
+
+build_windows() { # build_windows NAME SOURCES [CMAKE-OPTION...]: a library into the root
+    local build=$here/windows/libraries/$1 source=$2
+    shift 2
+    cmake -S "$source" -B "$build" -G Ninja --toolchain "$PWD/cmake/windows.cmake" -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_INSTALL_PREFIX="$root/usr" -DBUILD_SHARED_LIBS=OFF "$@" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+    cmake --build "$build" --target install --parallel "$(nproc)" >>"$build.log" 2>&1 || { tail -n 50 "$build.log" >&2; exit 1; }
+}
+
+fetch_windows() {
+    mkdir -p "$here/windows/sources" "$here/windows/libraries"
+    (cd "$here/windows/sources" && apt-get "${apt[@]}" source libzstd meshoptimizer draco)
+    local sources=$here/windows/sources
+    build_windows zstd "$sources"/libzstd-*/build/cmake -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF -DZSTD_BUILD_SHARED=OFF \
+        -DZSTD_LEGACY_SUPPORT=OFF -DZSTD_MULTITHREAD_SUPPORT=OFF
+    build_windows meshoptimizer "$sources"/meshoptimizer-*/
+    build_windows draco "$sources"/draco-*/
+    build_windows googletest /usr/src/googletest
+}
+
+copy_headers
+"fetch_$system"
+echo "$versions" >"$root/versions"

@@ -1,0 +1,31 @@
+"""Which arguments are files, by their extensions, as the help cannot say. Of what is not here, positional arguments and
+--output are files of any kind."""
+
+FILES = {
+    ("convert", "IN"): ".gltf .glb .bendy",
+    ("convert", "--output"): ".bendy",
+    ("convert", "--rig"): ".json",
+    ("inspect", "FILE"): ".bendy",
+    ("inspect", "--html"): ".html",
+    ("validate", "FILE"): ".bendy",
+    ("pose", "FILE"): ".bendy",
+    ("pose", "--output"): ".obj .ply .json",
+    ("render", "FILE"): ".bendy",
+    ("render", "--output"): ".png .gif .webp",
+    ("rig", "FILE"): ".bendy",
+    ("rig", "--output"): ".json",
+    ("diff", "A"): ".bendy",
+    ("diff", "B"): ".bendy",
+    ("dump", "FILE"): ".bendy",
+    ("dump", "--output"): ".json",
+    ("assemble", "FILE"): ".json",
+    ("assemble", "--output"): ".bendy",
+    ("edit", "FILE"): ".bendy",
+    ("edit", "--output"): ".bendy",
+    ("edit", "--rename-joints"): ".json",
+    ("edit", "--merge"): ".bendy .gltf .glb",
+    ("export", "FILE"): ".bendy",
+    ("export", "--output"): ".glb .gltf",
+    ("view", "FILE"): ".bendy .gltf .glb",
+    ("bench", "FILE"): ".bendy",
+}

@@ -1,0 +1,122 @@
+// Damaged files through the C API: refused with an error, or harmless in all that can be asked. Most worth under
+// sanitizers.
+#include "capi/open_handles.h"
+
+#include <array>
+#include <cstring>
+
+namespace bendy::test {
+namespace {
+
+/// Everything there is to ask of a model; gives a number so that nothing is optimised away.
+std::size_t read_all(const bendy_model* model) {
+    std::size_t sum = 0;
+    const auto add_name = [&](bendy_status status, const auto& thing) {
+        EXPECT_EQ(status, BENDY_OK);
+        if (status == BENDY_OK) sum += std::strlen(thing.name);
+    };
+    for (std::uint32_t k = 0; k < bendy_joint_count(model); ++k) {
+        auto joint = sized<bendy_joint>();
+        add_name(bendy_get_joint(model, k, &joint, nullptr), joint);
+    }
+    for (std::uint32_t k = 0; k < bendy_cycle_count(model); ++k) {
+        auto cycle = sized<bendy_cycle>();
+        add_name(bendy_get_cycle(model, k, &cycle, nullptr), cycle);
+    }
+    for (std::uint32_t k = 0; k < bendy_chain_count(model); ++k) {
+        auto chain = sized<bendy_chain>();
+        add_name(bendy_get_chain(model, k, &chain, nullptr), chain);
+    }
+    for (std::uint32_t k = 0; k < bendy_target_count(model); ++k) {
+        auto target = sized<bendy_target>();
+        add_name(bendy_get_target(model, k, &target, nullptr), target);
+    }
+    for (std::uint32_t k = 0; k < bendy_material_count(model); ++k) {
+        auto material = sized<bendy_material>();
+        add_name(bendy_get_material(model, k, &material, nullptr), material);
+    }
+    return sum;
+}
+
+/// A mesh' streams; every index must be one of its vertices.
+void read_mesh(const bendy_model* model, std::uint32_t number) {
+    auto mesh = sized<bendy_mesh>();
+    ASSERT_EQ(bendy_get_mesh(model, number, &mesh, nullptr), BENDY_OK);
+    std::vector<std::uint32_t> indices(mesh.indices + std::size_t{1});
+    ASSERT_EQ(bendy_get_indices(model, number, indices.data(), indices.size(), nullptr), BENDY_OK);
+    for (const std::uint32_t index : indices) ASSERT_TRUE(index < mesh.vertices || index == 0);
+    std::vector<float> uv(std::size_t{2} * mesh.vertices + 1);
+    bendy_get_texture_coords(model, number, 0, uv.data(), uv.size(), nullptr);
+    if (mesh.influences == 0) return;
+    std::vector<std::uint32_t> bones(std::size_t{mesh.vertices} * mesh.influences + 1);
+    std::vector<float> weights(bones.size());
+    ASSERT_EQ(bendy_get_influences(model, number, bones.data(), weights.data(), bones.size(), nullptr), BENDY_OK);
+    for (const std::uint32_t bone : bones) ASSERT_TRUE(bone < mesh.bones || bone == 0);
+}
+
+void pose_all(const ModelHandle& model) {
+    const PoseHandle pose = new_pose(model);
+    const LodHandle lod(bendy_lod_new(model.get(), nullptr));
+    std::vector<float> numbers((bendy_vertex_count(model.get()) + 1) * 10);
+    bendy_vertices out = BENDY_VERTICES_INIT;
+    out.capacity = bendy_vertex_count(model.get());
+    out.positions = numbers.data();
+    out.normals = numbers.data() + 3;
+    out.tangents = numbers.data() + 6;
+    out.position_stride = out.normal_stride = out.tangent_stride = 40;
+    for (const float share : {1.0f, 0.0f}) {
+        ASSERT_EQ(bendy_lod_set_share(lod.get(), share, nullptr), BENDY_OK);
+        for (std::uint32_t cycle = 0; cycle < bendy_cycle_count(model.get()); ++cycle)
+            ASSERT_EQ(bendy_sample(pose.get(), cycle, 0.6f, nullptr), BENDY_OK);
+        const std::array<float, 3> target{0.3f, 0.9f, 0.2f};
+        for (std::uint32_t chain = 0; chain < bendy_chain_count(model.get()); ++chain)
+            bendy_reach(pose.get(), chain, target.data(), nullptr, nullptr, nullptr, nullptr);
+        ASSERT_EQ(bendy_skin(pose.get(), lod.get(), &out, nullptr), BENDY_OK);
+    }
+}
+
+/// Whether the bytes are a model, which then has been used.
+bool try_out(Bytes bytes) {
+    bendy_open_options options = BENDY_OPEN_OPTIONS_INIT;
+    options.sums_later = 1;
+    bendy_error error = BENDY_ERROR_INIT;
+    const ModelHandle model(bendy_open_copy(bytes.data(), bytes.size(), &options, &error));
+    if (model == nullptr) {
+        EXPECT_GE(error.status, BENDY_MALFORMED);
+        EXPECT_LE(error.offset, bytes.size());
+        EXPECT_NE(error.message[0], '\0');
+        return false;
+    }
+    read_all(model.get());
+    for (std::uint32_t mesh = 0; mesh < bendy_mesh_count(model.get()); ++mesh) read_mesh(model.get(), mesh);
+    pose_all(model);
+    return true;
+}
+
+TEST(CDamagedFile, AnyFieldWithAnExtremeNumberIsRefusedOrHarmless) {
+    const Buffer good = sample_file();
+    int accepted = 0;
+    int refused = 0;
+    for (std::size_t at = 0; at + 4 <= good.size(); at += 4) {
+        for (const std::uint32_t number : {0u, 0xffff'ffffu, 0x7fc0'0000u /* nan */}) {
+            Buffer file = good;
+            patch(file, at, number);
+            ++(try_out(file) ? accepted : refused);
+            if (testing::Test::HasFailure()) FAIL() << "offset " << at << ", number " << number;
+        }
+    }
+    EXPECT_GT(accepted, 100);
+    EXPECT_GT(refused, 100);
+}
+
+TEST(CDamagedFile, AnyEarlyEndIsRefused) {
+    const Buffer good = sample_file();
+    for (std::size_t size = 0; size < good.size(); ++size) {
+        bendy_error error = BENDY_ERROR_INIT;
+        ASSERT_EQ(bendy_open_copy(good.data(), size, nullptr, &error), nullptr);
+        ASSERT_EQ(error.status, BENDY_MALFORMED) << size;
+    }
+}
+
+}  // namespace
+}  // namespace bendy::test

@@ -1,0 +1,253 @@
+// Posing and skinning through the C API: the same bits as by the C++ one, and numbers worked out here.
+#include "capi/open_handles.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace bendy::test {
+namespace {
+
+std::string seed(const char* name) {
+    return std::string(BENDY_SOURCE_DIR) + "/tests/seeds/" + name;
+}
+
+std::vector<float> skin_all(bendy_pose* pose, const bendy_model* model, const bendy_lod* lod = nullptr) {
+    std::vector<float> positions(bendy_vertex_count(model) * 3);
+    bendy_vertices out = BENDY_VERTICES_INIT;
+    out.capacity = positions.size() / 3;
+    out.positions = positions.data();
+    bendy_error error = BENDY_ERROR_INIT;
+    EXPECT_EQ(bendy_skin(pose, lod, &out, &error), BENDY_OK) << error.message;
+    return positions;
+}
+
+std::vector<float> skin_all(Pose& pose, const Model& model) {
+    std::vector<glm::vec3> positions(model.vertex_count());
+    EXPECT_TRUE(skin(model, pose, {positions, {}, {}}));
+    const float* first = &positions[0].x;
+    return {first, first + positions.size() * 3};
+}
+
+TEST(CPose, RestPoseStandsWhereTheJointsAre) {
+    const ModelHandle model = open_copy(two_joint_file());
+    const PoseHandle pose = new_pose(model);
+    EXPECT_EQ(skin_all(pose.get(), model.get()), (std::vector<float>{1, 2, 3, 2, 2, 3, 1, 3, 3}));
+}
+
+TEST(CPose, MatricesGoFromJointsToModelAndWorld) {
+    const ModelHandle model = open_copy(two_joint_file());
+    const PoseHandle pose = new_pose(model);
+    std::array<float, 32> matrices{};
+    ASSERT_EQ(bendy_joint_matrices(pose.get(), nullptr, 0, 2, matrices.data(), nullptr), BENDY_OK);
+    EXPECT_EQ(matrices, (std::array<float, 32>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1,  //
+                                               1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 3, 3, 1}));
+    // A quarter turn about Z, which takes X to Y and Y to -X, and then 10 along X.
+    const std::array<float, 16> world{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, 0, 0, 1};
+    std::array<float, 16> tip{};
+    ASSERT_EQ(bendy_joint_matrices(pose.get(), world.data(), 1, 1, tip.data(), nullptr), BENDY_OK);
+    EXPECT_EQ(tip, (std::array<float, 16>{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 7, 1, 3, 1}));
+}
+
+TEST(CPose, LocalTransformsMoveWhatHangsOnThem) {
+    const ModelHandle model = open_copy(two_joint_file());
+    const PoseHandle pose = new_pose(model);
+    bendy_transform root{};
+    ASSERT_EQ(bendy_get_local(pose.get(), 0, 1, &root, nullptr), BENDY_OK);
+    EXPECT_EQ(root.translation[2], 3.0f);
+    root.translation[0] = -1.0f;
+    root.scale[1] = 2.0f;
+    ASSERT_EQ(bendy_set_local(pose.get(), 0, 1, &root, nullptr), BENDY_OK);
+    EXPECT_EQ(skin_all(pose.get(), model.get()), (std::vector<float>{-1, 2, 3, 0, 2, 3, -1, 4, 3}));
+    bendy_set_rest(pose.get(), nullptr);
+    EXPECT_EQ(skin_all(pose.get(), model.get())[0], 1.0f);
+}
+
+TEST(CPose, SampledBlendedConstrainedAndReachingIsTheSameAsInCpp) {
+    const auto expected = Model::open(seed("rope_rigged.bendy"));
+    ASSERT_TRUE(expected.has_value());
+    bendy_error error = BENDY_ERROR_INIT;
+    const ModelHandle model(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, &error));
+    ASSERT_NE(model, nullptr) << error.message;
+    for (const float seconds : {0.1f, 0.7f}) {
+        Pose cpp(*expected);
+        Pose cpp_rest(*expected);
+        sample(&expected->cycles()[0], seconds, cpp);
+        blend(cpp, cpp_rest, 0.25f);
+        constrain(cpp);
+        ReachOptions cpp_options;
+        cpp_options.solver = Solver::ccd;
+        cpp_options.iterations = 7;
+        cpp_options.influence = 0.75f;
+        const ReachResult cpp_result = reach(&expected->chains()[0], glm::vec3(0.2f, 0.4f, 0.1f), cpp, cpp_options);
+
+        const PoseHandle pose = new_pose(model);
+        const PoseHandle rest = new_pose(model);
+        ASSERT_EQ(bendy_sample(pose.get(), 0, seconds, &error), BENDY_OK) << error.message;
+        ASSERT_EQ(bendy_blend(pose.get(), rest.get(), 0.25f, nullptr, &error), BENDY_OK) << error.message;
+        ASSERT_EQ(bendy_constrain(pose.get(), &error), BENDY_OK) << error.message;
+        bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
+        options.solver = BENDY_SOLVER_CCD;
+        options.iterations = 7;
+        options.influence = 0.75f;
+        const std::array<float, 3> target{0.2f, 0.4f, 0.1f};
+        auto result = sized<bendy_reach_result>();
+        ASSERT_EQ(bendy_reach(pose.get(), 0, target.data(), nullptr, &options, &result, &error), BENDY_OK)
+            << error.message;
+        EXPECT_EQ(result.distance, cpp_result.distance);
+        EXPECT_EQ(result.status, static_cast<std::uint32_t>(cpp_result.status));
+        EXPECT_EQ(result.iterations, cpp_result.iterations);
+        EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+    }
+}
+
+TEST(CPose, DefaultReachIsTheSameAsInCpp) {
+    const auto expected = Model::open(seed("rope_rigged.bendy"));
+    const ModelHandle model(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, nullptr));
+    const std::array<float, 3> target{0.3f, 0.6f, 0.0f};
+    const std::array<float, 4> turned{0.6f, 0.0f, 0.0f, 0.8f};
+    const PoseHandle pose = new_pose(model);
+    auto result = sized<bendy_reach_result>();
+    ASSERT_EQ(bendy_reach(pose.get(), 0, target.data(), turned.data(), nullptr, &result, nullptr), BENDY_OK);
+    Pose cpp(*expected);
+    const ReachTarget cpp_target({0.3f, 0.6f, 0.0f}, glm::quat(0.8f, 0.6f, 0.0f, 0.0f));
+    const ReachResult cpp_result = reach(&expected->chains()[0], cpp_target, cpp);
+    EXPECT_EQ(result.distance, cpp_result.distance);
+    EXPECT_EQ(result.angle, cpp_result.angle);
+    EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+    bendy_reach_all(pose.get(), nullptr);
+    reach_all(cpp);
+    EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+}
+
+// The library's defaults are the C++ ones.
+TEST(CPose, DefaultOptionsAreTheRuntimes) {
+    const bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
+    const ReachOptions expected;
+    EXPECT_EQ(options.restarts, expected.restarts);
+    EXPECT_EQ(options.tolerance, expected.tolerance);
+    EXPECT_EQ(options.influence, expected.influence);
+    EXPECT_EQ(options.softness, expected.softness);
+    EXPECT_EQ(options.gain, expected.gain);
+    EXPECT_EQ(options.step_limit, expected.step_limit);
+    EXPECT_EQ(options.ignore_constraints, expected.obey_constraints ? 0u : 1u);
+}
+
+TEST(CPose, DifferenceAddedGivesThePoseAgain) {
+    const ModelHandle model = open_copy(two_joint_file());
+    const PoseHandle rest = new_pose(model);
+    const PoseHandle moved_pose = new_pose(model);
+    bendy_transform transform{{0, 0, 0, 1}, {5, 2, 3}, {1, 1, 1}};
+    bendy_set_local(moved_pose.get(), 0, 1, &transform, nullptr);
+    ASSERT_EQ(bendy_make_additive(moved_pose.get(), rest.get(), nullptr), BENDY_OK);
+    ASSERT_EQ(bendy_add(rest.get(), moved_pose.get(), 0.5f, nullptr, nullptr), BENDY_OK);
+    EXPECT_EQ(skin_all(rest.get(), model.get())[0], 3.0f);  // half way from 1 to 5
+    std::array<float, 2> mask{};
+    ASSERT_EQ(bendy_mask_below(model.get(), 1, 1.0f, 0.0f, mask.data(), mask.size(), nullptr), BENDY_OK);
+    EXPECT_EQ(mask, (std::array<float, 2>{0, 1}));
+    ASSERT_EQ(bendy_add(rest.get(), moved_pose.get(), 1.0f, mask.data(), nullptr), BENDY_OK);
+    EXPECT_EQ(skin_all(rest.get(), model.get())[0], 3.0f);
+}
+
+TEST(CPose, TargetWeightsMoveVertices) {
+    const ModelHandle model = open_copy(sample_file());
+    const PoseHandle pose = new_pose(model);
+    const auto before = skin_all(pose.get(), model.get());
+    std::array<float, 2> weights{0.5f, 2.0f};
+    ASSERT_EQ(bendy_set_weights(pose.get(), 0, 2, weights.data(), nullptr), BENDY_OK);
+    std::array<float, 2> read{};
+    ASSERT_EQ(bendy_get_weights(pose.get(), 0, 2, read.data(), nullptr), BENDY_OK);
+    EXPECT_EQ(read, weights);
+    EXPECT_NE(skin_all(pose.get(), model.get()), before);
+}
+
+TEST(CPose, InterleavedVerticesAreWrittenAndNothingBetween) {
+    const ModelHandle model = open_copy(two_joint_file());
+    const PoseHandle pose = new_pose(model);
+    constexpr float kUntouched = -77.0f;
+    std::array<float, 23> buffer{};
+    buffer.fill(kUntouched);
+    bendy_vertices out = BENDY_VERTICES_INIT;
+    out.capacity = 3;
+    out.positions = &buffer[1];
+    out.position_stride = 32;
+    out.normals = &buffer[4];
+    out.normal_stride = 32;
+    bendy_error error = BENDY_ERROR_INIT;
+    ASSERT_EQ(bendy_skin_mesh(pose.get(), 0, nullptr, &out, &error), BENDY_OK) << error.message;
+    const float u = kUntouched;
+    EXPECT_EQ(buffer, (std::array<float, 23>{u, 1, 2, 3, 0, 0, 1, u, u, 2, 2, 3, 0, 0, 1, u, u, 1, 3, 3, 0, 0, 1}));
+}
+
+TEST(CPose, BoneMatricesAreThePalette) {
+    const Owned expected{sample_file()};
+    const ModelHandle model = open_copy(sample_file());
+    const PoseHandle pose = new_pose(model);
+    bendy_sample(pose.get(), 0, 0.8f, nullptr);
+    Pose cpp(*expected);
+    sample(&expected->cycles()[0], 0.8f, cpp);
+    const auto palette = cpp.palette(0);
+    std::vector<float> matrices(palette.size() * 16);
+    ASSERT_EQ(bendy_bone_matrices(pose.get(), 0, matrices.data(), palette.size(), nullptr), BENDY_OK);
+    for (std::size_t k = 0; k < matrices.size(); ++k) {
+        const std::size_t row = k % 4;
+        const float number = row < 3 ? palette[k / 16].rows[row][k % 16 / 4] : (k % 16 == 15 ? 1.0f : 0.0f);
+        EXPECT_EQ(matrices[k], number) << k;
+    }
+}
+
+TEST(CPose, LevelOfDetailIsTheSameAsInCpp) {
+    const std::string path = seed("rope_lod.bendy");
+    const auto expected = Model::open(path);
+    const ModelHandle model(bendy_open(path.c_str(), nullptr, nullptr));
+    const LodHandle lod(bendy_lod_new(model.get(), nullptr));
+    Lod cpp(*expected);
+    auto info = sized<bendy_lod_info>();
+    ASSERT_EQ(bendy_get_lod(lod.get(), &info, nullptr), BENDY_OK);
+    const std::uint64_t all = info.triangles;
+    EXPECT_EQ(all, cpp.triangles());
+    ASSERT_EQ(bendy_lod_set_share(lod.get(), 0.3f, nullptr), BENDY_OK);
+    cpp.set_share(0.3f);
+    ASSERT_EQ(bendy_get_lod(lod.get(), &info, nullptr), BENDY_OK);
+    EXPECT_LT(info.triangles, all);
+    EXPECT_EQ(info.triangles, cpp.triangles());
+    EXPECT_EQ(info.error, cpp.error());
+    const PoseHandle pose = new_pose(model);
+    std::size_t count = 0;
+    const std::uint32_t* indices = bendy_lod_indices(lod.get(), 0, &count, nullptr);
+    ASSERT_EQ(count, cpp.indices(0).size());
+    EXPECT_TRUE(std::equal(indices, indices + count, cpp.indices(0).begin()));
+    auto draw = sized<bendy_draw>();
+    ASSERT_EQ(bendy_lod_draw(lod.get(), 0, &draw, nullptr), BENDY_OK);
+    EXPECT_EQ(draw.count, cpp.draws()[0].count);
+    const auto positions = skin_all(pose.get(), model.get(), lod.get());
+    const std::uint32_t alive = bendy_lod_vertices(lod.get(), 0);
+    EXPECT_EQ(alive, cpp.vertices(0));
+    const auto full = skin_all(pose.get(), model.get());
+    EXPECT_TRUE(std::equal(positions.begin(), positions.begin() + alive * 3, full.begin()));
+    EXPECT_EQ(positions[alive * std::size_t{3}], 0.0f) << "vertices that are not alive are left as they are";
+}
+
+TEST(CPose, WorksAfterItsModelIsClosed) {
+    const Buffer file = two_joint_file();
+    bendy_model* model = bendy_open_borrowed(file.data(), file.size(), nullptr, nullptr);
+    ASSERT_NE(model, nullptr);
+    PoseHandle pose = new_pose(ModelHandle(model));  // closes it
+    std::array<float, 9> positions{};
+    bendy_vertices out = BENDY_VERTICES_INIT;
+    out.capacity = 3;
+    out.positions = positions.data();
+    ASSERT_EQ(bendy_skin(pose.get(), nullptr, &out, nullptr), BENDY_OK);
+    EXPECT_EQ(positions[8], 3.0f);
+}
+
+TEST(CPose, CopiedBytesMayGo) {
+    Buffer file = two_joint_file();
+    const ModelHandle model = open_copy(file);
+    std::fill(file.begin(), file.end(), std::byte{0xff});
+    EXPECT_EQ(skin_all(new_pose(model).get(), model.get())[1], 2.0f);
+}
+
+}  // namespace
+}  // namespace bendy::test

@@ -1,0 +1,56 @@
+# Installs BUILD_DIR into WORK_DIR, and lets SOURCE_DIR convert models in its build: with Ninja, and with Makefiles.
+cmake_policy(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# A triangle, its corners in a file beside it: letters, which are numbers too.
+function(write_model name uri corners)
+  file(WRITE ${project}/${name}.bin "${corners}")
+  file(WRITE ${project}/${name}.gltf "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}],
+    \"nodes\": [{\"name\": \"root\", \"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}],
+    \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}],
+    \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"buffers\": [{\"byteLength\": 36, \"uri\": \"${uri}\"}]}")
+endfunction()
+
+# Builds, and holds which models were converted against those that should be.
+function(expect_converted)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${work}/build OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE failed)
+  string(REGEX MATCHALL "Converting [^\n]*bendy" converted "${said}")
+  list(TRANSFORM converted REPLACE "Converting " "")
+  list(SORT converted)
+  if(failed OR NOT "${converted}" STREQUAL "${ARGN}")
+    message(FATAL_ERROR "${generator}: \"${converted}\" converted, not \"${ARGN}\":\n${said}")
+  endif()
+endfunction()
+
+function(check generator)
+  set(work "${WORK_DIR}/${generator}")
+  set(project "${work}/source")
+  file(COPY ${SOURCE_DIR}/CMakeLists.txt DESTINATION ${project})
+  write_model(a a.bin AAAABBBBCCCCDDDDEEEEFFFFGGGGHHHHIIII)
+  write_model("deeper/b b" b%20b.bin AAAABBBBCCCCDDDDEEEEFFFFGGGGHHHHIIII)
+  file(WRITE ${project}/rig.json "{\"bendy_rig\": 1}")
+  run(${CMAKE_COMMAND} -S ${project} -B ${work}/build -G ${generator} -DCMAKE_CXX_COMPILER=${CXX}
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
+  expect_converted(a.bendy "deeper/b b.bendy")
+  expect_converted()
+  file(WRITE "${project}/deeper/b b.bin" IIIIHHHHGGGGFFFFEEEEDDDDCCCCBBBBAAAA)
+  expect_converted("deeper/b b.bendy")
+  file(TOUCH ${project}/a.bin)
+  expect_converted(a.bendy)
+  file(TOUCH ${project}/rig.json)
+  expect_converted(a.bendy "deeper/b b.bendy")
+  file(REMOVE ${work}/build/out/a.bendy)
+  expect_converted(a.bendy)
+  expect_converted()
+  file(TOUCH ${WORK_DIR}/prefix/bin/bendy)
+  expect_converted(a.bendy "deeper/b b.bendy")
+  run(${WORK_DIR}/prefix/bin/bendy validate ${work}/build/out/a.bendy "${work}/build/out/deeper/b b.bendy")
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIR})
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
+check(Ninja)
+check("Unix Makefiles")
