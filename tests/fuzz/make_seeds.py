@@ -45,6 +45,12 @@ Frame A { Mesh M { 5; 0;0;0;, 1;0;0;, 1;1;0;, 0;1;0;, 2;2;2;; 2; 4;0,3,2,1;, 3;0
 AnimationSet S { Animation { { B } AnimationOptions { 0; 1; }
  AnimationKey { 4; 2; 0;16;1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;;, 9;16;0,0,-1,0,0,1,0,0,1,0,0,0,2,3,4,1;;; } } }
 """,
+    """xof 0303txt 0032
+Frame A { Frame B { FrameTransformMatrix {1,0,0,0,0,1,0,0,0,0,1,0,0,1,0,1;;} BendyConstraint { "euler_box";"XYZ";"every_pose";0;0.1;0,0,0,1;-1,-1,-1;1,1,1;-3.402823466e38,0,0;1,1,1;0,0,0;0,0,0; } Frame C { BendyName { "c%20d"; } } } }
+BendyIkChain { "reach";"A";"C";"";"";"ccd";0;10;0;0.001;0,0,1;0;0,0,0;0,0,0,1;1;0;1;0;0;"";1;"B";0.5;; }
+AnimationSet S { Animation { {B} AnimationKey { 0; 2; 0;4;-1,0,0,0;;, 4800;4;-0.7,0.7,0,0;;; } AnimationKey {2;1;0;3;0,1,0;;;} } }
+BendyCycle { "S"; "Real name"; }
+""",
 ]
 
 

@@ -24,9 +24,10 @@ std::array<double, 16> matrix_of(const Transform& rest) {
     const glm::dmat3 upper({scale.x, 0.0, 0.0}, {shear.x, scale.y, 0.0}, {shear.y, shear.z, scale.z});
     const glm::dmat3 linear = turn * upper;
     std::array<double, 16> matrix{};
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) matrix[static_cast<std::size_t>(4 * column + row)] = linear[column][row];
-        matrix[static_cast<std::size_t>(12 + column)] = double{rest.translation[column]};
+    for (std::size_t column = 0; column < 3; ++column) {
+        const auto axis = static_cast<int>(column);
+        for (std::size_t row = 0; row < 3; ++row) matrix[4 * column + row] = linear[axis][static_cast<int>(row)];
+        matrix[12 + column] = double{rest.translation[axis]};
     }
     matrix[15] = 1.0;
     return x::mirrored(matrix);

@@ -89,7 +89,7 @@ private:
     std::string file_of(std::uint32_t number) {
         const Image& image = scene_.images[number];
         if (image.bytes.empty()) return decode_uri(image.uri);
-        const std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image.media_type);
+        std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image.media_type);
         if (is_written_.insert(number).second) images_.push_back({name, image.bytes});
         return name;
     }

@@ -49,7 +49,7 @@ std::string Names::make(std::string_view name, const char* kind, std::size_t num
     // Some readers do not tell capitals from small letters.
     for (std::uint32_t& times = times_[lower(identifier)];;) {
         if (times++ == 0) return identifier;
-        const std::string other = identifier + '_' + std::to_string(times);
+        std::string other = identifier + '_' + std::to_string(times);
         if (const auto [known, is_new] = times_.try_emplace(lower(other), 1); is_new) return other;
     }
 }

@@ -12,7 +12,7 @@ constexpr std::size_t kDeepest = 20;
 
 template <class Number>
 void append(std::string& text, Number number) {
-    constexpr Number kHandy = Number(1e15);
+    constexpr auto kHandy = Number(1e15);
     std::array<char, 400> digits{};
     char* const end = digits.data() + digits.size();
     const bool is_huge = std::abs(number) >= kHandy;
