@@ -1,6 +1,7 @@
 #include "draco.h"
 
 #include "accessor.h"
+#include "draco_floats.h"
 #include "failure.h"
 
 #include <draco/compression/decode.h>
@@ -147,6 +148,8 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(data.data()), data.size());
     draco::Decoder decoder;
+    for (int type = 0; type < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++type)
+        decoder.SetSkipAttributeTransform(static_cast<draco::GeometryAttribute::Type>(type));  // draco_floats does it
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) fail(here, "Draco: " + decoded.status().error_msg_string());
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
@@ -171,6 +174,9 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
             fail(here + ".attributes." + key(entry.key()),
                  "Draco: there is no attribute with id " + std::to_string(id));
         }
+        const std::unique_ptr<draco::PointAttribute> floats = draco_floats(*source);
+        if (source->GetAttributeTransformData() != nullptr && floats == nullptr)
+            fail(attribute_place, "Draco: the attribute's quantisation makes no sense");
         int component_type = TINYGLTF_COMPONENT_TYPE_FLOAT;
         bool normalise = false;
         if (const auto named = primitive.attributes.find(entry.key()); named != primitive.attributes.end()) {
@@ -182,8 +188,8 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
                                           " elements, the Draco data " + std::to_string(result.count));
             }
         }
-        result.attributes.emplace(
-            entry.key(), read_attribute(document, *source, result.count, component_type, normalise, attribute_place));
+        result.attributes.emplace(entry.key(), read_attribute(document, floats ? *floats : *source, result.count,
+                                                              component_type, normalise, attribute_place));
     }
     return result;
 }
