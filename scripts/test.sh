@@ -48,3 +48,6 @@ fi
 
 step "tests"
 ctest --preset release -LE corpus
+
+step "what a newcomer runs first"
+scripts/demo.sh >/dev/null
