@@ -48,6 +48,14 @@ bool write_all(int descriptor, Bytes bytes) {
     return true;
 }
 
+/// A pipe or a device takes the bytes as they come; it cannot be replaced.
+Result<void> write_into(const std::filesystem::path& path, Bytes bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.number() < 0 || !write_all(file.number(), bytes) || !file.close())
+        return system_error(ErrorCode::kCannotWrite);
+    return {};
+}
+
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
@@ -88,6 +96,9 @@ Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
     std::error_code not_there;
     std::filesystem::path target = std::filesystem::canonical(path, not_there);  // what a link names, not the link
     if (not_there) target = path;
+    struct stat status {};
+    if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return write_into(target, bytes);
 
     // The name is short, so that a target with the longest possible name can be written, and new, so that nobody's is
     // lost.

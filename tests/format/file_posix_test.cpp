@@ -36,6 +36,9 @@ TEST_F(MappedFileTest, OutlivesTheNameOfItsFile) {
 TEST_F(WriteFileTest, NeverShowsAnUnfinishedFile) {
     GTEST_SKIP() << "an open file is not replaced there: WriteFileOnWindows.LeavesAnOpenFileAlone";
 }
+TEST_F(WriteFileTest, WritesIntoAPipeAndLeavesItOne) {
+    GTEST_SKIP() << "pipes are no files there";
+}
 TEST_F(WriteFileTest, GivesTheRightsThatAnyNewFileGets) {
     GTEST_SKIP() << "files have no such rights there";
 }
@@ -71,6 +74,19 @@ TEST_F(MappedFileTest, OutlivesTheNameOfItsFile) {
     EXPECT_EQ(as_text(file->bytes()), "text");
     fs::remove(in("a"));
     EXPECT_EQ(as_text(file->bytes()), "text");
+}
+
+TEST_F(WriteFileTest, WritesIntoAPipeAndLeavesItOne) {
+    ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+    const int reader = ::open(in("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    EXPECT_TRUE(write_file(in("pipe"), as_byte_span("text")).has_value());
+    std::string read(10, ' ');
+    EXPECT_EQ(::read(reader, read.data(), read.size()), 4);
+    EXPECT_EQ(read.substr(0, 4), "text");
+    ::close(reader);
+    EXPECT_TRUE(fs::is_fifo(in("pipe")));
+    EXPECT_EQ(names(), std::vector<std::string>{"pipe"});
 }
 
 TEST_F(WriteFileTest, NeverShowsAnUnfinishedFile) {

@@ -35,7 +35,8 @@ private:
 
 /// Writes a whole file or nothing: into a new file beside `path`, flushed to the disk, then renamed over it. On failure
 /// the old file, if there was one, is untouched and no new one is left behind. What a link names is replaced, not the
-/// link. On Windows a file that is open elsewhere, mapped for one, cannot be replaced: kCannotWrite with EBUSY.
+/// link; a pipe or a device, such as /dev/stdout, is written to as it is. On Windows a file that is open elsewhere,
+/// mapped for one, cannot be replaced: kCannotWrite with EBUSY.
 ///
 /// Paths of both functions may have any characters, and on Windows more than 260. An error's value is an errno number
 /// on all systems.
