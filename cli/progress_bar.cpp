@@ -7,7 +7,7 @@
 
 namespace bendy::cli {
 
-ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), is_terminal_(is_terminal()) {}
+ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), is_terminal_(cli::is_terminal()) {}
 
 ProgressBar::~ProgressBar() {
     clear();

@@ -162,11 +162,13 @@ class Packages(Case):
         (root / "var/log").mkdir()
         dpkg = ["dpkg", f"--root={root}", "--force-depends", "--force-not-root", "--log=/dev/null"]
         environment = {**os.environ, "PATH": f"{os.environ['PATH']}:/usr/sbin:/sbin"}
-        run(*dpkg, "-i", *self.packages.values(), env=environment)
-        for name in self.packages:
-            self.assertIn("Status: install ok installed", run("dpkg", f"--root={root}", "-s", name))
+        # A library's scripts call ldconfig, and there is no shell in that root: unpacked is as far as it gets.
+        last = {name: "unpacked" if name == "libbendy0" else "installed" for name in self.packages}
+        for name, package in self.packages.items():
+            run(*dpkg, "-i" if last[name] == "installed" else "--unpack", package, env=environment)
+            self.assertIn(f"Status: install ok {last[name]}", run("dpkg", f"--root={root}", "-s", name))
         self.assertTrue((root / "usr/bin/bendy").exists())
-        run(*dpkg, "-r", *self.packages, env=environment)
+        run(*dpkg, "-r", *[name for name in self.packages if last[name] == "installed"], env=environment)
         self.assertFalse((root / "usr/bin/bendy").exists())
 
 

@@ -36,9 +36,9 @@ struct ConvertOptions {
     bool sort_vertices = false;
 };
 
-/// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy file.
-/// The result passes bendy::validate; what it does not hold is named in `report`, with the files that were read. Throws
-/// nothing. Keeps nothing between calls: threads may convert side by side.
+/// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy
+/// file. The result passes bendy::validate; what it does not hold is named in `report`, with the files that were read.
+/// Throws nothing. Keeps nothing between calls: threads may convert side by side.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 
