@@ -2,7 +2,8 @@
 --output are files of any kind."""
 
 FILES = {
-    ("convert", "IN"): ".gltf .glb .bendy",
+    ("convert", "IN"): ".gltf .glb .vrm .x .md2 .bendy",
+    ("convert", "--depfile"): ".d",
     ("convert", "--output"): ".bendy",
     ("convert", "--rig"): ".json",
     ("inspect", "FILE"): ".bendy",
@@ -25,7 +26,7 @@ FILES = {
     ("edit", "--rename-joints"): ".json",
     ("edit", "--merge"): ".bendy .gltf .glb",
     ("export", "FILE"): ".bendy",
-    ("export", "--output"): ".glb .gltf",
-    ("view", "FILE"): ".bendy .gltf .glb",
+    ("export", "--output"): ".glb .gltf .x",
+    ("view", "FILE"): ".bendy .gltf .glb .vrm .x .md2",
     ("bench", "FILE"): ".bendy",
 }
