@@ -7,8 +7,8 @@
 
 /// How CLI11 makes a path of what was typed: as UTF-8. By itself it leaves the encoding to the C++ library.
 template <>
-inline bool CLI::detail::lexical_cast(const std::string& text, std::filesystem::path& path) {
-    path = std::u8string(text.begin(), text.end());
+inline bool CLI::detail::lexical_cast(const std::string& input, std::filesystem::path& output) {
+    output = std::u8string(input.begin(), input.end());
     return true;
 }
 

@@ -118,8 +118,8 @@ std::uint32_t nearest_joint(const glm::dvec3& point, const std::vector<Bone>& bo
     return nearest;
 }
 
-Binding bind(const std::vector<glm::dvec3>& vertices, const std::vector<Bone>& bones, const glm::dmat4& mesh_to_model,
-             const std::vector<glm::dmat4>& matrices) {
+Binding bind_vertices(const std::vector<glm::dvec3>& vertices, const std::vector<Bone>& bones,
+                      const glm::dmat4& mesh_to_model, const std::vector<glm::dmat4>& matrices) {
     Binding binding;
     std::vector<std::uint32_t> joint_of_vertex(vertices.size());
     for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex)
@@ -198,8 +198,8 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     for (const std::size_t number : meshes) {
         Mesh& mesh = scene.meshes[number];
         const glm::dmat4 mesh_to_model = mesh.joint == kNone ? glm::dmat4(1.0) : pose.joints[mesh.joint];
-        Binding binding =
-            bind(evaluate_vertices(mesh, pose.target_weights[number], pose.joints), bones, mesh_to_model, pose.joints);
+        Binding binding = bind_vertices(evaluate_vertices(mesh, pose.target_weights[number], pose.joints), bones,
+                                        mesh_to_model, pose.joints);
         const std::string name = mesh.name.empty() ? '#' + std::to_string(number) : quote(mesh.name);
         if (!is_finite(binding.palette)) {
             report.warn("no vertices of mesh " + name + " bound: its joints are too small to hold them");

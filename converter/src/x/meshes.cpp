@@ -67,7 +67,7 @@ Stream stream_of(const std::vector<glm::vec<N, float>>& source, const Vertices& 
 class Importer {
 public:
     Importer(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report)
-        : file_(file), frames_(frames), budget_(budget), scene_(scene), report_(report) {
+        : frames_(frames), budget_(budget), scene_(scene), report_(report) {
         for (std::uint32_t i = 0; i < file.materials.size(); ++i)
             material_of_.try_emplace(file.materials[i].identifier, i);
     }
@@ -169,7 +169,6 @@ private:
         return static_cast<std::uint32_t>(scene_.joints.size() - 1);
     }
 
-    const XFile& file_;
     const FrameIndex& frames_;
     gltf::Budget& budget_;
     Scene& scene_;

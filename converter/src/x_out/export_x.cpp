@@ -34,6 +34,7 @@ XAsset write(const Scene& scene, const std::string& image_stem, Report& report) 
     if (!scene.levels.empty()) report.warn("levels of detail left out: X-files have no place for them");
     if (!scene.extras.empty() || !scene.source_extras.empty() || !scene.extensions.empty())
         report.warn("extras or extensions of the scene left out: X-files have no place for them");
+    if (!scene.asset.empty()) report.warn("what the file says of its source left out: author, copyright, generator");
     asset.text = std::move(text).take();
     return asset;
 }

@@ -78,7 +78,8 @@ private:
     void write_texture(std::uint32_t number, const std::string& place) {
         const Texture& texture = scene_.textures[number];
         if (texture.images.size() > 1) report_.warn("further image of a texture left out", place);
-        if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat || texture.mag_filter == Filter::nearest)
+        if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat ||
+            texture.mag_filter != Filter::unspecified || texture.min_filter != Filter::unspecified)
             report_.warn("how a texture is sampled is left out", place);
         if (texture.images.empty()) return;
         text_.open("TextureFilename");

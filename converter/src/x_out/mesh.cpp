@@ -18,8 +18,7 @@ namespace {
 class Exporter {
 public:
     Exporter(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report)
-        : scene_(scene),
-          mesh_(scene.meshes[number]),
+        : mesh_(scene.meshes[number]),
           number_(number),
           place_(at("meshes", number)),
           names_(names),
@@ -261,7 +260,6 @@ private:
         lose(mesh_.extras.empty() ? 0 : 1, "extras of a mesh");
     }
 
-    const Scene& scene_;
     const Mesh& mesh_;
     std::uint32_t number_;
     std::string place_;

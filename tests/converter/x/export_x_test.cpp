@@ -312,8 +312,14 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
     Material material;
     material.metallic = 0.5f;
     material.double_sided = true;
+    material.base_colour_texture.texture = 0;
     scene.materials.push_back(material);
     mesh.parts[0].material = 0;
+    Texture& texture = scene.textures.emplace_back();
+    texture.min_filter = Filter::linear;
+    texture.images = {0};
+    scene.images.emplace_back().uri = "skin.png";
+    scene.asset = R"({"copyright": "hers"})";
     const Trip trip = travel(scene);
     const std::string no_place = " left out: X-files have no place for it";
     EXPECT_EQ(losses_of(trip), (std::map<std::string, std::uint64_t>{
@@ -323,6 +329,8 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
                                    {"further set of vertex colours" + no_place, 1},
                                    {"an author's attribute" + no_place, 1},
                                    {"that a material has two sides" + no_place, 1},
+                                   {"how a texture is sampled is left out", 1},
+                                   {"what the file says of its source left out: author, copyright, generator", 1},
                                    {"lines and points left out: X-files have triangles only", 1},
                                    {"weights of inbetweening targets left out of a cycle", 1},
                                    {"a cycle that moves no joint is left out", 1},
