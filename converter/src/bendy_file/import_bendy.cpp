@@ -6,6 +6,7 @@
 #include "cycle_span.h"
 #include "failure.h"
 #include "rig/parse_markers.h"
+#include "without_throwing.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
@@ -16,10 +17,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <fstream>
 #include <limits>
-#include <new>
 
 namespace bendy::converter {
 namespace {
@@ -286,15 +285,7 @@ bool is_bendy_file(const std::filesystem::path& file) {
 }
 
 Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report) {
-    try {
-        return import(bytes, report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, std::string("unexpected: ") + error.what()};
-    }
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> { return import(bytes, report); });
 }
 
 Result<Scene, ImportError> import_bendy(const std::filesystem::path& file, Report& report) {

@@ -8,6 +8,7 @@
 #include "gltf_out/mesh.h"
 #include "gltf_out/skeleton.h"
 #include "rig/rig_in_extras.h"
+#include "without_throwing.h"
 
 #include <bendy/converter/import_bendy.h>
 #include <bendy/converter/write_rig.h>
@@ -17,9 +18,7 @@
 #include <bendy/format/file.h>
 
 #include <algorithm>
-#include <exception>
 #include <limits>
-#include <new>
 #include <set>
 #include <string>
 #include <utility>
@@ -140,15 +139,8 @@ void append_chunk(std::vector<std::byte>& bytes, std::uint32_t type, Bytes data,
 }  // namespace
 
 Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report) {
-    try {
-        return export_bytes(bytes, buffer_file, report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, std::string("unexpected: ") + error.what()};
-    }
+    return without_throwing<GltfAsset>(
+        [&]() -> Result<GltfAsset, ImportError> { return export_bytes(bytes, buffer_file, report); });
 }
 
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,

@@ -6,12 +6,11 @@
 #include "gltf/container.h"
 #include "gltf/uri.h"
 #include "header.h"
+#include "without_throwing.h"
 
 #include <glm/geometric.hpp>
 
 #include <array>
-#include <exception>
-#include <new>
 #include <unordered_map>
 #include <utility>
 
@@ -216,27 +215,16 @@ private:
 }  // namespace md2
 
 Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::string& name, Report& report) {
-    try {
-        return md2::Importer(bytes, name, report).run();
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, std::string("unexpected: ") + error.what()};
-    }
+    return without_throwing<Scene>(
+        [&]() -> Result<Scene, ImportError> { return md2::Importer(bytes, name, report).run(); });
 }
 
 Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report) {
-    try {
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
         const std::vector<std::byte> bytes = gltf::read_file(file, {});
         const std::u8string stem = file.stem().u8string();
         return import_md2(bytes, std::string(stem.begin(), stem.end()), report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    }
+    });
 }
 
 }  // namespace bendy::converter

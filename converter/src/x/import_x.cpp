@@ -7,9 +7,8 @@
 #include "materials.h"
 #include "meshes.h"
 #include "read_x_file.h"
+#include "without_throwing.h"
 
-#include <exception>
-#include <new>
 #include <string>
 
 namespace bendy::converter {
@@ -36,26 +35,15 @@ Scene import(std::string_view bytes, const std::filesystem::path& file, bool emb
 
 Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesystem::path& file, bool embed_images,
                                     Report& report) {
-    try {
-        return x::import(bytes, file, embed_images, report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, std::string("unexpected: ") + error.what()};
-    }
+    return without_throwing<Scene>(
+        [&]() -> Result<Scene, ImportError> { return x::import(bytes, file, embed_images, report); });
 }
 
 Result<Scene, ImportError> import_x(const std::filesystem::path& file, bool embed_images, Report& report) {
-    try {
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
         const std::vector<std::byte> bytes = gltf::read_file(file, {});
         return import_x({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, embed_images, report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    }
+    });
 }
 
 }  // namespace bendy::converter

@@ -7,13 +7,12 @@
 #include "names.h"
 #include "rig.h"
 #include "templates.h"
+#include "without_throwing.h"
 
 #include <bendy/converter/import_bendy.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 
-#include <exception>
-#include <new>
 #include <utility>
 
 namespace bendy::converter {
@@ -43,17 +42,11 @@ XAsset write(const Scene& scene, const std::string& image_stem, Report& report) 
 }  // namespace x_out
 
 Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report) {
-    try {
+    return without_throwing<XAsset>([&]() -> Result<XAsset, ImportError> {
         const Result<Scene, ImportError> scene = import_bendy(bytes, report);
         if (!scene) return scene.error();
         return x_out::write(*scene, image_stem, report);
-    } catch (const Failure& failure) {
-        return failure.error;
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, std::string("unexpected: ") + error.what()};
-    }
+    });
 }
 
 Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, const std::string& image_stem,
