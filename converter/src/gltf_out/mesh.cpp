@@ -186,9 +186,10 @@ private:
                 continue;
             }
             const bool is_the_authors = stream.name.starts_with('_');
-            if (!is_the_authors)
+            if (!is_the_authors) {
                 report_.warn("attribute gets an underscore before its name: glTF has no such attribute",
                              at("meshes", number) + '.' + key(stream.name));
+            }
             attributes[is_the_authors ? stream.name : '_' + stream.name] =
                 buffer_.add_floats(stream.values, n, kVertices, false);
         }
