@@ -2,6 +2,7 @@
 #include "convert_arguments.h"
 #include "convert_batch.h"
 #include "depfile.h"
+#include "import_problem.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"

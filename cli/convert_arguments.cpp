@@ -1,7 +1,5 @@
 #include "convert_arguments.h"
 
-#include "problem.h"
-
 #include <nlohmann/json.hpp>
 
 namespace bendy::cli {
@@ -34,14 +32,6 @@ std::string recipe_of(const ConvertArguments& arguments) {
                                 {"lod", arguments.lod},
                                 {"sort_vertices", arguments.sort_vertices}};
     return recipe.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input) {
-    return error.file.empty() ? input : error.file;
-}
-
-std::string describe(const converter::ImportError& error) {
-    return printable(error.place.empty() ? error.message : error.place + ": " + error.message);
 }
 
 }  // namespace bendy::cli

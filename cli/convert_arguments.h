@@ -34,9 +34,4 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments);
 /// All that decides which bytes come out, with the program's version, as one line of text.
 std::string recipe_of(const ConvertArguments& arguments);
 
-/// The file that an error is about.
-std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input);
-/// What is wrong with it, in one line.
-std::string describe(const converter::ImportError& error);
-
 }  // namespace bendy::cli

@@ -2,6 +2,7 @@
 
 #include "batch_plan.h"
 #include "batch_record.h"
+#include "import_problem.h"
 #include "interrupt.h"
 #include "problem.h"
 #include "progress_bar.h"

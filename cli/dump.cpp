@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "late_progress.h"
 #include "problem.h"
+#include "text_output.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
@@ -8,7 +9,6 @@
 #include <bendy/format/file.h>
 #include <bendy/twin/dump.h>
 
-#include <iostream>
 #include <memory>
 
 namespace bendy::cli {
@@ -40,11 +40,7 @@ void run(const DumpArguments& arguments) {
     options.decode = arguments.decode;
     LateProgress progress("dumping");
     const std::string text = twin::dump(*tree, options, progress.callback());
-    if (arguments.output.empty()) {
-        std::cout << text;
-    } else if (const auto written = write_file(arguments.output, as_byte_span(text)); !written) {
-        fail(arguments.output, describe(written.error()));
-    }
+    write_text(arguments.output, text);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "commands.h"
+#include "import_problem.h"
 #include "problem.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/edit/extract.h>
 #include <bendy/edit/merge_cycles.h>
 #include <bendy/edit/names.h>
@@ -9,7 +11,6 @@
 #include <bendy/edit/strip.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
-#include <bendy/format/fourcc.h>
 
 #include <nlohmann/json.hpp>
 
@@ -70,24 +71,14 @@ edit::Rename read_table(const std::filesystem::path& path) {
     return rename;
 }
 
-bool is_bendy_file(Bytes bytes) {
-    FourCC id;
-    copy_at(bytes, 0, id.value);
-    return id == FourCC("HEAD");
-}
-
-/// A bendy file, or a glTF file made one.
+/// A bendy file, or one of another kind made one.
 Buffer read_other(const std::filesystem::path& path) {
     const Result<MappedFile> file = MappedFile::open(path);
     if (!file) fail(path, file.error(), {});
-    if (is_bendy_file(file->bytes())) return {file->bytes().begin(), file->bytes().end()};
+    if (converter::is_bendy_file(path)) return {file->bytes().begin(), file->bytes().end()};
     converter::Report report;
     const auto bytes = converter::convert(path, {}, report);
-    if (!bytes) {
-        const converter::ImportError& error = bytes.error();
-        fail(error.file.empty() ? path : error.file,
-             printable(error.place.empty() ? error.message : error.place + ": " + error.message));
-    }
+    if (!bytes) fail(file_of(bytes.error(), path), describe(bytes.error()));
     return *bytes;
 }
 

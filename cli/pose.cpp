@@ -3,6 +3,7 @@
 #include "mesh_writer.h"
 #include "problem.h"
 #include "reach_request.h"
+#include "text_output.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 
 namespace bendy::cli {
@@ -102,11 +102,7 @@ void run(const PoseArguments& arguments) {
     if (!model) fail(arguments.file, model.error(), file->bytes());
 
     const std::string text = writer(pose_object(arguments, *model));
-    if (arguments.output.empty()) {
-        std::cout << text;
-    } else if (const auto written = write_file(arguments.output, as_byte_span(text)); !written) {
-        fail(arguments.output, describe(written.error()));
-    }
+    write_text(arguments.output, text);
 }
 
 }  // namespace

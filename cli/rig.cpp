@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "problem.h"
+#include "text_output.h"
 
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/check_sums.h>
@@ -8,7 +9,6 @@
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
 
-#include <iostream>
 #include <memory>
 
 namespace bendy::cli {
@@ -36,11 +36,7 @@ void run(const RigArguments& arguments) {
         warn(arguments.file, "there are " + grouped(document.objects.size()) + " objects; the rig is the first one's");
 
     const std::string text = converter::write_rig(document.objects.front());
-    if (arguments.output.empty()) {
-        std::cout << text;
-    } else if (const auto written = write_file(arguments.output, as_byte_span(text)); !written) {
-        fail(arguments.output, describe(written.error()));
-    }
+    write_text(arguments.output, text);
 }
 
 }  // namespace

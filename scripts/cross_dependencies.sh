@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fills build/cross/SYSTEM/root with the libraries that the project needs there: scripts/cross_dependencies.sh SYSTEM
+# Fills build/cross/SYSTEM/libraries with the libraries that the project needs there: scripts/cross_dependencies.sh SYSTEM
 #   aarch64   Debian's packages for that processor, unpacked
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
 # Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64}
 here=$PWD/build/cross
-root=$here/$system/root
+root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
     nlohmann-json3-dev rapidjson-dev libcli11-dev libtinygltf-dev)
 [ "$(cat "$root/versions" 2>/dev/null)" != "$versions" ] || exit 0
