@@ -38,7 +38,7 @@ if [ "${1:-}" != quick ]; then
     cmake --build --preset asan-ubsan
     ctest --preset asan-ubsan
 
-    step "fuzzing, five minutes of processor"
+    step "fuzzing, six minutes of processor"
     scripts/fuzz.sh
 fi
 if [ -e ../shared/corpus/visible/manifest.json ]; then
