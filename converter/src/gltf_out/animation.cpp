@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "gltf_out/skeleton.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string>
@@ -76,8 +77,21 @@ private:
         if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
         add_markers(cycle, animation, place);
         weights_of_node_.clear();
-        for (const Track& track : cycle.tracks) add_channel(track, animation, place);
+        for (std::size_t t = 0; t < cycle.tracks.size(); ++t) {
+            check_rotations(cycle.tracks[t], place + "." + at("tracks", t));
+            add_channel(cycle.tracks[t], animation, place);
+        }
         return animation;
+    }
+
+    /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, and zeros are none.
+    static void check_rotations(const Track& track, const std::string& place) {
+        if (track.path != TrackPath::rotation || track.interpolation != Interpolation::cubic) return;
+        for (std::size_t k = 0; k < track.times.size(); ++k) {
+            const auto value = track.values.begin() + static_cast<std::ptrdiff_t>(k * 12 + 4);
+            if (std::all_of(value, value + 4, [](float number) { return number == 0.0f; }))
+                fail(place, "rotation key " + std::to_string(k) + " is (0, 0, 0, 0), which glTF cannot hold");
+        }
     }
 
     /// The animation's extras to put something into; null, which is said, if they are no object.

@@ -129,11 +129,13 @@ private:
         return keys;
     }
 
+    /// Where a spline of rotations passes through (0, 0, 0, 0), it turns nothing, as in the runtime.
     [[nodiscard]] Keys sampled(const Track& track, const std::vector<std::uint64_t>& ticks) const {
         Keys keys;
         std::vector<double> value;
         const auto add = [&](std::uint64_t tick) {
             evaluate_track(track, ticks_.seconds(tick) - shift_, value);
+            if (track.path == TrackPath::rotation && value == std::vector{0.0, 0.0, 0.0, 0.0}) value[3] = 1.0;
             keys.ticks.push_back(tick);
             for (const double component : value) keys.values.push_back(static_cast<float>(component));
         };

@@ -333,6 +333,20 @@ TEST(ExportGltf, ABrokenFileIsRefused) {
     EXPECT_NE(asset.error().message.find("HEAD/VERS"), std::string::npos) << asset.error().message;
 }
 
+TEST(ExportGltf, ASplineThroughNoRotationIsRefusedWithItsPlace) {
+    Scene scene = triangle();
+    Track still{TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 0.0f, 0.0f}};
+    Track spline{TrackPath::rotation, Interpolation::cubic, 0, 4, {0.0f, 1.0f}, std::vector<float>(24, 0.0f)};
+    spline.values[7] = 1.0f;  // the first key's w; the second's stays 0
+    scene.cycles.emplace_back().tracks = {still, spline};
+    Report report;
+    const Buffer file(build_chunks(scene, "test", report));
+    const auto asset = export_gltf(file, {}, report);
+    ASSERT_FALSE(asset);
+    EXPECT_EQ(asset.error().place, "cycles[0].tracks[1]");
+    EXPECT_EQ(asset.error().message, "rotation key 1 is (0, 0, 0, 0), which glTF cannot hold");
+}
+
 TEST(ExportGltf, RandomCharactersComeBack) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const Scene scene = test::random_scene(seed);

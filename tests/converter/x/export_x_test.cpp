@@ -296,6 +296,17 @@ TEST(ExportX, WhatIsNotLinearIsSampledAndSaid) {
     }
 }
 
+TEST(ExportX, ASplineThroughNoRotationTurnsNothingThere) {
+    Scene scene = small_scene();
+    Track spline{TrackPath::rotation, Interpolation::cubic, 0, 4, {0.0f, 1.0f}, std::vector<float>(24, 0.0f)};
+    spline.values[4] = 1.0f;  // half a turn about X, then nothing
+    scene.cycles.emplace_back().tracks = {spline};
+    const Track back = travel(scene).after.cycles.at(0).tracks.at(0);
+    ASSERT_GE(back.values.size(), 8u);
+    EXPECT_EQ(std::abs(back.values[0]), 1.0f);
+    EXPECT_EQ((std::vector<float>(back.values.end() - 4, back.values.end())), (std::vector<float>{0, 0, 0, 1}));
+}
+
 TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
     Scene scene = small_scene();
     Mesh& mesh = scene.meshes[0];
