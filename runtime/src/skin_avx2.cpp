@@ -12,11 +12,17 @@ namespace {
 
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 }  // namespace skin_with_avx2
 
 void skin_avx2(const SkinBlock& block) {
     skin_with_avx2::skin_lanes(block);
+}
+
+void dual_avx2(const DualBlock& block) {
+    skin_with_avx2::dual_lanes(block);
 }
 
 }  // namespace bendy

@@ -33,11 +33,17 @@ inline void end_streams() {
 #include "lanes.h"
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 }  // namespace skin_with_avx512
 
 void skin_avx512(const SkinBlock& block) {
     skin_with_avx512::skin_lanes(block);
+}
+
+void dual_avx512(const DualBlock& block) {
+    skin_with_avx512::dual_lanes(block);
 }
 
 }  // namespace bendy

@@ -36,7 +36,15 @@ struct SkinBlock {
     bool streams;  ///< the output is large: write past the caches where its alignment allows
 };
 
+/// Vertices for skinning by dual quaternions: v -> scale * (blended motion of (blended stretch of v)).
+struct DualBlock {
+    SkinBlock vertices;  ///< with bones and weights; `palette`: the stretches, null if nothing is stretched
+    const DualMotion* motions;  ///< finite
+    float scale;
+};
+
 using SkinKernel = void(const SkinBlock& block);
+using DualKernel = void(const DualBlock& block);
 
 /// In double precision, one vertex after another.
 SkinKernel skin_plain;
@@ -47,6 +55,13 @@ SkinKernel skin_avx2;
 SkinKernel skin_avx512;
 SkinKernel skin_neon;
 SkinKernel skin_wasm;
+
+/// The plain one is DualSkinning's own.
+DualKernel dual_sse4;
+DualKernel dual_avx2;
+DualKernel dual_avx512;
+DualKernel dual_neon;
+DualKernel dual_wasm;
 
 /// So many vertices are more than the caches hold.
 inline constexpr std::size_t kManyVertices = std::size_t{1} << 18u;

@@ -28,4 +28,26 @@ inline SkinKernel* skin_kernel(Kernel kernel) {
     }
 }
 
+/// Null for the plain one.
+inline DualKernel* dual_kernel(Kernel kernel) {
+    switch (kernel) {
+#if defined(__x86_64__)
+        case Kernel::sse4:
+            return dual_sse4;
+        case Kernel::avx2:
+            return dual_avx2;
+        case Kernel::avx512:
+            return dual_avx512;
+#elif defined(__aarch64__)
+        case Kernel::neon:
+            return dual_neon;
+#elif defined(__wasm_simd128__)
+        case Kernel::wasm:
+            return dual_wasm;
+#endif
+        default:
+            return nullptr;
+    }
+}
+
 }  // namespace bendy

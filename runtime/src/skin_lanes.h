@@ -260,53 +260,56 @@ inline __attribute__((always_inline)) void transform_all(const SkinBlock& block,
     if (vertex < block.vertices) transform_last(matrix_of(vertex), block, vertex);
 }
 
-/// Blended matrices, as rows; each on a cache line of its own.
+/// What is blended for each vertex, on a cache line of its own; matrices as rows.
 struct Rows {
     alignas(64) float of[kChunk][16];
 };
 
-/// sum(weight * matrix) over `used` influences.
-template <class Bone>
-inline __attribute__((always_inline)) void blend_vertex(const PaletteMatrix* palette, const Bone* bones,
-                                                        const float* weights, std::size_t used, float* to) {
-    const float* matrix = &palette[bones[0]].rows[0][0];
-#if BENDY_LANES == 16
-    Lanes all = weights[0] * load_lanes(matrix);
-    for (std::size_t k = 1; k < used; ++k) all += weights[k] * load_lanes(&palette[bones[k]].rows[0][0]);
-    __builtin_memcpy(to, &all, sizeof all);
-#elif BENDY_LANES == 8
-    Lanes weight = splat(weights[0]);
-    Lanes upper = weight * load_lanes(matrix);
-    Quad lower = quad_of<0>(weight) * load_quad(matrix + 8);
-    for (std::size_t k = 1; k < used; ++k) {
-        matrix = &palette[bones[k]].rows[0][0];
-        weight = splat(weights[k]);
-        upper += weight * load_lanes(matrix);
-        lower += quad_of<0>(weight) * load_quad(matrix + 8);
-    }
-    __builtin_memcpy(to, &upper, sizeof upper);
-    store_quad(to + 8, lower);
-#else
-    Quad a = weights[0] * load_quad(matrix);
-    Quad b = weights[0] * load_quad(matrix + 4);
-    Quad c = weights[0] * load_quad(matrix + 8);
-    for (std::size_t k = 1; k < used; ++k) {
-        matrix = &palette[bones[k]].rows[0][0];
-        a += weights[k] * load_quad(matrix);
-        b += weights[k] * load_quad(matrix + 4);
-        c += weights[k] * load_quad(matrix + 8);
-    }
-    store_quad(to, a);
-    store_quad(to + 4, b);
-    store_quad(to + 8, c);
-#endif
-}
+/// To a row: sum(weight * matrix) over `used` influences.
+struct MatrixSum {
+    const PaletteMatrix* palette;
 
-template <std::size_t used, class Bone>
-inline void blend_group(const PaletteMatrix* palette, const Bone* bones, const float* weights, std::size_t influences,
+    template <class Bone>
+    inline __attribute__((always_inline)) void operator()(const Bone* bones, const float* weights, std::size_t used,
+                                                          float* to) const {
+        const float* matrix = &palette[bones[0]].rows[0][0];
+#if BENDY_LANES == 16
+        Lanes all = weights[0] * load_lanes(matrix);
+        for (std::size_t k = 1; k < used; ++k) all += weights[k] * load_lanes(&palette[bones[k]].rows[0][0]);
+        __builtin_memcpy(to, &all, sizeof all);
+#elif BENDY_LANES == 8
+        Lanes weight = splat(weights[0]);
+        Lanes upper = weight * load_lanes(matrix);
+        Quad lower = quad_of<0>(weight) * load_quad(matrix + 8);
+        for (std::size_t k = 1; k < used; ++k) {
+            matrix = &palette[bones[k]].rows[0][0];
+            weight = splat(weights[k]);
+            upper += weight * load_lanes(matrix);
+            lower += quad_of<0>(weight) * load_quad(matrix + 8);
+        }
+        __builtin_memcpy(to, &upper, sizeof upper);
+        store_quad(to + 8, lower);
+#else
+        Quad a = weights[0] * load_quad(matrix);
+        Quad b = weights[0] * load_quad(matrix + 4);
+        Quad c = weights[0] * load_quad(matrix + 8);
+        for (std::size_t k = 1; k < used; ++k) {
+            matrix = &palette[bones[k]].rows[0][0];
+            a += weights[k] * load_quad(matrix);
+            b += weights[k] * load_quad(matrix + 4);
+            c += weights[k] * load_quad(matrix + 8);
+        }
+        store_quad(to, a);
+        store_quad(to + 4, b);
+        store_quad(to + 8, c);
+#endif
+    }
+};
+
+template <std::size_t used, class Sum, class Bone>
+inline void blend_group(const Sum& sum, const Bone* bones, const float* weights, std::size_t influences,
                         float (*rows)[16]) {
-    for (std::size_t k = 0; k < kLanes; ++k)
-        blend_vertex(palette, bones + k * influences, weights + k * influences, used, rows[k]);
+    for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
 }
 
 /// The last of four influences, from 1, that any vertex of a group has.
@@ -324,9 +327,9 @@ inline std::size_t last_of_four(const float* weights, std::size_t influences) {
 }
 
 /// A group, each vertex with as many influences as the group has.
-template <class Bone>
-inline void blend_any(const SkinBlock& block, const Bone* bones, const float* weights, float (*rows)[16]) {
-    const std::size_t influences = block.influences;
+template <class Sum, class Bone>
+inline void blend_any(const Sum& sum, const Bone* bones, const float* weights, std::size_t influences,
+                      float (*rows)[16]) {
     std::size_t used = influences;
     if (influences == 4 || (influences == 8 && last_of_four(weights + 4, 8) == 1)) {
         used = last_of_four(weights, influences);
@@ -338,57 +341,69 @@ inline void blend_any(const SkinBlock& block, const Bone* bones, const float* we
     }
     switch (used) {
         case 1:
-            return blend_group<1>(block.palette, bones, weights, influences, rows);
+            return blend_group<1>(sum, bones, weights, influences, rows);
         case 2:
-            return blend_group<2>(block.palette, bones, weights, influences, rows);
+            return blend_group<2>(sum, bones, weights, influences, rows);
         case 3:
-            return blend_group<3>(block.palette, bones, weights, influences, rows);
+            return blend_group<3>(sum, bones, weights, influences, rows);
         case 4:
-            return blend_group<4>(block.palette, bones, weights, influences, rows);
+            return blend_group<4>(sum, bones, weights, influences, rows);
         default:
             break;
     }
-    for (std::size_t k = 0; k < kLanes; ++k)
-        blend_vertex(block.palette, bones + k * influences, weights + k * influences, used, rows[k]);
+    for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
 }
 
 /// The `count` vertices from `vertex` on.
-template <class Bone>
-__attribute__((noinline)) void blend_chunk(const SkinBlock& block, const Bone* bones, std::size_t vertex,
-                                           std::size_t count, Rows& rows) {
+template <class Sum, class Bone>
+__attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& block, const Bone* bones,
+                                           std::size_t vertex, std::size_t count, Rows& rows) {
     std::size_t k = 0;
     for (; count - k >= kLanes; k += kLanes) {
         const std::size_t at = (vertex + k) * block.influences;
-        blend_any(block, bones + at, block.weights + at, rows.of + k);
+        blend_any(sum, bones + at, block.weights + at, block.influences, rows.of + k);
     }
     for (; k < count; ++k) {
         const std::size_t at = (vertex + k) * block.influences;
-        blend_vertex(block.palette, bones + at, block.weights + at, block.influences, rows.of[k]);
+        sum(bones + at, block.weights + at, block.influences, rows.of[k]);
     }
     if (count % kLanes != 0) __builtin_memset(rows.of + count, 0, (kLanes - count % kLanes) * sizeof rows.of[0]);
 }
 
+/// Four numbers of each row of a group, from `from` in the first one on.
+inline void turn_four(const float* from, Lanes* to) {
+    transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64), to);
+}
+
 inline Matrix turn(const float (*rows)[16]) {
     Matrix matrix;
-    for (std::size_t row = 0; row < 3; ++row) {
-        const float* const from = &rows[0][4 * row];
-        transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64),
-                  matrix.at[row]);
-    }
+    for (std::size_t row = 0; row < 3; ++row) turn_four(&rows[0][4 * row], matrix.at[row]);
     return matrix;
+}
+
+/// Chunk after chunk: blend(vertex, count) fills rows, and matrix_of(k) is that of the group from row k on.
+template <class F, class Blend, class MatrixOfRow>
+inline __attribute__((always_inline)) void transform_chunks(const SkinBlock& block, const Blend& blend,
+                                                            const MatrixOfRow& matrix_of) {
+    for (std::size_t vertex = 0; vertex < block.vertices;) {
+        const std::size_t count = block.vertices - vertex < kChunk ? block.vertices - vertex : kChunk;
+        const std::size_t whole = count - count % kLanes;
+        blend(vertex, count);
+        transform<F>(block, vertex, whole, [&](std::size_t at) { return matrix_of(at - vertex); });
+        if (whole < count) transform_last(matrix_of(whole), block, vertex + whole);
+        vertex += count;
+    }
 }
 
 template <class F, class Bone>
 void skin_blended(const SkinBlock& block, const Bone* bones) {
     Rows rows;
-    for (std::size_t vertex = 0; vertex < block.vertices;) {
-        const std::size_t count = block.vertices - vertex < kChunk ? block.vertices - vertex : kChunk;
-        const std::size_t whole = count - count % kLanes;
-        blend_chunk(block, bones, vertex, count, rows);
-        transform<F>(block, vertex, whole, [&](std::size_t at) { return turn(rows.of + (at - vertex)); });
-        if (whole < count) transform_last(turn(rows.of + whole), block, vertex + whole);
-        vertex += count;
-    }
+    transform_chunks<F>(
+        block,
+        [&](std::size_t vertex, std::size_t count) {
+            blend_chunk(MatrixSum{block.palette}, block, bones, vertex, count, rows);
+        },
+        [&](std::size_t k) { return turn(rows.of + k); });
 }
 
 template <class F>
@@ -442,9 +457,9 @@ __attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t v
     Rows rows;
     const std::size_t count = block.vertices - vertex < kLanes ? block.vertices - vertex : kLanes;
     if (block.bones16 != nullptr) {
-        blend_chunk(block, block.bones16, vertex, count, rows);
+        blend_chunk(MatrixSum{block.palette}, block, block.bones16, vertex, count, rows);
     } else {
-        blend_chunk(block, block.bones8, vertex, count, rows);
+        blend_chunk(MatrixSum{block.palette}, block, block.bones8, vertex, count, rows);
     }
     matrix = turn(rows.of);
 }

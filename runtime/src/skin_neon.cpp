@@ -12,11 +12,17 @@ namespace {
 
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 }  // namespace skin_with_neon
 
 void skin_neon(const SkinBlock& block) {
     skin_with_neon::skin_lanes(block);
+}
+
+void dual_neon(const DualBlock& block) {
+    skin_with_neon::dual_lanes(block);
 }
 
 }  // namespace bendy

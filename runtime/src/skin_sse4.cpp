@@ -12,11 +12,17 @@ namespace {
 
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 }  // namespace skin_with_sse4
 
 void skin_sse4(const SkinBlock& block) {
     skin_with_sse4::skin_lanes(block);
+}
+
+void dual_sse4(const DualBlock& block) {
+    skin_with_sse4::dual_lanes(block);
 }
 
 }  // namespace bendy

@@ -12,11 +12,17 @@ namespace {
 
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 }  // namespace skin_with_wasm
 
 void skin_wasm(const SkinBlock& block) {
     skin_with_wasm::skin_lanes(block);
+}
+
+void dual_wasm(const DualBlock& block) {
+    skin_with_wasm::dual_lanes(block);
 }
 
 }  // namespace bendy

@@ -1,6 +1,7 @@
 // The kernels of another processor against the plain ones: a program that needs nothing but the C++ library, to
 // be run by an emulator. Prints the worst errors; 0 if they are within bounds.
 
+#include "runtime/dual_comparison.h"
 #include "runtime/pose_comparison.h"
 #include "runtime/skin_comparison.h"
 
@@ -12,10 +13,12 @@ namespace {
 #if defined(__aarch64__)
 constexpr const char* kName = "neon";
 constexpr auto* kKernel = skin_neon;
+constexpr auto* kDualKernel = dual_neon;
 constexpr const PoseKernels& kPoseKernels = kPoseNeon;
 #elif defined(__wasm_simd128__)
 constexpr const char* kName = "wasm";
 constexpr auto* kKernel = skin_wasm;
+constexpr auto* kDualKernel = dual_wasm;
 constexpr const PoseKernels& kPoseKernels = kPoseWasm;
 #endif
 
@@ -67,6 +70,24 @@ bool skins() {
     return errors.are_small();
 }
 
+bool skins_by_duals() {
+    test::DualErrors errors;
+    for (const bool is_stretched : {false, true}) {
+        for (const std::size_t vertices : {0U, 1U, 3U, 4U, 5U, 9U, 64U, 101U}) {
+            for (std::size_t influences = 1; influences <= 10; ++influences) {
+                test::RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
+                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 3, 3, 4));
+                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 3, 3, 0));
+                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 4, 0, 9));
+            }
+        }
+    }
+    std::printf("%s: dual quaternions: positions %.2f of %.0f, directions %.2f of %.0f units in the last place%s\n",
+                kName, errors.positions, test::DualErrors::kMostForPositions, errors.directions,
+                test::DualErrors::kMostForDirections, errors.has_strayed ? "; memory of others written" : "");
+    return errors.are_small();
+}
+
 bool poses() {
     const test::PoseErrors errors = test::PoseComparison(kPoseKernels).run();
     std::printf(
@@ -92,8 +113,9 @@ bool keeps_zeros() {
 
 int main() {
     const bool skins = bendy::skins();
+    const bool skins_by_duals = bendy::skins_by_duals();
     const bool poses = bendy::poses();
     const bool keeps_zeros = bendy::keeps_zeros();
     if (!keeps_zeros) std::puts("zeros did not stay zero");
-    return skins && poses && keeps_zeros ? 0 : 1;
+    return skins && skins_by_duals && poses && keeps_zeros ? 0 : 1;
 }

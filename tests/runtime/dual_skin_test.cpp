@@ -1,5 +1,6 @@
 #include <bendy/runtime/dual_skin.h>
 
+#include <bendy/runtime/kernels.h>
 #include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/skin.h>
 
@@ -40,6 +41,17 @@ Skinned dual(const Model& model, Pose& pose) {
     Skinned out(model.vertex_count());
     EXPECT_TRUE(DualSkinning(model).skin(pose, out.all()));
     return out;
+}
+
+std::vector<Skinned> dual_by_every_kernel(const Model& model, Pose& pose) {
+    const Kernel before = kernel();
+    std::vector<Skinned> all;
+    for (const Kernel each : kernels()) {
+        EXPECT_TRUE(set_kernel(each));
+        all.push_back(dual(model, pose));
+    }
+    EXPECT_TRUE(set_kernel(before));
+    return all;
 }
 
 void expect_near(const glm::vec3& is, const glm::dvec3& expected, double tolerance) {
@@ -276,7 +288,7 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
             local.rotation = glm::quat(turn());
             local.translation = {number(random), number(random), number(random)};
         }
-        const Skinned is = dual(*model, pose);
+        const std::vector<Skinned> by_kernel = dual_by_every_kernel(*model, pose);
         std::vector<Dual> motions;
         for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
             const JointTransform& local = pose.local()[joint];
@@ -304,8 +316,10 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
             const Dual blended = unit(sum);
             const glm::dvec3 at_normal = transform(blended, glm::dvec3(pool.normals[v]));
             const glm::dvec3 at_origin = transform(blended, glm::dvec3(0.0));
-            expect_near(is.positions[v], transform(blended, glm::dvec3(pool.positions[v])), 1e-5);
-            expect_near(is.normals[v], at_normal - at_origin, 1e-5);
+            for (const Skinned& is : by_kernel) {
+                expect_near(is.positions[v], transform(blended, glm::dvec3(pool.positions[v])), 1e-5);
+                expect_near(is.normals[v], at_normal - at_origin, 1e-5);
+            }
         }
     }
 }
@@ -327,6 +341,34 @@ TEST(DualSkin, AScaledJointScalesAboutItself) {
             // Joint 0 leaves the height 4 s, joint 1 takes it to 4 + 2 (4 s - 4).
             const double height = 4.0 * share;
             EXPECT_NEAR(is.positions[v].y, (1 - share) * height + share * (4.0 + 2.0 * (height - 4.0)), 1e-5);
+        }
+    }
+}
+
+TEST(DualSkin, PoolsThatShareAPaletteAreAsEachAlone) {
+    // Twice the same palette, a rigid pool between them, then the other way round, and the first one again.
+    Tube tube(4.0f);
+    test::PoolSpec other = tube.spec.pools[0];
+    glm::mat4 down(1.0f);
+    down[3] = {0, -4, 0, 1};
+    other.more.back() = test::palette_leaf({1, 0}, {down, glm::mat4(1.0f)});
+    test::PoolSpec rigid;
+    rigid.positions = {{1, 2, 3}};
+    rigid.normals = {{0, 0, 1}};
+    rigid.tangents = {{1, 0, 0, 1}};
+    tube.spec.pools = {tube.spec.pools[0], rigid, tube.spec.pools[0], other, tube.spec.pools[0]};
+    const Owned model(test::build_file(tube.spec));
+    Pose pose(*model);
+    DualSkinning skinning(*model);
+    for (const float turn : {0.3f, -0.8f}) {
+        pose.change_local()[1].rotation = glm::quat(std::sqrt(1.0f - turn * turn), 0, turn, 0);
+        Skinned all(model->vertex_count());
+        EXPECT_TRUE(skinning.skin(pose, all.all()));
+        for (std::uint32_t pool = 0; pool < 5; ++pool) {
+            Skinned alone(model->pools()[pool].vertices);
+            EXPECT_TRUE(DualSkinning(*model).skin(pool, pose, alone.all()));
+            for (std::size_t v = 0; v < alone.positions.size(); ++v)
+                EXPECT_EQ(all.positions[model->first_vertex(pool) + v], alone.positions[v]) << pool;
         }
     }
 }

@@ -36,11 +36,18 @@ inline void end_streams() {
 #include "lanes.h"
 #include "skin_lanes.h"
 
+#include "dual_lanes.h"
+
 }  // namespace
 
 void skin_sixteen(const SkinBlock& block);
 void skin_sixteen(const SkinBlock& block) {
     skin_lanes(block);
+}
+
+void dual_sixteen(const DualBlock& block);
+void dual_sixteen(const DualBlock& block) {
+    dual_lanes(block);
 }
 
 }  // namespace bendy

@@ -33,7 +33,8 @@ public:
     }
     void number(const char* field, float& number, float low, float high) {
         number = in_.number();
-        if (!(number >= low && number <= high)) in_.refuse(std::string(field) + ": the number is out of range");
+        const std::string name(field);
+        if (!(number >= low && number <= high)) in_.refuse(name + ": the number is out of range");
     }
     template <std::size_t N>
     void numbers(const char* field, std::array<float, N>& numbers, float low, float high) {

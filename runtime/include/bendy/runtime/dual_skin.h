@@ -2,11 +2,11 @@
 
 #include <bendy/format/public.h>
 #include <bendy/runtime/lod.h>
+#include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/stretched_motion.h>
 #include <bendy/runtime/vertices.h>
 
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace BENDY_PUBLIC bendy {
 
 /// Skinning by dual quaternions (Kavan, Collins, Zara, O'Sullivan, Skinning with Dual Quaternions, 2007): joints that
 /// twist or bend keep the limb's volume, where `skin` makes it thinner. For characters that were made for it: elbows
-/// bulge a little, and `Bounds` does not hold it. In doubles, one vertex at a time, so slower than `skin`.
+/// bulge a little, and `Bounds` does not hold it.
 ///
 /// Scale and shear go in two phases: each joint's are applied about its own place and mixed by the weights as `skin`
 /// does, then the rotations and translations are mixed as dual quaternions. The uniform scale of the topmost of a
@@ -35,24 +35,26 @@ public:
     bool skin(std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out);
     bool skin(Pose& pose, const Lod& lod, const Vertices& out);
 
-    /// What an entry of a palette does: v -> scale * (rigid motion of (stretch * v + shift)).
-    struct Motion {
-        glm::dquat real{1.0, 0.0, 0.0, 0.0}, dual{0.0, 0.0, 0.0, 0.0};  ///< the rigid motion, real unit
-        glm::dmat3 stretch{1.0};
-        glm::dvec3 shift{0.0};
-    };
-
 private:
-    bool skin_pool(std::uint32_t pool, std::uint32_t vertices, Pose& pose, const Vertices& out);
-    /// Fills motions_ from the palette; false if it is not finite.
-    bool find_motions(std::uint32_t pool, Pose& pose);
+    /// `is_next`: the pool before it was skinned last, of the same pose.
+    bool skin_pool(std::uint32_t pool, Pose& pose, const Lod* lod, const Vertices& out, bool is_next);
+    bool skin_all(Pose& pose, const Lod* lod, const Vertices& out);
+    void skin_found(std::uint32_t pool, std::uint32_t vertices, Pose& pose, const Vertices& out);
+    /// Fills motions_ from the palette, unless it is not finite.
+    void find_motions(std::uint32_t pool, Pose& pose);
+    /// The first ones as kernels want them; false if not all are finite as floats.
+    bool round_motions(std::size_t count);
 
     const Model* model_;
     std::vector<glm::dvec3> places_;          // of each palette entry's joint in pool space when it was bound
     std::vector<std::uint32_t> first_place_;  // of each pool
-    std::vector<Motion> motions_;
+    std::vector<StretchedMotion> motions_;
+    std::vector<DualMotion> kernel_motions_;
+    std::vector<PaletteMatrix> kernel_stretches_;
     double scale_ = 1.0;
     bool is_stretched_ = false;
+    bool are_motions_good_ = false;
+    bool has_kernel_ = false;  // kernel_motions_ hold what motions_ do
 };
 
 }  // namespace bendy

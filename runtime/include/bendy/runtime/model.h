@@ -142,6 +142,7 @@ public:
     [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
 
 private:
+    friend class DualSkinning;
     friend class Pose;
     friend class Sampling;
     friend class Skinning;

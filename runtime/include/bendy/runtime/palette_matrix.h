@@ -4,11 +4,17 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Rows of a 3x4 matrix, pool space to model space: what a bone does to a vertex. As long as a cache line. Nothing but
-/// numbers, since kernels for other processors include this.
+// Nothing but numbers, since kernels for other processors include this.
+
+/// Rows of a 3x4 matrix, pool space to model space: what a bone does to a vertex. As long as a cache line.
 struct alignas(64) PaletteMatrix {
     float rows[3][4];
     float unused[4];
+};
+
+/// A rigid motion as a unit dual quaternion; each part is x y z w.
+struct DualMotion {
+    float real[4], dual[4];
 };
 
 }  // namespace bendy

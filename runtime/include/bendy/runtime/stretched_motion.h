@@ -1,0 +1,18 @@
+#pragma once
+
+#include <bendy/format/public.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace BENDY_PUBLIC bendy {
+
+/// What DualSkinning makes of a palette's entry: v -> rigid motion of (stretch * v + shift).
+struct StretchedMotion {
+    glm::dquat real{1.0, 0.0, 0.0, 0.0}, dual{0.0, 0.0, 0.0, 0.0};  ///< the rigid motion as a dual quaternion, real unit
+    glm::dmat3 stretch{1.0};
+    glm::dvec3 shift{0.0};
+};
+
+}  // namespace bendy
