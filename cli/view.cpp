@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "import_problem.h"
 #include "problem.h"
 
 #ifdef BENDY_HAS_VIEWER
@@ -6,14 +7,13 @@
 #include "tentacle.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/converter/readable_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/viewer/view.h>
 #include <bendy/viewer/viewer_error.h>
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -25,27 +25,16 @@ struct ViewArguments {
     viewer::ViewOptions view;
 };
 
-bool is_bendy(Bytes bytes) {
-    constexpr std::size_t kPlace = 32;  // of VERS' payload: after the headers of HEAD and VERS
-    return bytes.size() >= kPlace + kSignature.size() &&
-           std::equal(kSignature.begin(), kSignature.end(), bytes.begin() + kPlace,
-                      [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
-}
-
 /// The bytes of a bendy file, or of a glTF file converted to one.
 std::vector<std::byte> open_any(const std::filesystem::path& file) {
     const std::string name = file.string();
     const Result<MappedFile> mapped = MappedFile::open(file);
     if (!mapped) throw viewer::ViewerError(name + ": " + describe(mapped.error()));
     const Bytes bytes = mapped->bytes();
-    if (is_bendy(bytes) || !converter::has_readable_extension(file)) return {bytes.begin(), bytes.end()};
+    if (converter::is_bendy_file(file) || !converter::has_readable_extension(file)) return {bytes.begin(), bytes.end()};
     converter::Report report;
     auto converted = converter::convert(file, {}, report);
-    if (!converted) {
-        const converter::ImportError& error = converted.error();
-        throw viewer::ViewerError(name + ": " +
-                                  (error.place.empty() ? error.message : error.place + ": " + error.message));
-    }
+    if (!converted) throw viewer::ViewerError(name + ": " + describe(converted.error()));
     return *std::move(converted);
 }
 

@@ -4,28 +4,16 @@
 
 #include "ik_problem.h"
 #include "ik_quick.h"
+#include "rigid_part.h"
 #include "rotation.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace bendy {
-namespace {
-
-/// The rotation of a matrix that may also scale, shear and mirror: its axes made square, one after another.
-glm::dquat rotation_of(const glm::dmat4& matrix) {
-    const double sign = glm::determinant(glm::dmat3(matrix)) < 0.0 ? -1.0 : 1.0;
-    const glm::dvec3 x = glm::normalize(sign * glm::dvec3(matrix[0]));
-    const glm::dvec3 across = sign * glm::dvec3(matrix[1]);
-    const glm::dvec3 y = glm::normalize(across - x * glm::dot(x, across));
-    return glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
-}
-
-}  // namespace
 
 /// What belongs to a reach beside the problem: how to come from the model to the problem and back.
 class Reach {
@@ -150,7 +138,7 @@ private:
         if (problem_.has_rotation) {
             const glm::dquat wanted(*target_.rotation);
             if (!(std::abs(glm::length(wanted) - 1.0) < 1e-2)) return false;
-            problem_.target_rotation = glm::conjugate(rotation_of(base_)) * glm::normalize(wanted);
+            problem_.target_rotation = glm::conjugate(rigid_rotation(base_)) * glm::normalize(wanted);
         } else if (problem_.position_weight == 0.0) {
             problem_.position_weight = 1.0;
         }
@@ -359,7 +347,7 @@ void reach_all(Pose& pose) {
         if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
         const glm::dmat4 followed = joint_to_model(pose, chain.target);
         ReachTarget target{glm::vec3(followed[3])};
-        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rotation_of(followed));
+        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rigid_rotation(followed));
         ReachOptions options;
         options.influence = chain.record.influence;
         reach(&chain, target, pose, options);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -143,7 +145,10 @@ private:
     std::uint32_t add_times(const std::vector<float>& times) {
         if (shift_ == 0.0f) return buffer_.add_floats(times, 1, Buffer::Use::data, true);
         std::vector<float> moved(times);
-        for (float& time : moved) time += shift_;
+        for (std::size_t k = 0; k < moved.size(); ++k) {  // times must ascend, which rounding may undo
+            moved[k] += shift_;
+            if (k > 0) moved[k] = std::max(moved[k], std::nextafter(moved[k - 1], std::numeric_limits<float>::max()));
+        }
         return buffer_.add_floats(moved, 1, Buffer::Use::data, true);
     }
 
