@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <mutex>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -172,12 +173,15 @@ void Model::DeleteData::operator()(const Data* data) const {
     delete data;
 }
 
+// Not std::call_once: where that is pthread_once, as on Windows, it waits for ever for one that ended by an exception.
 void Model::make_plans() const {
-    std::call_once(data_->plans_made, [this] {
-        data_->pose_plan = std::make_unique<const PosePlan>(make_pose_plan(data_->object, data_->joints));
-        data_->plans.reserve(pools().size());
-        for (const Pool& pool : pools()) data_->plans.push_back(make_skin_plan(pool));
-    });
+    const std::scoped_lock lock(data_->making_plans);
+    if (data_->pose_plan) return;
+    std::vector<SkinPlan> plans;
+    plans.reserve(pools().size());
+    for (const Pool& pool : pools()) plans.push_back(make_skin_plan(pool));
+    data_->pose_plan = std::make_unique<const PosePlan>(make_pose_plan(data_->object, data_->joints));
+    data_->plans = std::move(plans);
 }
 
 const SkinPlan& Model::plan(std::uint32_t pool) const {

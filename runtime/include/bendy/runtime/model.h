@@ -176,7 +176,7 @@ private:
         std::vector<std::uint32_t> chain_order;
         std::vector<PullView> weights;  // by chain, then joint
         std::uint32_t longest_chain = 0;
-        mutable std::once_flag plans_made;  // by the first Pose
+        mutable std::mutex making_plans;  // by the first Pose
         mutable std::unique_ptr<const PosePlan> pose_plan;
         mutable std::vector<SkinPlan> plans;  // one per pool
     };
