@@ -41,7 +41,7 @@ TEST(GltfBuffers, DataUris) {
 TEST(GltfBuffers, FilesBesideTheSource) {
     write_file("a b.bin", kPoint);
     write_file("sub/c.bin", kPoint);
-    write_file("\xe2\x9d\xa4.bin", kPoint);
+    write_file(u8"\u2764.bin", kPoint);  // a heart
     write_file("100%.bin", kPoint);
     expect_point(import_buffer(R"({"byteLength":12,"uri":"a%20b.bin"})"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"a b.bin"})"));
