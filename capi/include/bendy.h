@@ -36,7 +36,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(BENDY_C_BUILD) && defined(__GNUC__)
+#if defined(BENDY_C_BUILD) && defined(_WIN32)
+#define BENDY_API __declspec(dllexport)
+#elif defined(BENDY_C_BUILD) && defined(__GNUC__)
 #define BENDY_API __attribute__((visibility("default")))
 #else
 #define BENDY_API
@@ -102,7 +104,8 @@ typedef struct bendy_open_options {
     { sizeof(bendy_open_options), 0, 0 }
 
 /* Maps a file into memory and checks it; NULL, and the first fault, if it is not a good one. The file must not be
- * changed in place while it is open (replacing it is fine). `options` may be NULL. */
+ * changed in place while it is open (replacing it is fine, but on Windows, where it fails). `path` is UTF-8 on Windows,
+ * and what the system takes for a name elsewhere. `options` may be NULL. */
 BENDY_API bendy_model* bendy_open(const char* path, const bendy_open_options* options, bendy_error* error);
 /* The same for `size` bytes in memory, which are copied. */
 BENDY_API bendy_model* bendy_open_copy(const void* bytes, size_t size, const bendy_open_options* options,

@@ -3,8 +3,12 @@
 #include "sized.h"
 
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/text.h>
 
 #include <cstring>
+#include <filesystem>
+#include <string>
+#include <type_traits>
 
 namespace bendy::capi {
 namespace {
@@ -44,6 +48,13 @@ bendy_status open_memory(const void* data, std::size_t size, bool copies, const 
     return open_source(std::move(source), options, out, error);
 }
 
+constexpr bool kNamesAreUnicode = std::is_same_v<std::filesystem::path::value_type, wchar_t>;  // on Windows
+
+std::filesystem::path path_of(const char* name) {
+    if constexpr (kNamesAreUnicode) return std::u8string(name, name + std::strlen(name));
+    return name;
+}
+
 }  // namespace
 }  // namespace bendy::capi
 
@@ -53,7 +64,8 @@ bendy_model* bendy_open(const char* path, const bendy_open_options* options, ben
     bendy_model* model = nullptr;
     guarded(error, [&] {
         if (const bendy_status status = check_pointer(path, "path", error)) return status;
-        auto file = bendy::MappedFile::open(path);
+        if (kNamesAreUnicode && !bendy::is_utf8(path)) return fail(error, BENDY_BAD_ARGUMENT, "path is not UTF-8");
+        auto file = bendy::MappedFile::open(path_of(path));
         if (!file) return fail(error, file.error(), {});
         Source source;
         source.file = *std::move(file);

@@ -2,9 +2,12 @@
 #include "capi/open_handles.h"
 #include "sweep/allocations.h"
 
+#include <bendy/format/file.h>
+
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -269,8 +272,24 @@ TEST(CFiles, LongMessagesAreCutBetweenCharacters) {
     }
 }
 
-#ifdef __cpp_exceptions
-// The library's operator new is this program's: each allocation fails once.
+TEST(CFiles, NamesAreUtf8OnEverySystem) {
+    const auto folder = std::filesystem::path(testing::TempDir());
+    const std::filesystem::path file = folder / u8"bendy_capi_\u2764.bendy";
+    ASSERT_TRUE(write_file(file, sample_file()).has_value());
+    const std::u8string name = file.u8string();
+    bendy_error error = BENDY_ERROR_INIT;
+    EXPECT_NE(ModelHandle(bendy_open(reinterpret_cast<const char*>(name.c_str()), nullptr, &error)), nullptr)
+        << error.message;
+    std::filesystem::remove(file);
+#ifdef _WIN32
+    EXPECT_EQ(bendy_open("\xff.bendy", nullptr, &error), nullptr);
+    EXPECT_EQ(error.status, BENDY_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message, "path is not UTF-8");
+#endif
+}
+
+#if defined(__cpp_exceptions) && !defined(_WIN32)
+// The library's operator new is this program's, but on Windows: each allocation fails once.
 TEST(CFiles, MemoryThatRunsOutIsAnError) {
     const Buffer file = sample_file();
     std::uint64_t failures = 0;
