@@ -143,7 +143,7 @@ bool DualSkinning::round_motions(std::size_t count) {
         to = static_cast<float>(number);
         sum += 0.0f * to;
     };
-    const auto put_quaternion = [&put](float (&to)[4], const glm::dquat& q) {
+    const auto put_quaternion = [&put](float(&to)[4], const glm::dquat& q) {
         put(to[0], q.x);
         put(to[1], q.y);
         put(to[2], q.z);

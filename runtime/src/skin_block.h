@@ -38,7 +38,7 @@ struct SkinBlock {
 
 /// Vertices for skinning by dual quaternions: v -> scale * (blended motion of (blended stretch of v)).
 struct DualBlock {
-    SkinBlock vertices;  ///< with bones and weights; `palette`: the stretches, null if nothing is stretched
+    SkinBlock vertices;         ///< with bones and weights; `palette`: the stretches, null if nothing is stretched
     const DualMotion* motions;  ///< finite
     float scale;
 };

@@ -372,7 +372,8 @@ __attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& bloc
 
 /// Four numbers of each row of a group, from `from` in the first one on.
 inline void turn_four(const float* from, Lanes* to) {
-    transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64), to);
+    transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64),
+              to);
 }
 
 inline Matrix turn(const float (*rows)[16]) {

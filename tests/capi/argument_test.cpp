@@ -1,8 +1,8 @@
 // The C API takes anything: what is wrong with arguments and files is said, and nothing is touched.
+#include <bendy/format/file.h>
+
 #include "capi/open_handles.h"
 #include "sweep/allocations.h"
-
-#include <bendy/format/file.h>
 
 #include <array>
 #include <cmath>

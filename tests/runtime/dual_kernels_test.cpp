@@ -42,8 +42,8 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
             test::dual_errors_of(random, is_stretched, kernel.run, positions, normals, tangents);
         EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
                                         << random.block.influences << (is_stretched ? ", stretched" : "")
-                                        << ": positions " << errors.positions
-                                        << " units in the last place, directions " << errors.directions
+                                        << ": positions " << errors.positions << " units in the last place, directions "
+                                        << errors.directions
                                         << (errors.has_strayed ? ", and memory of others written" : "");
     }
 }

@@ -86,7 +86,8 @@ private:
         return animation;
     }
 
-    /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, and zeros are none.
+    /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, and zeros are
+    /// none.
     static void check_rotations(const Track& track, const std::string& place) {
         if (track.path != TrackPath::rotation || track.interpolation != Interpolation::cubic) return;
         for (std::size_t k = 0; k < track.times.size(); ++k) {

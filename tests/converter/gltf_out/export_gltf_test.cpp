@@ -153,8 +153,8 @@ TEST(ExportGltf, TimesThatAreMovedStillAscend) {
     Scene scene = triangle();
     Cycle cycle;
     const float before_one = std::nextafter(1.0f, 0.0f);  // 2, once it is moved, as 1 is
-    cycle.tracks.push_back({TrackPath::scale, Interpolation::step, 0, 3, {-1.0f, before_one, 1.0f},
-                            std::vector<float>(9, 1.0f)});
+    cycle.tracks.push_back(
+        {TrackPath::scale, Interpolation::step, 0, 3, {-1.0f, before_one, 1.0f}, std::vector<float>(9, 1.0f)});
     scene.cycles.push_back(cycle);
     EXPECT_EQ(import_again(export_scene(scene).asset).cycles[0].tracks[0].times,
               (std::vector<float>{0.0f, 2.0f, std::nextafter(2.0f, 3.0f)}));
