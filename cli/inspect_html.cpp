@@ -63,11 +63,11 @@ private:
 };
 
 void warn_of_rig(const ObjectView& object, Warnings& warnings) {
-    const auto warn_of_flags = [&](std::uint32_t chunk, std::uint8_t flags, std::string_view what) {
+    const auto warn_of_flags = [&](std::uint32_t chunk, std::uint8_t flags, const std::string& what) {
         if ((flags & kApproximated) != 0)
-            warnings.add(chunk, std::string(what) + " is approximated: the source says more, or otherwise");
+            warnings.add(chunk, what + " is approximated: the source says more, or otherwise");
         if ((flags & kProposed) != 0)
-            warnings.add(chunk, std::string(what) + " is proposed from the joints' names; nobody has authored it");
+            warnings.add(chunk, what + " is proposed from the joints' names; nobody has authored it");
     };
     for (const LimitView& limit : object.skeleton.limits) {
         warn_of_flags(limit.chunk, limit.record.flags, "the constraint");
