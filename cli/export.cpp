@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "level_of_detail.h"
 #include "problem.h"
 #include "warnings.h"
 
@@ -6,6 +7,7 @@
 #include <bendy/converter/export_x.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
+#include <bendy/runtime/model.h>
 
 #include <cstdint>
 #include <iostream>
@@ -20,6 +22,7 @@ struct ExportArguments {
     std::filesystem::path file;
     std::filesystem::path output;
     std::string format;
+    float lod = 1.0f;
     bool quiet = false;
 };
 
@@ -41,6 +44,19 @@ void refuse_input(const std::filesystem::path& input, const std::filesystem::pat
         fail(input, "the output would be the input: give another name with -o");
 }
 
+/// The level of detail that is asked for.
+converter::ExportOptions options_of(const ExportArguments& arguments) {
+    if (!(arguments.lod < 1.0f)) return {};
+    const Result<MappedFile> file = MappedFile::open(arguments.file);
+    if (!file) fail(arguments.file, file.error(), {});
+    const Result<Model> model = Model::from_memory(file->bytes());
+    if (!model) fail(arguments.file, model.error(), file->bytes());
+    const Lod lod = level_of(arguments.file, *model, arguments.lod);
+    converter::ExportOptions options;
+    for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
+    return options;
+}
+
 /// \return bytes that were written
 std::uint64_t export_gltf(const ExportArguments& arguments, bool is_glb, converter::Report& report) {
     std::filesystem::path buffer_file;
@@ -48,7 +64,7 @@ std::uint64_t export_gltf(const ExportArguments& arguments, bool is_glb, convert
         buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
         refuse_input(arguments.file, buffer_file);
     }
-    const auto asset = converter::export_gltf(arguments.file, buffer_file.filename(), report);
+    const auto asset = converter::export_gltf(arguments.file, buffer_file.filename(), report, options_of(arguments));
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     if (is_glb) {
@@ -64,7 +80,8 @@ std::uint64_t export_gltf(const ExportArguments& arguments, bool is_glb, convert
 
 /// \return bytes that were written
 std::uint64_t export_x(const ExportArguments& arguments, converter::Report& report) {
-    const auto asset = converter::export_x(arguments.file, arguments.output.stem().string(), report);
+    const auto asset =
+        converter::export_x(arguments.file, arguments.output.stem().string(), report, options_of(arguments));
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     std::uint64_t size = asset->text.size();
@@ -109,12 +126,13 @@ void add_export(CLI::App& program) {
             "glb: one file; gltf: JSON, and the numbers in a .bin file beside it; x: a DirectX X-file in text, images "
             "beside it; by the output's name if not given")
         ->check(CLI::IsMember({"glb", "gltf", "x"}));
+    add_lod(*command, arguments->lod);
     command->add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
     command->footer(
         "glTF: numbers are kept to the bit; constraints and IK chains go into the scene's extras, where `bendy "
         "convert` "
         "finds them.\nX-files: constraints and chains go into templates of our own (spec/xfile.md); what has no place "
-        "is named.\nExample: bendy export fox.bendy -o fox.glb");
+        "is named.\nExample: bendy export fox.bendy -o fox.glb\n         bendy export lod.bendy --lod 0.25 -o far.glb");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "find_cycle.h"
+#include "level_of_detail.h"
 #include "mesh_writer.h"
 #include "problem.h"
 #include "reach_request.h"
@@ -65,12 +66,7 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     if (arguments.constrain) constrain(pose);
     reach_targets(arguments.reach, arguments.file, pose);
     local_to_model(pose);
-    Lod lod(model);
-    lod.set_share(arguments.lod);
-    if (arguments.lod < 1.0f && model.collapse() == nullptr) {
-        warn(arguments.file,
-             "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
-    }
+    const Lod lod = level_of(arguments.file, model, arguments.lod);
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
     }
@@ -128,10 +124,7 @@ void add_pose(CLI::App& program) {
         ->needs(reach);
     command->add_flag("--ignore-limits", arguments->reach.ignore_limits, "reach without the joints' constraints")
         ->needs(reach);
-    command
-        ->add_option("--lod", arguments->lod,
-                     "level of detail: about this share of the triangles, 0 to 1, and only their vertices")
-        ->capture_default_str();
+    add_lod(*command, arguments->lod);
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
     command->footer(
@@ -140,8 +133,6 @@ void add_pose(CLI::App& program) {
     command->callback([arguments, clip] {
         arguments->has_clip = clip->count() != 0;
         if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");
-        if (!(arguments->lod >= 0.0f && arguments->lod <= 1.0f))
-            throw CLI::ValidationError("--lod", "must be a number from 0 to 1");
         run(*arguments);
     });
 }

@@ -1912,6 +1912,32 @@ class Export(Case):
         self.done("convert", "every.glb", "-o", "every.bendy")
         self.assertIn(b"worst met 0 mm", self.done("diff", source, "every.bendy", "--tolerance", "0.001mm"))
 
+    def triangles(self, path, *arguments):
+        """Of each mesh, the places of its triangles' corners in the middle of the walk, sorted."""
+        self.done("pose", path, "--clip", "Walk", "--time", "0.25", *arguments, "-o", "posed.json")
+        meshes = json.loads((self.folder / "posed.json").read_text(encoding="utf-8"))["meshes"]
+        corners = [[mesh["positions"][3 * i:3 * i + 3] for i in mesh["indices"]] for mesh in meshes]
+        return [sorted(list(zip(*[iter(places)] * 3))) for places in corners]
+
+    def test_one_level_of_detail(self):
+        path = self.shared / "levels_to_export.bendy"
+        self.done("convert", "--quiet", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path)
+        with unittest.mock.patch.dict(os.environ, BENDY_KERNEL="plain"):
+            for share in ("0.5", "0.1", "0"):
+                ours = self.triangles(path, "--lod", share)
+                for name in ("level.glb", "level.x"):
+                    result = self.bendy("export", path, "--lod", share, "-o", name)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertNotIn(b"levels of detail", result.stderr)
+                    self.done("convert", "--quiet", "--force", name, "-o", "level.bendy")
+                    theirs = self.triangles("level.bendy")
+                    if name == "level.glb":
+                        self.assertEqual(theirs, ours)
+                    self.assertEqual([len(mesh) for mesh in theirs], [len(mesh) for mesh in ours])
+        result = self.bendy("export", self.convert(), "--lod", "0.5", "-o", "whole.glb")
+        self.assertIn(b"no levels of detail in it", result.stderr)
+        self.assertIn("--lod", self.misused("export", path, "--lod", "nan"))
+
     def test_what_cannot_be_exported(self):
         (self.folder / "bad.bendy").write_bytes(self.convert().read_bytes()[:1000])
         self.failed("export", "bad.bendy", "-o", "bad.glb", file="bad.bendy")

@@ -7,6 +7,7 @@
 #include "gltf_out/material.h"
 #include "gltf_out/mesh.h"
 #include "gltf_out/skeleton.h"
+#include "passes/keep_level.h"
 #include "rig/rig_in_extras.h"
 #include "without_throwing.h"
 
@@ -112,9 +113,11 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     return {root.dump(), std::move(buffer).take()};
 }
 
-GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Report& report) {
-    const Result<Scene, ImportError> scene = import_bendy(bytes, report);
+GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
+                       const ExportOptions& options) {
+    Result<Scene, ImportError> scene = import_bendy(bytes, report);
     if (!scene) throw Failure{scene.error()};
+    if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     // Read again for the rig, which is written from the records.
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail({}, describe_with_place(tree.error(), bytes));
@@ -138,16 +141,18 @@ void append_chunk(std::vector<std::byte>& bytes, std::uint32_t type, Bytes data,
 
 }  // namespace
 
-Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report) {
+Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
+                                           const ExportOptions& options) {
     return without_throwing<GltfAsset>(
-        [&]() -> Result<GltfAsset, ImportError> { return export_bytes(bytes, buffer_file, report); });
+        [&]() -> Result<GltfAsset, ImportError> { return export_bytes(bytes, buffer_file, report, options); });
 }
 
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
-                                           const std::filesystem::path& buffer_file, Report& report) {
+                                           const std::filesystem::path& buffer_file, Report& report,
+                                           const ExportOptions& options) {
     const Result<MappedFile> mapped = MappedFile::open(bendy_file);
     if (!mapped) return ImportError{{}, describe(mapped.error())};
-    return export_gltf(mapped->bytes(), buffer_file, report);
+    return export_gltf(mapped->bytes(), buffer_file, report, options);
 }
 
 Result<std::vector<std::byte>, ImportError> make_glb(const GltfAsset& asset) {

@@ -22,8 +22,7 @@ void permute(std::vector<T>& stream, std::size_t stride, std::span<const std::ui
 }  // namespace
 
 std::vector<std::uint32_t> permute_vertices(Mesh& mesh, std::span<const std::uint32_t> order) {
-    assert(order.size() == mesh.positions.size());
-    std::vector<std::uint32_t> number(order.size());
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
     for (std::uint32_t at = 0; at < order.size(); ++at) number[order[at]] = at;
     permute(mesh.positions, 1, order);
     permute(mesh.normals, 1, order);
@@ -39,7 +38,10 @@ std::vector<std::uint32_t> permute_vertices(Mesh& mesh, std::span<const std::uin
         permute(target.tangents, 1, order);
     }
     for (Part& part : mesh.parts) {
-        for (std::uint32_t& index : part.indices) index = number[index];
+        for (std::uint32_t& index : part.indices) {
+            assert(number[index] != kNone);
+            index = number[index];
+        }
     }
     return number;
 }

@@ -5,6 +5,7 @@
 #include "frames.h"
 #include "material.h"
 #include "names.h"
+#include "passes/keep_level.h"
 #include "rig.h"
 #include "templates.h"
 #include "without_throwing.h"
@@ -41,19 +42,21 @@ XAsset write(const Scene& scene, const std::string& image_stem, Report& report) 
 }  // namespace
 }  // namespace x_out
 
-Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report) {
+Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report,
+                                     const ExportOptions& options) {
     return without_throwing<XAsset>([&]() -> Result<XAsset, ImportError> {
-        const Result<Scene, ImportError> scene = import_bendy(bytes, report);
+        Result<Scene, ImportError> scene = import_bendy(bytes, report);
         if (!scene) return scene.error();
+        if (!options.vertices.empty()) keep_level(*scene, options.vertices);
         return x_out::write(*scene, image_stem, report);
     });
 }
 
 Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, const std::string& image_stem,
-                                     Report& report) {
+                                     Report& report, const ExportOptions& options) {
     const Result<MappedFile> mapped = MappedFile::open(bendy_file);
     if (!mapped) return ImportError{{}, describe(mapped.error())};
-    return export_x(mapped->bytes(), image_stem, report);
+    return export_x(mapped->bytes(), image_stem, report, options);
 }
 
 }  // namespace bendy::converter

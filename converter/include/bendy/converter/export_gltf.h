@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/converter/export_options.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/result.h>
@@ -23,10 +24,12 @@ struct GltfAsset {
 /// What glTF cannot hold is named in `report`. Throws nothing.
 /// \param buffer_file  where the buffer will be, relative to the JSON; empty: in the same GLB file
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
-                                           const std::filesystem::path& buffer_file, Report& report);
+                                           const std::filesystem::path& buffer_file, Report& report,
+                                           const ExportOptions& options = {});
 
 /// The same from memory; `bytes` start on a 16-byte boundary.
-Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report);
+Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
+                                           const ExportOptions& options = {});
 
 /// The asset as one GLB file. Fails where it would pass the container's 4 GiB.
 Result<std::vector<std::byte>, ImportError> make_glb(const GltfAsset& asset);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/converter/export_options.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/result.h>
@@ -26,9 +27,10 @@ struct XAsset {
 /// along Z, as X-files are left-handed. What X-files cannot hold is named in `report`. Throws nothing.
 /// \param image_stem  images that the file embeds are called `image_stem` and a number
 Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, const std::string& image_stem,
-                                     Report& report);
+                                     Report& report, const ExportOptions& options = {});
 
 /// The same from memory; `bytes` start on a 16-byte boundary.
-Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report);
+Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report,
+                                     const ExportOptions& options = {});
 
 }  // namespace bendy::converter

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <bendy/runtime/lod.h>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+// The option --lod of what writes geometry.
+namespace bendy::cli {
+
+/// Adds it; the share is from 0 to 1.
+void add_lod(CLI::App& command, float& share);
+/// That level of the file's model; full detail, and a warning, if the file has no levels.
+Lod level_of(const std::filesystem::path& file, const Model& model, float share);
+
+}  // namespace bendy::cli
