@@ -30,7 +30,7 @@ struct DualSum {
 
     /// The weight, negative where the products' sum is below zero.
     static inline Quad on_side_of(Quad products, Quad weight) {
-        using Bits = decltype(products < products);
+        using Bits = decltype(Quad{} < Quad{});
         products += __builtin_shufflevector(products, products, 2, 3, 0, 1);
         products += __builtin_shufflevector(products, products, 1, 0, 3, 2);
         const Quad minus{-0.0f, -0.0f, -0.0f, -0.0f};

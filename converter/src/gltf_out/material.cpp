@@ -47,8 +47,15 @@ Json write_material(const Material& material, const std::string& place, Report& 
     if (material.base_colour != usual.base_colour) pbr["baseColorFactor"] = list_of(material.base_colour);
     add_number(pbr, "metallicFactor", material.metallic, usual.metallic);
     add_number(pbr, "roughnessFactor", material.roughness, usual.roughness);
-    const auto add_use = [](Json& owner, const char* member, const TextureUse& use) {
-        if (use.texture != kNone) owner[member] = write_use(use);
+    const auto add_use = [&](Json& owner, const char* member, const TextureUse& use) {
+        if (use.texture == kNone) return;
+        constexpr std::uint32_t kMostCoords = 0x7fffffff;  // what readers of glTF take for an integer
+        if (use.coords > kMostCoords) {
+            report.warn("texture left out: glTF has no set " + std::to_string(use.coords) + " of texture coordinates",
+                        place + '.' + member);
+            return;
+        }
+        owner[member] = write_use(use);
     };
     add_use(pbr, "baseColorTexture", material.base_colour_texture);
     add_use(pbr, "metallicRoughnessTexture", material.metallic_roughness_texture);
@@ -56,9 +63,9 @@ Json write_material(const Material& material, const std::string& place, Report& 
     add_use(written, "normalTexture", material.normal_texture);
     add_use(written, "occlusionTexture", material.occlusion_texture);
     add_use(written, "emissiveTexture", material.emissive_texture);
-    if (material.normal_texture.texture != kNone)
+    if (written.contains("normalTexture"))
         add_number(written["normalTexture"], "scale", material.normal_scale, usual.normal_scale);
-    if (material.occlusion_texture.texture != kNone)
+    if (written.contains("occlusionTexture"))
         add_number(written["occlusionTexture"], "strength", material.occlusion_strength, usual.occlusion_strength);
     if (material.emissive != usual.emissive) written["emissiveFactor"] = list_of(material.emissive);
     add_number(written, "alphaCutoff", material.alpha_cutoff, usual.alpha_cutoff);

@@ -358,6 +358,22 @@ TEST(ExportGltf, ASplineThroughNoRotationIsRefusedWithItsPlace) {
     EXPECT_EQ(asset.error().message, "rotation key 1 is (0, 0, 0, 0), which glTF cannot hold");
 }
 
+TEST(ExportGltf, ASetOfCoordinatesPastReadersIntegersTakesItsTextureAlong) {
+    Scene scene = triangle();
+    scene.images.emplace_back().uri = "wood.png";
+    scene.textures.emplace_back().images = {0};
+    Material& material = scene.materials.emplace_back();
+    material.base_colour_texture.texture = material.normal_texture.texture = 0;
+    material.base_colour_texture.coords = 0x7fffffff;
+    material.normal_texture.coords = 0x80000000;
+    material.normal_scale = 0.5f;
+    const Exported exported = export_scene(scene);
+    EXPECT_TRUE(exported.warns("texture left out: glTF has no set 2147483648"));
+    const json& written = exported.document["materials"][0];
+    EXPECT_EQ(written["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 0x7fffffff);
+    EXPECT_FALSE(written.contains("normalTexture"));
+}
+
 TEST(ExportGltf, RandomCharactersComeBack) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const Scene scene = test::random_scene(seed);

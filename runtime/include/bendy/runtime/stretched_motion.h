@@ -10,7 +10,8 @@ namespace BENDY_PUBLIC bendy {
 
 /// What DualSkinning makes of a palette's entry: v -> rigid motion of (stretch * v + shift).
 struct StretchedMotion {
-    glm::dquat real{1.0, 0.0, 0.0, 0.0}, dual{0.0, 0.0, 0.0, 0.0};  ///< the rigid motion as a dual quaternion, real unit
+    glm::dquat real{1.0, 0.0, 0.0, 0.0};  ///< of the rigid motion as a dual quaternion; unit
+    glm::dquat dual{0.0, 0.0, 0.0, 0.0};
     glm::dmat3 stretch{1.0};
     glm::dvec3 shift{0.0};
 };
