@@ -9,8 +9,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::size_t kMaxNesting = 128;  // of arrays and objects: what copies or prints JSON recurses
-
 bool is_hex(char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
@@ -26,7 +24,7 @@ bool is_surrogate(std::string_view text, std::size_t i, char low, char high) {
 
 /// One pass over the text, before it is parsed: bounds the nesting, and finds escapes that are half a surrogate pair.
 /// JSON allows those, UTF-8 cannot hold them; in the copy they stand as U+FFFD. Returns how many there were.
-std::size_t scan_text(std::string_view text, std::string& repaired) {
+std::size_t scan_text(std::string_view text, std::size_t most_levels, std::string& repaired) {
     std::size_t depth = 0;
     std::size_t unpaired = 0;
     bool in_string = false;
@@ -47,8 +45,8 @@ std::size_t scan_text(std::string_view text, std::string& repaired) {
         } else if (c == '"') {
             in_string = true;
         } else if (c == '{' || c == '[') {
-            if (++depth > kMaxNesting) {
-                fail({}, "the JSON is nested deeper than " + std::to_string(kMaxNesting) + " levels (byte " +
+            if (++depth > most_levels) {
+                fail({}, "the JSON is nested deeper than " + std::to_string(most_levels) + " levels (byte " +
                              std::to_string(i) + ")");
             }
         } else if ((c == '}' || c == ']') && depth > 0) {
@@ -84,12 +82,12 @@ std::size_t scan_text(std::string_view text, std::string& repaired) {
 }  // namespace
 
 template <class Value>
-Value parse_json_text(std::string_view text, Report& report) {
+Value parse_json_text(std::string_view text, Report& report, std::size_t most_levels) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) fail({}, "invalid JSON: there is no text");
     std::string repaired;
-    if (const std::size_t unpaired = scan_text(text, repaired); unpaired > 0) {
+    if (const std::size_t unpaired = scan_text(text, most_levels, repaired); unpaired > 0) {
         report.warn("half a surrogate pair in a string was replaced by U+FFFD", {}, unpaired);
         text = repaired;
     }
@@ -104,7 +102,7 @@ Value parse_json_text(std::string_view text, Report& report) {
     }
 }
 
-template Json parse_json_text<Json>(std::string_view text, Report& report);
-template OrderedJson parse_json_text<OrderedJson>(std::string_view text, Report& report);
+template Json parse_json_text<Json>(std::string_view text, Report& report, std::size_t most_levels);
+template OrderedJson parse_json_text<OrderedJson>(std::string_view text, Report& report, std::size_t most_levels);
 
 }  // namespace bendy::converter

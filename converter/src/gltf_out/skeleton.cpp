@@ -70,8 +70,9 @@ void add_rest(Json& node, const Transform& rest) {
 
 void add_json(Json& object, const char* member, const std::string& text, const std::string& place, Report& report) {
     if (text.empty()) return;
+    constexpr std::size_t kLevelsAround = 8;  // of the document, which may not be deeper than other JSON
     try {
-        object[member] = parse_json_text<Json>(text, report);
+        object[member] = parse_json_text<Json>(text, report, kMostJsonLevels - kLevelsAround);
     } catch (const Failure& failure) {
         report.warn(std::string(member) + " left out, they are no JSON: " + failure.error.message, place);
     }

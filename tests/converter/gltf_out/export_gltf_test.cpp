@@ -335,6 +335,17 @@ TEST(ExportGltf, WhatIsNoJsonIsNamed) {
     EXPECT_FALSE(exported.document["nodes"][0].contains("extras"));
 }
 
+TEST(ExportGltf, ExtrasTooDeepForTheDocumentAreNamed) {
+    Scene scene = triangle();
+    const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+    scene.joints[0].extras = nested(120);
+    EXPECT_EQ(import_again(export_scene(scene).asset).joints[0].extras, nested(120));
+    scene.joints[0].extras = nested(121);
+    const Exported exported = export_scene(scene);
+    EXPECT_TRUE(exported.warns("nested deeper than 120 levels"));
+    EXPECT_EQ(import_again(exported.asset).joints[0].extras, "");
+}
+
 TEST(ExportGltf, ABrokenFileIsRefused) {
     Buffer file = bendy::test::sample_file();
     file[40] = static_cast<std::byte>(std::to_integer<int>(file[40]) ^ 1);
