@@ -6,6 +6,7 @@
 #include "sums_codec.h"
 #include "zstd_frame.h"
 
+#include <array>
 #include <new>
 
 namespace bendy {
@@ -24,20 +25,19 @@ constexpr bool kHasMeshoptimizer = false;
 #else
 constexpr bool kHasMeshoptimizer = true;
 #endif
+constexpr bool kHasBoth = kHasMeshoptimizer && kHasZstd;
 
-/// Whether this program holds what the codec needs.
-bool is_built_in(Codec codec) {
-    switch (codec) {
-        case Codec::vertices:
-        case Codec::indices:
-            return kHasMeshoptimizer;
-        case Codec::vertices_zstd:
-        case Codec::indices_zstd:
-            return kHasMeshoptimizer && kHasZstd;
-        default:
-            return kHasZstd;
-    }
-}
+/// By codec: whether an encoding uses it, and this program holds what it needs.
+constexpr std::array<bool, kCodecs> kBuiltIn{
+    false,              // raw
+    kHasZstd,           // zstd
+    kHasMeshoptimizer,  // vertices
+    kHasBoth,           // vertices_zstd
+    kHasMeshoptimizer,  // indices
+    kHasBoth,           // indices_zstd
+    kHasZstd,           // cycle
+    kHasZstd,           // sums
+};
 
 bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
     if (header.head != 0) return false;
@@ -58,8 +58,7 @@ void AlignedBytes::Delete::operator()(std::byte* bytes) const {
 }
 
 std::optional<Error> check_encoded(unsigned codec, Bytes encoded, CodecHeader& header) {
-    if (codec == 0 || codec >= kCodecs || !is_built_in(static_cast<Codec>(codec)))
-        return Error{ErrorCode::kUnsupportedCodec, 0, codec};
+    if (codec >= kCodecs || !kBuiltIn[codec]) return Error{ErrorCode::kUnsupportedCodec, 0, codec};
     if (encoded.size() < sizeof(CodecHeader)) {
         return Error{ErrorCode::kRecordTooShort, 0, encoded.size(), sizeof(CodecHeader)};
     }
