@@ -134,7 +134,7 @@ void DualSkinning::find_motions(std::uint32_t pool, Pose& pose) {
         is_stretched_ = is_stretched_ || largest(motions_[entry].stretch - glm::dmat3(1.0)) > kStretched;
     }
     are_motions_good_ = true;
-    has_kernel_ = dual_kernel(kernel()) != nullptr && round_motions(palette.size());
+    has_kernel_ = skin_kernels(kernel()).dual != nullptr && round_motions(palette.size());
 }
 
 bool DualSkinning::round_motions(std::size_t count) {
@@ -173,7 +173,7 @@ void DualSkinning::skin_found(std::uint32_t pool, std::uint32_t vertices, Pose& 
     if (has_kernel_ && is_stretched_) wanted.palette = kernel_stretches_.data();
     Staging staging(source, nullptr, pose.target_weights().subspan(model_->first_target(pool), source.targets.size()),
                     wanted);
-    DualKernel* const run = has_kernel_ ? dual_kernel(kernel()) : nullptr;
+    DualKernel* const run = has_kernel_ ? skin_kernels(kernel()).dual : nullptr;
     DualBlock block{wanted, kernel_motions_.data(), static_cast<float>(scale_)};
     for (std::size_t first = 0; first < vertices; first += block.vertices.vertices) {
         block.vertices.vertices = std::min(vertices - first, staging.capacity());

@@ -90,7 +90,7 @@ void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted
 }
 
 void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted) {
-    SkinKernel* const chosen = skin_kernel(kernel());
+    SkinKernel* const chosen = skin_kernels(kernel()).linear;
     const std::size_t vertices = wanted.vertices;
     for (std::size_t first = 0; first < vertices;) {
         const std::uint32_t joint = model_.rigid_mover(pool, static_cast<std::uint32_t>(first));
@@ -130,7 +130,7 @@ bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std:
     const Kernel chosen = pose_.make_palette(pool_number) ? kernel() : Kernel::plain;
     const bool has_use_for_plan = chosen == Kernel::avx2 || chosen == Kernel::avx512;
     Staging staging(pool, has_use_for_plan ? &model_.plan(pool_number) : nullptr, weights, wanted);
-    run(skin_kernel(chosen), staging, wanted, 0, vertices);
+    run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
     return true;
 }
 

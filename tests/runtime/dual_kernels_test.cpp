@@ -1,37 +1,22 @@
 #include <bendy/runtime/kernels.h>
 
 #include "runtime/dual_comparison.h"
-#include "skin_kernel.h"
+#include "runtime/tried_kernels.h"
 
 #include <gtest/gtest.h>
 
-#include <string>
 #include <vector>
 
 namespace bendy {
-
-DualKernel dual_sixteen;  // skin_sixteen.cpp
-
 namespace {
 
 using test::RandomBlock;
+using test::Tried;
 
-/// A kernel that is tested.
-struct Tried {
-    std::string name;
-    DualKernel* run;
-};
-
-/// All that this machine has, and the sixteen lanes of AVX-512 in halves if it has none.
+/// All but the plain one, which they are held against.
 std::vector<Tried> tried() {
-    std::vector<Tried> all;
-    for (const Kernel kernel : kernels()) {
-        if (kernel != Kernel::plain) all.push_back({std::string(kernel_name(kernel)), dual_kernel(kernel)});
-    }
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0)
-        all.push_back({"sixteen lanes in halves", dual_sixteen});
-#endif
+    std::vector<Tried> all = test::tried_kernels();
+    std::erase_if(all, [](const Tried& kernel) { return kernel.run.linear == skin_plain; });
     return all;
 }
 
@@ -39,7 +24,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
              std::size_t tangents) {
     for (const bool is_stretched : {false, true}) {
         const test::DualErrors errors =
-            test::dual_errors_of(random, is_stretched, kernel.run, positions, normals, tangents);
+            test::dual_errors_of(random, is_stretched, kernel.run.dual, positions, normals, tangents);
         EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
                                         << random.block.influences << (is_stretched ? ", stretched" : "")
                                         << ": positions " << errors.positions << " units in the last place, directions "
@@ -50,7 +35,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
 
 TEST(DualKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
     for (const Tried& kernel : tried()) {
-        ASSERT_NE(kernel.run, nullptr) << kernel.name;
+        ASSERT_NE(kernel.run.dual, nullptr) << kernel.name;
         for (const std::size_t vertices : {0u, 1u, 3u, 4u, 5u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 64u, 65u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));

@@ -3,7 +3,7 @@
 
 #include "runtime/build_model.h"
 #include "runtime/skin_comparison.h"
-#include "skin_kernel.h"
+#include "runtime/tried_kernels.h"
 #include "skin_plan.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -20,36 +20,18 @@
 #include <vector>
 
 namespace bendy {
-
-SkinKernel skin_sixteen;  // skin_sixteen.cpp
-
 namespace {
 
 using test::Buffer;
 using test::kUntouched;
 using test::Output;
 using test::RandomBlock;
-
-/// A kernel that is tested.
-struct Tried {
-    std::string name;
-    SkinKernel* run;
-};
-
-/// All that this machine has, and the sixteen lanes of AVX-512 in halves if it has none.
-std::vector<Tried> tried() {
-    std::vector<Tried> all;
-    for (const Kernel kernel : kernels()) all.push_back({std::string(kernel_name(kernel)), skin_kernel(kernel)});
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0)
-        all.push_back({"sixteen lanes in halves", skin_sixteen});
-#endif
-    return all;
-}
+using test::Tried;
+using test::tried_kernels;
 
 void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, std::size_t normals,
              std::size_t tangents) {
-    const test::SkinErrors errors = test::errors_of(random, kernel.run, positions, normals, tangents);
+    const test::SkinErrors errors = test::errors_of(random, kernel.run.linear, positions, normals, tangents);
     EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
                                     << random.block.influences << ": positions " << errors.positions
                                     << " units in the last place, directions " << errors.directions
@@ -57,7 +39,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
 }
 
 TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         for (const std::size_t vertices : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 15u, 16u, 17u, 31u, 64u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
@@ -68,7 +50,7 @@ TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
 }
 
 TEST(SkinKernels, WideBonesAndOneMatrix) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         for (const std::size_t influences : {1u, 3u, 4u, 8u, 9u}) {
             RandomBlock random(45, influences, 7);
             random.block.bones8 = nullptr;
@@ -82,7 +64,7 @@ TEST(SkinKernels, WideBonesAndOneMatrix) {
 }
 
 TEST(SkinKernels, AnyStrideAndAnySubset) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         for (const std::size_t positions : {0u, 3u, 4u, 5u, 12u}) {
             for (const std::size_t normals : {0u, 3u, 4u, 11u}) {
                 for (const std::size_t tangents : {0u, 4u, 5u, 9u}) {
@@ -115,7 +97,7 @@ Pool as_pool(const RandomBlock& random) {
 }
 
 TEST(SkinKernels, SharedBonesGiveTheSame) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         for (const std::size_t vertices : {1u, 5u, 8u, 9u, 40u, 133u}) {
             for (const std::size_t influences : {1u, 2u, 4u, 8u}) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices + influences));
@@ -163,26 +145,26 @@ TEST(SkinPlan, ListsWhatAGroupFollows) {
 }
 
 TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         RandomBlock random(77, 4, 3);
         std::vector<glm::vec4> near(77), past(77);  // aligned
         for (auto* out : {&near, &past}) {
             SkinBlock block = random.block;
             block.streams = out == &past;
             block.out_positions = {&out->front().x, 3};
-            kernel.run(block);
+            kernel.run.linear(block);
         }
         EXPECT_EQ(near, past);
     }
 }
 
 TEST(SkinKernels, DirectionsWithoutLengthStayZero) {
-    for (const Tried& kernel : tried()) {
+    for (const Tried& kernel : tried_kernels()) {
         RandomBlock random(24, 4, 5);
         for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
         for (std::size_t k = 0; k < 4 * 24; ++k) random.tangents.data()[k] = 0.0f;
         Output out(random.block, 0, 3, 4);
-        kernel.run(random.block);
+        kernel.run.linear(random.block);
         for (std::size_t k = 0; k < 3 * 24; ++k) EXPECT_EQ(out.normals.data()[k], 0.0f);
         for (std::size_t k = 0; k < 4 * 24; ++k) EXPECT_EQ(out.tangents.data()[k], 0.0f);
     }

@@ -74,7 +74,7 @@ void add_json(Json& object, const char* member, const std::string& text, const s
     try {
         object[member] = parse_json_text<Json>(text, report, kMostJsonLevels - kLevelsAround);
     } catch (const Failure& failure) {
-        report.warn(std::string(member) + " left out, they are no JSON: " + failure.error.message, place);
+        report.warn(std::string(member) + " left out: " + failure.error.message, place);
     }
 }
 
