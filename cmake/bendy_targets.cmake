@@ -56,8 +56,8 @@ function(bendy_private_options target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # False alarms inside std::string's own operator+: GCC bug 105651, mended in 13.
-    target_compile_options(${target} PRIVATE -Wno-restrict)
+    # False alarms inside std::string's own operator+ and replace(): GCC bug 105651, fixed in 13.
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow)
   endif()
   # The same bytes from every compiler: no fused multiply-add that the source does not ask for.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
@@ -67,5 +67,12 @@ function(bendy_private_options target)
   if(BENDY_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <span>
       <string> <vector>)
+  endif()
+endfunction()
+
+# bendy_precompile(TARGET HEADER...): further headers of other libraries that most of the target's files include.
+function(bendy_precompile target)
+  if(BENDY_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
