@@ -1,13 +1,12 @@
 #include "batch_plan.h"
 
+#include "output.h"
 #include "problem.h"
 
 #include <bendy/converter/readable_files.h>
 
 #include <algorithm>
-#include <iostream>
 #include <map>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -36,15 +35,19 @@ public:
         }
     }
 
-    BatchPlan finish() {
+    BatchPlan finish(const fs::path& record) {
+        if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
+            plan_.clashes.push_back({{}, record, problem});
         for (const auto& [place, input] : inputs_) {
             const fs::path output = folder_ / place;
-            if (sources_.contains(plain(output))) clash(output, "is an input as well as an output");
+            if (const std::string problem = outputs_.claim(output, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({input, output, problem});
             plan_.files.push_back({input, place, output});
         }
-        if (clashes_ != 0) throw Failed{};
         return std::move(plan_);
     }
+
+    void reads(const fs::path& file) { outputs_.reads(file); }
 
 private:
     void add_folder(const fs::path& folder) {
@@ -57,7 +60,7 @@ private:
                 add_file(entry->path(), entry->path().lexically_relative(folder));
         }
         if (error) {
-            plan_.unread.push_back(folder.string() + ": cannot be read to its end: " + error.message());
+            plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
         } else if (inputs_.size() == before) {
             warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
         }
@@ -67,30 +70,27 @@ private:
         place.replace_extension(".bendy");
         const auto [earlier, is_new] = inputs_.try_emplace(place, input);
         if (!is_new && plain(earlier->second) != plain(input)) {
-            clash(folder_ / place, "both " + printable(earlier->second.string()) + " and " + printable(input.string()) +
-                                       " would be written there");
+            plan_.clashes.push_back({input, folder_ / place,
+                                     "both " + printable(earlier->second.string()) + " and " +
+                                         printable(input.string()) + " would be written there"});
         }
-        sources_.insert(plain(input));
-    }
-
-    void clash(const fs::path& output, const std::string& what) {
-        std::cerr << "bendy: error: " << printable(output.string()) << ": " << what << '\n';
-        ++clashes_;
+        outputs_.reads(input);
     }
 
     fs::path folder_;
     std::map<fs::path, fs::path> inputs_;  // by the output's place
-    std::set<fs::path> sources_;           // all inputs, plain
-    std::size_t clashes_ = 0;
+    Outputs outputs_;
     BatchPlan plan_;
 };
 
 }  // namespace
 
-BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder) {
+BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& record,
+                     const fs::path& rig) {
     Planner planner(folder);
     for (const fs::path& input : inputs) planner.add(input);
-    return planner.finish();
+    if (!rig.empty()) planner.reads(rig);
+    return planner.finish(record);
 }
 
 }  // namespace bendy::cli

@@ -16,4 +16,8 @@ bool is_terminal() {
     return ::isatty(STDERR_FILENO) == 1;
 }
 
+bool output_is_terminal() {
+    return ::isatty(STDOUT_FILENO) == 1;
+}
+
 }  // namespace bendy::cli

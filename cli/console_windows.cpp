@@ -42,6 +42,7 @@ std::vector<std::string> command_line(int argc, const char* const* argv) {
 }
 
 void prepare_console() {
+    ::_setmode(::_fileno(stdin), _O_BINARY);
     ::_setmode(::_fileno(stdout), _O_BINARY);
     ::SetConsoleOutputCP(CP_UTF8);
 }
@@ -51,6 +52,11 @@ bool is_terminal() {
     DWORD mode = 0;
     return ::GetConsoleMode(error, &mode) != 0 &&
            ::SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+bool output_is_terminal() {
+    DWORD mode = 0;
+    return ::GetConsoleMode(::GetStdHandle(STD_OUTPUT_HANDLE), &mode) != 0;
 }
 
 }  // namespace bendy::cli

@@ -1,16 +1,19 @@
 #include "commands.h"
 #include "convert_arguments.h"
 #include "convert_batch.h"
+#include "convert_input.h"
+#include "convert_report.h"
 #include "depfile.h"
 #include "import_problem.h"
+#include "input_bytes.h"
+#include "output.h"
+#include "output_suffix.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/converter/readable_files.h>
-#include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
 #include <algorithm>
@@ -18,7 +21,6 @@
 #include <iostream>
 #include <memory>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -58,14 +60,14 @@ std::string list_chains(const Model& model) {
 }
 
 /// Bytes by kind before and after, and the worst error.
-void print_compact(const converter::CompactReport& report) {
+void print_compact(const converter::CompactReport& report, std::ostream& out) {
     std::uint64_t before = 0;
     std::uint64_t after = 0;
-    const auto print_line = [](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
-        std::cout << "  " << std::left << std::setw(10) << kind << std::right << std::setw(14) << grouped(exact)
-                  << std::setw(14) << grouped(compact) << '\n';
+    const auto print_line = [&out](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
+        out << "  " << std::left << std::setw(10) << kind << std::right << std::setw(14) << grouped(exact)
+            << std::setw(14) << grouped(compact) << '\n';
     };
-    std::cout << "  bytes              exact       compact\n";
+    out << "  bytes              exact       compact\n";
     for (std::size_t k = 0; k < report.compact.size(); ++k) {
         before += report.exact[k].bytes;
         after += report.compact[k].bytes;
@@ -74,10 +76,10 @@ void print_compact(const converter::CompactReport& report) {
     }
     print_line("total", before, after);
     constexpr double kMillimetres = 1e3;
-    std::cout << std::setprecision(3) << "  error      at most " << report.max_error * kMillimetres << " mm; worst met "
-              << report.measured_error * kMillimetres << " mm";
-    if (!report.place.empty()) std::cout << ": " << printable(report.place);
-    std::cout << '\n';
+    out << std::setprecision(3) << "  error      at most " << report.max_error * kMillimetres << " mm; worst met "
+        << report.measured_error * kMillimetres << " mm";
+    if (!report.place.empty()) out << ": " << printable(report.place);
+    out << '\n';
 }
 
 auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptions options, converter::Report& report) {
@@ -89,10 +91,11 @@ auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptio
             if (percent > shown) bar.show(shown = percent, 100);
         };
     }
-    return converter::convert(arguments.inputs.front(), options, report);
+    return convert_input(arguments.inputs.front(), options, report);
 }
 
 void print_summary(const ConvertArguments& arguments, Bytes bytes) {
+    std::ostream& out = summary_stream(arguments.output);
     const Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(arguments.output, model.error(), bytes);
     std::uint64_t triangles = 0;
@@ -109,58 +112,101 @@ void print_summary(const ConvertArguments& arguments, Bytes bytes) {
         for (const ImageView& image : texture.images) images += image.bytes.size();
     }
 
-    std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
-    if (images != 0) std::cout << ", " << grouped(images) << " of them images";
-    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
+    out << printable(output_name(arguments.output)) << ": " << grouped(bytes.size()) << " bytes";
+    if (images != 0) out << ", " << grouped(images) << " of them images";
+    out << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
     if (!model->constraints().empty() || !model->chains().empty())
-        std::cout << "\n  rig        " << counted(model->constraints().size(), "constraint", "constraints");
+        out << "\n  rig        " << counted(model->constraints().size(), "constraint", "constraints");
     if (!model->chains().empty())
-        std::cout << ", " << counted(model->chains().size(), "chain", "chains") << list_chains(*model);
-    std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
-              << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
-    if (most_influences != 0)
-        std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
+        out << ", " << counted(model->chains().size(), "chain", "chains") << list_chains(*model);
+    out << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
+        << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
+    if (most_influences != 0) out << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
     if (model->collapse() != nullptr) {
         Lod lod(*model);
         lod.set_share(0.0f);
-        std::cout << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
-                  << grouped(lod.triangles());
+        out << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
+            << grouped(lod.triangles());
     }
     if (model->target_count() != 0) {
-        std::cout << "\n  targets    " << grouped(model->target_count());
+        out << "\n  targets    " << grouped(model->target_count());
         const char* separator = ": ";
         for (const std::string_view name : targets) {
             if (name.empty()) continue;
-            std::cout << separator << printable(name);
+            out << separator << printable(name);
             separator = ", ";
         }
     }
-    std::cout << "\n  cycles     " << grouped(model->cycles().size()) << list_cycles(*model);
-    std::cout << "\n  surface    " << counted(model->materials().size(), "material", "materials") << ", "
-              << counted(model->textures().size(), "texture", "textures") << '\n';
+    out << "\n  cycles     " << grouped(model->cycles().size()) << list_cycles(*model);
+    out << "\n  surface    " << counted(model->materials().size(), "material", "materials") << ", "
+        << counted(model->textures().size(), "texture", "textures") << '\n';
 }
 
-void write_depfile(const ConvertArguments& arguments, const converter::Report& report) {
+void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {
     const std::string text = depfile_text(arguments.output, report.sources());
-    if (text.empty()) fail(arguments.depfile, "cannot hold a file name with a line break");
-    if (const auto written = write_file(arguments.depfile, std::as_bytes(std::span(text))); !written)
-        fail(arguments.depfile, bendy::describe(written.error()));
+    if (text.empty()) fail(output_name(arguments.depfile), "cannot hold a file name with a line break");
+    outputs.write(arguments.depfile, text);
 }
 
-void convert_file(const ConvertArguments& arguments) {
+/// \returns the bytes that it has written
+std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, NamedBy named, converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    Outputs outputs(arguments.force);
+    outputs.reads(input);
+    if (!arguments.rig.empty()) outputs.reads(arguments.rig);
+    outputs.writes(arguments.output, named, Content::binary);
+    check_suffix({"convert", "--output", {".bendy"}}, input, arguments.output);
+    if (!arguments.depfile.empty()) outputs.writes(arguments.depfile, NamedBy::user, Content::text);
+    auto bytes = convert_with_bar(arguments, options_of(arguments), report);
+    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
+    for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
+    outputs.write(arguments.output, *bytes);
+    if (!arguments.depfile.empty()) write_depfile(arguments, report, outputs);
+    return *std::move(bytes);
+}
+
+void convert_file(const ConvertArguments& arguments, NamedBy named) {
     const std::filesystem::path& input = arguments.inputs.front();
     converter::Report report;
-    const auto bytes = convert_with_bar(arguments, options_of(arguments), report);
-    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
-    if (const auto written = write_file(arguments.output, *bytes); !written)
-        fail(arguments.output, bendy::describe(written.error()));
-    if (!arguments.depfile.empty()) write_depfile(arguments, report);
+    if (arguments.json) {
+        try {
+            const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
+            print_report(converted_report(input, arguments.output, report, bytes));
+        } catch (const Failed& failed) {
+            print_report(failed_report(input, arguments.output, report, failed.file, failed.what));
+            throw;
+        }
+        return;
+    }
+    const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
     print_warnings(input, report);
     print_proposals(report);
-    if (!arguments.quiet) print_summary(arguments, *bytes);
-    if (!arguments.quiet && report.compact) print_compact(*report.compact);
+    if (!arguments.quiet) print_summary(arguments, bytes);
+    if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
+}
+
+/// What one run can do with standard input and output, and with names.
+void check_names(const ConvertArguments& arguments, bool is_batch) {
+    const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);
+    if (is_batch && (has_dash || is_dash(arguments.rig)))
+        throw CLI::ValidationError("-", "standard input goes alone, and not into a folder");
+    if (is_batch && is_dash(arguments.output))
+        throw CLI::ValidationError("--output", "several files cannot go to standard output: give a folder");
+    const bool takes_output = is_dash(arguments.output) || is_dash(arguments.depfile);
+    if (arguments.json && takes_output)
+        throw CLI::ValidationError("--json", "goes to standard output, and so does a file: give that a name");
+    if (!arguments.depfile.empty() && is_dash(arguments.output))
+        throw CLI::ValidationError("--depfile", "goes with an output that has a name");
+    if (const auto format = format_named_by(arguments.depfile); !format.empty())
+        throw CLI::ValidationError("--depfile", printable(arguments.depfile.string()) + " would be " +
+                                                    std::string(format) + ", not a rule for Make");
+    std::error_code ignored;
+    if (const auto format = format_named_by(arguments.output);
+        is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {
+        const std::string name = printable(arguments.output.string());
+        throw CLI::ValidationError("--output", "several files go to a folder, and " + name + " would be " +
+                                                   std::string(format) + "; " + name + "/ is a folder");
+    }
 }
 
 void run(ConvertArguments arguments) {
@@ -169,17 +215,19 @@ void run(ConvertArguments arguments) {
     const bool has_folder =
         std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
                     [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
+    const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     if (arguments.output.empty()) {
         if (arguments.inputs.size() > 1) {
             throw CLI::ValidationError(arguments.inputs[1].string(),
                                        "several inputs need a folder to go to, -o OUTDIR");
         }
         if (has_folder) fail(input, "is a folder: its files need one to go to, -o OUTDIR");
-        arguments.output = std::filesystem::path(input).replace_extension(".bendy");
+        arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
     }
     const bool is_batch = has_folder || arguments.inputs.size() > 1 || !arguments.output.has_filename() ||
                           std::filesystem::is_directory(arguments.output, ignored);
-    if (!is_batch) return convert_file(arguments);
+    check_names(arguments, is_batch);
+    if (!is_batch) return convert_file(arguments, named);
     if (!arguments.depfile.empty())
         throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
     convert_batch(arguments);
@@ -206,7 +254,10 @@ void add_convert(CLI::App& program) {
                      "of several inputs, how many at a time; one for each processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
-                      "of several inputs, all; else only what has changed since it was converted into this folder");
+                      "replace outputs that bendy did not write, unless -o names the one file; and of several inputs, "
+                      "convert all, not only what has changed since it was converted into this folder");
+    command->add_flag("--json", arguments->json,
+                      "print a JSON object for each input, on a line of its own, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
                         "of one input: write which files were read, as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,

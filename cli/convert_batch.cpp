@@ -2,11 +2,14 @@
 
 #include "batch_plan.h"
 #include "batch_record.h"
+#include "convert_report.h"
+#include "file_identity.h"
 #include "import_problem.h"
 #include "interrupt.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"
+#include "written_by_bendy.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -40,6 +43,12 @@ struct Totals {
     std::uint64_t bytes_out = 0;  ///< of the same
 };
 
+void print_problem(const ConvertArguments& arguments, const BatchProblem& problem) {
+    const std::filesystem::path& file = problem.output.empty() ? problem.input : problem.output;
+    std::cerr << "bendy: error: " << printable(file.string()) << ": " << problem.what << '\n';
+    if (arguments.json) print_report(failed_report(problem.input, problem.output, {}, file, problem.what));
+}
+
 struct Failure {
     std::filesystem::path file;
     std::string what;
@@ -57,10 +66,8 @@ public:
 
     void run() {
         const Interrupt interrupt;
-        for (const std::string& what : plan_.unread) {
-            std::cerr << "bendy: error: " << printable(what) << '\n';
-            ++totals_.failed;
-        }
+        for (const BatchProblem& problem : plan_.unread) print_problem(arguments_, problem);
+        totals_.failed += plan_.unread.size();
         skip_what_is_up_to_date();
         show_bar();
         const std::size_t wanted = arguments_.jobs != 0 ? arguments_.jobs : std::thread::hardware_concurrency();
@@ -69,7 +76,7 @@ public:
         for (std::thread& worker : workers_) worker.join();
         write_record();
         bar_.clear();
-        if (!arguments_.quiet) print_table();
+        if (!arguments_.quiet && !arguments_.json) print_table();
         if (totals_.failed != 0) throw Failed{};
     }
 
@@ -78,6 +85,7 @@ private:
         for (const BatchFile& file : plan_.files) {
             if (!arguments_.force && record_.is_up_to_date(file, recipe_)) {
                 ++totals_.up_to_date;
+                if (arguments_.json) print_report(up_to_date_report(file.input, file.output));
             } else {
                 to_do_.push_back(&file);
             }
@@ -96,32 +104,52 @@ private:
         for (std::size_t next = next_++; next < to_do_.size() && !Interrupt::has_come(); next = next_++) {
             const BatchFile& file = *to_do_[next];
             converter::Report report;
-            std::uint64_t size = 0;
+            std::vector<std::byte> bytes;
             std::optional<Failure> failure;
+            nlohmann::ordered_json told;
             try {
-                failure = convert(file, report, size);
+                failure = convert(file, report, bytes);
+                if (arguments_.json && !failure) told = converted_report(file.input, file.output, report, bytes);
             } catch (const std::exception& problem) {
                 failure = Failure{file.input, problem.what()};
             }
             const std::lock_guard lock(state_);
             ++done_;
-            account(file, report, size, failure);
+            account(file, report, bytes.size(), failure);
+            if (arguments_.json) {
+                print_report(failure ? failed_report(file.input, file.output, report, failure->file, failure->what)
+                                     : told);
+                std::cout.flush();
+            }
             finished_.notify_one();
         }
     }
 
-    /// Converts one file and writes it; `size` becomes that of the output.
-    std::optional<Failure> convert(const BatchFile& file, converter::Report& report, std::uint64_t& size) {
-        const auto bytes = converter::convert(file.input, options_of(arguments_), report);
+    /// An output that is there, and neither this program nor a batch into this folder has written.
+    [[nodiscard]] bool is_foreign(const BatchFile& file) {
+        std::error_code ignored;
+        if (arguments_.force || !std::filesystem::exists(file.output, ignored)) return false;
+        if (was_written_by_bendy(file.output)) return false;
+        const std::lock_guard lock(state_);
+        return !record_.knows(file);
+    }
+
+    /// Converts one file and writes it. \param output  becomes its bytes
+    std::optional<Failure> convert(const BatchFile& file, converter::Report& report, std::vector<std::byte>& output) {
+        if (is_foreign(file)) return Failure{file.output, "is there, and bendy did not write it: --force replaces it"};
+        auto bytes = converter::convert(file.input, options_of(arguments_), report);
         if (!bytes) return Failure{file_of(bytes.error(), file.input), describe(bytes.error())};
-        size = bytes->size();
+        output = *std::move(bytes);
         const std::shared_lock writing(writing_);
         std::error_code problem;
         std::filesystem::create_directories(file.output.parent_path(), problem);
         if (problem) return Failure{file.output.parent_path(), "cannot be made: " + problem.message()};
-        if (std::filesystem::equivalent(file.input, file.output, problem))
-            return Failure{file.output, "is the input itself"};
-        const auto written = write_file(file.output, *bytes);
+        const auto identity = identity_of(file.output);
+        for (const converter::SourceFile& source : report.sources()) {
+            if (identity && identity_of(source.file) == identity)
+                return Failure{file.output, "is an input as well as an output"};
+        }
+        const auto written = write_file(file.output, output);
         if (!written) return Failure{file.output, bendy::describe(written.error())};
         return std::nullopt;
     }
@@ -130,9 +158,10 @@ private:
     void account(const BatchFile& file, const converter::Report& report, std::uint64_t size,
                  const std::optional<Failure>& failure) {
         bar_.clear();
-        print_warnings(file.input, report);
-        for (const std::string& line : report.proposals())
-            std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
+        if (!arguments_.json) print_warnings(file.input, report);
+        for (std::size_t i = 0; i < report.proposals().size() && !arguments_.json; ++i)
+            std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": "
+                      << printable(report.proposals()[i]) << '\n';
         if (failure) {
             ++totals_.failed;
             std::cerr << "bendy: error: " << printable(failure->file.string()) << ": " << failure->what;
@@ -143,7 +172,7 @@ private:
             for (const converter::SourceFile& source : report.sources()) totals_.bytes_in += source.stamp.size;
             totals_.bytes_out += size;
             record_.note(file, recipe_, report.sources());
-            if (!arguments_.quiet && !bar_.is_terminal()) {
+            if (!arguments_.quiet && !arguments_.json && !bar_.is_terminal()) {
                 std::cout << printable(file.input.string()) << " -> " << printable(file.output.string()) << ": "
                           << grouped(size) << " bytes" << std::endl;
             }
@@ -228,7 +257,10 @@ private:
 }  // namespace
 
 void convert_batch(const ConvertArguments& arguments) {
-    BatchPlan plan = plan_batch(arguments.inputs, arguments.output);
+    BatchPlan plan =
+        plan_batch(arguments.inputs, arguments.output, BatchRecord::file_in(arguments.output), arguments.rig);
+    for (const BatchProblem& clash : plan.clashes) print_problem(arguments, clash);
+    if (!plan.clashes.empty()) throw Failed{};
     std::error_code problem;
     std::filesystem::create_directories(arguments.output, problem);
     if (problem) fail(arguments.output, "cannot be made: " + problem.message());

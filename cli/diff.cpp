@@ -2,10 +2,10 @@
 #include "commands.h"
 #include "compare_files.h"
 #include "diff_characters.h"
+#include "input_bytes.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 
 #include <array>
@@ -169,7 +169,7 @@ Json to_json(const Arguments& arguments, const ReadFile& a, const ReadFile& b, c
 }
 
 /// A damaged file is refused before anything is compared: its sums would say nothing.
-std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFile& file) {
+std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
     const Faults faults = validate(file.bytes());
     if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
     return read_file(file.bytes());
@@ -177,12 +177,10 @@ std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFi
 
 bool are_same(const Arguments& arguments) {
     if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
-    std::array<MappedFile, 2> files;
+    std::array<InputBytes, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
-        Result<MappedFile> mapped = MappedFile::open(arguments.files[i]);
-        if (!mapped) fail(arguments.files[i], mapped.error(), {});
-        files[i] = *std::move(mapped);
+        files[i] = InputBytes::read(arguments.files[i]);
         read[i] = open(arguments.files[i], files[i]);
     }
     const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);
@@ -205,7 +203,7 @@ void run(const Arguments& arguments) {
     } catch (const Failed&) {
         throw Failed{kTrouble};
     } catch (const TooMuchToCompare&) {
-        std::cerr << "bendy: error: " << printable(arguments.files[0].string())
+        std::cerr << "bendy: error: " << shown_name(arguments.files[0])
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {

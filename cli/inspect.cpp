@@ -1,14 +1,16 @@
 #include "commands.h"
 #include "describe_chunk.h"
+#include "input_bytes.h"
 #include "inspect_html.h"
 #include "inspect_json.h"
+#include "output.h"
+#include "output_suffix.h"
 #include "problem.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/file.h>
 
 #include <algorithm>
 #include <array>
@@ -131,24 +133,26 @@ void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Byt
 }
 
 /// \returns its size, bytes
-std::size_t write_page(const InspectArguments& arguments, const InspectedFile& file) {
+std::size_t write_page(const InspectArguments& arguments, const Outputs& outputs, const InspectedFile& file) {
     const std::string page = inspect_page(file);
-    if (const auto written = write_file(arguments.html, as_byte_span(page)); !written)
-        fail(arguments.html, describe(written.error()));
+    outputs.write(arguments.html, page);
     return page.size();
 }
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
 void run_html(const InspectArguments& arguments) {
-    const Result<MappedFile> mapped = MappedFile::open(arguments.file);
-    if (!mapped) fail(arguments.file, mapped.error(), {});
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.html, NamedBy::user, Content::text);
+    check_suffix({"inspect", "--html", {".html", ".htm", ".xhtml"}}, arguments.file, arguments.html);
+    const InputBytes input = InputBytes::read(arguments.file);
     InspectedFile file;
-    file.name = arguments.file.filename().string();
-    file.bytes = mapped->bytes();
+    file.name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    file.bytes = input.bytes();
     Result<ChunkTree> tree = read_chunk_tree(file.bytes);
     if (!tree) {
         file.faults.add(tree.error());
-        write_page(arguments, file);
+        write_page(arguments, outputs, file);
         fail(arguments.file, tree.error(), file.bytes);
     }
     check_sums(*tree, file.faults);
@@ -156,9 +160,10 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
-    const std::size_t size = write_page(arguments, file);
-    std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
-              << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    const std::size_t size = write_page(arguments, outputs, file);
+    summary_stream(arguments.html) << printable(output_name(arguments.html)) << ": " << grouped(size) << " bytes, "
+                                   << grouped(file.faults.count())
+                                   << (file.faults.count() == 1 ? " fault\n" : " faults\n");
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
@@ -167,10 +172,9 @@ void run(const InspectArguments& arguments) {
         run_html(arguments);
         return;
     }
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    Result<ChunkTree> tree = read_chunk_tree(file->bytes());
-    if (!tree) fail(arguments.file, tree.error(), file->bytes());
+    const InputBytes file = InputBytes::read(arguments.file);
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes());
+    if (!tree) fail(arguments.file, tree.error(), file.bytes());
     decode_leaves(*tree);
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
     if (root == kNone) {
@@ -182,18 +186,18 @@ void run(const InspectArguments& arguments) {
         std::cout << chunks_as_json(arguments.file.string(), *tree, root);
     } else if (arguments.hex) {
         const Chunk& chunk = (*tree)[root];
-        print_hex(file->bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
+        print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
         if (root == 0) {
-            std::cout << printable(arguments.file.filename().string()) << ", " << grouped(file->bytes().size())
-                      << " bytes, " << grouped(tree->chunks().size()) << " chunks\n";
+            std::cout << shown_name(arguments.file.filename()) << ", " << grouped(file.bytes().size()) << " bytes, "
+                      << grouped(tree->chunks().size()) << " chunks\n";
         }
         print_tree(*tree, root, arguments.all);
     }
     Faults faults;
     check_sums(*tree, faults);
     if (faults.empty()) read_document(*tree, faults);
-    if (!faults.empty()) warn_of_faults(arguments.file, faults, file->bytes());
+    if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
 }
 
 }  // namespace

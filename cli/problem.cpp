@@ -9,8 +9,8 @@
 namespace bendy::cli {
 
 void fail(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << "bendy: error: " << printable(file.string()) << ": " << what << '\n';
-    throw Failed{};
+    std::cerr << "bendy: error: " << shown_name(file) << ": " << what << '\n';
+    throw Failed{1, file, std::string(what)};
 }
 
 void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
@@ -18,7 +18,11 @@ void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
 }
 
 void warn(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << "bendy: warning: " << printable(file.string()) << ": " << what << '\n';
+    std::cerr << "bendy: warning: " << shown_name(file) << ": " << what << '\n';
+}
+
+std::string shown_name(const std::filesystem::path& input) {
+    return input == "-" ? "standard input" : printable(input.string());
 }
 
 std::string printable(std::string_view text) {

@@ -1,8 +1,9 @@
 #include "commands.h"
+#include "fault_lines.h"
+#include "input_bytes.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 
 #include <nlohmann/json.hpp>
@@ -32,15 +33,6 @@ const char* class_name(ErrorClass kind) {
     return "";
 }
 
-void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
-    for (const Error& fault : faults.list()) {
-        std::cout << printable(file.string()) << ": " << code_name(fault.code) << ": "
-                  << describe_with_place(fault, bytes) << '\n';
-    }
-    if (faults.left_out() != 0)
-        std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
-}
-
 nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
     nlohmann::json list = nlohmann::json::array();
     for (const Error& fault : faults.list()) {
@@ -57,7 +49,7 @@ void run(const ValidateArguments& arguments) {
     bool all_good = true;
     nlohmann::json report = nlohmann::json::array();
     for (const std::filesystem::path& file : arguments.files) {
-        const Result<MappedFile> mapped = MappedFile::open(file);
+        const Result<InputBytes> mapped = InputBytes::open(file);
         Faults faults;
         Bytes bytes;
         if (mapped) {
@@ -70,9 +62,9 @@ void run(const ValidateArguments& arguments) {
         if (arguments.json) {
             report.push_back(to_json(file, faults, bytes));
         } else if (!mapped) {
-            std::cerr << "bendy: error: " << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
+            std::cerr << "bendy: error: " << shown_name(file) << ": " << describe(mapped.error()) << '\n';
         } else {
-            print_lines(file, faults, bytes);
+            print_fault_lines(std::cout, file, faults, bytes);
         }
     }
     if (arguments.json) std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "import_problem.h"
+#include "input_bytes.h"
 #include "problem.h"
 
 #ifdef BENDY_HAS_VIEWER
@@ -7,10 +8,8 @@
 #include "tentacle.h"
 
 #include <bendy/converter/convert.h>
-#include <bendy/converter/import_bendy.h>
 #include <bendy/converter/readable_files.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/viewer/view.h>
 #include <bendy/viewer/viewer_error.h>
 
@@ -28,12 +27,13 @@ struct ViewArguments {
 /// The bytes of a bendy file, or of a glTF file converted to one.
 std::vector<std::byte> open_any(const std::filesystem::path& file) {
     const std::string name = file.string();
-    const Result<MappedFile> mapped = MappedFile::open(file);
-    if (!mapped) throw viewer::ViewerError(name + ": " + describe(mapped.error()));
-    const Bytes bytes = mapped->bytes();
-    if (converter::is_bendy_file(file) || !converter::has_readable_extension(file)) return {bytes.begin(), bytes.end()};
+    Result<InputBytes> input = InputBytes::open(file);
+    if (!input) throw viewer::ViewerError(name + ": " + describe(input.error()));
+    const bool is_bendy = as_text(input->bytes()).starts_with("HEAD");
+    if (is_bendy || !(is_dash(file) || converter::has_readable_extension(file))) return (*std::move(input)).take();
     converter::Report report;
-    auto converted = converter::convert(file, {}, report);
+    auto converted = is_dash(file) ? converter::convert((*std::move(input)).take(), "standard input", {}, report)
+                                   : converter::convert(file, {}, report);
     if (!converted) throw viewer::ViewerError(name + ": " + describe(converted.error()));
     return *std::move(converted);
 }

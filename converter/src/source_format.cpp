@@ -9,14 +9,10 @@
 
 namespace bendy::converter {
 
-SourceFormat find_source_format(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::array<char, 4> id{};
-    if (std::filesystem::is_regular_file(file, ignored)) {
-        std::ifstream stream(file, std::ios::binary);
-        stream.read(id.data(), id.size());
-    }
-    const std::string_view begin(id.data(), id.size());
+namespace {
+
+/// \param begin  the first four bytes
+SourceFormat format_of(std::string_view begin, const std::filesystem::path& file) {
     if (begin == "HEAD") return SourceFormat::bendy;
     if (begin == "xof ") return SourceFormat::x;
     if (begin == "IDP2") return SourceFormat::md2;
@@ -27,6 +23,22 @@ SourceFormat find_source_format(const std::filesystem::path& file) {
     if (extension == ".x") return SourceFormat::x;
     if (extension == ".md2") return SourceFormat::md2;
     return SourceFormat::gltf;
+}
+
+}  // namespace
+
+SourceFormat find_source_format(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::array<char, 4> id{};
+    if (std::filesystem::is_regular_file(file, ignored)) {
+        std::ifstream stream(file, std::ios::binary);
+        stream.read(id.data(), id.size());
+    }
+    return format_of({id.data(), id.size()}, file);
+}
+
+SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& file) {
+    return format_of(as_text(bytes).substr(0, 4), file);
 }
 
 }  // namespace bendy::converter

@@ -1859,7 +1859,7 @@ class FromBendy(Case):
 
     def test_the_input_stays(self):
         shutil.copy(self.convert(), self.folder / "in.bendy")
-        self.assertIn("is the input itself", self.failed("convert", "in.bendy"))
+        self.assertIn("is an input as well", self.failed("convert", "in.bendy"))
 
     def test_a_damaged_file_is_refused_with_its_place(self):
         data = bytearray(self.convert().read_bytes())
@@ -1943,7 +1943,7 @@ class Export(Case):
         self.failed("export", "bad.bendy", "-o", "bad.glb", file="bad.bendy")
         self.assertEqual(self.files(), ["bad.bendy"])
         shutil.copy(self.convert(), self.folder / "same.glb")
-        self.assertIn("would be the input", self.failed("export", "same.glb", file="same.glb"))
+        self.assertIn("is an input as well", self.failed("export", "same.glb", file="same.glb"))
         self.failed("export", self.convert(), "-o", "no/such/folder.glb")
         self.assertIn("--format", self.misused("export", "x.bendy", "--format", "fbx"))
 
