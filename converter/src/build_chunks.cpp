@@ -468,16 +468,6 @@ private:
     std::vector<float> floats_;
 };
 
-/// Packed tracks have the cycle's first and last frames, if timed keys do not lie before or after them.
-void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
-    Faults faults;
-    const auto packed = read_packed(cycle.packed, kMaxJoints, 0, faults);
-    if (!packed) return;
-    const auto last = static_cast<float>(packed->time_of(packed->record.frames - 1));
-    info.start = cycle.tracks.empty() ? packed->record.start : std::min(info.start, packed->record.start);
-    info.end = cycle.tracks.empty() ? last : std::max(info.end, last);
-}
-
 /// Packed frames may end a float before the keys that they stand for: markers stay inside.
 void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
     if (cycle.markers.empty()) return;
@@ -508,7 +498,6 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         record.first_value = values.add(track.values);
         tracks.push_back(record);
     }
-    extend_to_packed(cycle, info);
     out.begin(FourCC("CYCL"));
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));

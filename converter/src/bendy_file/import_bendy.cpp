@@ -100,19 +100,23 @@ public:
                                     std::move(times),
                                     {track.values.begin(), track.values.end()}});
         }
-        if (view.packed) unpack(*view.packed, place, cycle);
+        if (view.packed) unpack(view, place, cycle);
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
-        check_ends(view, cycle, place);
+        if (const CycleSpan stated{view.start, view.end}; stated != span_of(cycle)) cycle.stated_span = stated;
         import_markers(view, place, cycle);
         return cycle;
     }
 
 private:
-    void unpack(const PackedView& packed, const std::string& place, Cycle& cycle) {
+    void unpack(const CycleView& view, const std::string& place, Cycle& cycle) {
+        const PackedView& packed = *view.packed;
         std::uint64_t tracks = 0;
         for (const PackedList& list : packed.lists) tracks += list.count;
         budget_.take(tracks * packed.record.frames, 5 * sizeof(float), place);
         for (UnpackedTrack& track : unpack_cycle(packed, rests_)) {
+            // The last frame's time is rounded: it may lie after the clip's end by as much.
+            const std::size_t last = track.times.size() - 1;
+            if (last == 0 || track.times[last - 1] < view.end) track.times[last] = std::min(track.times[last], view.end);
             cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
                                     std::move(track.times), std::move(track.values)});
         }
@@ -126,12 +130,6 @@ private:
             markers.push_back({{marker.seconds, std::string(marker.name)}, place});
         }
         set_markers(cycle, std::move(markers), {}, WrongMarkers::left_out, report_);
-    }
-
-    void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {
-        const CycleSpan span = span_of(cycle);
-        if (view.start == span.start && view.end == span.end) return;
-        report_.warn("cycle that is longer than its keys is written as long as they are", place);
     }
 
     const ChunkTree& tree_;

@@ -4,6 +4,7 @@
 #include "compact/pack_cycles.h"
 #include "error_place.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>

@@ -4,11 +4,13 @@
 #include "compact/measure.h"
 #include "compact/quantise_cycle.h"
 #include "compact/thin_grid.h"
+#include "cycle_span.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <utility>
@@ -113,6 +115,13 @@ void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& trac
     }
 }
 
+/// The clip's span; a little longer where the first frame's time is rounded down.
+CycleSpan with_frames(CycleSpan span, Bytes payload) {
+    PackRecord record;
+    std::memcpy(&record, payload.data(), sizeof record);
+    return {std::min(span.start, record.start), span.end};
+}
+
 PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std::vector<glm::dvec3>>& probes,
                         double max_error) {
     PackedReport report;
@@ -126,6 +135,7 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
     if (best) pack_thinner(scene, cycle, *tracks, is_replaced, probes, max_error, *best);
     if (!best || best->bytes.size() >= key_bytes(cycle, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
         return report;
+    cycle.stated_span = with_frames(span_of(cycle), best->bytes);  // tracks that stand still may not be written
     std::size_t number = 0;
     std::erase_if(cycle.tracks, [&](const Track&) { return is_replaced[number++]; });
     report.packed_bytes = best->bytes.size();

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,16 @@ struct Marker {
     std::string name;      ///< UTF-8, may be empty or doubled
 };
 
+/// When a clip begins and ends, seconds on its time line.
+struct CycleSpan {
+    float start = 0.0f;
+    float end = 0.0f;
+
+    /// At a share of the way, 0 to 1; seconds.
+    [[nodiscard]] double at(double share) const { return start + share * (double{end} - start); }
+    friend bool operator==(const CycleSpan&, const CycleSpan&) = default;
+};
+
 struct Cycle {
     std::string name;
     bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
@@ -136,6 +147,9 @@ struct Cycle {
     std::string extras;
     std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
     std::vector<Marker> markers = {};    ///< times ascend, and may be equal
+    /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
+    /// the last key. Never shorter than the keys.
+    std::optional<CycleSpan> stated_span = {};
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
