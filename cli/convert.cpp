@@ -159,6 +159,7 @@ void convert_file(const ConvertArguments& arguments) {
     if (!arguments.depfile.empty()) write_depfile(arguments, report);
     print_warnings(input, report);
     print_proposals(report);
+    for (const std::string& line : report.suggestions()) std::cerr << "bendy: note: " << printable(line) << '\n';
     if (!arguments.quiet) print_summary(arguments, *bytes);
     if (!arguments.quiet && report.compact) print_compact(*report.compact);
 }
@@ -216,6 +217,13 @@ void add_convert(CLI::App& program) {
                      "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command
+        ->add_option("--ticks-per-second", arguments->ticks_per_second,
+                     "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+                     "file's AnimTicksPerSecond, or 4800, if not given")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--merge-clips", arguments->merge_clips,
+                      "clips that move different joints become one, as for files with a clip for each joint");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =

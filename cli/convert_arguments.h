@@ -17,6 +17,8 @@ struct ConvertArguments {
     std::filesystem::path rig;
     std::filesystem::path depfile;
     bool exact = true;
+    double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says
+    bool merge_clips = false;
     bool auto_rig = false;
     bool auto_skin = false;
     std::string skeleton;

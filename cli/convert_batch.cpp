@@ -133,6 +133,8 @@ private:
         print_warnings(file.input, report);
         for (const std::string& line : report.proposals())
             std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
+        for (const std::string& line : report.suggestions())
+            std::cerr << "bendy: note: " << printable(file.input.string()) << ": " << printable(line) << '\n';
         if (failure) {
             ++totals_.failed;
             std::cerr << "bendy: error: " << printable(failure->file.string()) << ": " << failure->what;

@@ -22,6 +22,7 @@ need /usr/include/rapidjson/reader.h rapidjson-dev
 need /usr/include/CLI/App.hpp libcli11-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
+need /usr/include/zlib.h zlib1g-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
 need python3 python3

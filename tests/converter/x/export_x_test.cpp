@@ -40,7 +40,7 @@ Trip travel(const std::vector<std::byte>& bytes) {
     const auto asset = export_x(bytes, "image", trip.losses);
     EXPECT_TRUE(asset) << (asset ? "" : asset.error().message);
     if (!before || !asset) return trip;
-    const auto after = import_x(asset->text, "image.x", false, unheard);
+    const auto after = import_x(asset->text, "image.x", {.embed_images = false}, unheard);
     EXPECT_TRUE(after) << (after ? "" : after.error().place + ": " + after.error().message);
     if (!after) return trip;
     EXPECT_TRUE(validate(build_chunks(*after, "test", unheard)).empty());
