@@ -156,6 +156,8 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
+    file.pictures = draw_page_pictures(
+        file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
     const std::size_t size = write_page(arguments, file);
     std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
               << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
