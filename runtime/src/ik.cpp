@@ -150,7 +150,10 @@ private:
         gather_pole();
         wanted_ = problem_.target;
         const glm::dvec3 way = wanted_ - problem_.origin;
-        problem_.is_out_of_reach = glm::dot(way, way) > problem_.reach * problem_.reach;
+        const double distance = std::sqrt(glm::dot(way, way));
+        constexpr double kStraight = 1e-6;  // chain lengths: no bend that would be seen
+        is_far_ = distance > problem_.reach - kStraight;
+        problem_.is_out_of_reach = distance > problem_.reach + problem_.tolerance;
         problem_.place();
         const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
                            glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
@@ -209,15 +212,14 @@ private:
     std::uint32_t solve() {
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
-        if (problem_.is_out_of_reach && chosen != Solver::pull && problem_.position_weight > 0.0)
-            point_at_target(problem_);
+        if (is_far_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
         switch (chosen) {
             case Solver::pull:
                 return solve_pull(problem_);
             case Solver::ccd:
-                return solve_ccd(problem_);
+                return finish(solve_ccd(problem_));
             case Solver::fabrik:
-                return solve_fabrik(problem_);
+                return finish(solve_fabrik(problem_));
             case Solver::two_bone:
                 return two_bone();
             default:
@@ -225,12 +227,17 @@ private:
         }
     }
 
-    /// Where limits keep the closed form from the target, least squares goes on from there.
     std::uint32_t two_bone() {
-        const std::uint32_t iterations = solve_two_bone(problem_);
-        const bool is_free =
-            std::all_of(links_.begin(), links_.end(), [](const IkLink& link) { return link.constraint == nullptr; });
-        if (is_free || problem_.is_out_of_reach || problem_.is_reached()) return iterations;
+        const glm::dvec3 target = problem_.target;
+        soften_target(problem_);
+        const std::uint32_t iterations = finish(solve_two_bone(problem_));
+        problem_.target = target;
+        return iterations;
+    }
+
+    /// Where a solver stops short of a target within reach, least squares goes on from there.
+    std::uint32_t finish(std::uint32_t iterations) {
+        if (problem_.is_out_of_reach || problem_.is_reached()) return iterations;
         return iterations + solve_least_squares(problem_);
     }
 
@@ -272,6 +279,7 @@ private:
         }
         problem_.reach *= stretch_;
         problem_.is_out_of_reach = problem_.is_out_of_reach && wanted > stretch_;
+        is_far_ = is_far_ && problem_.is_out_of_reach;
         problem_.place();
     }
 
@@ -298,7 +306,7 @@ private:
             const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
             const glm::dvec3 left = to_vector(between(forward, problem_.target - problem_.tip));
             result.angle = static_cast<float>(std::sqrt(glm::dot(left, left)));
-            result.status = result.angle <= problem_.tolerance ? ReachStatus::reached : ReachStatus::not_reached;
+            result.status = result.angle <= problem_.tolerance ? ReachStatus::aimed : ReachStatus::not_reached;
             return;
         }
         result.angle = static_cast<float>(problem_.rotation_error());
@@ -322,6 +330,7 @@ private:
     glm::dmat4 inverse_base_{1.0};
     glm::dvec3 wanted_{0};  ///< the problem's target before corrections
     double stretch_ = 1.0;
+    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
 };
 

@@ -1,5 +1,6 @@
 #include "ik_quick.h"
 
+#include "ik_problem.h"
 #include "nearest_rotation.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -90,6 +91,7 @@ public:
 
     BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == LimitModel::hinge; }
+    [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
     /// Whether it says nothing but which rotations there are.
     BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// The hinge's axis in the parent's space, for a unit rotation.
@@ -213,7 +215,9 @@ BENDY_INLINE bool bend_middle(const Limit& limit, const Bend& bend, glm::dquat& 
     if (!limit.is_there()) return turn_middle(bend, turn, before, local);
     Turn other = turn;
     if (limit.is_hinge()) other = turn_to(bend, 1.0);
-    if (other.cosine > turn.cosine) std::swap(turn, other);
+    constexpr double kSame = 1e-6;
+    const double gain = other.cosine - turn.cosine;
+    if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
     if (!turn_middle(bend, turn, before, local)) return false;
     const Limit::Side side = limit.side(local);
     if (side != Limit::Side::outside) return side == Limit::Side::inside;
@@ -329,7 +333,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     }
     if (!limit.holds(rotation) || !(squared(rotation) > 0.5)) return std::nullopt;
     pose.change_local()[joint].rotation = glm::quat(rotation);
-    return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
+    return ReachResult{ReachStatus::aimed, static_cast<float>(distance), 0.0f, 1};
 }
 
 #undef BENDY_INLINE
