@@ -18,9 +18,9 @@
 // Targets are made by posing the chain at random inside its constraints; every solve begins at the rest pose. A solver
 // misses where it stops outside its tolerance; `alone` are the misses where another solver arrives, `farthest` how far
 // from the target the worst of those stops. --free ignores constraints; --limbs prints one row a chain, of the solver
-// that it gets by default; --mirror reaches with each chain "Left..." and its "Right..." for targets mirrored in X, and
-// counts the poses that are not mirrored, a joint more than a thousandth of the chain's length off; every other target
-// is then moved by up to 0.2 m along each axis, so that some cannot be reached.
+// that it gets by default, and counts every miss; --mirror reaches with each chain "Left..." and its "Right..." for
+// targets mirrored in X, and counts the poses that are not mirrored, a joint more than a thousandth of the chain's
+// length off; every other target is then moved by up to 0.2 m along each axis, so that some cannot be reached.
 namespace {
 
 using namespace bendy;
@@ -42,10 +42,15 @@ glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     return glm::vec3(pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f));
 }
 
+/// The joints that the chain turns, from the effector up.
 std::vector<std::uint32_t> joints_of(const Model& model, const Chain& chain) {
     std::vector<std::uint32_t> joints;
     for (std::uint32_t joint = chain.effector;; joint = model.joints()[joint].parent) {
-        joints.push_back(joint);
+        const auto weights = model.chain_weights(chain);
+        const bool is_fixed = std::any_of(weights.begin(), weights.end(), [&](const PullView& pull) {
+            return pull.joint == joint && pull.weight == 0.0f;
+        });
+        if (!is_fixed) joints.push_back(joint);
         if (joint == chain.start) break;
     }
     return joints;
@@ -99,7 +104,8 @@ void run(const std::string& file, const Model& model, const Chain& chain, std::s
             tallies[row].reached += reached[row] ? 1 : 0;
         }
         const bool any = std::find(reached.begin(), reached.end(), true) != reached.end();
-        for (std::size_t row = 0; row < kRows.size() && any && !only_default; ++row) {
+        for (std::size_t row = 0; row < kRows.size() && (any || only_default); ++row) {
+            if (only_default && row > 0) break;
             if (reached[row]) continue;
             ++tallies[row].alone;
             if (left[row] <= tallies[row].farthest) continue;
@@ -205,6 +211,7 @@ int main(int argc, char** argv) {
                 return 1;
             }
             for (const Chain& chain : model->chains()) {
+                if (chain.solver == Solver::aim) continue;
                 if (is_mirrored) {
                     run_mirrored(argument, *model, chain, targets, is_free);
                 } else {

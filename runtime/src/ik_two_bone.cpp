@@ -11,6 +11,8 @@
 namespace bendy {
 namespace {
 
+constexpr double kSame = 1e-6;  // radians, and cosines: what rounding could take to either side
+
 double length_of(const glm::dvec3& v) {
     return std::sqrt(glm::dot(v, v));
 }
@@ -61,15 +63,20 @@ double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& 
     return angle_between(legal_local(l, local), local);
 }
 
-/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
-void bend(IkProblem& problem, std::size_t middle, double distance) {
+struct Bend {
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    double illegality = 0.0;  ///< radians
+};
+
+/// The turn of the middle joint about `axis` that takes the tip as far from the start as `distance`, or as near to that
+/// as it gets.
+Bend find_bend(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
     const IkLink& link = problem.links[middle];
     const glm::dvec3 u = link.position - problem.origin;
     const glm::dvec3 v = problem.tip - link.position;
-    glm::dvec3 h = bend_axis(problem, link, u, v);
-    const double size = length_of(h);
-    if (size < 1e-12) return;
-    h /= size;
+    const double size = length_of(axis);
+    if (size < 1e-12) return {};
+    const glm::dvec3 h = axis / size;
     // |u + turned v| = distance:  along + b cos(f) + c sin(f) = wanted, f the turn about h.
     const double wanted = 0.5 * (distance * distance - glm::dot(u, u) - glm::dot(v, v));
     const double along = glm::dot(u, h) * glm::dot(v, h);
@@ -77,7 +84,7 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
     const double b = glm::dot(u, across);
     const double c = glm::dot(u, glm::cross(h, across));
     const double most = std::sqrt(b * b + c * c);
-    if (most < 1e-12) return;
+    if (most < 1e-12) return {};
     // f is the opening to one side or the other of where the chain is straight; as cosine and sine.
     const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
     const double sine = std::sqrt(1.0 - open * open);
@@ -87,13 +94,34 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
         const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
         return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    glm::dquat best = turn(-1.0);  // a straight chain bends the axis' way
-    const glm::dquat other = turn(1.0);
-    const double excess = illegality(problem, middle, best) - illegality(problem, middle, other);
-    constexpr double kSame = 1e-6;
-    const bool is_smaller = std::abs(other.w - best.w) > kSame ? other.w > best.w : hinge_prefers_back(link.constraint);
-    if (excess > kSame || (excess > -kSame && is_smaller)) best = other;
-    turn_link(problem, middle, best);
+    const Bend one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
+    const Bend other{turn(1.0), illegality(problem, middle, turn(1.0))};
+    const double excess = one.illegality - other.illegality;
+    const bool is_smaller =
+        std::abs(other.turn.w - one.turn.w) > kSame ? other.turn.w > one.turn.w : hinge_prefers_back(link.constraint);
+    return excess > kSame || (excess > -kSame && is_smaller) ? other : one;
+}
+
+/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
+void bend(IkProblem& problem, std::size_t middle, double distance) {
+    IkLink& link = problem.links[middle];
+    const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
+    Bend best = find_bend(problem, middle, axis, distance);
+    if (best.illegality > kSame) {
+        // From rest the way that the constraint allows most.
+        const glm::dquat before = link.local;
+        link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
+        problem.place(middle);
+        const glm::dvec3 preferred = link.global * (link.frame * preferred_side(*link.constraint));
+        const Bend other = find_bend(problem, middle, preferred, distance);
+        if (other.illegality < best.illegality && preferred != glm::dvec3(0.0)) {
+            best = other;
+        } else {
+            link.local = before;
+            problem.place(middle);
+        }
+    }
+    turn_link(problem, middle, best.turn);
     problem.place(middle);
 }
 
