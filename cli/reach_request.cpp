@@ -70,12 +70,22 @@ std::string length_text(float metres) {
     return text.str();
 }
 
-void report(const Model& model, const Chain& chain, const ReachResult& result) {
-    constexpr std::array<std::string_view, 4> kWords{"reached", "out of reach, points at the target", "not reached",
-                                                     "refused"};
-    std::cerr << "bendy: reach: " << chain_label(model, chain) << ": "
-              << kWords.at(static_cast<std::size_t>(result.status)) << ", " << length_text(result.distance) << " left, "
-              << result.iterations << (result.iterations == 1 ? " iteration\n" : " iterations\n");
+void report(const Model& model, const Chain& chain, const ReachOptions& options, const ReachResult& result) {
+    constexpr std::array<std::string_view, 5> kWords{"reached", "out of reach, points at the target", "not reached",
+                                                     "aims at the target", "refused"};
+    const bool is_aim = (options.solver != Solver::any ? options.solver : chain.solver) == Solver::aim;
+    std::cerr << "bendy: reach: " << chain_label(model, chain) << ": ";
+    if (is_aim && result.status == ReachStatus::not_reached) {
+        constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+        std::ostringstream angle;
+        angle.precision(3);
+        angle << result.angle * kDegrees;
+        std::cerr << "aims " << angle.str() << " degrees past the target, ";
+    } else {
+        std::cerr << kWords.at(static_cast<std::size_t>(result.status)) << ", ";
+    }
+    std::cerr << length_text(result.distance) << (is_aim ? " away, " : " left, ") << result.iterations
+              << (result.iterations == 1 ? " iteration\n" : " iterations\n");
 }
 
 }  // namespace
@@ -106,7 +116,8 @@ void reach_targets(const ReachRequest& request, const std::filesystem::path& fil
         ReachOptions options;
         options.solver = find_solver(request.solver);
         options.obey_constraints = !request.ignore_limits;
-        report(pose.model(), chain, reach(&chain, target, pose, options));
+        const ReachResult result = reach(&chain, target, pose, options);
+        report(pose.model(), chain, options, result);
     }
 }
 
