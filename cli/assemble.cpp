@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "late_progress.h"
+#include "output_folder.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -26,6 +27,7 @@ std::filesystem::path default_output(const std::filesystem::path& file) {
 }
 
 void run(AssembleArguments arguments) {
+    require_folder_of(arguments.output);
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     if (arguments.output.empty()) arguments.output = default_output(arguments.file);

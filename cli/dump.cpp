@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "late_progress.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 
@@ -22,6 +23,7 @@ struct DumpArguments {
 };
 
 void run(const DumpArguments& arguments) {
+    require_folder_of(arguments.output);
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Bytes bytes = file->bytes();

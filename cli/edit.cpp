@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "import_problem.h"
+#include "output_folder.h"
 #include "problem.h"
 
 #include <bendy/converter/convert.h>
@@ -177,6 +178,7 @@ void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t 
 }
 
 void run(const Arguments& arguments, const std::vector<Step>& steps) {
+    require_folder_of(arguments.output);
     Result<MappedFile> file = MappedFile::open(arguments.input);
     if (!file) fail(arguments.input, file.error(), {});
     const std::uint64_t size_before = file->bytes().size();

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "level_of_detail.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "warnings.h"
 
@@ -101,6 +102,7 @@ std::uint64_t export_x(const ExportArguments& arguments, converter::Report& repo
 }
 
 void run(ExportArguments arguments) {
+    require_folder_of(arguments.output);
     const std::string format = format_of(arguments);
     if (arguments.output.empty()) {
         arguments.output = arguments.file;

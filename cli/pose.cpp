@@ -2,6 +2,7 @@
 #include "find_cycle.h"
 #include "level_of_detail.h"
 #include "mesh_writer.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "reach_request.h"
 #include "text_output.h"
@@ -92,6 +93,7 @@ void run(const PoseArguments& arguments) {
     if (!arguments.output.empty() && extension != ".obj" && extension != ".ply" && extension != ".json") {
         throw CLI::ValidationError("--output", "must end in .obj, .ply or .json");
     }
+    require_folder_of(arguments.output);
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Result<Model> model = Model::from_memory(file->bytes());

@@ -2,6 +2,8 @@
 
 #include "problem.h"
 
+#include <bendy/edit/names.h>
+
 #include <CLI/Error.hpp>
 
 #include <algorithm>
@@ -45,11 +47,25 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
     const auto moves = [&](const Chain& chain) { return model.joints()[chain.effector].name == name; };
     const auto chains = model.chains();
     if (const auto found = std::find_if(chains.begin(), chains.end(), moves); found != chains.end()) return *found;
+    if (chains.empty()) {
+        fail(file, "there is no IK chain \"" + printable(name) +
+                       "\"; there are none (`bendy convert --rig` or `--auto-rig` brings some in)");
+    }
+    // Chains by their own names and by those of the joints that they move: either may have been meant.
+    std::vector<std::string_view> names;
+    for (const Chain& chain : chains) {
+        if (!chain.name.empty()) names.push_back(chain.name);
+        names.push_back(model.joints()[chain.effector].name);
+    }
     std::string known;
-    for (const Chain& chain : chains) known += (known.empty() ? "" : ", ") + chain_label(model, chain);
-    fail(file, "there is no IK chain \"" + printable(name) + "\"; there " +
-                   (chains.empty() ? "are none (`bendy convert --rig` or `--auto-rig` brings some in)"
-                                   : "are " + std::to_string(chains.size()) + ": " + known));
+    constexpr std::size_t kShown = 8;
+    for (const Chain& chain : chains.first(std::min(kShown, chains.size())))
+        known += (known.empty() ? "" : ", ") + chain_label(model, chain);
+    if (chains.size() > kShown) known += ", ...";
+    const std::string suggestion = printable(edit::did_you_mean(names, name));
+    fail(file, "there is no IK chain \"" + printable(name) + '"' + suggestion +
+                   (suggestion.empty() ? "; there " : " There ") + (chains.size() == 1 ? "is " : "are ") +
+                   std::to_string(chains.size()) + ": " + known);
 }
 
 Solver find_solver(const std::string& name) {

@@ -4,6 +4,7 @@
 #ifdef BENDY_HAS_VIEWER
 
 #include "find_cycle.h"
+#include "output_folder.h"
 #include "progress_bar.h"
 
 #include <bendy/format/diagnostics.h>
@@ -201,6 +202,7 @@ void run(RenderArguments arguments) {
                                : arguments.context == "osmesa" ? viewer::ContextKind::osmesa
                                                                : viewer::ContextKind::any;
     arguments.render.draw.targets = arguments.render.draw.constraints;
+    require_folder_of(arguments.output);
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Result<Model> model = Model::from_memory(file->bytes());

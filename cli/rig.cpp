@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 
@@ -20,6 +21,7 @@ struct RigArguments {
 };
 
 void run(const RigArguments& arguments) {
+    require_folder_of(arguments.output);
     const Result<MappedFile> file = MappedFile::open(arguments.file);
     if (!file) fail(arguments.file, file.error(), {});
     const Bytes bytes = file->bytes();

@@ -1,3 +1,4 @@
+#include "colour.h"
 #include "commands.h"
 #include "problem.h"
 
@@ -70,7 +71,7 @@ void run(const ValidateArguments& arguments) {
         if (arguments.json) {
             report.push_back(to_json(file, faults, bytes));
         } else if (!mapped) {
-            std::cerr << "bendy: error: " << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
+            std::cerr << error_label() << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
         } else {
             print_lines(file, faults, bytes);
         }

@@ -281,9 +281,9 @@ Result<Strip, Problem> parse_strip(std::string_view text) {
         }
         return Strip{word.part, std::string(is_named ? text.substr(colon + 1) : "")};
     }
-    const std::string_view nearest = nearest_name(words, asked);
+    const std::string suggestion = did_you_mean(words, asked);
     return Problem{"\"" + std::string(asked) + "\" cannot be stripped" +
-                   (nearest.empty() ? ": one of " + strip_words() : "; is \"" + std::string(nearest) + "\" meant?")};
+                   (suggestion.empty() ? ": one of " + strip_words() : suggestion)};
 }
 
 Edited strip(Bytes file, const Strip& what, Log& log) {

@@ -279,8 +279,8 @@ class Convert(Case):
 
     def test_the_summary_says_what_is_in_the_file(self):
         text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
-        for words in ("m.bendy", "65 joints", "4,504 vertices", "Idle", "Walk", "Blink", "Smile", "5 materials",
-                      "1 texture", f"{(self.folder / 'm.bendy').stat().st_size:,} bytes"):
+        for words in ("m.bendy", "joints         65\n", "4,504 vertices", "Idle", "Walk", "Blink", "Smile",
+                      "materials      5: ", "textures       1: ", f"{(self.folder / 'm.bendy').stat().st_size:,} bytes"):
             self.assertIn(words, text)
         self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "--quiet"), b"")
         self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "-q"), b"")
@@ -520,8 +520,6 @@ class ConvertBatch(Case):
         self.assertEqual((self.folder / "a.bendy").read_bytes(), before)
 
     def test_wrong_command_lines(self):
-        self.assertIn("OUTDIR", self.misused("convert", "in/a.gltf", "in/deeper/c.glb"))
-        self.assertIn("OUTDIR", self.failed("convert", "in", file="in"))
         self.assertIn("--depfile", self.misused("convert", "in", "-o", "out", "--depfile", "d"))
         self.assertIn("--jobs", self.misused("convert", "in", "-o", "out", "--jobs", "0"))
         (self.folder / "file").write_bytes(b"")
@@ -569,7 +567,7 @@ class ConvertBatch(Case):
         os.close(ours)
         self.assertEqual(result.returncode, 0)
         self.assertRegex(shown.decode(), r"converting \[#{40}\] 3/3, [\d.]+ files/s")
-        self.assertNotIn(b" -> ", result.stdout)
+        self.assertEqual(result.stdout.count(b" -> "), 3)
         self.assertIn(b"  converted ", result.stdout)
 
     def test_names_are_escaped(self):
@@ -665,7 +663,7 @@ class ConvertAutoSkin(Case):
         self.done("validate", "m.bendy")
         result = self.bendy("convert", "m.gltf", "--skeleton", "High")
         self.assertIn(b"6 vertices bound to 1 joint\n", result.stderr)
-        self.assertIn("'Higher'", self.failed("convert", "m.gltf", "--skeleton", "Higher", file="m.gltf"))
+        self.assertIn('"Higher"; did you mean "High"?', self.failed("convert", "m.gltf", "--skeleton", "Higher", file="m.gltf"))
 
     def test_nothing_to_bind_is_a_warning(self):
         result = self.bendy("convert", SOURCE / "examples" / "tentacle.glb", "-o", "t.bendy", "--auto-skin")
@@ -675,22 +673,27 @@ class ConvertAutoSkin(Case):
 
 
 class Inspect(Case):
+    def tree_of(self, lines):
+        """The lines of the chunk tree, which stand below the summary and a heading."""
+        return lines[lines.index("      offset         size  chunk") + 1 :]
+
     def test_the_text_shows_every_chunk_with_its_place(self):
         for path in self.good_files():
             lines = self.done("inspect", path, "--all").decode().splitlines()
             chunks = list(Chunk.read(path.read_bytes()).walk())
             self.assertIn(f"{path.stat().st_size:,} bytes", lines[0])
-            self.assertEqual(len(lines), len(chunks) + 2)
-            for line, (_, chunk) in zip(lines[2:], chunks):
+            lines = self.tree_of(lines)
+            self.assertEqual(len(lines), len(chunks))
+            for line, (_, chunk) in zip(lines, chunks):
                 offset, size, letters = line.split()[:3]
                 self.assertEqual((int(offset), int(size), letters), (chunk.offset, chunk.size(), chunk.letters))
 
     def test_the_short_text_folds_details_away(self):
-        folded = self.done("inspect", self.convert()).decode().splitlines()
-        everything = self.done("inspect", self.convert(), "--all").decode().splitlines()
+        folded = self.tree_of(self.done("inspect", self.convert()).decode().splitlines())
+        everything = self.tree_of(self.done("inspect", self.convert(), "--all").decode().splitlines())
         self.assertLess(len(folded), len(everything) / 2)
         places = [line.split()[0] for line in everything]
-        self.assertTrue(all(line.split()[0] in places for line in folded[2:]))
+        self.assertTrue(all(line.split()[0] in places for line in folded))
         self.assertIn("mixamorig:LeftHand", "\n".join(folded))
         self.assertIn("Walk", "\n".join(folded))
 
@@ -1148,7 +1151,7 @@ class PoseCommand(Case):
         self.addCleanup(environment.stop)
         path = self.shared / "levels.bendy"
         summary = self.done("convert", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path).decode()
-        self.assertRegex(summary, r"detail +from [\d,]+ triangles down to [\d,]+\n")
+        self.assertRegex(summary, r"levels +100 % [\d,]+, 50 % [\d,]+ \(.*, fewest [\d,]+ triangles \(.* mm off\)\n")
         self.assertEqual(self.done("validate", path), b"")
         self.assertRegex(self.done("inspect", path).decode(), r"LODD .*pools?, .*down to .*error at most")
         whole = self.pose(path, "--clip", "Walk", "--time", "0.25")
@@ -1406,7 +1409,7 @@ class Rig(Case):
     def test_the_summary_tells_constraints_and_chains(self):
         text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
         chunks = [chunk.letters for _, chunk in Chunk.read((self.folder / "m.bendy").read_bytes()).walk()]
-        self.assertIn(f"\n  rig        {chunks.count('LIMT')} constraints, 4 chains: IK_LeftArm, IK_RightArm, ", text)
+        self.assertIn(f"\n  rig            {chunks.count('LIMT')} constraints, 4 chains: IK_LeftArm, IK_RightArm, ", text)
         text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "--rig",
                          self.write({"bendy_rig": 1, "complete": True})).decode()
         self.assertNotIn("  rig  ", text)
@@ -1987,8 +1990,8 @@ class QuakeModels(Case):
     def test_frames_become_targets_and_cycles(self):
         md2_file(self.folder / "man.md2")
         shown = self.done("convert", "man.md2").decode()
-        self.assertIn("targets    3: run1, run2, stand02", shown)
-        self.assertIn("cycles     2: stand 0.1 s, run 0.1 s", shown)
+        self.assertIn("morph targets  3: run1, run2, stand02", shown)
+        self.assertIn("clips          2: stand 0.1 s, run 0.1 s", shown)
         self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
         heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
         # The fourth frame: 3 units up, and from 0 to 2 of its own.

@@ -141,7 +141,7 @@ class Render(WithFolder):
                 self.refused(2, text, file, *option)
 
     def test_bad_input(self):
-        self.refused(1, 'there is no cycle "Run"; there are 2: Reach, Wave', self.folder / "tentacle.bendy", "--clip", "Run")
+        self.refused(1, 'there is no clip "Run"; there are "Reach" and "Wave"', self.folder / "tentacle.bendy", "--clip", "Run")
         self.refused(1, "error: ", self.folder / "missing.bendy")
         bad = self.folder / "bad.bendy"
         bad.write_bytes((self.folder / "tentacle.bendy").read_bytes()[:5000])

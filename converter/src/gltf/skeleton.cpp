@@ -3,10 +3,14 @@
 #include "failure.h"
 #include "transform.h"
 
+#include <bendy/edit/names.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace bendy::converter::gltf {
 namespace {
@@ -57,7 +61,9 @@ std::optional<std::size_t> choose_scene(const Document& document, const std::opt
         const char* end = option->data() + option->size();
         const auto parsed = std::from_chars(option->data(), end, index);
         if (!option->empty() && parsed.ec == std::errc() && parsed.ptr == end && index < scenes.size()) return index;
-        fail("scenes", "there is no scene " + quote(*option) + " (the file has " + std::to_string(scenes.size()) + ")");
+        std::vector<std::string_view> names;
+        for (const auto& scene : scenes) names.emplace_back(scene.name);
+        fail("scenes", edit::no_such_name("scene", *option, names));
     }
     if (scenes.empty()) return std::nullopt;
     return document.model.defaultScene >= 0 ? static_cast<std::size_t>(document.model.defaultScene) : 0;
