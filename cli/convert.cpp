@@ -27,10 +27,6 @@
 namespace bendy::cli {
 namespace {
 
-void print_proposals(const converter::Report& report) {
-    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
-}
-
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
     return grouped(count) + ' ' + std::string(count == 1 ? one : many);
 }
