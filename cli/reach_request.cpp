@@ -178,7 +178,7 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
             text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
             if (count.poses > 1)
                 text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " pictures";
-            if (count.worst.status == ReachStatus::out_of_reach) text << ": it is not that long";
+            if (count.worst.status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
             warn(file, text.str());
         }
     }

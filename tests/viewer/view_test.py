@@ -269,7 +269,7 @@ class Reach(WithFolder):
         self.assertEqual(len(set(pictures)), 4)
 
     def test_what_falls_short_is_said_and_is_no_failure(self):
-        for goal, text in (("IK_LeftArm=3,1.2,0", r"falls short of its target by \d+ mm: it is not that long"),):
+        for goal, text in (("IK_LeftArm=3,1.2,0", r"falls short of its target by \d+ mm: it is farther away than the chain is long"),):
             picture, said = self.draw("--reach", goal)
             self.assertRegex(said, rf"^bendy: warning: .*mannequin.bendy: reach: IK_LeftArm \(moves [^)]+\) {text}\n$")
             self.assertGreater(len(self.red_pixels(picture)), 8)  # however far it is, it is in the picture

@@ -62,9 +62,14 @@ void add_diamond(const glm::vec3& centre, float radius, const glm::vec3& colour,
     add_octahedron(centre - up, centre + up, 0.5f, radius, colour, list);
 }
 
-/// Joints that move something or belong to a chain: a file's other nodes are no bones. Without a surface all are.
+/// Joints that move something or belong to a chain: a file's other nodes are no bones. Without a surface all are but
+/// the controls.
 std::vector<bool> find_bones(const Model& model) {
-    std::vector<bool> is_bone(model.joints().size(), !has_surface(model));
+    std::vector<bool> is_bone(model.joints().size());
+    if (!has_surface(model)) {
+        is_bone = find_controls(model);
+        is_bone.flip();
+    }
     for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
         const Pool& pool = model.pools()[number];
         for (std::uint32_t v = 0; v < pool.vertices; ++v) {
@@ -114,12 +119,7 @@ void OverlayList::triangle(std::vector<OverlayVertex>& list, const glm::vec3& a,
 
 Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     std::vector<bool> is_bone = find_bones(model);
-    std::vector<bool> is_control(is_bone.size());
-    for (const Chain& chain : model.chains()) {
-        for (const std::uint32_t joint : {chain.target, chain.pole}) {
-            if (joint != kNone) is_control[joint] = true;
-        }
-    }
+    const std::vector<bool> is_control = find_controls(model);
     Pose rest(model);
     local_to_model(rest);
     constexpr float kDefaultLength = 0.06f;  // of the character's size
