@@ -28,10 +28,6 @@
 namespace bendy::cli {
 namespace {
 
-void print_proposals(const converter::Report& report) {
-    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
-}
-
 /// Bytes by kind before and after, and the worst error.
 void print_compact(const converter::CompactReport& report) {
     std::uint64_t before = 0;

@@ -1,6 +1,7 @@
 #include "colour.h"
 #include "commands.h"
 #include "describe_chunk.h"
+#include "input_file.h"
 #include "inspect_html.h"
 #include "inspect_json.h"
 #include "problem.h"
@@ -177,11 +178,10 @@ std::size_t write_page(const InspectArguments& arguments, const InspectedFile& f
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
 void run_html(const InspectArguments& arguments) {
-    const Result<MappedFile> mapped = MappedFile::open(arguments.file);
-    if (!mapped) fail(arguments.file, mapped.error(), {});
+    const MappedFile mapped = open_bendy_file(arguments.file);
     InspectedFile file;
     file.name = arguments.file.filename().string();
-    file.bytes = mapped->bytes();
+    file.bytes = mapped.bytes();
     Result<ChunkTree> tree = read_chunk_tree(file.bytes);
     if (!tree) {
         file.faults.add(tree.error());
@@ -206,10 +206,9 @@ void run(const InspectArguments& arguments) {
         run_html(arguments);
         return;
     }
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    Result<ChunkTree> tree = read_chunk_tree(file->bytes());
-    if (!tree) fail(arguments.file, tree.error(), file->bytes());
+    const MappedFile file = open_bendy_file(arguments.file);
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes());
+    if (!tree) fail(arguments.file, tree.error(), file.bytes());
     decode_leaves(*tree);
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
     if (root == kNone) {
@@ -220,22 +219,22 @@ void run(const InspectArguments& arguments) {
     // A file with faults may have chunks to show, but no character to sum up.
     std::optional<Summary> summary;
     if (root == 0 && !arguments.hex) {
-        const Result<Model> model = Model::from_memory(file->bytes());
-        if (model) summary = summarize(*model, file->bytes());
-        if (!model && arguments.summary) fail(arguments.file, model.error(), file->bytes());
+        const Result<Model> model = Model::from_memory(file.bytes());
+        if (model) summary = summarize(*model, file.bytes());
+        if (!model && arguments.summary) fail(arguments.file, model.error(), file.bytes());
     }
     if (arguments.json) {
         print_json(arguments, *tree, root, summary);
     } else if (arguments.hex) {
         const Chunk& chunk = (*tree)[root];
-        print_hex(file->bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
+        print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
         print_text(arguments, *tree, root, summary);
     }
     Faults faults;
     check_sums(*tree, faults);
     if (faults.empty()) read_document(*tree, faults);
-    if (!faults.empty()) warn_of_faults(arguments.file, faults, file->bytes());
+    if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "colour.h"
 #include "commands.h"
+#include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -42,14 +43,20 @@ void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes 
         std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
 }
 
-nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+/// What is wrong with a file that is no bendy file at all: it cannot be opened, or is known to be something else.
+/// Empty for all others, whose faults tell.
+std::string why_no_file(const std::filesystem::path& file, const Result<MappedFile>& mapped) {
+    return mapped ? why_not_bendy(file, mapped->bytes()) : why_not_opened(file, mapped.error());
+}
+
+nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes, const std::string& why) {
     nlohmann::json list = nlohmann::json::array();
     for (const Error& fault : faults.list()) {
         list.push_back({{"code", code_name(fault.code)},
                         {"class", class_name(error_class(fault.code))},
                         {"path", whole_chunk_path(bytes, fault.offset)},
                         {"offset", fault.offset},
-                        {"message", describe(fault)}});
+                        {"message", why.empty() ? describe(fault) : why}});
     }
     return {{"file", file.string()}, {"valid", faults.empty()}, {"faults", list}, {"faultsLeftOut", faults.left_out()}};
 }
@@ -68,10 +75,11 @@ void run(const ValidateArguments& arguments) {
             faults.add(mapped.error());
         }
         all_good = all_good && faults.empty();
+        const std::string why = why_no_file(file, mapped);
         if (arguments.json) {
-            report.push_back(to_json(file, faults, bytes));
-        } else if (!mapped) {
-            std::cerr << error_label() << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
+            report.push_back(to_json(file, faults, bytes, why));
+        } else if (!why.empty()) {
+            std::cerr << error_label() << printable(file.string()) << ": " << printable(why) << '\n';
         } else {
             print_lines(file, faults, bytes);
         }

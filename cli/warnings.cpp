@@ -19,4 +19,8 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         std::cerr << "bendy: note: " << printable(file.string()) << ": " << printable(line) << '\n';
 }
 
+void print_proposals(const converter::Report& report) {
+    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
+}
+
 }  // namespace bendy::cli

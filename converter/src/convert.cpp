@@ -8,12 +8,12 @@
 #include "passes/merge_clips.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
-#include "source_format.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
 #include <bendy/converter/import_md2.h>
 #include <bendy/converter/import_x.h>
+#include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
@@ -44,6 +44,7 @@ Result<Scene, ImportError> read_source(const std::filesystem::path& file, Source
 /// The scene of a source of any kind, with its rig.
 Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
                                          const std::optional<Rig>& rig, Report& report) {
+    if (std::string why = why_not_convertible(file); !why.empty()) return ImportError{{}, std::move(why)};
     const SourceFormat format = find_source_format(file);
     if (format != SourceFormat::gltf && options.gltf.scene)
         return ImportError{{}, "a scene can be chosen in glTF files only"};

@@ -257,6 +257,7 @@ void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOp
     if (options.axes) overlay_.add_axes(pose, list_);
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);
+    if (options.marked_joint != kNone) overlay_.add_mark(pose, options.marked_joint, list_);
     gl::Clear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
     overlay_program_.use();
     gl::UniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
