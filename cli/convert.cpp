@@ -81,6 +81,7 @@ void print_compact(const converter::CompactReport& report) {
 }
 
 auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptions options, converter::Report& report) {
+    options.output = arguments.output;
     ProgressBar bar("compacting");
     std::uint64_t shown = 0;
     if (!arguments.quiet) {
@@ -213,9 +214,13 @@ void add_convert(CLI::App& program) {
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =

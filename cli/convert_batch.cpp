@@ -112,7 +112,9 @@ private:
 
     /// Converts one file and writes it; `size` becomes that of the output.
     std::optional<Failure> convert(const BatchFile& file, converter::Report& report, std::uint64_t& size) {
-        const auto bytes = converter::convert(file.input, options_of(arguments_), report);
+        converter::ConvertOptions options = options_of(arguments_);
+        options.output = file.output;
+        const auto bytes = converter::convert(file.input, options, report);
         if (!bytes) return Failure{file_of(bytes.error(), file.input), describe(bytes.error())};
         size = bytes->size();
         const std::shared_lock writing(writing_);

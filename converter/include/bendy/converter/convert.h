@@ -15,6 +15,8 @@
 namespace bendy::converter {
 
 struct ConvertOptions {
+    /// The file that the result is meant for: links to images are relative to its folder. Empty: beside the source.
+    std::filesystem::path output;
     GltfOptions gltf;  ///< for glTF sources, embed_images for X-files too; a scene chosen in others is an error
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
