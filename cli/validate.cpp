@@ -109,7 +109,8 @@ void add_validate(CLI::App& program) {
     command->add_option("FILE", arguments->files, "bendy files")->required();
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
-        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1. A link to an image that does not "
+        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1. A link to an image that does "
+        "not "
         "exist is a warning, on standard error or in the report's \"warnings\": the exit status stays 0.\n"
         "Example: bendy validate fox.bendy");
     command->callback([arguments] { run(*arguments); });

@@ -31,9 +31,8 @@ protected:
 
     [[nodiscard]] bool warned(const std::string& words) const {
         const auto& warnings = report_.warnings();
-        return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
-            return warning.message.find(words) != std::string::npos;
-        });
+        return std::any_of(warnings.begin(), warnings.end(),
+                           [&](const Warning& warning) { return warning.message.find(words) != std::string::npos; });
     }
 
     test::TemporaryFolder folder_;

@@ -2,7 +2,6 @@
 
 #include "extensions.h"
 #include "failure.h"
-#include "instancing.h"
 
 #include <algorithm>
 #include <array>
@@ -411,7 +410,8 @@ void check_required_extensions(const Json& root, bool with_instances) {
         const bool is_instancing = name == kInstancing;
         if (is_instancing && with_instances) continue;
         if (!is_known_extension(name.get_ref<const std::string&>())) {
-            fail(at("extensionsRequired", i), "the file requires extension " + shown(name) + ", which is not supported" +
+            fail(at("extensionsRequired", i), "the file requires extension " + shown(name) +
+                                                  ", which is not supported" +
                                                   (is_instancing ? " unless instances are made (--instances)" : ""));
         }
     }

@@ -67,7 +67,8 @@ struct Occurrence {
 };
 
 /// Finds the `extensions` objects of a file. Materials are left to material.cpp, the root and nodes to
-/// keep_extensions.cpp, cameras are kept whole, extras are the author's own, and what stands inside an extension goes with it.
+/// keep_extensions.cpp, cameras are kept whole, extras are the author's own, and what stands inside an extension goes
+/// with it.
 class Finder {
 public:
     // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded

@@ -98,8 +98,7 @@ constexpr Shape kRoot{
     "accessors animations asset buffers bufferViews cameras extensions extensionsRequired extensionsUsed extras images "
     "materials meshes nodes samplers scene scenes skins textures"};
 constexpr Shape kScene{"name extras extensions nodes"};
-constexpr Shape kNode{
-    "name extras extensions camera children matrix mesh rotation scale skin translation weights"};
+constexpr Shape kNode{"name extras extensions camera children matrix mesh rotation scale skin translation weights"};
 constexpr Shape kImage{"uri mimeType bufferView extensions"};
 constexpr Shape kSampler{"magFilter minFilter wrapS wrapT extensions"};
 constexpr Shape kSkin{"inverseBindMatrices joints skeleton extensions"};
@@ -108,9 +107,9 @@ constexpr Shape kAnimation{"name extras extensions channels samplers"};
 constexpr Shape kAnimationSampler{"input interpolation output extensions"};
 
 /// In the order of Element.
-constexpr std::array kShapes{&kRoot,      &kScene,   &kNode,  &kMaterial,  &kTexture,   &kImage,
-                             &kSampler,   &kSkin,    &kCamera, &kMesh,     &kPrimitive, &kAnimation,
-                             &kChannel,   &kAnimationSampler,  &kAccessor, &kView,      &kBuffer};
+constexpr std::array kShapes{&kRoot,     &kScene,  &kNode,  &kMaterial,  &kTexture,   &kImage,   &kSampler,
+                             &kSkin,     &kCamera, &kMesh,  &kPrimitive, &kAnimation, &kChannel, &kAnimationSampler,
+                             &kAccessor, &kView,   &kBuffer};
 static_assert(kShapes.size() == static_cast<std::size_t>(Element::buffer) + 1);
 
 const Shape& shape_of(Element element) {

@@ -1,6 +1,7 @@
 #include "instancing.h"
 
 #include "accessor.h"
+#include "extensions.h"
 #include "failure.h"
 #include "gltf_out/buffer.h"
 #include "losses.h"
@@ -126,9 +127,10 @@ void inline_instances(const Document& document, Json& extension, const std::stri
         const tinygltf::Accessor& accessor = document.model.accessors[index];
         document.budget.take(std::uint64_t{accessor.count} * component_count(accessor), kBytesPerNumber, here);
         Json numbers{{"type", document.json["accessors"][index]["type"]}};
-        const bool is_whole = !accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                                       accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                                                       accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+        const bool is_whole =
+            !accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                     accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                                     accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
         if (is_whole) {
             numbers["integers"] = true;
             numbers["values"] = read_unsigned(document, index, here);

@@ -5,13 +5,10 @@
 #include <bendy/converter/scene.h>
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 // EXT_mesh_gpu_instancing: a node that draws its mesh several times.
 namespace bendy::converter::gltf {
-
-inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
 
 /// Where each instance of a node stands, relative to the node; the extension's own attributes (`_ID`) are named in a
 /// warning. Empty: the node has no such extension, or nothing to draw. Fails on a faulty one; how many there may be is

@@ -33,10 +33,10 @@ public:
     }
 
 private:
-    std::string text_of(const Json& members, const char* place) const {
+    std::string text_of(const Json& members, const std::string& place) const {
         if (members.empty()) return {};
         std::string text = members.dump();
-        document_.budget.take(text.size(), 1, place == nullptr ? std::string() : place);
+        document_.budget.take(text.size(), 1, place);
         return text;
     }
 
@@ -44,7 +44,8 @@ private:
         const std::uint32_t number = skeleton_.node_of_joint[joint];
         const Json& node = root_["nodes"][number];
         Json more = further_members(node, Element::node);
-        if (const Json* skin = find(node, "skin"); skin != nullptr && skeleton_.is_drawn[joint] && node.contains("mesh")) {
+        if (const Json* skin = find(node, "skin");
+            skin != nullptr && skeleton_.is_drawn[joint] && node.contains("mesh")) {
             add(more, "skin", further_members(root_["skins"][skin->get<std::size_t>()], Element::skin));
         }
         if (const Json* camera = find(node, "camera"); camera != nullptr) {
@@ -133,7 +134,8 @@ private:
         }
     }
 
-    void lose_list(const Json& owner, const char* member, Element element, const char* nouns, const std::string& place) {
+    void lose_list(const Json& owner, const char* member, Element element, const char* nouns,
+                   const std::string& place) {
         const Json& list = array_of(owner, member);
         for (std::size_t i = 0; i < list.size(); ++i)
             lose_members(list[i], element, nouns, place.empty() ? at(member, i) : place + '.' + at(member, i), losses_);

@@ -212,8 +212,9 @@ private:
 
 std::uint64_t byte_size(const Mesh& mesh) {
     const auto bytes = [](const auto& values) { return std::uint64_t{values.size()} * sizeof(values[0]); };
-    std::uint64_t size = sizeof(Mesh) + mesh.name.size() + mesh.extras.size() + mesh.more.size() + bytes(mesh.positions) +
-                         bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) + bytes(mesh.weights);
+    std::uint64_t size = sizeof(Mesh) + mesh.name.size() + mesh.extras.size() + mesh.more.size() +
+                         bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) +
+                         bytes(mesh.weights);
     for (const auto* kind : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
         for (const Stream& stream : *kind) size += sizeof(Stream) + bytes(stream.values);
     }
@@ -260,7 +261,8 @@ private:
         for (std::uint32_t joint = 0; joint < skeleton_.node_of_joint.size(); ++joint) {
             const std::uint32_t node = skeleton_.node_of_joint[joint];
             // Its instances draw it in the node's place.
-            const bool is_drawn_by_others = skeleton_.has_instances[node] && skeleton_.instance_of_joint[joint] == kNone;
+            const bool is_drawn_by_others =
+                skeleton_.has_instances[node] && skeleton_.instance_of_joint[joint] == kNone;
             if (skeleton_.is_drawn[joint] && document_.model.nodes[node].mesh >= 0 && !is_drawn_by_others)
                 visit(node, joint);
         }

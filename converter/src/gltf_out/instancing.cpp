@@ -1,7 +1,7 @@
 #include "gltf_out/instancing.h"
 
 #include "failure.h"
-#include "gltf/instancing.h"
+#include "gltf/extensions.h"
 
 #include <algorithm>
 #include <array>

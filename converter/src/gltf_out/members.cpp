@@ -13,8 +13,8 @@ namespace {
 /// Objects that mean something by being there: made by others, or not at all.
 bool has_meaning(std::string_view member) {
     constexpr std::array<std::string_view, 9> kSuch{
-        "baseColorTexture", "metallicRoughnessTexture", "normalTexture",    "occlusionTexture", "emissiveTexture",
-        "KHR_materials_unlit", "KHR_texture_basisu",    "EXT_texture_avif", "EXT_texture_webp"};
+        "baseColorTexture",    "metallicRoughnessTexture", "normalTexture",    "occlusionTexture", "emissiveTexture",
+        "KHR_materials_unlit", "KHR_texture_basisu",       "EXT_texture_avif", "EXT_texture_webp"};
     return std::find(kSuch.begin(), kSuch.end(), member) != kSuch.end();
 }
 
@@ -28,7 +28,8 @@ void merge(Json& object, const Json& more, const std::string& place, Report& rep
             merge(*known, *member, here, report);
         } else if (known == object.end() && is_inner && has_meaning(member.key())) {
             report.warn("data of a texture or extension that is not used any more left out", here);
-        } else if (known == object.end() && is_inner && (member.key() == "extensions" || member.key() == "pbrMetallicRoughness")) {
+        } else if (known == object.end() && is_inner &&
+                   (member.key() == "extensions" || member.key() == "pbrMetallicRoughness")) {
             Json made = Json::object();
             merge(made, *member, here, report);
             if (!made.empty()) object[member.key()] = std::move(made);

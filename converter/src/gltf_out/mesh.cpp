@@ -106,7 +106,8 @@ public:
 private:
     void place(std::uint32_t number) {
         const Mesh& mesh = scene_.meshes[number];
-        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh, number), mesh.name, mesh.extras, mesh.more, {}};
+        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh, number), mesh.name, mesh.extras, mesh.more,
+                  {}};
         for (const Target& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
         const std::uint32_t skin = slot.skin;
         const auto [known, is_new] = slots_.try_emplace(std::move(slot), drawn_.size());

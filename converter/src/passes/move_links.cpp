@@ -22,7 +22,8 @@ std::string uri_between(const std::filesystem::path& folder, const std::filesyst
     const std::filesystem::path target = folder_of(file) / file.filename();
     const std::filesystem::path relative = target.lexically_relative(folder);
     if (!relative.empty()) return gltf::uri_of(relative);
-    return "file:///" + target.root_name().generic_string() + gltf::uri_of(target.root_directory() / target.relative_path());
+    return "file:///" + target.root_name().generic_string() +
+           gltf::uri_of(target.root_directory() / target.relative_path());
 }
 
 }  // namespace

@@ -76,9 +76,10 @@ Json make_everything(Bytes& buffer) {
     const auto positions = gltf.add_positions(3);
     const auto sparse_indices = gltf.add_view(bytes_of(std::vector<std::uint16_t>{1}));
     const auto sparse_values = gltf.add_view(bytes_of(std::vector<float>{1.0f, 2.0f, 3.0f}));
-    gltf.json["accessors"][positions]["sparse"] = {{"count", 1},
-                                                   {"indices", {{"bufferView", sparse_indices}, {"componentType", 5123}}},
-                                                   {"values", {{"bufferView", sparse_values}}}};
+    gltf.json["accessors"][positions]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", sparse_indices}, {"componentType", 5123}}},
+        {"values", {{"bufferView", sparse_values}}}};
     const auto displacements = gltf.add_positions(3);
     const auto coords = gltf.add_accessor(std::vector<float>(6), "VEC2");
     const auto joints = gltf.add_accessor(std::vector<std::uint8_t>(12), "VEC4");
@@ -96,9 +97,9 @@ Json make_everything(Bytes& buffer) {
                    {"mesh", 1},
                    {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
     gltf.json["skins"] = {{{"joints", {1, 2}}}};
-    gltf.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}},
-                            {{"type", "orthographic"},
-                             {"orthographic", {{"xmag", 1.0}, {"ymag", 1.0}, {"zfar", 2.0}, {"znear", 0.1}}}}};
+    gltf.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1.0}, {"ymag", 1.0}, {"zfar", 2.0}, {"znear", 0.1}}}}};
     gltf.json["scenes"] = {{{"nodes", {0}}}};
     gltf.json["scene"] = 0;
     gltf.add_animation(1, "translation", times, moves);
@@ -128,51 +129,50 @@ Json make_everything(Bytes& buffer) {
 }
 
 /// The objects of glTF 2.0 (Khronos' JSON schemas), and what of extensions the importer reads.
-const std::set<std::string> kKinds{
-    "",
-    "accessors[]",
-    "accessors[].sparse",
-    "accessors[].sparse.indices",
-    "accessors[].sparse.values",
-    "animations[]",
-    "animations[].channels[]",
-    "animations[].channels[].target",
-    "animations[].samplers[]",
-    "asset",
-    "bufferViews[]",
-    "buffers[]",
-    "cameras[]",
-    "cameras[].orthographic",
-    "cameras[].perspective",
-    "extensions.ACME_file",
-    "extensions.ACME_file.inner",
-    "images[]",
-    "materials[]",
-    "materials[].emissiveTexture",
-    "materials[].extensions.KHR_materials_ior",
-    "materials[].extensions.KHR_materials_unlit",
-    "materials[].normalTexture",
-    "materials[].normalTexture.extensions.ACME_use",
-    "materials[].normalTexture.extensions.KHR_texture_transform",
-    "materials[].occlusionTexture",
-    "materials[].pbrMetallicRoughness",
-    "materials[].pbrMetallicRoughness.baseColorTexture",
-    "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
-    "meshes[]",
-    "meshes[].primitives[]",
-    "nodes[]",
-    "nodes[].extensions.EXT_mesh_gpu_instancing",
-    "samplers[]",
-    "scenes[]",
-    "skins[]",
-    "textures[]",
-    "textures[].extensions.KHR_texture_basisu"};
+const std::set<std::string> kKinds{"",
+                                   "accessors[]",
+                                   "accessors[].sparse",
+                                   "accessors[].sparse.indices",
+                                   "accessors[].sparse.values",
+                                   "animations[]",
+                                   "animations[].channels[]",
+                                   "animations[].channels[].target",
+                                   "animations[].samplers[]",
+                                   "asset",
+                                   "bufferViews[]",
+                                   "buffers[]",
+                                   "cameras[]",
+                                   "cameras[].orthographic",
+                                   "cameras[].perspective",
+                                   "extensions.ACME_file",
+                                   "extensions.ACME_file.inner",
+                                   "images[]",
+                                   "materials[]",
+                                   "materials[].emissiveTexture",
+                                   "materials[].extensions.KHR_materials_ior",
+                                   "materials[].extensions.KHR_materials_unlit",
+                                   "materials[].normalTexture",
+                                   "materials[].normalTexture.extensions.ACME_use",
+                                   "materials[].normalTexture.extensions.KHR_texture_transform",
+                                   "materials[].occlusionTexture",
+                                   "materials[].pbrMetallicRoughness",
+                                   "materials[].pbrMetallicRoughness.baseColorTexture",
+                                   "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
+                                   "meshes[]",
+                                   "meshes[].primitives[]",
+                                   "nodes[]",
+                                   "nodes[].extensions.EXT_mesh_gpu_instancing",
+                                   "samplers[]",
+                                   "scenes[]",
+                                   "skins[]",
+                                   "textures[]",
+                                   "textures[].extensions.KHR_texture_basisu"};
 
 /// Puts extras and an unknown member into every object, and a name where the specification has one.
 std::vector<Mark> mark_everything(Json& root) {
     std::vector<Mark> marks;
     std::set<std::string> kinds;
-    visit_objects(root, [&](Json& object, const Place& place) {
+    visit_objects(root, [&](const Json&, const Place& place) {
         kinds.insert(kind_of(place.path));
         const std::string prefix = place.path.empty() ? "" : place.path + '.';
         marks.push_back({place.pointer + "/extras", prefix + "extras", {{"extras of", place.path}}});
@@ -255,8 +255,12 @@ TEST(GltfEveryPlace, IsKeptOrNamedInACompactFile) {
 TEST(GltfEveryPlace, WhatChunksCanHoldIsKept) {
     std::vector<Mark> marks;
     const Trip trip = travel(write_marked(marks), {});
-    const std::set<std::string> named{"accessors", "bufferViews", "buffers", "animations[].channels[]",
-                                      "animations[].samplers[]", "meshes[].primitives[]"};
+    const std::set<std::string> named{"accessors",
+                                      "bufferViews",
+                                      "buffers",
+                                      "animations[].channels[]",
+                                      "animations[].samplers[]",
+                                      "meshes[].primitives[]"};
     for (const Mark& mark : marks) {
         const std::string kind = kind_of(std::regex_replace(mark.pointer.substr(1), std::regex("/([0-9]+)"), "[$1]"));
         const bool may_be_lost = std::any_of(named.begin(), named.end(), [&](const std::string& start) {

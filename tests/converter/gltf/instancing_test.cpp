@@ -24,8 +24,8 @@ Gltf make_forest(Gltf gltf, Json attributes) {
 Gltf make_three() {
     Gltf gltf = make_triangle();
     const auto places = gltf.add_accessor(std::vector<float>{1, 0, 0, 2, 0, 0, 3, 0, 0.25f}, "VEC3");
-    const auto turns = gltf.add_accessor(
-        std::vector<std::int16_t>{0, 0, 0, 32767, 0, 32767, 0, 0, 23170, 0, 0, 23170}, "VEC4", true);
+    const auto turns =
+        gltf.add_accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 32767, 0, 0, 23170, 0, 0, 23170}, "VEC4", true);
     const auto sizes = gltf.add_accessor(std::vector<std::uint8_t>{1, 1, 1, 2, 2, 2, 3, 1, 1}, "VEC3");
     const auto ids = gltf.add_accessor(std::vector<std::uint32_t>{7, 70000, 4000000000u}, "SCALAR");
     return make_forest(std::move(gltf), {{"TRANSLATION", places}, {"ROTATION", turns}, {"SCALE", sizes}, {"_ID", ids}});
