@@ -55,6 +55,7 @@ auto convert_with_progress(const ConvertArguments& arguments, converter::Convert
                            converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
     LiveProgress progress("converting " + printable(input.filename().string()), !arguments.quiet);
+    options.output = arguments.output;
     options.progress = [&](double share) { progress.set(share); };
     return converter::convert(input, options, report);
 }
@@ -137,7 +138,8 @@ void add_convert(CLI::App& program) {
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command
@@ -147,6 +149,9 @@ void add_convert(CLI::App& program) {
         ->check(CLI::PositiveNumber);
     command->add_flag("--merge-clips", arguments->merge_clips,
                       "clips that move different joints become one, as for files with a clip for each joint");
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =

@@ -14,6 +14,7 @@ struct ConvertArguments {
     std::filesystem::path output;  ///< a file; of several inputs, a folder
     std::string scene;
     std::string images = "embed";
+    bool instances = false;
     std::filesystem::path rig;
     std::filesystem::path depfile;
     bool exact = true;

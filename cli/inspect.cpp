@@ -40,7 +40,8 @@ struct InspectArguments {
 bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
     constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
                                  FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY"), FourCC("KINF")};
-    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN")) return tree[chunk.parent].id == FourCC("SKIN");
+    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN") || chunk.id == FourCC("MORE"))
+        return tree[chunk.parent].id == FourCC("SKIN");
     return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
 }
 

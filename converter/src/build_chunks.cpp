@@ -113,6 +113,7 @@ void put_textures(LeafWriter& out, const Scene& scene) {
             static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
         out.leaf(FourCC("SAMP"), bytes_of(sampler));
         put_text(out, FourCC("EXTR"), texture.extras);
+        put_text(out, FourCC("MORE"), texture.more);
         for (std::uint32_t place = 0; place < texture.images.size(); ++place) {
             const std::uint32_t index = texture.images[place];
             const auto [known, is_new] = written.try_emplace(index, SameRecord{number, place});
@@ -163,6 +164,7 @@ void put_material(LeafWriter& out, const Material& material) {
     out.leaf(FourCC("SURF"), bytes_of(surface));
     put_text(out, FourCC("EXTN"), material.extensions);
     put_text(out, FourCC("EXTR"), material.extras);
+    put_text(out, FourCC("MORE"), material.more);
     out.end();
 }
 
@@ -256,6 +258,7 @@ void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& poly
         }
         put_text(out, FourCC("EXTR"), joint.extras);
         put_text(out, FourCC("EXTN"), joint.extensions);
+        put_text(out, FourCC("MORE"), joint.more);
     }
     for (; !open.empty(); open.pop_back()) out.end();
     if (has_table && !scene.joints.empty()) put_joint_table(out, scene, polygons);
@@ -364,6 +367,7 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     put_text(out, FourCC("NAME"), mesh.name);
     out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
+    put_text(out, FourCC("MORE"), mesh.more);
     if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
     put_either<glm::vec3>(out, FourCC("POSI"), compact.positions, mesh.positions);
     put_either<glm::vec3>(out, FourCC("NORM"), compact.normals, mesh.normals);
@@ -502,6 +506,7 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
+    put_text(out, FourCC("MORE"), cycle.more);
     if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
     if (!tracks.empty()) {
         constexpr LeafShape kFloats{0, 0, sizeof(float), false};
@@ -605,11 +610,13 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
+    put_text(out, FourCC("MORE"), scene.source_more);
     if (!embeds) put_textures(out, scene);
     for (const Material& material : scene.materials) put_material(out, material);
     out.begin(FourCC("OBJE"));
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
+    put_text(out, FourCC("MORE"), scene.more);
     put_joints(out, scene, sort_by_joint(scene, polygons));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;

@@ -6,6 +6,7 @@
 #include "passes/auto_skin.h"
 #include "passes/collapse_vertices.h"
 #include "passes/merge_clips.h"
+#include "passes/move_links.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
 
@@ -52,6 +53,9 @@ Result<Scene, ImportError> import_source(const std::filesystem::path& file, cons
         return ImportError{{}, "ticks per second can be set for X-files only"};
     auto scene = read_source(file, format, options, report);
     if (!scene) return scene;
+    // Where images are to be embedded, a link is what could not be read: it stays what the source says.
+    if (format == SourceFormat::bendy || !options.gltf.embed_images)
+        move_links(*scene, file, options.output.empty() ? file : options.output, report);
     if (format == SourceFormat::gltf) {
         attach_rigs(*scene, rig, options.auto_rig, report);
     } else {

@@ -94,7 +94,7 @@ private:
             case Part::attributes:
                 return strip_leaves(FourCC("USER"));
             case Part::extras:
-                return strip_leaves(FourCC("EXTR"));
+                return strip_leaves(FourCC("EXTR"), FourCC("MORE"));
             case Part::extensions:
                 return strip_leaves(FourCC("EXTN"));
         }
@@ -221,10 +221,12 @@ private:
         }
     }
 
-    Result<void, Problem> strip_leaves(FourCC id) {
+    Result<void, Problem> strip_leaves(FourCC id) { return strip_leaves(id, id); }
+
+    Result<void, Problem> strip_leaves(FourCC id, FourCC other) {
         std::size_t count = 0;
         walk([&](std::uint32_t number, const Chunk& chunk) {
-            if (!(chunk.id == id)) return true;
+            if (!(chunk.id == id || chunk.id == other)) return true;
             rewrite_.remove(number);
             ++count;
             return false;

@@ -377,6 +377,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     pool.chunk = chunk;
     pool.name = read_text(tree, chunk, FourCC("NAME"), faults);
     pool.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    pool.more = read_text(tree, chunk, FourCC("MORE"), faults);
     const std::uint64_t offset = tree[chunk].offset;
     const auto record = read_child_record<PoolRecord>(tree, chunk, FourCC("VINF"), faults);
     if (!record) return pool;

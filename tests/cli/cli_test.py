@@ -375,6 +375,72 @@ class Convert(Case):
         self.assertFalse(any(ord(c) < 0x20 and c != "\n" for c in text))
 
 
+class LinkedImages(Case):
+    """--images link: URIs are relative to where they stand, and a dangling one is said."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "lk").mkdir()
+        file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], images=[{"uri": "the%20axe.png"}],
+                        textures=[{"source": 0}],
+                        materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])
+        positions = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "VEC3")
+        file.document["meshes"] = [{"primitives": [{"attributes": {"POSITION": positions}, "material": 0}]}]
+        file.write(self.folder / "lk" / "m.gltf")
+        (self.folder / "lk" / "the axe.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+
+    def links(self, path):
+        root = Chunk.read((self.folder / path).read_bytes())
+        return [chunk.payload.decode() for _, chunk in root.walk() if chunk.letters == "LINK"]
+
+    def test_is_relative_to_the_output(self):
+        for output, uri in (("m.bendy", "lk/the%20axe.png"), ("lk/m.bendy", "the%20axe.png"),
+                            ("out/m.bendy", "../lk/the%20axe.png")):
+            (self.folder / output).parent.mkdir(exist_ok=True)
+            result = self.bendy("convert", "lk/m.gltf", "-o", output, "--images", "link")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(self.links(output), [uri])
+            self.assertEqual(b"viewer does not follow it" in result.stderr, output == "out/m.bendy")
+            self.assertEqual(self.bendy("validate", output).stderr, b"")
+
+    def test_of_a_batch_is_relative_to_each_output(self):
+        self.done("convert", "lk", "-o", "out", "--images", "link")
+        self.assertEqual(self.links("out/m.bendy"), ["../lk/the%20axe.png"])
+
+    def test_follows_the_file(self):
+        self.done("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        (self.folder / "out").mkdir()
+        self.done("convert", "m.bendy", "-o", "out/again.bendy")
+        self.assertEqual(self.links("out/again.bendy"), ["../lk/the%20axe.png"])
+        self.done("export", "out/again.bendy", "-o", "lk/back.gltf")
+        document = json.loads((self.folder / "lk" / "back.gltf").read_text())
+        self.assertEqual(document["images"][0]["uri"], "the%20axe.png")
+        self.done("export", "out/again.bendy", "-o", "back.x")
+        self.assertIn('"lk/the axe.png"', (self.folder / "back.x").read_text())
+
+    def test_that_dangles_is_a_warning(self):
+        (self.folder / "lk" / "the axe.png").unlink()
+        result = self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        self.assertIn(b"linked image does not exist: 'the%20axe.png'", result.stderr)
+        result = self.bendy("validate", "m.bendy")
+        self.assertEqual((result.returncode, result.stdout), (0, b""))
+        self.assertEqual(result.stderr.decode(), "bendy: warning: m.bendy: HEAD/TEXT/LINK: linked image does not "
+                                                 "exist: lk/the%20axe.png\n")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertTrue(entry["valid"])
+        self.assertEqual([warning["path"] for warning in entry["warnings"]], ["HEAD/TEXT/LINK"])
+        (self.folder / "lk" / "the axe.png").write_bytes(b"")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertEqual(entry["warnings"], [])
+
+    def test_elsewhere_is_not_looked_at(self):
+        text = (self.folder / "lk" / "m.gltf").read_text().replace("the%20axe.png", "https://example.org/a.png")
+        (self.folder / "lk" / "m.gltf").write_text(text)
+        self.assertEqual(self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link").stderr, b"")
+        self.assertEqual(self.links("m.bendy"), ["https://example.org/a.png"])
+        self.assertEqual(self.bendy("validate", "m.bendy").stderr, b"")
+
+
 class ConvertBatch(Case):
     """Several files and folders at once."""
 

@@ -44,6 +44,7 @@ void import_joints(const SkeletonView& skeleton, Scene& scene) {
         joint.rest.shear = to_vec<3>(view.rest.shear);
         joint.extras = view.extras;
         joint.extensions = view.extensions;
+        joint.more = view.more;
     }
     for (const LimitView& limit : skeleton.limits) scene.joints[limit.joint].limits.push_back(limit.record);
 }
@@ -87,6 +88,7 @@ public:
         cycle.name = view.name;
         cycle.loop = view.loop;
         cycle.extras = view.extras;
+        cycle.more = view.more;
         std::uint64_t fixed = 0;
         for (const TrackView& track : view.tracks) {
             budget_.take(track.keys + std::uint64_t{track.values.size()}, sizeof(float), place);
@@ -189,6 +191,7 @@ void import_materials(const Document& document, Scene& scene) {
         material.emissive_texture = to_use(surface.emissive_texture);
         material.extensions = view.extensions;
         material.extras = view.extras;
+        material.more = view.more;
     }
 }
 
@@ -221,6 +224,7 @@ void import_textures(const ChunkTree& tree, const Document& document, Scene& sce
         Texture& texture = scene.textures.emplace_back();
         texture.name = view.name;
         texture.extras = view.extras;
+        texture.more = view.more;
         texture.mag_filter = static_cast<Filter>(view.sampler.mag_filter);
         texture.min_filter = static_cast<Filter>(view.sampler.min_filter);
         texture.wrap_s = static_cast<Wrap>(view.sampler.wrap_s);
@@ -260,6 +264,8 @@ Scene import(Bytes bytes, Report& report) {
     scene.name = object.name;
     scene.extras = object.extras;
     scene.extensions = document.extensions;
+    scene.more = object.more;
+    scene.source_more = document.more;
     read_source_facts(document.extras, scene, report);
     import_joints(object.skeleton, scene);
     import_chains(object, scene);

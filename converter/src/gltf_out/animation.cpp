@@ -3,6 +3,7 @@
 #include "cycle_span.h"
 #include "error_place.h"
 #include "failure.h"
+#include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 
 #include <algorithm>
@@ -74,6 +75,7 @@ private:
         Json animation = Json::object();
         if (!cycle.name.empty()) animation["name"] = cycle.name;
         add_extras(animation, cycle.extras, place, report_);
+        add_members(animation, read_members(cycle.more, place, report_), gltf::Element::animation, place, report_);
         if (cycle.loop) mark_as_loop(animation, place);
         const float start = span_of(cycle).start;
         shift_ = start < 0.0f ? -start : 0.0f;

@@ -81,6 +81,8 @@ private:
         if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat ||
             texture.mag_filter != Filter::unspecified || texture.min_filter != Filter::unspecified)
             report_.warn("how a texture is sampled is left out", place);
+        if (!texture.extras.empty() || !texture.more.empty())
+            report_.warn("extras of a texture left out: X-files have no place for it", place);
         if (texture.images.empty()) return;
         text_.open("TextureFilename");
         text_.line('"' + file_of(texture.images.front()) + "\";");
@@ -114,7 +116,7 @@ private:
         lose(material.double_sided, "that a material has two sides");
         lose(material.unlit, "that a material is unlit");
         lose(!material.extensions.empty(), "extensions of a material");
-        lose(!material.extras.empty(), "extras of a material");
+        lose(!material.extras.empty() || !material.more.empty(), "extras of a material");
     }
 
     const Scene& scene_;

@@ -257,7 +257,7 @@ private:
         lose(further(mesh_.texture_coords), "further set of texture coordinates");
         lose(further(mesh_.colours), "further set of vertex colours");
         lose(mesh_.attributes.size(), "an author's attribute");
-        lose(mesh_.extras.empty() ? 0 : 1, "extras of a mesh");
+        lose(mesh_.extras.empty() && mesh_.more.empty() ? 0 : 1, "extras of a mesh");
     }
 
     const Mesh& mesh_;

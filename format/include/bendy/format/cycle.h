@@ -40,6 +40,7 @@ struct CycleView {
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::string_view extras;
+    std::string_view more;        ///< JSON object, or empty
     std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
 };
 

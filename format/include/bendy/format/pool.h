@@ -103,6 +103,7 @@ struct PoolView {
     std::vector<TargetView> targets;
     std::optional<StreamView> indices;  ///< u16 or u32 x 1
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
 };
