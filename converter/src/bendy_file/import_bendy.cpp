@@ -101,6 +101,12 @@ public:
                                     {track.values.begin(), track.values.end()}});
         }
         if (view.packed) unpack(*view.packed, place, cycle);
+        for (const PlayView& play : view.plays)
+            cycle.plays.push_back({play.pool, play.first, play.frames, play.closed});
+        if (!view.plays.empty()) {
+            cycle.frame_rate = view.frame_rate;
+            cycle.frame_start = view.start;
+        }
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
         check_ends(view, cycle, place);
         import_markers(view, place, cycle);
