@@ -107,6 +107,19 @@ Json shown_markers(const CycleView& cycle) {
     return markers;
 }
 
+/// What frames a cycle plays, of which mesh.
+Json shown_plays(const CycleView& cycle, const ObjectView& object) {
+    constexpr std::size_t kMostPlays = 24;
+    Json plays = Json::array();
+    for (const PlayView& play : std::span(cycle.plays).first(std::min(cycle.plays.size(), kMostPlays))) {
+        plays.push_back({{"pool", brief(object.pools[play.pool].name)},
+                         {"first", play.first},
+                         {"frames", play.frames},
+                         {"closed", play.closed}});
+    }
+    return plays;
+}
+
 }  // namespace
 
 CurveSampler::CurveSampler(std::span<const ObjectView> objects) : budget_(kMostNumbers) {
@@ -228,6 +241,7 @@ Json CurveSampler::cycles(const ObjectView& object) {
                         {"rate", page_number(cycle.frame_rate)},
                         {"loop", cycle.loop},
                         {"total", cycle.tracks.size() + (cycle.packed ? packed_tracks(*cycle.packed) : 0)},
+                        {"plays", shown_plays(cycle, object)},
                         {"markers", shown_markers(cycle)},
                         {"tracks", std::move(tracks)}});
     }

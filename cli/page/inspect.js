@@ -584,7 +584,7 @@ function cycleSection(object) {
     targets = [...groups.values()];
     $('target').replaceChildren(...targets.map((group, i) => make('option', { value: i }, group.name)));
     $('target').value = Math.max(0, targets.findIndex(group => group.key === kept));
-    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${plural(cycle.total, 'track')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
+    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${[...(cycle.total || !cycle.plays.length ? [plural(cycle.total, 'track')] : []), ...cycle.plays.map(play => `${plural(play.frames, 'frame')} of ${quoted(play.pool, 'a mesh')} from frame ${play.first}${play.closed ? ', closed' : ''}`)].join(', ')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
     charts();
   }
   $('cycle').onchange = choose;

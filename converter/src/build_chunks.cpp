@@ -6,6 +6,7 @@
 #include "passes/assign_polygons.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
+#include "store_frames.h"
 
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
@@ -361,6 +362,17 @@ void put_sets(LeafWriter& out, FourCC id, std::span<const Stream> streams,
     }
 }
 
+void put_frames(LeafWriter& out, const StoredFrames& frames) {
+    out.begin(FourCC("FRMS"));
+    put_text(out, FourCC("FNAM"), frames.names);
+    out.leaf(FourCC("GRID"), std::as_bytes(std::span(frames.grid)), LeafShape{0, 0, sizeof(float), false});
+    put_stream(out, FourCC("INDX"), narrow_indices(frames.places, frames.place_count, true), 1,
+               static_cast<std::uint32_t>(frames.places.size()));
+    put_stored(out, FourCC("POSI"), frames.positions);
+    if (frames.normals) put_stored(out, FourCC("NORM"), *frames.normals);
+    out.end();
+}
+
 void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact) {
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     out.begin(FourCC("VECT"));
@@ -369,8 +381,11 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     put_text(out, FourCC("EXTR"), mesh.extras);
     put_text(out, FourCC("MORE"), mesh.more);
     if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
-    put_either<glm::vec3>(out, FourCC("POSI"), compact.positions, mesh.positions);
-    put_either<glm::vec3>(out, FourCC("NORM"), compact.normals, mesh.normals);
+    const StoredShapes shapes = store_shapes(mesh);
+    if (!shapes.list.empty())
+        out.leaf(FourCC("NLST"), std::as_bytes(std::span(shapes.list)), LeafShape{0, 0, sizeof(float), false});
+    put_either<glm::vec3>(out, FourCC("POSI"), shapes.positions ? shapes.positions : compact.positions, mesh.positions);
+    put_either<glm::vec3>(out, FourCC("NORM"), shapes.normals ? shapes.normals : compact.normals, mesh.normals);
     put_either<glm::vec4>(out, FourCC("TANG"), compact.tangents, mesh.tangents);
     put_sets(out, FourCC("TEXC"), mesh.texture_coords, compact.texture_coords, vertices);
     put_sets(out, FourCC("COLR"), mesh.colours, compact.colours, vertices);
@@ -394,8 +409,11 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
         put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1,
                    static_cast<std::uint32_t>(indices.size()));
     }
-    for (std::size_t k = 0; k < mesh.targets.size(); ++k)
+    for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
+        if (mesh.targets[k].is_frame) break;
         put_target(out, mesh.targets[k], k < compact.targets.size() ? compact.targets[k] : CompactTarget(), vertices);
+    }
+    if (shapes.frames) put_frames(out, *shapes.frames);
     out.end();
 }
 
@@ -482,12 +500,26 @@ void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
     out.leaf(FourCC("MARK"), write_markers(markers));
 }
 
+void put_plays(LeafWriter& out, const Cycle& cycle) {
+    if (cycle.plays.empty()) return;
+    std::vector<PlayRecord> records;
+    for (const Play& play : cycle.plays) {
+        PlayRecord& record = records.emplace_back();
+        record.pool = play.mesh;
+        record.first = play.first;
+        record.frames = play.frames;
+        record.closed = play.closed ? 1 : 0;
+    }
+    out.leaf(FourCC("PLAY"), std::as_bytes(std::span(records)));
+}
+
 void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
     const CycleSpan span = span_of(cycle);
     info.start = span.start;
     info.end = span.end;
+    if (!cycle.plays.empty()) info.frame_rate = cycle.frame_rate;
     FloatPool times;
     FloatPool values;
     std::vector<TrackRecord> tracks;
@@ -508,6 +540,7 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
     put_text(out, FourCC("EXTR"), cycle.extras);
     put_text(out, FourCC("MORE"), cycle.more);
     if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
+    put_plays(out, cycle);
     if (!tracks.empty()) {
         constexpr LeafShape kFloats{0, 0, sizeof(float), false};
         out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)), kFloats);

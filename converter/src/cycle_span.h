@@ -1,5 +1,7 @@
 #pragma once
 
+#include "frame_shapes.h"
+
 #include <bendy/converter/scene.h>
 
 #include <algorithm>
@@ -15,6 +17,12 @@ inline CycleSpan span_of_keys(const Cycle& cycle) {
         span.end = is_first ? track.times.back() : std::max(span.end, track.times.back());
         is_first = false;
     }
+    for (const Play& play : cycle.plays) {
+        const auto end = static_cast<float>(cycle.frame_start + length_of(cycle, play));
+        span.start = is_first ? cycle.frame_start : std::min(span.start, cycle.frame_start);
+        span.end = is_first ? end : std::max(span.end, end);
+        is_first = false;
+    }
     return span;
 }
 
@@ -22,7 +30,7 @@ inline CycleSpan span_of_keys(const Cycle& cycle) {
 inline CycleSpan span_of(const Cycle& cycle) {
     const CycleSpan keys = span_of_keys(cycle);
     if (!cycle.stated_span) return keys;
-    if (cycle.tracks.empty()) return *cycle.stated_span;
+    if (cycle.tracks.empty() && cycle.plays.empty()) return *cycle.stated_span;
     return {std::min(keys.start, cycle.stated_span->start), std::max(keys.end, cycle.stated_span->end)};
 }
 

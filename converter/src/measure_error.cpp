@@ -1,6 +1,7 @@
 #include "measure_error.h"
 
 #include "evaluate.h"
+#include "frame_shapes.h"
 #include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
@@ -69,8 +70,8 @@ public:
         for (const Target& target : mesh.targets) {
             std::vector<Displacement>& list = targets_.emplace_back();
             for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex) {
-                if (target.positions[vertex] == glm::vec3(0.0f)) continue;
-                list.push_back({static_cast<std::uint32_t>(vertex), glm::dvec3(target.positions[vertex])});
+                const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
+                if (shift != glm::dvec3(0.0)) list.push_back({static_cast<std::uint32_t>(vertex), shift});
             }
         }
         matrices_.resize(joints_.size());
@@ -364,6 +365,12 @@ std::vector<double> sample_times(const Cycle& exact, const Cycle& decoded) {
     std::vector<double> times;
     for (const Cycle* cycle : {&exact, &decoded}) {
         for (const Track& track : cycle->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
+        for (const Play& play : cycle->plays) {
+            for (std::uint32_t frame = 0; frame <= play.frames; ++frame) {
+                const double at = frame / double{cycle->frame_rate};
+                if (at <= length_of(*cycle, play)) times.push_back(cycle->frame_start + at);
+            }
+        }
         std::sort(times.begin(), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
     }

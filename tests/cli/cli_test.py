@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
-from md2_file import md2_file  # noqa: E402
+from md2_file import Md2, md2_file, player_names, tube_md2  # noqa: E402
 from schema import is_valid  # noqa: E402
 
 BENDY = ""
@@ -2057,11 +2057,96 @@ class QuakeModels(Case):
         md2_file(self.folder / "man.md2")
         shown = self.done("convert", "man.md2").decode()
         self.assertIn("morph targets  3: run1, run2, stand02", shown)
-        self.assertIn("clips          2: stand 0.1 s, run 0.1 s", shown)
+        self.assertIn("clips          2: stand 0.2 s, run 0.2 s", shown)
         self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
         heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
         # The fourth frame: 3 units up, and from 0 to 2 of its own.
         self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
+
+    def corners(self, file, clip, seconds):
+        """Of all triangles, in model space."""
+        self.done("pose", file, "--clip", clip, "--time", repr(seconds), "-o", "pose.json")
+        mesh = json.loads((self.folder / "pose.json").read_text())["meshes"][0]
+        places = [mesh["positions"][k:k + 3] for k in range(0, len(mesh["positions"]), 3)]
+        return [places[index] for index in mesh["indices"]]
+
+    def assert_at(self, model, file, clip, seconds, frame, after=None, fraction=0.0):
+        wanted = model.corners(frame, after, fraction)
+        for here, there in zip(self.corners(file, clip, seconds), wanted, strict=True):
+            for a, b in zip(here, there):
+                self.assertAlmostEqual(a, b, delta=1e-6 * (1 + abs(b)), msg=f"{clip} at {seconds}")
+
+    def test_poses_are_those_of_the_file(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()))
+        self.done("convert", "man.md2")
+        self.assertLess((self.folder / "man.bendy").stat().st_size, (self.folder / "man.md2").stat().st_size)
+        self.done("export", "man.bendy", "-o", "man.glb")
+        self.done("convert", "man.glb", "-o", "glb.bendy")
+        self.done("convert", "man.md2", "--compact", "-o", "small.bendy")
+        for file in ("man.bendy", "glb.bendy", "small.bendy"):
+            for frame in (0, 3, 5):
+                self.assert_at(model, file, "run", frame / 10, 40 + frame)
+            self.assert_at(model, file, "run", 0.125, 41, 42, 0.25)
+            self.assert_at(model, file, "run", 0.5625, 45, 40, 0.625)  # around
+            self.assert_at(model, file, "run", 0.6, 40)
+            self.assert_at(model, file, "stand", 3.9375, 39, 0, 0.375)  # to the pool's own shape
+            self.assert_at(model, file, "stand", 0.03125, 0, 1, 0.3125)
+            self.assert_at(model, file, "death2", 0.4375, 188, 189, 0.375)
+            self.assert_at(model, file, "death2", 0.5, 189)
+
+    def test_players_clips(self):
+        tube_md2(self.folder / "man.md2", player_names(), sides=3, rings=2)
+        self.done("convert", "man.md2")
+        tree = json.loads(self.done("dump", "man.bendy"))
+        clips = {}
+        for chunk in next(chunk["OBJE"] for chunk in tree["HEAD"] if "OBJE" in chunk):
+            if "CYCL" not in chunk:
+                continue
+            leaves = {name: value for child in chunk["CYCL"] for name, value in child.items()}
+            play = leaves["PLAY"]["plays"][0]
+            clips[leaves["NAME"]] = (play["first"], play["frames"], play["closed"], leaves["CINF"]["loop"], leaves["CINF"]["end"])
+        wanted = {"stand": (0, 40, 1), "run": (40, 6, 1), "attack": (46, 8, 0), "pain1": (54, 4, 0), "pain2": (58, 4, 0),
+                  "pain3": (62, 4, 0), "jump": (66, 6, 0), "flip": (72, 12, 0), "salute": (84, 11, 0), "taunt": (95, 17, 0),
+                  "wave": (112, 11, 0), "point": (123, 12, 0), "crstnd": (135, 19, 1), "crwalk": (154, 6, 1),
+                  "crattak": (160, 9, 0), "crpain": (169, 4, 0), "crdeath": (173, 5, 0), "death1": (178, 6, 0),
+                  "death2": (184, 6, 0), "death3": (190, 8, 0)}
+        self.assertEqual({name: values[:3] for name, values in clips.items()}, wanted)
+        for first, frames, closed, loop, end in clips.values():
+            self.assertEqual(loop, closed)
+            self.assertAlmostEqual(end, (frames if closed else frames - 1) / 10, places=6)
+
+    def test_frames_come_through_everything(self):
+        tube_md2(self.folder / "man.md2", player_names()[:60])
+        self.done("convert", "man.md2")
+        before = (self.folder / "man.bendy").read_bytes()
+        self.done("convert", "man.bendy", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), before)
+        self.done("dump", "man.bendy", "-o", "man.json")
+        self.done("assemble", "man.json", "-o", "back.bendy")
+        self.assertEqual((self.folder / "back.bendy").read_bytes(), before)
+        for options in (["--lod"], ["--compact"], ["--lod", "--compact"]):
+            self.done("convert", "man.md2", *options, "-o", "other.bendy")
+            self.done("validate", "other.bendy")
+            self.done("diff", "man.bendy", "other.bendy", "--tolerance", "0.1mm")
+            if options == ["--compact"]:
+                self.assertLess((self.folder / "other.bendy").stat().st_size, len(before))
+        shown = self.done("inspect", "man.bendy").decode()
+        self.assertIn("59 frames of 48 places", shown)
+        self.assertIn("6 frames of pool 0 from frame 40, closed", shown)
+        self.done("inspect", "man.bendy", "--html", "page.html")
+
+    def test_frames_are_edited(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()[:60]))
+        self.done("convert", "man.md2")
+        self.done("edit", "man.bendy", "-o", "named.bendy", "--rename", "target:run2=stride")
+        self.assertIn("stride", json.dumps(json.loads(self.done("dump", "named.bendy"))))
+        self.assert_at(model, "named.bendy", "run", 0.1, 41)
+        self.done("edit", "man.bendy", "-o", "fewer.bendy", "--strip", "cycle:stand")
+        self.assert_at(model, "fewer.bendy", "run", 0.5625, 45, 40, 0.625)
+        message = self.failed("edit", "man.bendy", "-o", "no.bendy", "--strip", "target:run2")
+        self.assertIn("can only be stripped together", message)
+        self.done("edit", "man.bendy", "-o", "still.bendy", "--strip", "targets")
+        self.assertNotIn("FRMS", self.done("inspect", "still.bendy").decode())
 
     def test_what_is_wrong_has_its_byte(self):
         path = md2_file(self.folder / "man.md2")

@@ -103,6 +103,12 @@ public:
                                     {track.values.begin(), track.values.end()}});
         }
         if (view.packed) unpack(view, place, cycle);
+        for (const PlayView& play : view.plays)
+            cycle.plays.push_back({play.pool, play.first, play.frames, play.closed});
+        if (!view.plays.empty()) {
+            cycle.frame_rate = view.frame_rate;
+            cycle.frame_start = view.start;
+        }
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
         if (const CycleSpan stated{view.start, view.end}; stated != span_of(cycle)) cycle.stated_span = stated;
         import_markers(view, place, cycle);

@@ -4,6 +4,7 @@
 #include "compact/largest_stretch.h"
 #include "compact/merge_vertices.h"
 #include "compact/quantise.h"
+#include "frame_shapes.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
 #include "sample_poses.h"
@@ -287,6 +288,7 @@ struct Budget {
 };
 
 void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const SkinMatrices& matrices, double texels) {
+    const bool is_framed = has_frames(mesh) || mesh.grid;  // as small as it gets, and exact
     double left = budget.model;
     if (mesh.influences != 0) {
         sort_influences(mesh);
@@ -297,9 +299,9 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
         std::any_of(mesh.targets.begin(), mesh.targets.end(), [](const Target& t) { return !t.positions.empty(); });
     const double positions = left * (has_targets ? 0.5 : 1.0) / budget.stretch;
     const double shifts = left * 0.5 / budget.stretch / budget.targets;
-    if (!mesh.positions.empty())
+    if (!mesh.positions.empty() && !is_framed)
         compact.positions = quantise_boxed({&mesh.positions[0].x, mesh.positions.size() * 3}, 3, positions, true);
-    if (!mesh.normals.empty()) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
+    if (!mesh.normals.empty() && !is_framed) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
     if (!mesh.tangents.empty()) compact.tangents = quantise_tangents(mesh.tangents, kDirectionBits);
     take_back(compact.positions, mesh.positions);
     take_back(compact.normals, mesh.normals);
@@ -313,6 +315,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
     constexpr double kDirectionShift = 1.0 / 256.0;  // of a unit normal's displacement
     for (Target& target : mesh.targets) {
         CompactTarget& stored = compact.targets.emplace_back();
+        if (target.is_frame) continue;
         stored.positions = quantise_shifts(target.positions, shifts);
         stored.normals = quantise_shifts(target.normals, kDirectionShift);
         stored.tangents = quantise_shifts(target.tangents, kDirectionShift);

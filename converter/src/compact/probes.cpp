@@ -1,6 +1,7 @@
 #include "compact/probes.h"
 
 #include "evaluate.h"
+#include "frame_shapes.h"
 #include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
@@ -64,8 +65,9 @@ void for_each_place(const Mesh& mesh, std::size_t vertex, Visit visit) {
     const glm::dvec3 at(mesh.positions[vertex]);
     visit(at);
     for (const Target& target : mesh.targets) {
-        if (!target.positions.empty() && target.positions[vertex] != glm::vec3(0.0f))
-            visit(at + glm::dvec3(target.positions[vertex]));
+        if (target.positions.empty()) continue;
+        const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
+        if (shift != glm::dvec3(0.0)) visit(at + shift);
     }
 }
 

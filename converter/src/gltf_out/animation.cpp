@@ -3,6 +3,7 @@
 #include "cycle_span.h"
 #include "error_place.h"
 #include "failure.h"
+#include "frame_shapes.h"
 #include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 
@@ -86,6 +87,10 @@ private:
             check_rotations(cycle.tracks[t], place + "." + at("tracks", t));
             add_channel(cycle.tracks[t], animation, place);
         }
+        std::vector<Track> frames;  // they are looked at again until the cycle is written
+        frames.reserve(cycle.plays.size());
+        for (const Play& play : cycle.plays)
+            add_channel(frames.emplace_back(weights_track(scene_, cycle, play)), animation, place);
         if (const CycleSpan span = span_of(cycle); span != span_of_keys(cycle))
             hold(cycle, span, animation, place);
         return animation;

@@ -1,6 +1,7 @@
 #include "gltf_out/mesh.h"
 
 #include "failure.h"
+#include "frame_shapes.h"
 #include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 #include "gltf_out/unit_vectors.h"
@@ -270,8 +271,10 @@ private:
             // A target must displace something; what is all zero takes no bytes.
             const bool is_empty = target.positions.empty() && target.normals.empty() && target.tangents.empty();
             if (is_empty) written["POSITION"] = buffer_.add_displacements(floats_of(zeros));
-            if (!target.positions.empty()) written["POSITION"] = buffer_.add_displacements(floats_of(target.positions));
-            if (!target.normals.empty()) written["NORMAL"] = buffer_.add_displacements(floats_of(target.normals));
+            const std::vector<glm::vec3> positions = shifts_of(target, target.positions, mesh.positions);
+            const std::vector<glm::vec3> normals = shifts_of(target, target.normals, mesh.normals);
+            if (!positions.empty()) written["POSITION"] = buffer_.add_displacements(floats_of(positions));
+            if (!normals.empty()) written["NORMAL"] = buffer_.add_displacements(floats_of(normals));
             if (!target.tangents.empty()) written["TANGENT"] = buffer_.add_displacements(floats_of(target.tangents));
             targets.push_back(std::move(written));
         }

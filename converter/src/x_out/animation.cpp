@@ -51,7 +51,7 @@ private:
     void write(const Cycle& cycle, const std::string& identifier, const std::string& place) {
         shift_ = shift_of(cycle);
         std::map<std::uint32_t, TracksOfJoint> joints;
-        std::uint64_t weights = 0;
+        std::uint64_t weights = cycle.plays.size();
         for (const Track& track : cycle.tracks) {
             if (track.path == TrackPath::weights) {
                 ++weights;

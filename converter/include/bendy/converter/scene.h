@@ -70,13 +70,25 @@ struct Stream {
     std::vector<float> values;     ///< vertex count * components
 };
 
-/// An inbetweening (morph) target: displacements per vertex; an empty vector means: this stream is not displaced.
+/// Positions on a grid: each is minimum + step * a whole number, 0 to 65535, axis by axis, in floats and rounded after
+/// each operation.
+struct Grid {
+    glm::vec3 minimum{0.0f};
+    glm::vec3 step{0.0f};
+};
+
+/// A morph target: displacements per vertex; an empty vector means: this stream is not displaced.
 struct Target {
     std::string name;
     float rest_weight = 0.0f;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;  ///< xyz only, the handedness stays
+    /// A shape of the whole mesh that is stored as it is (FRMS): `positions`, which lie on `grid`, and `normals` are
+    /// the vertices' own, no displacements. The rest weight is 0; there are no tangents; all frames have normals or
+    /// none.
+    bool is_frame = false;
+    Grid grid = {};
 };
 
 /// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind
@@ -100,7 +112,10 @@ struct Mesh {
     std::vector<std::uint32_t> bones;    ///< vertex count * influences, into the palette
     std::vector<float> weights;          ///< as many; sum 1 per vertex, never negative
     Palette palette;
-    std::vector<Target> targets;
+    std::vector<Target> targets;  ///< frames come last
+    /// Where `positions` lie on one: they are stored so, and the normals by number in a list, which the frames share.
+    /// It holds 256: frames should have no more different ones, those past it become the nearest.
+    std::optional<Grid> grid;
     std::vector<Part> parts;
     /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
     /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
@@ -142,6 +157,14 @@ struct CycleSpan {
     friend bool operator==(const CycleSpan&, const CycleSpan&) = default;
 };
 
+/// Frames of a mesh, one after another. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
+struct Play {
+    std::uint32_t mesh = 0;
+    std::uint32_t first = 0;
+    std::uint32_t frames = 1;  ///< 1 or more; frame k of them is at Cycle::frame_start + k / Cycle::frame_rate
+    bool closed = false;       ///< the first frame follows on the last one
+};
+
 struct Cycle {
     std::string name;
     bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
@@ -153,6 +176,9 @@ struct Cycle {
     /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
     /// the last key. Never shorter than the keys.
     std::optional<CycleSpan> stated_span = {};
+    std::vector<Play> plays = {};        ///< at most one per mesh, which no track animates then
+    float frame_rate = 0.0f;             ///< of `plays`, per second; above 0 if there are any
+    float frame_start = 0.0f;            ///< of `plays`, seconds; no key is before it
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
