@@ -268,7 +268,9 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     problem.save();
     const auto descend = [&] {
         iterations += method.descend(most);
-        if (problem.cost() >= best) return;
+        // Of two ends as near as each other the first counts: rounding must not choose between them.
+        constexpr double kNearer = 0.99;
+        if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
         best = problem.cost();
         problem.save();
     };
