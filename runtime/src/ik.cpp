@@ -41,7 +41,7 @@ public:
         const bool is_aim = solver() == Solver::aim;
         ReachResult result;
         result.iterations = solve();
-        constexpr int kCorrections = 8;
+        constexpr int kCorrections = 32;
         for (int i = 0; i < kCorrections && !is_aim && correct_bones(); ++i) result.iterations += solve();
         if (!is_aim && !is_uneven_ && chain_can_change_length() && !problem_.is_reached()) {
             fit_length();
@@ -83,7 +83,8 @@ private:
     void gather_links() {
         const auto local = std::as_const(pose_).local();
         double scale = 1.0;   // of the links so far
-        double length = 0.0;  // metres
+        double most = 1.0;    // the same along the longest axes
+        double length = 0.0;  // in the base's space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
             const JointTransform& transform = local[link.joint];
@@ -93,6 +94,10 @@ private:
             link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
             length += link.bone_length;
+            const glm::vec3& axes = transform.scale;
+            const glm::vec3 shear = glm::abs(joint.shear);
+            most *= std::max({std::abs(axes.x), std::abs(axes.y), std::abs(axes.z)}) + shear.x + shear.y + shear.z;
+            longest_ += most * std::sqrt(glm::dot(offset, offset));
             is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
             scale *= mean_scale(transform.scale);
             link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
@@ -103,6 +108,7 @@ private:
         }
         problem_.scale = length > 0.0 ? length : 1.0;
         problem_.reach = length > 0.0 ? 1.0 : 0.0;
+        longest_ = is_uneven_ ? longest_ / problem_.scale : 0.0;
         for (IkLink& link : links_) {
             link.bone /= problem_.scale;
             link.bone_length /= problem_.scale;
@@ -164,7 +170,7 @@ private:
         const double distance = std::sqrt(glm::dot(way, way));
         constexpr double kStraight = 1e-6;  // chain lengths: no bend that would be seen
         is_far_ = distance > problem_.reach - kStraight;
-        problem_.is_out_of_reach = distance > problem_.reach + problem_.tolerance;
+        problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
     }
 
     void gather_pole() {
@@ -364,6 +370,7 @@ private:
     glm::dmat4 inverse_base_{1.0};
     glm::dvec3 wanted_{0};  ///< the target, not softened
     double stretch_ = 1.0;
+    double longest_ = 0.0;    ///< of a chain that scales its axes differently: no pose is longer; chain lengths
     bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
 };

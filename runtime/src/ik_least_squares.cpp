@@ -266,17 +266,29 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     if (problem.is_reached()) return iterations;
     double best = problem.cost();
     problem.save();
-    Dice dice;
-    const glm::dmat3 axes = restarts > 0 ? turn_axes(problem) : glm::dmat3(1.0);
-    for (std::uint32_t attempt = 0; attempt < restarts; ++attempt) {
-        begin_anew(problem, attempt, axes, dice);
+    const auto descend = [&] {
         iterations += method.descend(most);
-        if (problem.cost() < best) {
-            best = problem.cost();
-            problem.save();
-        }
-        if (problem.is_reached()) break;
+        // Of two ends as near as each other the first counts: rounding must not choose between them.
+        constexpr double kNearer = 0.99;
+        if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
+        best = problem.cost();
+        problem.save();
+    };
+    // The closed form from the best place so far: it slides along a limit in one step where descending creeps.
+    const auto bend_best = [&] {
+        problem.restore();
+        solve_two_bone(problem);
+        descend();
+    };
+    if (restarts > 0) bend_best();
+    const glm::dmat3 axes = restarts > 0 ? turn_axes(problem) : glm::dmat3(1.0);
+    Dice dice;
+    for (std::uint32_t attempt = 0; attempt < restarts && !problem.is_reached(); ++attempt) {
+        begin_anew(problem, attempt, axes, dice);
+        descend();
     }
+    constexpr int kLast = 4;
+    for (int i = 0; i < kLast && restarts > 0 && !problem.is_reached(); ++i) bend_best();
     problem.restore();
     return iterations;
 }

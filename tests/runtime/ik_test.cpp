@@ -88,6 +88,23 @@ double worst_violation(const Model& model, const Pose& pose) {
     return worst;
 }
 
+/// Poses a chain's links at random inside their constraints: `share` of the way from rest to where they stop it.
+void pose_at_random(const Model& model, const Chain& chain, double share, Pose& pose, std::mt19937& random) {
+    std::uniform_real_distribution<double> angle(-2.0, 2.0);
+    pose.set_rest();
+    const auto local = pose.change_local();
+    for (std::uint32_t joint = chain.start; joint <= chain.effector; ++joint) {
+        const glm::dvec3 turn(angle(random), angle(random), angle(random));
+        const glm::dquat R = glm::angleAxis(glm::length(turn), glm::normalize(turn));
+        const glm::quat rest = model.joints()[joint].rest.rotation;
+        const Constraint* constraint = model.ik_constraint(joint);
+        local[joint].rotation = constraint == nullptr
+                                    ? glm::quat(glm::dquat(rest) * R)
+                                    : from_limit_space(*constraint, rest, clamp_rotation(*constraint, R));
+        local[joint].rotation = glm::slerp(rest, local[joint].rotation, static_cast<float>(share));
+    }
+}
+
 TEST(Ik, EverySolverReachesWithAFreeChain) {
     for (const std::uint32_t bones : {2u, 3u, 7u, 30u}) {
         const Owned model(build_file(rope(bones)));
@@ -462,6 +479,70 @@ TEST(Ik, ChainsBelowMovedTurnedAndScaledJointsReachToo) {
     EXPECT_LE(glm::length(position_of(pose, 4) - target), 2e-3f);
 }
 
+TEST(Ik, DistanceAndToleranceAreMetresOfModelSpace) {
+    // Below a root scaled to a hundredth, as many exporters write it, and to ten; by the short way and by the long one.
+    for (const float scale : {0.01f, 1.0f, 10.0f}) {
+        for (const Solver solver : {Solver::two_bone, Solver::least_squares, Solver::fabrik, Solver::aim}) {
+            test::ModelSpec spec = rope(3, 5.0, 1.0f / scale);
+            spec.joints[0].rest.scale = {scale, scale, scale};
+            spec.chains[0].start = 1;
+            if (solver == Solver::aim) spec.chains[0].effector = 1;
+            const Owned model(build_file(spec));
+            const Chain& chain = model->chains()[0];
+            Pose pose(*model);
+            const glm::vec3 start = position_of(pose, 1);
+            ReachOptions options;
+            options.solver = solver;
+            options.tolerance = 0.05f;
+            for (const float way : {0.7f, 1.5f, 1.9f, 3.0f}) {
+                pose.set_rest();
+                const glm::vec3 target = start + way * glm::normalize(glm::vec3(0.5f, 0.7f, 0.3f));
+                const ReachResult result = reach(&chain, target, pose, options);
+                const float left = glm::length(position_of(pose, chain.effector) - target);
+                EXPECT_NEAR(result.distance, left, 1e-4f) << scale << ' ' << static_cast<int>(solver) << ' ' << way;
+                if (solver == Solver::aim) continue;
+                EXPECT_EQ(result.status, way < 2.0f ? ReachStatus::reached : ReachStatus::out_of_reach);
+                EXPECT_TRUE(way > 2.0f || left <= 0.0501f) << left;
+            }
+            // A tolerance as large as the chain is met by every solver before it moves, but for those that are exact.
+            if (solver != Solver::least_squares && solver != Solver::fabrik) continue;
+            pose.set_rest();
+            options.tolerance = 2.0f;
+            const ReachResult result =
+                reach(&chain, position_of(pose, 3) + glm::vec3(0.0f, -1.0f, 0.0f), pose, options);
+            EXPECT_EQ(result.iterations, 0u) << scale;
+            EXPECT_NEAR(result.distance, 1.0f, 1e-3f);
+        }
+    }
+}
+
+TEST(Ik, UnevenlyScaledChainsReachAsOthersDo) {
+    test::ModelSpec spec = rope(4);
+    for (std::size_t joint = 0; joint < 4; ++joint) {
+        const auto n = static_cast<float>(joint);
+        spec.joints[joint].rest.scale = {1.0f + 0.05f * n, 0.9f, 1.2f - 0.1f * n};
+        if (joint > 0) spec.joints[joint].limits = {ellipse(20, 60)};
+    }
+    const Owned model(build_file(spec));
+    const Chain& chain = model->chains()[0];
+    std::mt19937 random(21);
+    Pose pose(*model);
+    for (const Solver solver : {Solver::ccd, Solver::fabrik, Solver::least_squares}) {
+        int reached = 0;
+        for (int i = 0; i < 100; ++i) {
+            pose_at_random(*model, chain, 0.9, pose, random);
+            const glm::vec3 target = position_of(pose, 4);
+            pose.set_rest();
+            ReachOptions options;
+            options.solver = solver;
+            const ReachResult result = reach(&chain, target, pose, options);
+            EXPECT_NEAR(result.distance, glm::length(position_of(pose, 4) - target), 1e-4f);
+            reached += result.status == ReachStatus::reached ? 1 : 0;
+        }
+        EXPECT_GE(reached, 99) << static_cast<int>(solver);
+    }
+}
+
 TEST(Ik, SeveralChainsRunByPriorityAndInfluence) {
     test::ModelSpec spec = rope(4);
     for (const float x : {1.0f, -1.0f}) {  // two joints to follow, beside the rope
@@ -677,6 +758,13 @@ std::vector<test::ModelSpec> limbs() {
             all.push_back(arm);
         }
     }
+    // An elbow that hardly moves sideways, and is bent at rest as it may not be: as proposed from a character's clips.
+    test::ModelSpec thin = rope(2);
+    thin.joints[0].rest.rotation = test::turned(-90, 2).rotation;
+    thin.joints[0].limits = {limit_of(LimitModel::swing_twist_ellipse, {-90, -135, -138}, {70, 90, 92})};
+    thin.joints[1].limits = {limit_of(LimitModel::swing_twist_ellipse, {-80, -11, -0.2}, {80, 10, 149.8})};
+    thin.chains[0].pole_vector = {0.0f, 0.0f, -1.0f};
+    all.push_back(thin);
     test::ModelSpec tentacle = rope(9, 4.0, 0.2f);
     for (std::size_t joint = 0; joint < 9; ++joint) {
         LimitRecord limit = limit_of(LimitModel::swing_twist_ellipse, {-8, -17 - 2.0 * static_cast<double>(joint), -17},
@@ -692,23 +780,6 @@ std::vector<test::ModelSpec> limbs() {
     mixed.joints[3].limits = {limit_of(LimitModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 50})};
     all.push_back(mixed);
     return all;
-}
-
-/// Poses a chain's links at random inside their constraints: `share` of the way from rest to where they stop it.
-void pose_at_random(const Model& model, const Chain& chain, double share, Pose& pose, std::mt19937& random) {
-    std::uniform_real_distribution<double> angle(-2.0, 2.0);
-    pose.set_rest();
-    const auto local = pose.change_local();
-    for (std::uint32_t joint = chain.start; joint <= chain.effector; ++joint) {
-        const glm::dvec3 turn(angle(random), angle(random), angle(random));
-        const glm::dquat R = glm::angleAxis(glm::length(turn), glm::normalize(turn));
-        const glm::quat rest = model.joints()[joint].rest.rotation;
-        const Constraint* constraint = model.ik_constraint(joint);
-        local[joint].rotation = constraint == nullptr
-                                    ? glm::quat(glm::dquat(rest) * R)
-                                    : from_limit_space(*constraint, rest, clamp_rotation(*constraint, R));
-        local[joint].rotation = glm::slerp(rest, local[joint].rotation, static_cast<float>(share));
-    }
 }
 
 TEST(Ik, WhereAnySolverArrivesInsideTheConstraintsEveryOneDoes) {
