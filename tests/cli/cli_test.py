@@ -566,7 +566,7 @@ class ConvertBatch(Case):
         told = sorted(line for line in errors if line.startswith("bendy: error: "))
         self.assertEqual(len(told), 2)
         self.assertIn("in/bad.glb: GLB header truncated", told[0])
-        self.assertIn("missing.glb: file not found", told[1])
+        self.assertIn("missing.glb: there is no such file", told[1])
         converted, table, _ = self.batch("in", "missing.glb", "-o", "out", status=1)  # tried again, the others not
         self.assertEqual((converted, table["up to date"], table["failed"]), ([], "3", "2"))
 
