@@ -17,7 +17,8 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent / "pictures")]
+from made_files import ALL_MAPS, Made  # noqa: E402
 from png_file import read_png, write_png  # noqa: E402
 from surfaces_file import surfaces  # noqa: E402
 
@@ -121,6 +122,19 @@ class Render(WithFolder):
     def test_contact_sheet(self):
         sheet = self.render("tentacle", "--frames", "5", "--size", "40x30")
         self.assertEqual(sheet[:2], (120, 60))
+
+    def test_the_first_picture_is_as_the_second(self):
+        """Textures that are loaded while a material is being set must not change what it has been given before."""
+        Made(*ALL_MAPS, stands_still=True).write(self.folder / "maps.gltf")
+        self.assertEqual(bendy("convert", self.folder / "maps.gltf", "-q").returncode, 0)
+        width, height, channels, pixels = self.render("maps", "--clip", "0", "--frames", "2", "--size", "80x60")
+        self.assertEqual((width, height), (160, 60))
+        rows = [pixels[channels * width * y:channels * width * (y + 1)] for y in range(height)]
+        cells = [b"".join(row[half * 80 * channels:(half + 1) * 80 * channels] for row in rows) for half in (0, 1)]
+        self.assertGreater(len(set(cells[0])), 50)
+        self.assertEqual(cells[0], cells[1])
+        still = self.render("maps", "--clip", "0", "--time", "0", "--size", "80x60")
+        self.assertEqual(still[3], cells[1])
 
     def test_animations(self):
         for ending, start in ((".gif", b"GIF89a"), (".webp", b"RIFF")):

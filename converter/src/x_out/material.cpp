@@ -1,6 +1,7 @@
 #include "material.h"
 
 #include "failure.h"
+#include "x/display_colour.h"
 #include "x/encoded_text.h"
 #include "x/materials.h"
 
@@ -53,15 +54,15 @@ public:
     void write(const Material& material, const std::string& identifier, const std::string& place) {
         report_losses(material, place);
         text_.open("Material", identifier);
-        line(material.base_colour);
+        line(x::to_display(material.base_colour));
         text_.begin_line();
         text_.add(x::power_of(material.roughness)).add(";");
         text_.end_line();
         glm::vec3 specular(0.0f);
         for (int i = 0; i < 3; ++i)
             specular[i] = x::kDielectric + material.metallic * (material.base_colour[i] - x::kDielectric);
-        line(material.roughness < 1.0f ? specular : glm::vec3(0.0f));
-        line(material.emissive);
+        line(material.roughness < 1.0f ? x::to_display(specular) : glm::vec3(0.0f));
+        line(x::to_display(material.emissive));
         if (material.base_colour_texture.texture != kNone) write_texture(material.base_colour_texture.texture, place);
         write_name(identifier, material.name, text_);
         text_.close();

@@ -120,7 +120,7 @@ private:
             for (std::uint32_t k = 0; k < stream->components; ++k)
                 colour[static_cast<int>(k)] = stream->values[i * stream->components + k];
             text_.begin_line();
-            text_.add(std::uint64_t{i}).add(";").add_vector(colour).add(i + 1 < mesh_.positions.size() ? ";," : ";;");
+            text_.add(std::uint64_t{i}).add(";").add_vector(x::to_display(colour)).add(i + 1 < mesh_.positions.size() ? ";," : ";;");
             text_.end_line();
         }
         text_.close();
