@@ -72,7 +72,8 @@ void put(std::vector<std::byte>& bytes, std::initializer_list<int> values) {
 /// 2 x 2, 24 bits, from the bottom up: red, green; blue, white at the top.
 std::vector<std::byte> small_bmp(int width = 2) {
     std::vector<std::byte> bytes;
-    put(bytes, {'B', 'M', 70, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, width & 255, width >> 8, 0, 0, 2, 0, 0, 0});
+    put(bytes,
+        {'B', 'M', 70, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, width & 255, width >> 8, 0, 0, 2, 0, 0, 0});
     put(bytes, {1, 0, 24, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
     put(bytes, {0, 0, 255, 0, 255, 0, 0, 0, 255, 0, 0, 255, 255, 255, 0, 0});
     return bytes;
@@ -91,14 +92,13 @@ using Texels = std::vector<std::uint8_t>;
 TEST(ImageReader, BmpAndTgaAreRead) {
     const ReadImage bmp = read_image(small_bmp(), kPlenty);
     EXPECT_EQ(bmp.problem, "");
-    EXPECT_EQ(bmp.picture.pixels,
-              (Texels{0, 0, 255, 255, 255, 255, 255, 255, 255, 0, 0, 255, 0, 255, 0, 255}));
+    EXPECT_EQ(bmp.picture.pixels, (Texels{0, 0, 255, 255, 255, 255, 255, 255, 255, 0, 0, 255, 0, 255, 0, 255}));
     const ReadImage tga = read_image(small_tga(), kPlenty);
     EXPECT_EQ(tga.problem, "");
     EXPECT_EQ(tga.picture.width, 3u);
     EXPECT_EQ(tga.picture.height, 2u);
     EXPECT_EQ(tga.picture.pixels, (Texels{0, 0, 255, 128, 0, 0, 255, 128, 0, 0, 255, 128,  //
-                                          0, 0, 255, 128, 3, 2, 1, 4, 7, 6, 5, 8}));
+                                          0, 0, 255, 128, 3, 2, 1,   4,   7, 6, 5,   8}));
 }
 
 TEST(ImageReader, BadBmpAndTgaGiveAPictureOrAProblem) {
@@ -124,7 +124,8 @@ TEST(ImageReader, PixelsThatAShortFileLacksAreBlack) {
     put(bytes, {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64, 0, 64, 0, 24, 0x20, 9, 8, 7});
     const ReadImage read = read_image(bytes, kPlenty);
     ASSERT_EQ(read.problem, "");
-    EXPECT_EQ(Texels(read.picture.pixels.begin(), read.picture.pixels.begin() + 8), (Texels{7, 8, 9, 255, 0, 0, 0, 255}));
+    EXPECT_EQ(Texels(read.picture.pixels.begin(), read.picture.pixels.begin() + 8),
+              (Texels{7, 8, 9, 255, 0, 0, 0, 255}));
     for (std::size_t at = 4; at < read.picture.pixels.size(); at += 4) ASSERT_EQ(read.picture.pixels[at], 0) << at;
 }
 

@@ -30,7 +30,7 @@ float to_display(float light) {
     if (!(light > 0.0031308f) || !std::isfinite(light)) return light < 0.0f ? light : light * 12.92f;
     const double third = root(light, 3);
     const double twelfth = std::sqrt(std::sqrt(third));
-    const double fifth_power = third * twelfth;          // 4/12 + 1/12
+    const double fifth_power = third * twelfth;  // 4/12 + 1/12
     return static_cast<float>(1.055 * fifth_power - 0.055);
 }
 

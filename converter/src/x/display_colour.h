@@ -5,9 +5,9 @@
 
 namespace bendy::converter::x {
 
-// Colours in X-files are those of the screen: Direct3D's fixed pipeline adds and multiplies them as they are, and shows the
-// result (docs/decisions/0029). Here, as in glTF, factors and colours of vertices are linear light. Only sums, products,
-// quotients and square roots: the same bits on every machine.
+// Colours in X-files are those of the screen: Direct3D's fixed pipeline adds and multiplies them as they are, and shows
+// the result (docs/decisions/0029). Here, as in glTF, factors and colours of vertices are linear light. Only sums,
+// products, quotients and square roots: the same bits on every machine.
 
 /// sRGB to linear light. Above 1 the curve goes on; below 0 the number stays.
 float to_light(float display);

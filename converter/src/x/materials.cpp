@@ -43,6 +43,9 @@ public:
         if (source.specular != glm::vec3(0.0f) && source.specular != glm::vec3(to_display(kDielectric)))
             report_.warn("specular colour of a material left out, its power is kept as roughness", source.place);
         if (!source.texture.empty()) material.base_colour_texture.texture = texture_of(source);
+        // Direct3D multiplies all light with the texture, the surface's own too.
+        if (source.emissive != glm::vec3(0.0f))
+            material.emissive_texture.texture = material.base_colour_texture.texture;
         scene_.materials.push_back(std::move(material));
     }
 

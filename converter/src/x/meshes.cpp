@@ -1,5 +1,6 @@
 #include "meshes.h"
 
+#include "display_colour.h"
 #include "failure.h"
 #include "gltf/influences.h"
 #include "mirror.h"
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter::x {
 namespace {

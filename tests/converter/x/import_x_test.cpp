@@ -141,6 +141,8 @@ TEST(ImportX, MaterialsByReferenceAndInPlace) {
     EXPECT_FLOAT_EQ(green.emissive.x, 0.010022825f);  // sRGB 0.1, 0.2, 0.3
     EXPECT_FLOAT_EQ(green.emissive.y, 0.033104767f);
     EXPECT_FLOAT_EQ(green.emissive.z, 0.073238956f);
+    EXPECT_EQ(green.emissive_texture.texture, 0u) << "Direct3D multiplies a surface's own light with its texture";
+    EXPECT_EQ(file.scene.materials[0].emissive_texture.texture, kNone);
     EXPECT_EQ(green.alpha_mode, AlphaMode::blend);
     EXPECT_FLOAT_EQ(green.roughness, 0.5f);  // 2 / 0.5^4 - 2 = 30
     EXPECT_EQ(file.scene.meshes[0].parts[0].material, 1u);
