@@ -35,6 +35,7 @@ need /usr/include/png.h libpng-dev
 need /usr/include/turbojpeg.h libturbojpeg0-dev
 need /usr/include/webp/mux.h libwebp-dev
 need /usr/include/gif_lib.h libgif-dev
+need /usr/include/stb/stb_image.h libstb-dev
 need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
 need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
 if [ "${1:-build}" = cross ]; then

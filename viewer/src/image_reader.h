@@ -13,7 +13,7 @@ struct ReadImage {
     std::string problem;  ///< why there is no picture; empty if there is one
 };
 
-/// Decodes a PNG, JPEG or WebP image, told by its first bytes. Whatever the bytes hold, it gives a picture of at most
+/// Decodes a PNG, JPEG, WebP, BMP or TGA image, told by its first bytes. Whatever the bytes hold, it gives a picture of at most
 /// `most_pixels` or says why not, before it allocates.
 ReadImage read_image(Bytes bytes, std::uint64_t most_pixels);
 

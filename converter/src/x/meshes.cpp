@@ -1,5 +1,6 @@
 #include "meshes.h"
 
+#include "display_colour.h"
 #include "failure.h"
 #include "gltf/influences.h"
 #include "mirror.h"
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter::x {
 namespace {
@@ -86,7 +88,11 @@ public:
             mesh.positions.push_back(mirrored(source.positions[position]));
         for (const std::uint32_t normal : vertices.normals) mesh.normals.push_back(mirrored(source.normals[normal]));
         if (!source.coords.empty()) mesh.texture_coords.push_back(stream_of(source.coords, vertices));
-        if (!source.colours.empty()) mesh.colours.push_back(stream_of(source.colours, vertices));
+        if (!source.colours.empty()) {
+            std::vector<glm::vec4> colours(source.colours);
+            for (glm::vec4& colour : colours) colour = to_light(colour);
+            mesh.colours.push_back(stream_of(colours, vertices));
+        }
         add_influences(source, vertices, mesh);
         if (mesh.joint == kNone && mesh.influences == 0) mesh.joint = add_joint(source);
         scene_.meshes.push_back(std::move(mesh));

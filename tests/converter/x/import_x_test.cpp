@@ -111,7 +111,7 @@ TEST(ImportX, CornersWithOtherNormalsBecomeVerticesOfTheirOwn) {
     EXPECT_EQ(mesh.normals[3], glm::vec3(0, 1, 0));
     EXPECT_EQ(mesh.positions[4], mesh.positions[2]);  // position 2 with each normal
     EXPECT_EQ(mesh.texture_coords[0].values, (std::vector<float>{0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1}));
-    EXPECT_EQ(mesh.colours[0].values[4 * 2 + 1], 0.25f);
+    EXPECT_FLOAT_EQ(mesh.colours[0].values[4 * 2 + 1], 0.050876088f);  // sRGB 0.25
     EXPECT_EQ(mesh.colours[0].values[4 * 1 + 1], 1.0f) << "a vertex of which nothing is said is white";
     EXPECT_EQ(mesh.joint, 0u) << "a mesh outside of all frames gets a joint";
     EXPECT_EQ(file.scene.joints.size(), 1u);
@@ -140,7 +140,11 @@ TEST(ImportX, MaterialsByReferenceAndInPlace) {
     EXPECT_EQ(file.scene.materials[0].name, "Red");
     const Material& green = file.scene.materials[1];
     EXPECT_EQ(green.base_colour, glm::vec4(0, 1, 0, 0.5f));
-    EXPECT_EQ(green.emissive, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(green.emissive.x, 0.010022825f);  // sRGB 0.1, 0.2, 0.3
+    EXPECT_FLOAT_EQ(green.emissive.y, 0.033104767f);
+    EXPECT_FLOAT_EQ(green.emissive.z, 0.073238956f);
+    EXPECT_EQ(green.emissive_texture.texture, 0u) << "Direct3D multiplies a surface's own light with its texture";
+    EXPECT_EQ(file.scene.materials[0].emissive_texture.texture, kNone);
     EXPECT_EQ(green.alpha_mode, AlphaMode::blend);
     EXPECT_FLOAT_EQ(green.roughness, 0.5f);  // 2 / 0.5^4 - 2 = 30
     EXPECT_EQ(file.scene.meshes[0].parts[0].material, 1u);
