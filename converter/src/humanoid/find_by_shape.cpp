@@ -1,7 +1,6 @@
 #include "find_by_shape.h"
 
 #include "bound_joints.h"
-#include "limb_chains.h"
 
 #include <glm/geometric.hpp>
 
@@ -418,8 +417,15 @@ void find_trunk_by_shape(const Scene& scene, const RestFrames& rest, const std::
     }
     if (humanoid.has(HumanBone::head) && !humanoid.has(HumanBone::spine)) {
         const std::uint32_t top = humanoid.has(HumanBone::neck) ? humanoid[HumanBone::neck] : humanoid[HumanBone::head];
-        const std::vector<std::uint32_t> path = path_of(scene, hips, top);
-        if (path.size() > 2) humanoid[HumanBone::spine] = path[1];
+        // The joints between what carries both legs and arms and the neck; from a root of the trunk's own, also that.
+        std::vector<std::uint32_t> limbs = legs;
+        limbs.insert(limbs.end(), arms.begin(), arms.end());
+        const std::uint32_t base = common_ancestor(scene, rest, limbs);
+        std::uint32_t first = kNone;
+        for (std::uint32_t joint = scene.joints[top].parent; joint != kNone && joint != base;
+             joint = scene.joints[joint].parent)
+            first = joint;
+        if (first != kNone) humanoid[HumanBone::spine] = first;
     }
 }
 

@@ -239,6 +239,7 @@ public:
     [[nodiscard]] Range range(std::size_t axis) const {
         return {-degrees_of(sides_[axis][0]), degrees_of(sides_[axis][1])};
     }
+    [[nodiscard]] bool holds(const glm::dvec2& swing) { return square(swing) <= 1.0; }
 
 private:
     double& side(int axis, const glm::dvec2& swing) {
@@ -256,6 +257,54 @@ private:
 
     std::array<std::array<double, 2>, 2> sides_;
 };
+
+/// The pyramid of a swing: angles about Y and Z, each in its range.
+class Pyramid {
+public:
+    Pyramid(const Range& y, const Range& z) : ranges_{y, z} {}
+
+    void embrace(const Rotations& rotations) {
+        for (const glm::dquat& r : rotations) {
+            const SwingTwist parts = decompose(r);
+            for (int axis = 0; axis < 2; ++axis) {
+                const double angle = angle_of(parts.swing[axis], parts.cosine);
+                Range& range = ranges_[static_cast<std::size_t>(axis)];
+                if (angle < range.low) range.low = angle - kMargin;
+                if (angle > range.high) range.high = angle + kMargin;
+            }
+        }
+    }
+
+    [[nodiscard]] Range range(std::size_t axis) const { return ranges_[axis]; }
+    [[nodiscard]] bool holds(const glm::dvec2& swing) const {
+        const double cosine = std::sqrt(std::max(0.0, 1.0 - glm::dot(swing, swing)));
+        for (int axis = 0; axis < 2; ++axis) {
+            const Range& range = ranges_[static_cast<std::size_t>(axis)];
+            const double angle = angle_of(swing[axis], cosine);
+            if (angle < range.low || angle > range.high) return false;
+        }
+        return true;
+    }
+
+private:
+    static double angle_of(double sine, double cosine) { return 2.0 * trig::atan2(sine, cosine) / kDegree; }
+
+    std::array<Range, 2> ranges_;
+};
+
+/// How much of the sphere of directions a shape allows: swing vectors are its equal-area map.
+template <class Shape>
+int count_directions(Shape& shape) {
+    constexpr int kSteps = 32;
+    int count = 0;
+    for (int y = -kSteps; y <= kSteps; ++y) {
+        for (int z = -kSteps; z <= kSteps; ++z) {
+            const glm::dvec2 swing(static_cast<double>(y) / kSteps, static_cast<double>(z) / kSteps);
+            count += glm::dot(swing, swing) <= 1.0 && shape.holds(swing) ? 1 : 0;
+        }
+    }
+    return count;
+}
 
 /// The joints of both sides that are one another's counterparts, or a single one.
 class Group {
@@ -413,20 +462,34 @@ private:
     // --- all others
 
     void fit_swings(std::vector<ProposedLimit>& limits) {
+        // An ellipse, as a human's joints have it, unless the clips make it allow much more than a pyramid would.
+        std::vector<Ellipse> ellipses;
+        std::vector<Pyramid> pyramids;
+        int of_ellipses = 0;
+        int of_pyramids = 0;
         Range twist = members_.front().human.x;
-        std::array<Range, 2> swing{members_.front().human.y, members_.front().human.z};
-        const auto hold = [&](const Member& member, const Rotations& rotations) {
-            Ranges ranges = ranges_from_rest(member.human, member.rest);
-            Ellipse ellipse(ranges.y, ranges.z);
-            ellipse.embrace(rotations);
-            swing[0] = united(swing[0], shifted(ellipse.range(0), member.rest.y));
-            swing[1] = united(swing[1], shifted(ellipse.range(1), member.rest.z));
+        for (const Member& member : members_) {
+            const Rotations& rotations = is_pooled_ ? pooled_ : member.rotations;
+            const Ranges ranges = ranges_from_rest(member.human, member.rest);
+            ellipses.emplace_back(ranges.y, ranges.z).embrace(rotations);
+            pyramids.emplace_back(ranges.y, ranges.z).embrace(rotations);
+            of_ellipses += count_directions(ellipses.back());
+            of_pyramids += count_directions(pyramids.back());
             for (const glm::dquat& r : rotations) {
                 const double angle = decompose(r).twist;
                 twist = united(twist, with_margin({angle, angle}, twist));
             }
-        };
-        for (const Member& member : members_) hold(member, is_pooled_ ? pooled_ : member.rotations);
+        }
+        const bool is_pyramid = 10 * of_pyramids < 9 * of_ellipses;
+        std::array<Range, 2> swing{members_.front().human.y, members_.front().human.z};
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            for (const std::size_t axis : {0u, 1u}) {
+                const Range range = is_pyramid ? pyramids[i].range(axis) : ellipses[i].range(axis);
+                const glm::dvec3& rest_pose = members_[i].rest;
+                swing[axis] = united(swing[axis], shifted(range, axis == 0 ? rest_pose.y : rest_pose.z));
+            }
+        }
+        const LimitModel model = is_pyramid ? LimitModel::swing_twist_pyramid : LimitModel::swing_twist_ellipse;
         for (ProposedLimit& limit : limits) {
             const Member& member = member_of(limit);
             const Ranges human = ranges_from_rest(member.human, member.rest);
@@ -437,7 +500,7 @@ private:
             for (const auto& [now, before] :
                  {std::pair(ranges.x, human.x), std::pair(ranges.y, human.y), std::pair(ranges.z, human.z)})
                 limit.growth = std::max({limit.growth, before.low - now.low, now.high - before.high});
-            set(limit, LimitModel::swing_twist_ellipse, limit.anatomy.axes, member.to_side(ranges));
+            set(limit, model, limit.anatomy.axes, member.to_side(ranges));
         }
     }
 

@@ -108,7 +108,7 @@ std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
     const auto model = static_cast<LimitModel>(limit.model);
     if (model == LimitModel::hinge) {
         line += "hinge about " + vector_of(proposed.axis) + ", " + range_of(limit, 0) + " degrees";
-    } else if (model == LimitModel::swing_twist_pyramid) {
+    } else if (bends(proposed.anatomy.part)) {
         line += "bends " + range_of(limit, 2) + " degrees about " + vector_of(proposed.axis) + ", sideways " +
                 range_of(limit, 1) + ", twist " + range_of(limit, 0);
     } else {
