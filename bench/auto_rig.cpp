@@ -95,7 +95,9 @@ struct Share {
         good += is_good ? 1 : 0;
         ++all;
     }
-    [[nodiscard]] double percent() const { return all == 0 ? 100.0 : 100.0 * static_cast<double>(good) / static_cast<double>(all); }
+    [[nodiscard]] double percent() const {
+        return all == 0 ? 100.0 : 100.0 * static_cast<double>(good) / static_cast<double>(all);
+    }
 };
 
 /// What the bones of a limb do: which way it is bent, in the space of the bone above the middle joint, and by how much.
@@ -115,8 +117,8 @@ Bend bend_of(const Pose& pose, const Limb& limb) {
     Bend bend;
     bend.degrees = std::atan2(glm::length(axis), glm::dot(upper, lower)) / kDegree;
     const glm::dmat3 space(at(pose.model().joints()[limb.middle].parent));
-    bend.axis = glm::inverse(glm::dmat3(glm::normalize(space[0]), glm::normalize(space[1]), glm::normalize(space[2]))) *
-                axis;
+    bend.axis =
+        glm::inverse(glm::dmat3(glm::normalize(space[0]), glm::normalize(space[1]), glm::normalize(space[2]))) * axis;
     return bend;
 }
 
@@ -172,8 +174,9 @@ private:
 
     void count_parts() {
         for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-            const bool all = limbs_[limb] && std::all_of(limbs_[limb]->joints.begin(), limbs_[limb]->joints.end(),
-                                                         [&](std::uint32_t joint) { return is_limited(model_, joint); });
+            const bool all =
+                limbs_[limb] && std::all_of(limbs_[limb]->joints.begin(), limbs_[limb]->joints.end(),
+                                            [&](std::uint32_t joint) { return is_limited(model_, joint); });
             count(kLimbNames[limb], all);
         }
         const Chain* spine = model_.chain("Spine");
@@ -244,8 +247,8 @@ private:
             local_to_model(pose_);
             const bool is_reached = result.distance <= 1e-3 * length;
             const Bend bend = bend_of(pose_, limb);
-            const bool is_bent_well = bend.degrees < kBent || most_[number] < kBent ||
-                                      glm::dot(bend.axis, sums_[number]) > 0.0;
+            const bool is_bent_well =
+                bend.degrees < kBent || most_[number] < kBent || glm::dot(bend.axis, sums_[number]) > 0.0;
             row_.reached.add(is_reached);
             row_.bent.add(is_reached && is_bent_well);
             row_.limbs[number].add(is_reached && is_bent_well);
@@ -300,8 +303,9 @@ int main(int argc, char** argv) {
     std::size_t targets = 1000;
     bool is_expected = false;
     bool is_good = true;
-    std::puts("| character | joints | clips | limbs, spine and neck with constraints | frames | inside | "
-              "worst, degrees | targets reached | and bent as in its clips |");
+    std::puts(
+        "| character | joints | clips | limbs, spine and neck with constraints | frames | inside | "
+        "worst, degrees | targets reached | and bent as in its clips |");
     std::puts("|---|---|---|---|---|---|---|---|---|");
     for (int i = 1; i < argc; ++i) {
         if (std::strcmp(argv[i], "--targets") == 0 && i + 1 < argc) {
@@ -331,8 +335,8 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "%s: %s: %.1f %% reached and bent as in its clips\n", argv[i], kLimbNames[limb],
                          share.percent());
         }
-        is_good = is_good && row.parts.good == row.parts.all && row.frames.percent() >= 99.0 &&
-                  row.bent.percent() >= 99.0;
+        is_good =
+            is_good && row.parts.good == row.parts.all && row.frames.percent() >= 99.0 && row.bent.percent() >= 99.0;
         for (const Share& limb : row.limbs) is_good = is_good && limb.percent() >= 99.0;
     }
     if (is_expected && !is_good) std::fputs("bench_auto_rig: expected 100, 99 and 99 %, of each limb\n", stderr);

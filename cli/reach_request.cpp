@@ -97,8 +97,8 @@ void carry_target(const Chain& chain, Pose& pose) {
     }
     local_to_model(pose);
     const auto& offset = chain.record.tip_offset;
-    const glm::dvec4 tip = glm::dmat4(pose.model_space()[chain.effector]) *
-                           glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const glm::dvec4 tip =
+        glm::dmat4(pose.model_space()[chain.effector]) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
     const std::uint32_t parent = model.joints()[chain.target].parent;
     const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : glm::dmat4(pose.model_space()[parent]);
     if (std::abs(glm::determinant(space)) < 1e-30) return;

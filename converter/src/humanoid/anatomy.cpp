@@ -100,8 +100,9 @@ private:
                   of_side(kShoulder, right));
         add_swing(upper_arm, HumanJoint::shoulder, along(upper_arm, lower_arm), stance_.forward,
                   of_side(kUpperArm, right), outward);
-        add_bend(upper_arm, lower_arm, HumanJoint::elbow, end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm),
-                 stance_.forward, bend_of_side(kForearm, right));
+        add_bend(upper_arm, lower_arm, HumanJoint::elbow,
+                 end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm), stance_.forward,
+                 bend_of_side(kForearm, right));
         if (!found_.has_split_hands) {
             const auto to_thumb = along(hand, joint(HumanBone::left_thumb));
             add_swing(hand, HumanJoint::wrist, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward,
@@ -109,11 +110,13 @@ private:
         }
         add_swing(upper_leg, HumanJoint::hip, along(upper_leg, lower_leg), stance_.forward, of_side(kUpperLeg, right),
                   -stance_.up);
-        add_bend(upper_leg, lower_leg, HumanJoint::knee, end_of(found_, rest_, right ? Limb::right_leg : Limb::left_leg),
-                 -stance_.forward, bend_of_side(kShin, right));
+        add_bend(upper_leg, lower_leg, HumanJoint::knee,
+                 end_of(found_, rest_, right ? Limb::right_leg : Limb::left_leg), -stance_.forward,
+                 bend_of_side(kShin, right));
         const auto to_toes = along(foot, toes);
         add_swing(foot, HumanJoint::ankle, to_toes ? *to_toes : stance_.forward, stance_.up, of_side(kFoot, right));
-        add(toes, HumanJoint::toes, glm::dmat3(stance_.forward, glm::cross(stance_.left, stance_.forward), stance_.left),
+        add(toes, HumanJoint::toes,
+            glm::dmat3(stance_.forward, glm::cross(stance_.left, stance_.forward), stance_.left),
             bend_of_side(kToes, right), {});
     }
 
@@ -186,8 +189,8 @@ private:
     void add(std::uint32_t joint, HumanJoint part, const glm::dmat3& axes, const Ranges& ranges,
              const glm::dvec3& rest) {
         if (joint == kNone || !rest_.turning_axes(joint)) return;
-        const bool is_strange = outside(ranges.z, rest.z) > kStrange ||
-                                (!bends(part) && outside(ranges.y, rest.y) > kStrange);
+        const bool is_strange =
+            outside(ranges.z, rest.z) > kStrange || (!bends(part) && outside(ranges.y, rest.y) > kStrange);
         joints_.push_back({joint, part, is_right_, 0, axes, ranges, rest, is_strange});
     }
 

@@ -54,8 +54,8 @@ struct JointAnatomy {
     /// axis of the bend. The others: X along the bone. The right side's frame is the left one's mirrored: a right joint
     /// does the same as a left one with the signs of X and Y changed where it bends, of X and Z elsewhere.
     glm::dmat3 axes{1.0};
-    Ranges human;          ///< about the neutral pose, in the left joint's signs turned to this side's
-    glm::dvec3 rest{0.0};  ///< the rest pose: its angles away from the neutral one; of a bend a rotation vector
+    Ranges human;             ///< about the neutral pose, in the left joint's signs turned to this side's
+    glm::dvec3 rest{0.0};     ///< the rest pose: its angles away from the neutral one; of a bend a rotation vector
     bool is_strange = false;  ///< the rest pose is more than 10 degrees outside what a human can do
 };
 

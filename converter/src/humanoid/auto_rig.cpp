@@ -28,8 +28,8 @@ namespace {
 using Bone = HumanBone;
 
 /// Takes from the shape what the names do not tell: limbs of which one side or both are missing, hips, spine and head.
-void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-              const std::vector<bool>& chosen, NamedHumanoid& found) {
+void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& clips, const std::vector<bool>& chosen,
+              NamedHumanoid& found) {
     Humanoid& bones = found.bones;
     const auto has_pair = [&](Limb left, Limb right) {
         return bones.has(bones_of(left).lower) && bones.has(bones_of(right).lower);
@@ -161,8 +161,8 @@ private:
 
 constexpr std::array<const char*, kLimbs> kChainNames{"LeftArm", "RightArm", "LeftLeg", "RightLeg"};
 
-/// Chains for limbs that have no joint at their end: where a hand or foot is moved by a rig of its own, the tip is where
-/// that one rests, and it the target; else the tip is where the mesh ends.
+/// Chains for limbs that have no joint at their end: where a hand or foot is moved by a rig of its own, the tip is
+/// where that one rests, and it the target; else the tip is where the mesh ends.
 std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
                                      const Stance& stance) {
     std::vector<Chain> chains;
@@ -287,7 +287,8 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
 
     if (found.contradicts_names) {
         report.warn(
-            "auto-rig: left and right in the joints' names contradict the way that feet and knees point, left and right "
+            "auto-rig: left and right in the joints' names contradict the way that feet and knees point, left and "
+            "right "
             "below are the character's own");
     }
     Report unheard;  // of limbs that are not there

@@ -124,8 +124,8 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
                 if (link > 0) place += turn * glm::dvec3(joint.rest.translation);
                 if (path[link] == limb.middle) middle = place;
                 const Track* track = by_cycle[cycle][link];
-                const std::optional<glm::dquat> q = track != nullptr ? rotation_at(*track, seconds, numbers)
-                                                                     : std::optional(rest_rotation(joint));
+                const std::optional<glm::dquat> q =
+                    track != nullptr ? rotation_at(*track, seconds, numbers) : std::optional(rest_rotation(joint));
                 if (q) turn = turn * *q;
             }
             const glm::dvec3 tip = place + turn * limb.tip;

@@ -24,9 +24,9 @@ struct MirroredChains {
 /// Two long bones of such chains.
 struct LimbPair {
     const MirroredChains* chains = nullptr;
-    std::size_t root = 0, middle = 0, end = 0;  ///< into the chains' joints
-    double length = 0.0;                        ///< of both bones, metres
-    double score = 0.0;                         ///< 0 to 1
+    std::size_t root = 0, middle = 0, end = 0;                      ///< into the chains' joints
+    double length = 0.0;                                            ///< of both bones, metres
+    double score = 0.0;                                             ///< 0 to 1
     glm::dvec3 root_place{0.0}, middle_place{0.0}, end_place{0.0};  ///< halfway between both sides
 };
 
@@ -125,8 +125,8 @@ private:
 
     /// The children of both that are mirror images; of several the longest.
     [[nodiscard]] std::optional<std::pair<std::uint32_t, std::uint32_t>> next_of(std::uint32_t a, std::uint32_t b,
-                                                                                const Mirror& mirror,
-                                                                                double size) const {
+                                                                                 const Mirror& mirror,
+                                                                                 double size) const {
         std::optional<std::pair<std::uint32_t, std::uint32_t>> best;
         double longest = -1.0;
         const auto some = [](const std::vector<std::uint32_t>& all) { return std::min(all.size(), kMostChildren); };
@@ -195,8 +195,8 @@ private:
                     const double upper = distance(joints[root], joints[middle]);
                     const double lower = distance(joints[middle], joints[end]);
                     // Between the three the limb runs straight.
-                    const bool is_straight = upper > 0.95 * (along[middle] - along[root]) &&
-                                             lower > 0.95 * (along[end] - along[middle]);
+                    const bool is_straight =
+                        upper > 0.95 * (along[middle] - along[root]) && lower > 0.95 * (along[end] - along[middle]);
                     const double balance = std::min(upper, lower) / std::max(upper, lower);
                     const double cover = (along[end] - along[root]) / along[last];
                     const double score = balance * std::sqrt(cover);
@@ -263,8 +263,7 @@ private:
         for (const std::vector<std::uint32_t>& joints : limbs.chains->joints) {
             const auto bend = clips_.bend_of({joints[limbs.root], joints[limbs.middle], joints[limbs.end]});
             const std::uint32_t parent = scene_.joints[joints[limbs.root]].parent;
-            if (bend && parent != kNone)
-                sum += bend->agreement * glm::dot(rest_.turn(parent) * bend->direction, way);
+            if (bend && parent != kNone) sum += bend->agreement * glm::dot(rest_.turn(parent) * bend->direction, way);
         }
         return sum;
     }
@@ -354,7 +353,7 @@ std::uint32_t common_ancestor(const Scene& scene, const RestFrames& rest, const 
 }  // namespace
 
 std::optional<ShapedHumanoid> find_by_shape(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                                      const std::vector<bool>& chosen) {
+                                            const std::vector<bool>& chosen) {
     std::optional<ShapedHumanoid> found = ShapeFinder(scene, rest, clips, chosen).find();
     if (found) find_trunk_by_shape(scene, rest, chosen, found->bones);
     return found;
@@ -375,8 +374,8 @@ void find_trunk_by_shape(const Scene& scene, const RestFrames& rest, const std::
     const std::uint32_t hips = common_ancestor(scene, rest, legs);
     const std::uint32_t shoulders = common_ancestor(scene, rest, arms);
     if (hips == kNone || shoulders == kNone) return;
-    const auto up = unit(rest.position(arms[0]) + rest.position(arms[1]) - rest.position(legs[0]) -
-                         rest.position(legs[1]));
+    const auto up =
+        unit(rest.position(arms[0]) + rest.position(arms[1]) - rest.position(legs[0]) - rest.position(legs[1]));
     if (!up) return;
     if (!humanoid.has(HumanBone::hips)) humanoid[HumanBone::hips] = hips;
 
@@ -384,12 +383,10 @@ void find_trunk_by_shape(const Scene& scene, const RestFrames& rest, const std::
         // What goes on upward where the arms leave, on neither side of them.
         const std::vector<std::vector<std::uint32_t>> children = list_children(scene, chosen);
         const auto carries_limb = [&](std::uint32_t joint) {
-            return std::any_of(arms.begin(), arms.end(), [&](std::uint32_t arm) {
-                       return joint == arm || rest.is_below(arm, joint);
-                   }) ||
-                   std::any_of(legs.begin(), legs.end(), [&](std::uint32_t leg) {
-                       return joint == leg || rest.is_below(leg, joint);
-                   });
+            return std::any_of(arms.begin(), arms.end(),
+                               [&](std::uint32_t arm) { return joint == arm || rest.is_below(arm, joint); }) ||
+                   std::any_of(legs.begin(), legs.end(),
+                               [&](std::uint32_t leg) { return joint == leg || rest.is_below(leg, joint); });
         };
         const glm::dvec3 between = 0.5 * (rest.position(arms[0]) + rest.position(arms[1]));
         const double width = glm::distance(rest.position(arms[0]), rest.position(arms[1]));

@@ -23,7 +23,7 @@ struct ShapedHumanoid {
 /// outweigh names. Where all are silent the character looks along +Z, as glTF asks.
 /// \param chosen  by joint: only these are looked at
 std::optional<ShapedHumanoid> find_by_shape(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                                      const std::vector<bool>& chosen);
+                                            const std::vector<bool>& chosen);
 
 /// Fills in hips, spine, neck and head where they are not known: what lies between the legs and the arms, and what goes
 /// on upward from there.

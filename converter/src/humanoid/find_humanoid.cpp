@@ -230,7 +230,7 @@ private:
     const Scene& scene_;
     const RestFrames& rest_;
     std::vector<std::optional<BoneName>> names_;
-    std::vector<std::vector<std::uint32_t>> children_;  ///< those that are chosen
+    std::vector<std::vector<std::uint32_t>> children_;         ///< those that are chosen
     std::array<std::array<Candidates, 3>, kBodyParts> lists_;  ///< by part and side
     NamedHumanoid found_;
 };
@@ -242,7 +242,8 @@ std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& r
     const auto number = static_cast<std::size_t>(limb);
     if (found.bones.has(bones.end)) return rest.position(found.bones[bones.end]);
     const std::uint32_t loose = found.loose_ends[number];
-    if (loose == kNone || !found.bones.has(bones.upper) || !found.bones.has(bones.lower)) return found.mesh_ends[number];
+    if (loose == kNone || !found.bones.has(bones.upper) || !found.bones.has(bones.lower))
+        return found.mesh_ends[number];
     const glm::dvec3 middle = rest.position(found.bones[bones.lower]);
     const double upper = glm::distance(rest.position(found.bones[bones.upper]), middle);
     const double lower = glm::distance(middle, rest.position(loose));

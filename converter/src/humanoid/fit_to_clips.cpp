@@ -29,9 +29,9 @@ using Rotations = std::vector<glm::dquat>;
 
 /// R = swing * twist about X, as spec/constraints.md has it.
 struct SwingTwist {
-    double twist = 0.0;      ///< degrees, -180 to 180
-    glm::dvec2 swing{0.0};   ///< Y and Z: the sine of half its angle
-    double cosine = 1.0;     ///< of half its angle
+    double twist = 0.0;     ///< degrees, -180 to 180
+    glm::dvec2 swing{0.0};  ///< Y and Z: the sine of half its angle
+    double cosine = 1.0;    ///< of half its angle
 };
 
 SwingTwist decompose(const glm::dquat& r) {
@@ -132,7 +132,7 @@ struct Member {
 
 /// What a joint bends about, and how far.
 struct BendFit {
-    bool moves = false;     ///< the clips turn it by 5 degrees or more
+    bool moves = false;  ///< the clips turn it by 5 degrees or more
     bool is_hinge = true;
     bool is_fitted = false;  ///< the axis is the clips', not the anatomy's
     glm::dvec3 axis{0.0, 0.0, 1.0};
@@ -309,7 +309,8 @@ int count_directions(Shape& shape) {
 /// The joints of both sides that are one another's counterparts, or a single one.
 class Group {
 public:
-    Group(const Scene& scene, const RestFrames& rest, const glm::dvec3& left) : scene_(scene), rest_(rest), left_(left) {}
+    Group(const Scene& scene, const RestFrames& rest, const glm::dvec3& left)
+        : scene_(scene), rest_(rest), left_(left) {}
 
     void add(const JointAnatomy& anatomy, const ClipRotations& clips) {
         Member member;
@@ -445,8 +446,8 @@ private:
             range = whole({std::min(range.low, 0.0), std::max(range.high, 0.0)}, human);
             if (fit.is_hinge) {
                 const glm::dvec3 along = limit.anatomy.axes[0];
-                const auto y = unit_across(along, limit.axis);
-                const glm::dmat3 axes(limit.axis, *y, glm::cross(limit.axis, *y));
+                const auto z = unit_across(along, limit.axis);
+                const glm::dmat3 axes(limit.axis, glm::cross(*z, limit.axis), *z);
                 set(limit, LimitModel::hinge, axes, {range, {}, {}});
                 continue;
             }

@@ -17,12 +17,12 @@ namespace bendy::converter {
 
 struct ProposedLimit {
     JointAnatomy anatomy;
-    LimitRecord limit;           ///< flagged kProposed
-    glm::dvec3 axis{0.0};        ///< of a bend: about which it bends, in model space at rest
-    std::uint32_t clips = 0;     ///< that turn this joint, or its counterpart, by 5 degrees or more in all
-    bool is_axis_fitted = false; ///< to the clips
-    double axis_off = 0.0;       ///< degrees between the bend's axis and the one that the anatomy says
-    double growth = 0.0;         ///< degrees that the clips take it beyond a human's range, at most of all ends
+    LimitRecord limit;            ///< flagged kProposed
+    glm::dvec3 axis{0.0};         ///< of a bend: about which it bends, in model space at rest
+    std::uint32_t clips = 0;      ///< that turn this joint, or its counterpart, by 5 degrees or more in all
+    bool is_axis_fitted = false;  ///< to the clips
+    double axis_off = 0.0;        ///< degrees between the bend's axis and the one that the anatomy says
+    double growth = 0.0;          ///< degrees that the clips take it beyond a human's range, at most of all ends
 };
 
 /// Limits for what a human's joints can do, held against the scene's own clips: what the clips do decides. A bend's

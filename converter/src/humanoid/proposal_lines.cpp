@@ -57,8 +57,8 @@ std::string way_of(const glm::dvec3& way, const Stance& stance) {
                                                               {-glm::dot(way, stance.up), "down"},
                                                               {glm::dot(way, stance.left), "left"},
                                                               {-glm::dot(way, stance.left), "right"}}};
-    const auto first = std::max_element(ways.begin(), ways.end(),
-                                        [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto first =
+        std::max_element(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::string words = first->second;
     const std::pair<double, const char*>* second = nullptr;
     for (const auto& candidate : ways) {
@@ -119,8 +119,8 @@ std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
                 " degrees off a human's";
     }
     if (proposed.growth > 0.05 && proposed.clips > 0) {
-        line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) + " degrees wider than a human's for " +
-                clips_of(proposed.clips);
+        line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) +
+                " degrees wider than a human's for " + clips_of(proposed.clips);
     }
     return line;
 }

@@ -77,8 +77,8 @@ TEST(AutoRig, ProposesChainsAndLimits) {
     for (const Chain& chain : rigged.scene.chains) EXPECT_EQ(chain.record.flags, kProposed);
     EXPECT_EQ(rigged.limited(), 20u);  // all but the hips
     EXPECT_EQ(rigged.report.proposals().size(), 26u);
-    EXPECT_TRUE(rigged.proposes(
-        "chain LeftArm: leftUpperArm > leftLowerArm > leftHand, two_bone, elbow points backward"));
+    EXPECT_TRUE(
+        rigged.proposes("chain LeftArm: leftUpperArm > leftLowerArm > leftHand, two_bone, elbow points backward"));
     EXPECT_TRUE(rigged.proposes("left elbow, leftLowerArm: hinge about (0.00, -1.00, 0.00), 0 to 150 degrees"));
     EXPECT_TRUE(rigged.proposes("right knee, rightLowerLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees"));
     EXPECT_TRUE(rigged.proposes("spine 2, chest: swing -40 to 13 and -18 to 18 degrees, twist -23 to 23"));
@@ -354,7 +354,8 @@ void expect_inside(const Rigged& rigged, const std::string& name) {
             for (std::size_t at = 0; at < track.values.size(); at += 4) {
                 const glm::quat q(track.values[at + 3], track.values[at], track.values[at + 1], track.values[at + 2]);
                 const glm::vec4& r = rigged.scene.joints[joint].rest.rotation;
-                const double outside = violation(constraint, to_limit_space(constraint, glm::quat(r.w, r.x, r.y, r.z), q));
+                const double outside =
+                    violation(constraint, to_limit_space(constraint, glm::quat(r.w, r.x, r.y, r.z), q));
                 EXPECT_LT(outside / kTestDegree, 1.0) << name << ", key " << at / 4;
             }
         }
@@ -367,8 +368,9 @@ TEST(AutoRig, LimitsHoldTheCharactersOwnClips) {
     EXPECT_NEAR(high(inside.limit("leftLowerArm"), 0), 150, 1e-3);
     const Rigged near = rig(with_clip("leftLowerArm", 0, -20.5));
     EXPECT_NEAR(low(near.limit("leftLowerArm"), 0), -21, 1e-3);
-    EXPECT_TRUE(near.proposes("left elbow, leftLowerArm: hinge about (0.00, -1.00, 0.00), -21 to 150 degrees, axis fitted "
-                              "to 1 clip, 0.0 degrees off a human's, up to 21 degrees wider than a human's for 1 clip"));
+    EXPECT_TRUE(
+        near.proposes("left elbow, leftLowerArm: hinge about (0.00, -1.00, 0.00), -21 to 150 degrees, axis fitted "
+                      "to 1 clip, 0.0 degrees off a human's, up to 21 degrees wider than a human's for 1 clip"));
     EXPECT_NEAR(low(near.limit("rightLowerArm"), 0), -21, 1e-3);  // both sides alike
     const Rigged swung = rig(with_clip("leftUpperLeg", 1, 45));
     EXPECT_NEAR(high(swung.limit("leftUpperLeg"), 1), 45, 1.01);
@@ -395,11 +397,13 @@ TEST(AutoRig, AKneesAxisIsThatOfItsClips) {
     EXPECT_TRUE(is_hinge(rigged.limit("leftLowerLeg")));
     EXPECT_TRUE(is_hinge(rigged.limit("rightLowerLeg")));
     expect_inside(rigged, "leftLowerLeg");
-    EXPECT_TRUE(rigged.proposes("left knee, leftLowerLeg: hinge about (0.96, 0.00, 0.27), -5 to 135 degrees, axis fitted to "
-                                "2 clips, 15.6 degrees off a human's, up to 5 degrees wider than a human's for 2 clips"));
+    EXPECT_TRUE(
+        rigged.proposes("left knee, leftLowerLeg: hinge about (0.96, 0.00, 0.27), -5 to 135 degrees, axis fitted to "
+                        "2 clips, 15.6 degrees off a human's, up to 5 degrees wider than a human's for 2 clips"));
     // The other side's is its mirror image.
-    EXPECT_TRUE(rigged.proposes("right knee, rightLowerLeg: hinge about (0.96, 0.00, -0.27), -5 to 135 degrees, axis fitted "
-                                "to 2 clips, 15.6 degrees off a human's, up to 5 degrees wider than a human's for 2 clips"));
+    EXPECT_TRUE(
+        rigged.proposes("right knee, rightLowerLeg: hinge about (0.96, 0.00, -0.27), -5 to 135 degrees, axis fitted "
+                        "to 2 clips, 15.6 degrees off a human's, up to 5 degrees wider than a human's for 2 clips"));
 }
 
 TEST(AutoRig, EachSideMayHaveItsOwnAxis) {
