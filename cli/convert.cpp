@@ -157,7 +157,8 @@ void add_convert(CLI::App& program) {
     CLI::Option* exact =
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
-                      "propose IK chains and joint limits by the joints' names, and list them");
+                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
+                      "the clips, and list them");
     command->add_flag("--auto-skin", arguments->auto_skin,
                       "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
                       "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");

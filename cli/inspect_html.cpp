@@ -67,7 +67,7 @@ void warn_of_rig(const ObjectView& object, Warnings& warnings) {
         if ((flags & kApproximated) != 0)
             warnings.add(chunk, what + " is approximated: the source says more, or otherwise");
         if ((flags & kProposed) != 0)
-            warnings.add(chunk, what + " is proposed from the joints' names; nobody has authored it");
+            warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
     };
     for (const LimitView& limit : object.skeleton.limits) {
         warn_of_flags(limit.chunk, limit.record.flags, "the constraint");

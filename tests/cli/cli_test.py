@@ -362,8 +362,9 @@ class Convert(Case):
         result = self.bendy("convert", "legs.gltf", "--auto-rig")
         self.assertEqual(result.returncode, 0)
         lines = result.stderr.decode().splitlines()
-        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone", lines)
-        self.assertIn("bendy: proposed: LeftLeg: hinge 0 to 135 degrees", lines)
+        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone, "
+                      "knee points forward", lines)
+        self.assertIn("bendy: proposed: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees", lines)
         self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
         self.assertNotIn(b"proposed", result.stdout)
         self.done("validate", "legs.bendy")
