@@ -143,9 +143,10 @@ void add_convert(CLI::App& program) {
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command
-        ->add_option("--ticks-per-second", arguments->ticks_per_second,
-                     "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
-                     "file's AnimTicksPerSecond, or 4800, if not given")
+        ->add_option(
+            "--ticks-per-second", arguments->ticks_per_second,
+            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+            "file's AnimTicksPerSecond, or 4800, if not given")
         ->check(CLI::PositiveNumber);
     command->add_flag("--merge-clips", arguments->merge_clips,
                       "clips that move different joints become one, as for files with a clip for each joint");

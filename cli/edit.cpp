@@ -1,7 +1,7 @@
 #include "commands.h"
 #include "import_problem.h"
-#include "output_folder.h"
 #include "input_file.h"
+#include "output_folder.h"
 #include "problem.h"
 
 #include <bendy/edit/extract.h>

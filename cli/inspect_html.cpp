@@ -66,8 +66,7 @@ void warn_of_rig(const ObjectView& object, Warnings& warnings) {
     const auto warn_of_flags = [&](std::uint32_t chunk, std::uint8_t flags, const std::string& what) {
         if ((flags & kApproximated) != 0)
             warnings.add(chunk, what + " is approximated: the source says more, or otherwise");
-        if ((flags & kProposed) != 0)
-            warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
+        if ((flags & kProposed) != 0) warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
     };
     for (const LimitView& limit : object.skeleton.limits) {
         warn_of_flags(limit.chunk, limit.record.flags, "the constraint");

@@ -174,7 +174,8 @@ Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const
     return json;
 }
 
-void CurveSampler::add_packed(const PackedView& packed, const CycleView& cycle, const ObjectView& object, Json& tracks) {
+void CurveSampler::add_packed(const PackedView& packed, const CycleView& cycle, const ObjectView& object,
+                              Json& tracks) {
     const std::uint32_t frames = packed.record.frames;
     const std::size_t points = std::min<std::size_t>(frames, points_);
     constexpr std::uint64_t kTrackItself = 16;

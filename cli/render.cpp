@@ -4,9 +4,9 @@
 #ifdef BENDY_HAS_VIEWER
 
 #include "find_cycle.h"
-#include "output_folder.h"
 #include "input_file.h"
 #include "level_of_detail.h"
+#include "output_folder.h"
 #include "progress_bar.h"
 #include "reach_request.h"
 

@@ -1,6 +1,6 @@
 #include "commands.h"
-#include "output_folder.h"
 #include "input_file.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 

@@ -426,7 +426,8 @@ private:
         for (const std::uint32_t joint : loose_) {
             const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
             double error = 0.0;
-            for (const glm::dvec3& point : points_) raise(error, glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
+            for (const glm::dvec3& point : points_)
+                raise(error, glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
             if (error <= worst_.metres) continue;
             worst_.metres = or_infinite(error);
             worst_.mesh = worst_.vertex = kNone;

@@ -242,8 +242,7 @@ public:
         const std::uint32_t grid_chunk = tree_.find(block, FourCC("GRID"));
         const auto grid = rows(grid_chunk, kAxes * sizeof(StreamBox));
         for (const FourCC id : {FourCC("INDX"), FourCC("POSI")}) {
-            if (tree_.find(block, id) == kNone)
-                faults_.add({ErrorCode::kChunkMissing, tree_[block].offset, id.value});
+            if (tree_.find(block, id) == kNone) faults_.add({ErrorCode::kChunkMissing, tree_[block].offset, id.value});
         }
         const auto places = find(block, FourCC("INDX"), forms::kPlaces, pool.vertices);
         const auto positions = find(block, FourCC("POSI"), forms::kFramePositions, std::nullopt);

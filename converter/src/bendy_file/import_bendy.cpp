@@ -124,7 +124,8 @@ private:
         for (UnpackedTrack& track : unpack_cycle(packed, rests_)) {
             // The last frame's time is rounded: it may lie after the clip's end by as much.
             const std::size_t last = track.times.size() - 1;
-            if (last == 0 || track.times[last - 1] < view.end) track.times[last] = std::min(track.times[last], view.end);
+            if (last == 0 || track.times[last - 1] < view.end)
+                track.times[last] = std::min(track.times[last], view.end);
             cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
                                     std::move(track.times), std::move(track.values)});
         }

@@ -91,8 +91,7 @@ private:
         frames.reserve(cycle.plays.size());
         for (const Play& play : cycle.plays)
             add_channel(frames.emplace_back(weights_track(scene_, cycle, play)), animation, place);
-        if (const CycleSpan span = span_of(cycle); span != span_of_keys(cycle))
-            hold(cycle, span, animation, place);
+        if (const CycleSpan span = span_of(cycle); span != span_of_keys(cycle)) hold(cycle, span, animation, place);
         return animation;
     }
 

@@ -56,8 +56,7 @@ private:
 
 std::uint32_t number_at(std::string_view file, std::size_t at, std::size_t size) {
     std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size; ++i)
-        value |= std::uint32_t{static_cast<unsigned char>(file[at + i])} << (8 * i);
+    for (std::size_t i = 0; i < size; ++i) value |= std::uint32_t{static_cast<unsigned char>(file[at + i])} << (8 * i);
     return value;
 }
 
@@ -79,7 +78,8 @@ std::string decompress(std::string_view file, gltf::Budget& budget) {
     std::string_view before;
     while (plain.size() < size) {
         const std::string place = "byte " + std::to_string(at);
-        if (file.size() - at < 4 + kSignature.size()) fail(place, "expected a compressed block, found the end of the file");
+        if (file.size() - at < 4 + kSignature.size())
+            fail(place, "expected a compressed block, found the end of the file");
         const std::size_t due = number_at(file, at, 2);
         const std::size_t compressed = number_at(file, at + 2, 2);
         at += 4;

@@ -58,7 +58,8 @@ private:
         }
         const std::uint32_t joint = frames_.find(animation.frame);
         if (joint == kNone) {
-            report_.warn("animation left out: its frame " + quote(animation.frame) + " does not exist", animation.place);
+            report_.warn("animation left out: its frame " + quote(animation.frame) + " does not exist",
+                         animation.place);
             return;
         }
         const auto add_kind = [&](std::size_t kind, TrackPath path, std::uint32_t components) {

@@ -43,10 +43,11 @@ void set_tick(XFile& file, double stated, Report& report) {
         const double last = last_tick(file);
         if (last == 0.0) return;
         std::array<char, 160> text{};
-        std::snprintf(text.data(), text.size(),
-                      "AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the last "
-                      "key is at %.3g s; --ticks-per-second sets another rate",
-                      last / kDirectX);
+        std::snprintf(
+            text.data(), text.size(),
+            "AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the last "
+            "key is at %.3g s; --ticks-per-second sets another rate",
+            last / kDirectX);
         report.warn(text.data(), {});
     }
 }

@@ -39,7 +39,8 @@ JointKey key_of(std::uint32_t joint) {
 
 RigChain to_rig(const IkChain& source, const FrameIndex& frames) {
     const auto find = [&](const std::string& identifier) {
-        return identifier.empty() ? std::string() : key_of(frames.expect(identifier, "BendyIkChain", source.place)).name;
+        return identifier.empty() ? std::string()
+                                  : key_of(frames.expect(identifier, "BendyIkChain", source.place)).name;
     };
     RigChain chain;
     chain.name = source.name;

@@ -20,10 +20,20 @@ constexpr std::array<std::uint32_t, 17> kWords{1, 2, 3, 4, 1, 1, 1, 2, 1, 1, 2, 
 constexpr std::uint32_t kNormal = 3;
 constexpr std::uint32_t kTexCoord = 5;
 constexpr std::uint32_t kColourUsage = 10;
-constexpr std::array<const char*, 14> kUsageNames{"positions",          "blend weights", "blend indices", "normals",
-                                                  "point sizes",        "texture coordinates", "tangents",      "binormals",
-                                                  "tessellate factors", "transformed positions", "colours",       "fog",
-                                                  "depth",              "samples"};
+constexpr std::array<const char*, 14> kUsageNames{"positions",
+                                                  "blend weights",
+                                                  "blend indices",
+                                                  "normals",
+                                                  "point sizes",
+                                                  "texture coordinates",
+                                                  "tangents",
+                                                  "binormals",
+                                                  "tessellate factors",
+                                                  "transformed positions",
+                                                  "colours",
+                                                  "fog",
+                                                  "depth",
+                                                  "samples"};
 
 struct Element {
     std::uint32_t type = 0;
@@ -39,7 +49,8 @@ std::vector<Element> read_elements(ObjectReader& in, std::uint32_t& stride) {
     std::vector<Element> elements(in.count(4, "elements of a vertex"));
     for (Element& element : elements) {
         element.type = in.integer();
-        if (element.type >= kWords.size()) in.refuse("there is no vertex element of type " + std::to_string(element.type));
+        if (element.type >= kWords.size())
+            in.refuse("there is no vertex element of type " + std::to_string(element.type));
         in.integer();  // method: of tessellators
         element.usage = in.integer();
         element.index = in.integer();

@@ -9,8 +9,8 @@
 #include <bendy/converter/import_gltf.h>
 #include <bendy/format/validate.h>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -67,7 +67,8 @@ Scene flat_chain() {
     return scene;
 }
 
-/// The farthest that a joint's origin, or a point 1 % of `size` from it on an axis, is from where the other scene has it.
+/// The farthest that a joint's origin, or a point 1 % of `size` from it on an axis, is from where the other scene has
+/// it.
 double farthest(const Scene& a, const Scene& b, double size) {
     double worst = 0.0;
     EvaluatedPose here;

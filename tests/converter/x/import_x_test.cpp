@@ -243,7 +243,8 @@ TEST(ImportX, OtherVariantsAreRefusedByName) {
     EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: 16 bytes are due");
     EXPECT_EQ(read("xof 0303txt 0016abc").fault,
               ": the X-file's floats have an unknown size '0016': 0032 and 0064 are read");
-    EXPECT_EQ(read("xof 0303foo 0032abc").fault, ": the X-file is of an unknown variant 'foo ': txt, bin, tzip and bzip are read");
+    EXPECT_EQ(read("xof 0303foo 0032abc").fault,
+              ": the X-file is of an unknown variant 'foo ': txt, bin, tzip and bzip are read");
 }
 
 /// As MSZIP: blocks that each know what the one before has, behind the whole file's size.
@@ -278,7 +279,8 @@ std::string compressed(const std::string& file, const std::string& variant, std:
 std::string long_file() {
     std::string file = "xof 0303txt 0032\n";
     for (int i = 0; i < 4000; ++i)
-        file += "Frame Joint" + std::to_string(i * 7919 % 4001) + " { " + std::string(i % 3 == 0 ? "Frame { } " : "") + "}\n";
+        file += "Frame Joint" + std::to_string(i * 7919 % 4001) + " { " + std::string(i % 3 == 0 ? "Frame { } " : "") +
+                "}\n";
     return file;
 }
 

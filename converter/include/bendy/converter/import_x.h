@@ -16,11 +16,11 @@ struct XOptions {
     double ticks_per_second = 0.0;
 };
 
-/// Reads a DirectX X-file, text or binary, compressed or not, and fills a Scene: frames become joints, SkinWeights influences,
-/// AnimationSets cycles, and our own templates (spec/xfile.md) constraints and IK chains. The left-handed space is
-/// mirrored along Z, numbers are taken for metres. Errors come with `line 3, column 7`, or the byte in binary files.
-/// What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and every
-/// index in range. The lines of a compressed file are those of the text in it.
+/// Reads a DirectX X-file, text or binary, compressed or not, and fills a Scene: frames become joints, SkinWeights
+/// influences, AnimationSets cycles, and our own templates (spec/xfile.md) constraints and IK chains. The left-handed
+/// space is mirrored along Z, numbers are taken for metres. Errors come with `line 3, column 7`, or the byte in binary
+/// files. What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and
+/// every index in range. The lines of a compressed file are those of the text in it.
 Result<Scene, ImportError> import_x(const std::filesystem::path& file, const XOptions& options, Report& report);
 
 /// The same of a file's bytes. \param file  beside which images are looked for

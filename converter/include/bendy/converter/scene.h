@@ -176,9 +176,9 @@ struct Cycle {
     /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
     /// the last key. Never shorter than the keys.
     std::optional<CycleSpan> stated_span = {};
-    std::vector<Play> plays = {};        ///< at most one per mesh, which no track animates then
-    float frame_rate = 0.0f;             ///< of `plays`, per second; above 0 if there are any
-    float frame_start = 0.0f;            ///< of `plays`, seconds; no key is before it
+    std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
+    float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
+    float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
