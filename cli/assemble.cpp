@@ -1,11 +1,13 @@
 #include "commands.h"
 #include "fault_lines.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "late_progress.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 
+#include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 #include <bendy/twin/assemble.h>
@@ -32,14 +34,25 @@ std::filesystem::path default_output(const std::filesystem::path& file) {
     return stem;
 }
 
+/// Fails for a file that is known to be something else than text of ours, with the command that reads it.
+void refuse_other_kinds(const std::filesystem::path& file, Bytes bytes) {
+    const auto kind = converter::find_file_kind(bytes, file);
+    if (!kind) return;
+    if (kind->format == converter::SourceFormat::bendy)
+        fail(file, "is a bendy file, not the text of one, which `bendy dump` writes");
+    if (kind->format || !kind->way_in.empty()) fail(file, printable(converter::why_not_bendy(*kind, file)));
+}
+
 void run(AssembleArguments arguments) {
+    require_folder_of(arguments.output);
     const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     if (arguments.output.empty()) arguments.output = default_output(arguments.file);
     Outputs outputs(arguments.force);
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, named, Content::binary);
     check_suffix({"assemble", "--output", {".bendy"}}, arguments.file, arguments.output);
-    const InputBytes file = InputBytes::read(arguments.file);
+    const InputBytes file = open_file(arguments.file);
+    refuse_other_kinds(arguments.file, file.bytes());
 
     LateProgress progress("assembling");
     const auto bytes = twin::assemble(as_text(file.bytes()), progress.callback());

@@ -1,5 +1,6 @@
 #include "batch_plan.h"
 
+#include "batch_record.h"
 #include "output.h"
 #include "problem.h"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -31,18 +33,22 @@ public:
         if (fs::is_directory(input, ignored)) {
             add_folder(input);
         } else {
-            add_file(input, input.filename());
+            add_file(input, folder_.empty() ? input.parent_path() : folder_, input.filename());
         }
     }
 
-    BatchPlan finish(const fs::path& record) {
-        if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
-            plan_.clashes.push_back({{}, record, problem});
-        for (const auto& [place, input] : inputs_) {
-            const fs::path output = folder_ / place;
-            if (const std::string problem = outputs_.claim(output, NamedBy::user); !problem.empty())
-                plan_.clashes.push_back({input, output, problem});
-            plan_.files.push_back({input, place, output});
+    BatchPlan finish() {
+        std::set<fs::path> folders;
+        for (const auto& [key, file] : files_) {
+            if (const std::string problem = outputs_.claim(file.output, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({file.input, file.output, problem});
+            folders.insert(file.folder);
+            plan_.files.push_back(file);
+        }
+        for (const fs::path& folder : folders) {
+            const fs::path record = BatchRecord::file_in(folder);
+            if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({{}, record, problem});
         }
         return std::move(plan_);
     }
@@ -51,46 +57,46 @@ public:
 
 private:
     void add_folder(const fs::path& folder) {
-        const std::size_t before = inputs_.size();
+        const std::size_t before = files_.size();
         std::error_code error;
         fs::recursive_directory_iterator entry(folder, error);
         for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
             std::error_code ignored;
             if (converter::has_readable_extension(entry->path()) && !entry->is_directory(ignored))
-                add_file(entry->path(), entry->path().lexically_relative(folder));
+                add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
         }
         if (error) {
             plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
-        } else if (inputs_.size() == before) {
+        } else if (files_.size() == before) {
             warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
         }
     }
 
-    void add_file(const fs::path& input, fs::path place) {
+    void add_file(const fs::path& input, const fs::path& folder, fs::path place) {
         place.replace_extension(".bendy");
-        const auto [earlier, is_new] = inputs_.try_emplace(place, input);
-        if (!is_new && plain(earlier->second) != plain(input)) {
-            plan_.clashes.push_back({input, folder_ / place,
-                                     "both " + printable(earlier->second.string()) + " and " +
+        const fs::path output = folder / place;
+        const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
+        if (!is_new && plain(earlier->second.input) != plain(input)) {
+            plan_.clashes.push_back({input, output,
+                                     "both " + printable(earlier->second.input.string()) + " and " +
                                          printable(input.string()) + " would be written there"});
         }
         outputs_.reads(input);
     }
 
     fs::path folder_;
-    std::map<fs::path, fs::path> inputs_;  // by the output's place
+    std::map<fs::path, BatchFile> files_;  // by output, plain
     Outputs outputs_;
     BatchPlan plan_;
 };
 
 }  // namespace
 
-BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& record,
-                     const fs::path& rig) {
+BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& rig) {
     Planner planner(folder);
     for (const fs::path& input : inputs) planner.add(input);
     if (!rig.empty()) planner.reads(rig);
-    return planner.finish(record);
+    return planner.finish();
 }
 
 }  // namespace bendy::cli

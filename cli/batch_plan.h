@@ -8,7 +8,8 @@ namespace bendy::cli {
 
 struct BatchFile {
     std::filesystem::path input;
-    std::filesystem::path place;  ///< of the output in its folder
+    std::filesystem::path folder;  ///< that holds the record of the output: the one written to, or the input's own
+    std::filesystem::path place;   ///< of the output in that folder
     std::filesystem::path output;
 };
 
@@ -27,11 +28,10 @@ struct BatchPlan {
 };
 
 /// A file goes to `folder` under its name; the files in a folder, and in the folders below it, to their places below
-/// `folder`: those whose names end as kReadableExtensions say. All with the extension .bendy. Links to folders are not
-/// followed. Prints a warning for a folder without such files.
-/// \param record  a file that the batch writes besides
-/// \param rig     one that it reads besides; may be empty
+/// `folder`: those whose names end as kReadableExtensions say. Where `folder` is empty, each goes beside its input. All
+/// with the extension .bendy. Links to folders are not followed. Prints a warning for a folder without such files.
+/// \param rig  a file that is read besides; may be empty
 BatchPlan plan_batch(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder,
-                     const std::filesystem::path& record, const std::filesystem::path& rig);
+                     const std::filesystem::path& rig);
 
 }  // namespace bendy::cli

@@ -1,6 +1,6 @@
 #include "commands.h"
 #include "find_cycle.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "side_by_side.h"
@@ -134,7 +134,7 @@ void print_json(const BenchArguments& arguments, const Model& model, const Cycle
 }
 
 void run(const BenchArguments& arguments) {
-    const InputBytes file = InputBytes::read(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
     const Cycle* cycle = model->cycles().empty() ? nullptr : model->cycles().data();

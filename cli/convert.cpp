@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "console.h"
 #include "convert_arguments.h"
 #include "convert_batch.h"
 #include "convert_input.h"
@@ -6,10 +7,12 @@
 #include "depfile.h"
 #include "import_problem.h"
 #include "input_bytes.h"
+#include "live_progress.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
-#include "progress_bar.h"
+#include "summary.h"
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
@@ -20,44 +23,12 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bendy::cli {
 namespace {
-
-void print_proposals(const converter::Report& report) {
-    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
-}
-
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
-}
-
-std::string list_cycles(const Model& model) {
-    constexpr std::size_t kShown = 20;
-    std::ostringstream list;
-    list << std::setprecision(3);
-    for (std::size_t i = 0; i < std::min(model.cycles().size(), kShown); ++i) {
-        const Cycle& cycle = model.cycles()[i];
-        list << (i == 0 ? ": " : ", ") << (cycle.name.empty() ? '#' + std::to_string(i) : printable(cycle.name)) << ' '
-             << cycle.end - cycle.start << " s";
-    }
-    if (model.cycles().size() > kShown) list << ", ...";
-    return list.str();
-}
-
-std::string list_chains(const Model& model) {
-    constexpr std::size_t kShown = 20;
-    const auto chains = model.chains();
-    std::string list;
-    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i)
-        list += (i == 0 ? ": " : ", ") + (chains[i].name.empty() ? '#' + std::to_string(i) : printable(chains[i].name));
-    return chains.size() > kShown ? list + ", ..." : list;
-}
 
 /// Bytes by kind before and after, and the worst error.
 void print_compact(const converter::CompactReport& report, std::ostream& out) {
@@ -82,64 +53,21 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
     out << '\n';
 }
 
-auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptions options, converter::Report& report) {
-    ProgressBar bar("compacting");
-    std::uint64_t shown = 0;
-    if (!arguments.quiet) {
-        options.progress = [&](double share) {
-            const auto percent = static_cast<std::uint64_t>(100.0 * share);
-            if (percent > shown) bar.show(shown = percent, 100);
-        };
-    }
-    return convert_input(arguments.inputs.front(), options, report);
+auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,
+                           converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    LiveProgress progress("converting " + shown_name(input.filename()), !arguments.quiet);
+    options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
+    options.progress = [&](double share) { progress.set(share); };
+    return convert_input(input, options, report);
 }
 
-void print_summary(const ConvertArguments& arguments, Bytes bytes) {
-    std::ostream& out = summary_stream(arguments.output);
+void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_bytes_by_kind) {
     const Result<Model> model = Model::from_memory(bytes);
-    if (!model) fail(arguments.output, model.error(), bytes);
-    std::uint64_t triangles = 0;
-    std::uint64_t most_influences = 0;
-    for (const Draw& draw : model->draws()) triangles += draw.topology == Topology::triangles ? draw.count / 3 : 0;
-    for (const Pool& pool : model->pools())
-        most_influences = std::max<std::uint64_t>(most_influences, pool.bones ? pool.bones->components : 0);
-    std::set<std::string_view> targets;
-    for (const Pool& pool : model->pools()) {
-        for (const TargetView& target : pool.targets) targets.insert(target.name);
-    }
-    std::uint64_t images = 0;
-    for (const Texture& texture : model->textures()) {
-        for (const ImageView& image : texture.images) images += image.bytes.size();
-    }
-
-    out << printable(output_name(arguments.output)) << ": " << grouped(bytes.size()) << " bytes";
-    if (images != 0) out << ", " << grouped(images) << " of them images";
-    out << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
-    if (!model->constraints().empty() || !model->chains().empty())
-        out << "\n  rig        " << counted(model->constraints().size(), "constraint", "constraints");
-    if (!model->chains().empty())
-        out << ", " << counted(model->chains().size(), "chain", "chains") << list_chains(*model);
-    out << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
-        << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
-    if (most_influences != 0) out << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
-    if (model->collapse() != nullptr) {
-        Lod lod(*model);
-        lod.set_share(0.0f);
-        out << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
-            << grouped(lod.triangles());
-    }
-    if (model->target_count() != 0) {
-        out << "\n  targets    " << grouped(model->target_count());
-        const char* separator = ": ";
-        for (const std::string_view name : targets) {
-            if (name.empty()) continue;
-            out << separator << printable(name);
-            separator = ", ";
-        }
-    }
-    out << "\n  cycles     " << grouped(model->cycles().size()) << list_cycles(*model);
-    out << "\n  surface    " << counted(model->materials().size(), "material", "materials") << ", "
-        << counted(model->textures().size(), "texture", "textures") << '\n';
+    if (!model) fail(output_name(arguments.output), model.error(), bytes);
+    const Stream stream = is_dash(arguments.output) ? Stream::error : Stream::output;
+    summary_stream(arguments.output) << summary_as_text(summarize(*model, bytes), output_name(arguments.output),
+                                                        columns_of(stream), with_bytes_by_kind);
 }
 
 void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {
@@ -157,7 +85,7 @@ std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, Name
     outputs.writes(arguments.output, named, Content::binary);
     check_suffix({"convert", "--output", {".bendy"}}, input, arguments.output);
     if (!arguments.depfile.empty()) outputs.writes(arguments.depfile, NamedBy::user, Content::text);
-    auto bytes = convert_with_bar(arguments, options_of(arguments), report);
+    auto bytes = convert_with_progress(arguments, options_of(arguments), report);
     if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
     for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
     outputs.write(arguments.output, *bytes);
@@ -181,7 +109,7 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
     print_warnings(input, report);
     print_proposals(report);
-    if (!arguments.quiet) print_summary(arguments, bytes);
+    if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
 }
 
@@ -216,16 +144,13 @@ void run(ConvertArguments arguments) {
         std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
                     [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
     const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
-    if (arguments.output.empty()) {
-        if (arguments.inputs.size() > 1) {
-            throw CLI::ValidationError(arguments.inputs[1].string(),
-                                       "several inputs need a folder to go to, -o OUTDIR");
-        }
-        if (has_folder) fail(input, "is a folder: its files need one to go to, -o OUTDIR");
+    const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
+                          (!arguments.output.empty() && (!arguments.output.has_filename() ||
+                                                         std::filesystem::is_directory(arguments.output, ignored)));
+    if (!is_batch) require_folder_of(arguments.output);
+    require_folder_of(arguments.depfile);
+    if (arguments.output.empty() && !is_batch)
         arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
-    }
-    const bool is_batch = has_folder || arguments.inputs.size() > 1 || !arguments.output.has_filename() ||
-                          std::filesystem::is_directory(arguments.output, ignored);
     check_names(arguments, is_batch);
     if (!is_batch) return convert_file(arguments, named);
     if (!arguments.depfile.empty())
@@ -248,14 +173,15 @@ void add_convert(CLI::App& program) {
         ->required();
     command->add_option("-o,--output", arguments->output,
                         "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "
-                        "folder to write to, where files from a folder have the places that they have in it");
+                        "folder to write to, which is made, and where files from a folder have the places that they "
+                        "have in it; beside each input if not given");
     command
         ->add_option("-j,--jobs", arguments->jobs,
                      "of several inputs, how many at a time; one for each processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
                       "replace outputs that bendy did not write, unless -o names the one file; and of several inputs, "
-                      "convert all, not only what has changed since it was converted into this folder");
+                      "convert all, not only what has changed since it was converted to the same place");
     command->add_flag("--json", arguments->json,
                       "print a JSON object for each input, on a line of its own, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
@@ -264,15 +190,28 @@ void add_convert(CLI::App& program) {
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--ticks-per-second", arguments->ticks_per_second,
+            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+            "file's AnimTicksPerSecond, or 4800, if not given")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--merge-clips", arguments->merge_clips,
+                      "clips that move different joints become one, as for files with a clip for each joint");
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
-                      "propose IK chains and joint limits by the joints' names, and list them");
+                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
+                      "the clips, and list them");
     command->add_flag("--auto-skin", arguments->auto_skin,
                       "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
                       "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");
@@ -308,6 +247,7 @@ void add_convert(CLI::App& program) {
     command->footer(
         "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
         "Example: bendy convert fox.glb -o build/fox.bendy\n"
+        "         bendy convert *.glb\n"
         "         bendy convert models/ -o build/models --compact");
     command->callback([arguments] { run(*arguments); });
 }

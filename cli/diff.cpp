@@ -1,8 +1,9 @@
 #include "brief.h"
+#include "colour.h"
 #include "commands.h"
 #include "compare_files.h"
 #include "diff_characters.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -180,7 +181,7 @@ bool are_same(const Arguments& arguments) {
     std::array<InputBytes, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
-        files[i] = InputBytes::read(arguments.files[i]);
+        files[i] = open_bendy_file(arguments.files[i]);
         read[i] = open(arguments.files[i], files[i]);
     }
     const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);
@@ -203,11 +204,11 @@ void run(const Arguments& arguments) {
     } catch (const Failed&) {
         throw Failed{kTrouble};
     } catch (const TooMuchToCompare&) {
-        std::cerr << "bendy: error: " << shown_name(arguments.files[0])
+        std::cerr << error_label() << shown_name(arguments.files[0])
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {
-        std::cerr << "bendy: error: " << problem.what() << '\n';
+        std::cerr << error_label() << problem.what() << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

@@ -2,7 +2,7 @@
 
 #include "brief.h"
 #include "compare_files.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "problem.h"
 #include "progress_bar.h"
 
@@ -30,7 +30,7 @@ struct Character {
 };
 
 Character read_character(const std::filesystem::path& path) {
-    const InputBytes file = InputBytes::read(path);
+    const InputBytes file = open_bendy_file(path);
     converter::Report report;
     auto scene = converter::import_bendy(file.bytes(), report);
     if (!scene) fail(path, printable(scene.error().message));

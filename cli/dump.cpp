@@ -1,7 +1,8 @@
 #include "commands.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "late_progress.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 
@@ -27,7 +28,8 @@ void run(const DumpArguments& arguments) {
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, NamedBy::user, Content::text);
     check_suffix({"dump", "--output", {".json", ".txt"}}, arguments.file, arguments.output);
-    const InputBytes file = InputBytes::read(arguments.file);
+    require_folder_of(arguments.output);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);

@@ -1,12 +1,11 @@
 #include "commands.h"
-#include "convert_input.h"
 #include "import_problem.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 
-#include <bendy/converter/convert.h>
 #include <bendy/edit/extract.h>
 #include <bendy/edit/merge_cycles.h>
 #include <bendy/edit/names.h>
@@ -60,7 +59,7 @@ std::pair<edit::Named, std::string> split_rename(const std::string& text) {
 
 /// {"old": "new", ...}
 edit::Rename read_table(const std::filesystem::path& path) {
-    const InputBytes file = InputBytes::read(path);
+    const InputBytes file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;
     const auto table = nlohmann::ordered_json::parse(as_text(file.bytes()), nullptr, false);
@@ -75,14 +74,11 @@ edit::Rename read_table(const std::filesystem::path& path) {
 
 /// A bendy file, or one of another kind made one.
 Buffer read_other(const std::filesystem::path& path, Outputs& outputs) {
-    InputBytes file = InputBytes::read(path);
-    if (as_text(file.bytes()).starts_with("HEAD")) return std::move(file).take();
-    converter::Report report;
-    const auto bytes = is_dash(path) ? converter::convert(std::move(file).take(), "standard input", {}, report)
-                                     : converter::convert(path, {}, report);
-    for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
-    if (!bytes) fail(file_of(bytes.error(), path), describe(bytes.error()));
-    return *bytes;
+    converter::Report unheard;
+    const auto file = read_character(path, unheard);
+    for (const converter::SourceFile& source : unheard.sources()) outputs.reads(source.file);
+    if (!file) fail(file_of(file.error(), path), describe(file.error()));
+    return {file->bytes().begin(), file->bytes().end()};
 }
 
 edit::SameName same_name_of(const std::string& word) {
@@ -189,7 +185,8 @@ void run(const Arguments& arguments, const std::vector<Step>& steps, Outputs& ou
     if (!arguments.in_place) outputs.reads(arguments.input);
     outputs.writes(arguments.output, NamedBy::user, Content::binary);
     check_suffix({"edit", "--output", {".bendy"}}, arguments.input, arguments.output);
-    InputBytes file = InputBytes::read(arguments.input);
+    require_folder_of(arguments.output);
+    InputBytes file = open_bendy_file(arguments.input);
     const std::uint64_t size_before = file.bytes().size();
     Buffer bytes;
     edit::Log log;

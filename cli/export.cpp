@@ -1,7 +1,8 @@
 #include "commands.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "level_of_detail.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 #include "warnings.h"
@@ -45,13 +46,14 @@ void check_output(const ExportArguments& arguments, const std::string& format) {
         throw CLI::ValidationError("--output", format + " may need files beside it: only glb goes to standard output");
 }
 
-/// The level of detail that is asked for.
+/// Where it goes, and the level of detail.
 converter::ExportOptions options_of(const ExportArguments& arguments, Bytes file) {
-    if (!(arguments.lod < 1.0f)) return {};
+    converter::ExportOptions options;
+    options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
+    if (!(arguments.lod < 1.0f)) return options;
     const Result<Model> model = Model::from_memory(file);
     if (!model) fail(arguments.file, model.error(), file);
     const Lod lod = level_of(arguments.file, *model, arguments.lod);
-    converter::ExportOptions options;
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
     return options;
 }
@@ -61,7 +63,10 @@ std::uint64_t export_gltf(const ExportArguments& arguments, Bytes file, bool is_
                           converter::Report& report) {
     std::filesystem::path buffer_file;
     if (!is_glb) buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
-    const auto asset = converter::export_gltf(file, buffer_file.filename(), report, options_of(arguments, file));
+    const converter::ExportOptions options = options_of(arguments, file);
+    const auto asset = is_dash(arguments.file)
+                           ? converter::export_gltf(file, buffer_file.filename(), report, options)
+                           : converter::export_gltf(arguments.file, buffer_file.filename(), report, options);
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     if (is_glb) {
@@ -80,7 +85,10 @@ std::uint64_t export_gltf(const ExportArguments& arguments, Bytes file, bool is_
 
 /// \return bytes that were written
 std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& outputs, converter::Report& report) {
-    const auto asset = converter::export_x(file, arguments.output.stem().string(), report, options_of(arguments, file));
+    const converter::ExportOptions options = options_of(arguments, file);
+    const std::string stem = arguments.output.stem().string();
+    const auto asset = is_dash(arguments.file) ? converter::export_x(file, stem, report, options)
+                                               : converter::export_x(arguments.file, stem, report, options);
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     std::uint64_t size = asset->text.size();
@@ -101,6 +109,7 @@ std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& ou
 }
 
 void run(ExportArguments arguments) {
+    require_folder_of(arguments.output);
     const std::string format = format_of(arguments);
     const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     if (arguments.output.empty()) {
@@ -111,7 +120,7 @@ void run(ExportArguments arguments) {
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, named, format == "glb" ? Content::binary : Content::text);
     check_output(arguments, format);
-    const InputBytes file = InputBytes::read(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     converter::Report report;
     const std::uint64_t size = format == "x" ? export_x(arguments, file.bytes(), outputs, report)
                                              : export_gltf(arguments, file.bytes(), format == "glb", outputs, report);

@@ -81,7 +81,7 @@ void Outputs::fail_if(const std::string& problem, const fs::path& output) const 
 
 void Outputs::writes(const fs::path& output, NamedBy named, Content content) {
     fail_if(claim(output, named), output);
-    if (is_dash(output) && content == Content::binary && output_is_terminal())
+    if (is_dash(output) && content == Content::binary && is_terminal(Stream::output))
         fail(output_name(output), "is a terminal, and the result is binary: give -o FILE, or a pipe");
 }
 

@@ -1,6 +1,7 @@
 #include "commands.h"
-#include "input_bytes.h"
+#include "input_file.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 
@@ -25,7 +26,8 @@ void run(const RigArguments& arguments) {
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, NamedBy::user, Content::text);
     check_suffix({"rig", "--output", {".json"}}, arguments.file, arguments.output);
-    const InputBytes file = InputBytes::read(arguments.file);
+    require_folder_of(arguments.output);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
