@@ -20,6 +20,7 @@ void add_remarks(Json& json, const converter::Report& report) {
         warnings.push_back({{"message", warning.message}, {"place", warning.first_place}, {"count", warning.count}});
     json["warnings"] = std::move(warnings);
     json["proposals"] = report.proposals();
+    json["suggestions"] = report.suggestions();
 }
 
 Json list_clips(const Model& model) {
