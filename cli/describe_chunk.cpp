@@ -136,9 +136,11 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
     bool has_extras = false;
     bool has_extensions = false;
+    bool has_more = false;
     for (const std::uint32_t child : tree.children(number)) {
         has_extras = has_extras || (tree[child].id == FourCC("EXTR") && tree[child].size != 0);
         has_extensions = has_extensions || (tree[child].id == FourCC("EXTN") && tree[child].size != 0);
+        has_more = has_more || (tree[child].id == FourCC("MORE") && tree[child].size != 0);
     }
     for (std::size_t topology = 0; topology < kTopologies; ++topology) {
         if (polygons[topology] != 0)
@@ -147,6 +149,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
     if (const std::string limits = limits_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
     if (has_extensions) add_part(text, "extensions");
+    if (has_more) add_part(text, "further members");
     return text;
 }
 

@@ -1,7 +1,9 @@
 #include "brief.h"
+#include "colour.h"
 #include "commands.h"
 #include "compare_files.h"
 #include "diff_characters.h"
+#include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -180,9 +182,7 @@ bool are_same(const Arguments& arguments) {
     std::array<MappedFile, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
-        Result<MappedFile> mapped = MappedFile::open(arguments.files[i]);
-        if (!mapped) fail(arguments.files[i], mapped.error(), {});
-        files[i] = *std::move(mapped);
+        files[i] = open_bendy_file(arguments.files[i]);
         read[i] = open(arguments.files[i], files[i]);
     }
     const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);
@@ -205,11 +205,11 @@ void run(const Arguments& arguments) {
     } catch (const Failed&) {
         throw Failed{kTrouble};
     } catch (const TooMuchToCompare&) {
-        std::cerr << "bendy: error: " << printable(arguments.files[0].string())
+        std::cerr << error_label() << printable(arguments.files[0].string())
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {
-        std::cerr << "bendy: error: " << problem.what() << '\n';
+        std::cerr << error_label() << problem.what() << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

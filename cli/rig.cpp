@@ -1,4 +1,6 @@
 #include "commands.h"
+#include "input_file.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 
@@ -20,9 +22,9 @@ struct RigArguments {
 };
 
 void run(const RigArguments& arguments) {
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Bytes bytes = file->bytes();
+    require_folder_of(arguments.output);
+    const MappedFile file = open_bendy_file(arguments.file);
+    const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
     Faults faults;

@@ -56,7 +56,7 @@ types:
           or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or header.id == "COLR"
           or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or header.id == "INDX" or header.id == "LODD"
           or header.id == "CINF" or header.id == "TRAK" or header.id == "PACK" or header.id == "TIME" or header.id == "KEYV"
-          or header.id == "MARK" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or header.id == "PLAY"
+          or header.id == "MARK" or header.id == "MORE" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or header.id == "PLAY"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -86,6 +86,7 @@ types:
             '"EXTN"': text
             '"NAME"': text
             '"EXTR"': text
+            '"MORE"': text
             '"REST"': rest_record
             '"LIMT"': limit_record
             '"PULL"': pull_record

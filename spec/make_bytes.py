@@ -474,7 +474,8 @@ def make_every_chunk():
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),
-                                              raw(png, 'the PNG file, %d bytes' % len(png)))))
+                                              raw(png, 'the PNG file, %d bytes' % len(png))),
+            leaf('MORE', text('{"source":[{"name":"dot"}]}'))))
 
 
 def make_unknown_chunks():

@@ -12,7 +12,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 TABLES = HERE.parent / "format/include/bendy/format"
 STREAMS = ("POSI", "NORM", "TANG", "TEXC", "COLR", "BONE", "WGHT", "VALS", "INDX")
-TEXTS = ("NAME", "EXTR", "EXTN", "LINK")
+TEXTS = ("NAME", "EXTR", "EXTN", "MORE", "LINK")
 TYPES = ("u8", "i8", "u16", "i16", "u32", "i32", "u64")
 
 

@@ -114,6 +114,7 @@ void put_textures(LeafWriter& out, const Scene& scene) {
             static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
         out.leaf(FourCC("SAMP"), bytes_of(sampler));
         put_text(out, FourCC("EXTR"), texture.extras);
+        put_text(out, FourCC("MORE"), texture.more);
         for (std::uint32_t place = 0; place < texture.images.size(); ++place) {
             const std::uint32_t index = texture.images[place];
             const auto [known, is_new] = written.try_emplace(index, SameRecord{number, place});
@@ -164,6 +165,7 @@ void put_material(LeafWriter& out, const Material& material) {
     out.leaf(FourCC("SURF"), bytes_of(surface));
     put_text(out, FourCC("EXTN"), material.extensions);
     put_text(out, FourCC("EXTR"), material.extras);
+    put_text(out, FourCC("MORE"), material.more);
     out.end();
 }
 
@@ -257,6 +259,7 @@ void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& poly
         }
         put_text(out, FourCC("EXTR"), joint.extras);
         put_text(out, FourCC("EXTN"), joint.extensions);
+        put_text(out, FourCC("MORE"), joint.more);
     }
     for (; !open.empty(); open.pop_back()) out.end();
     if (has_table && !scene.joints.empty()) put_joint_table(out, scene, polygons);
@@ -376,6 +379,7 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
     put_text(out, FourCC("NAME"), mesh.name);
     out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
+    put_text(out, FourCC("MORE"), mesh.more);
     if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
     const StoredShapes shapes = store_shapes(mesh);
     if (!shapes.list.empty())
@@ -486,17 +490,6 @@ private:
     std::vector<float> floats_;
 };
 
-/// Packed tracks have the cycle's first and last frames, if timed keys do not lie before or after them.
-void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
-    Faults faults;
-    const auto packed = read_packed(cycle.packed, kMaxJoints, 0, faults);
-    if (!packed) return;
-    const auto last = static_cast<float>(packed->time_of(packed->record.frames - 1));
-    const bool is_all = cycle.tracks.empty() && cycle.plays.empty();
-    info.start = is_all ? packed->record.start : std::min(info.start, packed->record.start);
-    info.end = is_all ? last : std::max(info.end, last);
-}
-
 /// Packed frames may end a float before the keys that they stand for: markers stay inside.
 void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
     if (cycle.markers.empty()) return;
@@ -541,11 +534,11 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         record.first_value = values.add(track.values);
         tracks.push_back(record);
     }
-    extend_to_packed(cycle, info);
     out.begin(FourCC("CYCL"));
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
+    put_text(out, FourCC("MORE"), cycle.more);
     if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
     put_plays(out, cycle);
     if (!tracks.empty()) {
@@ -650,11 +643,13 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
+    put_text(out, FourCC("MORE"), scene.source_more);
     if (!embeds) put_textures(out, scene);
     for (const Material& material : scene.materials) put_material(out, material);
     out.begin(FourCC("OBJE"));
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
+    put_text(out, FourCC("MORE"), scene.more);
     put_joints(out, scene, sort_by_joint(scene, polygons));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;

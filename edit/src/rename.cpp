@@ -173,9 +173,7 @@ private:
         for (const Thing& thing : things_) names.push_back(thing.name);
         if (wanted.find('*') != std::string::npos)
             return {"no " + std::string(kind_of(what_.kind)) + " is called like \"" + wanted + '"'};
-        const std::string_view nearest = nearest_name(names, wanted);
-        return {"there is no " + std::string(kind_of(what_.kind)) + " \"" + wanted + '"' +
-                (nearest.empty() ? "" : "; is \"" + std::string(nearest) + "\" meant?")};
+        return {no_such_name(kind_of(what_.kind), wanted, names)};
     }
 
     /// Things that have come to have one name; some of them by name, if there are many.

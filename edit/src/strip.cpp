@@ -95,7 +95,7 @@ private:
             case Part::attributes:
                 return strip_leaves(FourCC("USER"));
             case Part::extras:
-                return strip_leaves(FourCC("EXTR"));
+                return strip_leaves(FourCC("EXTR"), FourCC("MORE"));
             case Part::extensions:
                 return strip_leaves(FourCC("EXTN"));
         }
@@ -241,10 +241,12 @@ private:
         }
     }
 
-    Result<void, Problem> strip_leaves(FourCC id) {
+    Result<void, Problem> strip_leaves(FourCC id) { return strip_leaves(id, id); }
+
+    Result<void, Problem> strip_leaves(FourCC id, FourCC other) {
         std::size_t count = 0;
         walk([&](std::uint32_t number, const Chunk& chunk) {
-            if (!(chunk.id == id)) return true;
+            if (!(chunk.id == id || chunk.id == other)) return true;
             rewrite_.remove(number);
             ++count;
             return false;
@@ -301,9 +303,9 @@ Result<Strip, Problem> parse_strip(std::string_view text) {
         }
         return Strip{word.part, std::string(is_named ? text.substr(colon + 1) : "")};
     }
-    const std::string_view nearest = nearest_name(words, asked);
+    const std::string suggestion = did_you_mean(words, asked);
     return Problem{"\"" + std::string(asked) + "\" cannot be stripped" +
-                   (nearest.empty() ? ": one of " + strip_words() : "; is \"" + std::string(nearest) + "\" meant?")};
+                   (suggestion.empty() ? ": one of " + strip_words() : suggestion)};
 }
 
 Edited strip(Bytes file, const Strip& what, Log& log) {

@@ -227,6 +227,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     cycle.chunk = chunk;
     cycle.name = read_text(tree, chunk, FourCC("NAME"), faults);
     cycle.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    cycle.more = read_text(tree, chunk, FourCC("MORE"), faults);
     const auto read_info = read_child_record<CycleRecord>(tree, chunk, FourCC("CINF"), faults);
     const CycleRecord info = read_info.value_or(CycleRecord{});
     cycle.has_info = read_info.has_value();

@@ -242,8 +242,7 @@ public:
         const std::uint32_t grid_chunk = tree_.find(block, FourCC("GRID"));
         const auto grid = rows(grid_chunk, kAxes * sizeof(StreamBox));
         for (const FourCC id : {FourCC("INDX"), FourCC("POSI")}) {
-            if (tree_.find(block, id) == kNone)
-                faults_.add({ErrorCode::kChunkMissing, tree_[block].offset, id.value});
+            if (tree_.find(block, id) == kNone) faults_.add({ErrorCode::kChunkMissing, tree_[block].offset, id.value});
         }
         const auto places = find(block, FourCC("INDX"), forms::kPlaces, pool.vertices);
         const auto positions = find(block, FourCC("POSI"), forms::kFramePositions, std::nullopt);
@@ -490,6 +489,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     pool.chunk = chunk;
     pool.name = read_text(tree, chunk, FourCC("NAME"), faults);
     pool.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    pool.more = read_text(tree, chunk, FourCC("MORE"), faults);
     const std::uint64_t offset = tree[chunk].offset;
     const auto record = read_child_record<PoolRecord>(tree, chunk, FourCC("VINF"), faults);
     if (!record) return pool;

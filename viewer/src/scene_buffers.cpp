@@ -1,5 +1,7 @@
 #include "scene_buffers.h"
 
+#include "texture_units.h"
+
 #include <bendy/viewer/viewer_error.h>
 
 #include <glm/mat4x4.hpp>
@@ -158,6 +160,7 @@ void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
                    bytes == 0 ? kNothing.data() : data, usage);
+    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
     gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
     gl::TexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
 }

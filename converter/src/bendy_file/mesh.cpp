@@ -41,6 +41,7 @@ public:
     Mesh import() {
         mesh_.name = pool_.name;
         mesh_.extras = pool_.extras;
+        mesh_.more = pool_.more;
         mesh_.joint = pool_.joint;
         read_streams();
         read_targets();

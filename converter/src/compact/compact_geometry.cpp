@@ -331,26 +331,6 @@ bool is_order_fixed(const Mesh& mesh) {
     return !mesh.collapse.empty();
 }
 
-double height_at_rest(const Scene& scene) {
-    EvaluatedPose rest;
-    evaluate_rest(scene, rest);
-    glm::dvec3 low(std::numeric_limits<double>::max());
-    glm::dvec3 high(std::numeric_limits<double>::lowest());
-    for (const Mesh& mesh : scene.meshes) {
-        for (const glm::dvec3& posed : evaluate_vertices(mesh, {}, rest.joints)) {
-            for (int c = 0; c < 3; ++c) {
-                low[c] = std::min(low[c], posed[c]);
-                high[c] = std::max(high[c], posed[c]);
-            }
-        }
-    }
-    if (!(low.x <= high.x)) return 0.0;
-    const glm::dvec3 size = high - low;
-    constexpr double kFlat = 1e-3;  // of the largest side: no height to speak of
-    const double largest = std::max({size.x, size.y, size.z});
-    return size.y > kFlat * largest ? size.y : largest;
-}
-
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress) {
     CompactGeometry geometry;
     geometry.error = most_error;

@@ -2,6 +2,7 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -14,8 +15,6 @@
 
 namespace bendy::converter {
 namespace {
-
-constexpr double kShell = 0.03;  // of the character's height
 
 /// The farthest points of a set along 13 directions, both ways.
 class Extremes {
@@ -120,7 +119,7 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
         low = std::min(low, rest[j].origin.y);
         high = std::max(high, rest[j].origin.y);
     }
-    const double shell = kShell * std::max({high - low, found.skin_high - found.skin_low, 0.0});
+    const double shell = kJointReach * std::max({high - low, found.skin_high - found.skin_low, height_at_rest(scene)});
     std::vector<std::vector<glm::dvec3>> probes(rest.size());
     for (std::size_t j = 0; j < rest.size(); ++j) {
         if (!found.has_shell[j]) continue;

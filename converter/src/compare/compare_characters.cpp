@@ -2,7 +2,6 @@
 
 #include "collapse/find_shapes.h"
 #include "compact/affine.h"
-#include "compact/compact_geometry.h"
 #include "compare/looks.h"
 #include "compare/match_names.h"
 #include "compare/match_polygons.h"
@@ -10,6 +9,7 @@
 #include "error_place.h"
 #include "evaluate.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -39,6 +39,7 @@ struct Joint {
     std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
     std::string extras;               ///< JSON text or empty
     std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
+    std::string more;                 ///< JSON object: see Scene::more
     bool in_skin = false;             ///< a skin of the source names it, used or not; not written
 };
 
@@ -122,6 +123,7 @@ struct Mesh {
     std::vector<std::uint8_t> joined;  ///< as many: 1 where a vertex goes together with the one before it
     std::uint32_t base = 0;            ///< the first so many never collapse
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more
 };
 
 /// How far the meshes' collapse sequences go for an error.
@@ -145,6 +147,16 @@ struct Marker {
     std::string name;      ///< UTF-8, may be empty or doubled
 };
 
+/// When a clip begins and ends, seconds on its time line.
+struct CycleSpan {
+    float start = 0.0f;
+    float end = 0.0f;
+
+    /// At a share of the way, 0 to 1; seconds.
+    [[nodiscard]] double at(double share) const { return start + share * (double{end} - start); }
+    friend bool operator==(const CycleSpan&, const CycleSpan&) = default;
+};
+
 /// Frames of a mesh, one after another. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
 struct Play {
     std::uint32_t mesh = 0;
@@ -160,9 +172,13 @@ struct Cycle {
     std::string extras;
     std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
     std::vector<Marker> markers = {};    ///< times ascend, and may be equal
-    std::vector<Play> plays = {};        ///< at most one per mesh, which no track animates then
-    float frame_rate = 0.0f;             ///< of `plays`, per second; above 0 if there are any
-    float frame_start = 0.0f;            ///< of `plays`, seconds; no key is before it
+    std::string more = {};               ///< JSON object: see Scene::more
+    /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
+    /// the last key. Never shorter than the keys.
+    std::optional<CycleSpan> stated_span = {};
+    std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
+    float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
+    float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
@@ -182,6 +198,7 @@ struct Texture {
     Wrap wrap_s = Wrap::repeat;
     Wrap wrap_t = Wrap::repeat;
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more; what it says of the images, the first texture with each says
 };
 
 /// A use of a texture by a material, with KHR_texture_transform (rotation in radians, counter-clockwise).
@@ -208,6 +225,7 @@ struct Material {
     TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     std::string extensions;  ///< JSON object with the extensions that have no field here, verbatim; or empty
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more
 };
 
 struct Scene {
@@ -224,6 +242,10 @@ struct Scene {
     std::string source_extras;  ///< of the source's root
     std::string extensions;     ///< JSON object: the source's root extensions that are kept as they came; or empty
     std::string asset;          ///< JSON object: who made the source, copyright, generator, with its extras
+    /// JSON object, or empty: what else the source says of its scene, in the shape of glTF's object. A member that is
+    /// an index in glTF is an object here, with what is said of the element that it names (spec/chunks/MORE.md).
+    std::string more;
+    std::string source_more;  ///< the same of the source's root
 };
 
 }  // namespace bendy::converter

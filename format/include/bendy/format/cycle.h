@@ -50,6 +50,7 @@ struct CycleView {
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
     std::vector<PlayView> plays;       ///< fixed frames
     std::string_view extras;
+    std::string_view more;        ///< JSON object, or empty
     std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
 };
 

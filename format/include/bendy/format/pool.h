@@ -121,6 +121,7 @@ struct PoolView {
     std::uint32_t first_frame = 0;      ///< where in `targets` the frames begin
     std::optional<StreamView> indices;  ///< u16 or u32 x 1
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
     /// Shapes that a cycle can play: frame 0 is the pool's own streams, frame k target first_frame + k - 1.
