@@ -33,7 +33,7 @@ std::uint16_t steps_to(float value, float minimum, float step) {
     return static_cast<std::uint16_t>(nearest);
 }
 
-std::vector<Steps> steps_of(const std::vector<glm::vec3>& positions, const Grid& grid) {
+std::vector<Steps> steps_of(const std::vector<glm::vec3>& positions, const FrameGrid& grid) {
     std::vector<Steps> steps;
     steps.reserve(positions.size());
     for (const glm::vec3& position : positions) {
@@ -44,7 +44,7 @@ std::vector<Steps> steps_of(const std::vector<glm::vec3>& positions, const Grid&
     return steps;
 }
 
-void add_boxes(const Grid& grid, std::vector<StreamBox>& boxes) {
+void add_boxes(const FrameGrid& grid, std::vector<StreamBox>& boxes) {
     for (int axis = 0; axis < 3; ++axis) boxes.push_back({grid.minimum[axis], grid.step[axis]});
 }
 

@@ -83,7 +83,6 @@ private:
     void gather_links() {
         const auto local = std::as_const(pose_).local();
         double scale = 1.0;   // of the links so far
-        double most = 1.0;    // the same along the longest axes
         double length = 0.0;  // in the base's space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
@@ -94,10 +93,6 @@ private:
             link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
             length += link.bone_length;
-            const glm::vec3& axes = transform.scale;
-            const glm::vec3 shear = glm::abs(joint.shear);
-            most *= std::max({std::abs(axes.x), std::abs(axes.y), std::abs(axes.z)}) + shear.x + shear.y + shear.z;
-            longest_ += most * std::sqrt(glm::dot(offset, offset));
             is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
             scale *= mean_scale(transform.scale);
             link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
@@ -108,10 +103,23 @@ private:
         }
         problem_.scale = length > 0.0 ? length : 1.0;
         problem_.reach = length > 0.0 ? 1.0 : 0.0;
-        longest_ = is_uneven_ ? longest_ / problem_.scale : 0.0;
+        if (is_uneven_) find_longest();
         for (IkLink& link : links_) {
             link.bone /= problem_.scale;
             link.bone_length /= problem_.scale;
+        }
+    }
+
+    void find_longest() {
+        const auto local = std::as_const(pose_).local();
+        double scale = 1.0;  // of the links so far, along their longest axes
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            const glm::vec3 axes = glm::abs(local[links_[i].joint].scale);
+            const glm::vec3 shear = glm::abs(model_.joints()[links_[i].joint].shear);
+            scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
         }
     }
 

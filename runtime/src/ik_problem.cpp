@@ -133,8 +133,8 @@ glm::dvec3 preferred_side(const Constraint& constraint) {
 glm::dvec3 only_axis(const Constraint& constraint) {
     const LimitShape& shape = constraint.shape;
     const auto has_width = [&](std::size_t side) {
-        constexpr double kNone = 1e-6;
-        return shape.swing_low.at(side) + shape.swing_high.at(side) > kNone;
+        constexpr double kNarrow = 1e-6;  // radians
+        return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
     };
     switch (constraint.model) {
         case LimitModel::hinge:

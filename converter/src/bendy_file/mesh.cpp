@@ -90,7 +90,7 @@ private:
         }
     }
 
-    static Grid grid_of(std::span<const StreamBox> boxes) {
+    static FrameGrid grid_of(std::span<const StreamBox> boxes) {
         return {{boxes[0].minimum, boxes[1].minimum, boxes[2].minimum}, {boxes[0].step, boxes[1].step, boxes[2].step}};
     }
 

@@ -129,7 +129,7 @@ private:
     /// \return its name
     std::string read_frame(std::uint32_t frame, Mesh& mesh) {
         const std::size_t at = header_.frames_at + std::size_t{frame} * header_.frame_size;
-        const Grid grid = read_grid(at);
+        const FrameGrid grid = read_grid(at);
         const Places places = read_places(at, grid);
         const Places normals = has_normals_ ? read_normals(at) : find_normals(places);
         Places moved;
@@ -155,7 +155,7 @@ private:
     }
 
     /// What a frame's bytes count, in metres.
-    [[nodiscard]] Grid read_grid(std::size_t at) const {
+    [[nodiscard]] FrameGrid read_grid(std::size_t at) const {
         glm::vec3 scale;
         glm::vec3 origin;
         for (int axis = 0; axis < 3; ++axis) {
@@ -168,7 +168,7 @@ private:
     }
 
     /// Of every vertex of the file.
-    [[nodiscard]] Places read_places(std::size_t at, const Grid& grid) const {
+    [[nodiscard]] Places read_places(std::size_t at, const FrameGrid& grid) const {
         Places places(header_.vertices);
         for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
             glm::vec3 steps;

@@ -72,7 +72,7 @@ struct Stream {
 
 /// Positions on a grid: each is minimum + step * a whole number, 0 to 65535, axis by axis, in floats and rounded after
 /// each operation.
-struct Grid {
+struct FrameGrid {
     glm::vec3 minimum{0.0f};
     glm::vec3 step{0.0f};
 };
@@ -88,7 +88,7 @@ struct Target {
     /// the vertices' own, no displacements. The rest weight is 0; there are no tangents; all frames have normals or
     /// none.
     bool is_frame = false;
-    Grid grid = {};
+    FrameGrid grid = {};
 };
 
 /// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind
@@ -115,7 +115,7 @@ struct Mesh {
     std::vector<Target> targets;  ///< frames come last
     /// Where `positions` lie on one: they are stored so, and the normals by number in a list, which the frames share.
     /// It holds 256: frames should have no more different ones, those past it become the nearest.
-    std::optional<Grid> grid;
+    std::optional<FrameGrid> grid;
     std::vector<Part> parts;
     /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
     /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
