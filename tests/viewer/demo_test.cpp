@@ -148,8 +148,8 @@ TEST_F(DemoTest, KeysMoveTheTargetAsItIsSeen) {
                 glm::vec3 direction;
             };
             for (const auto& [key, direction] :
-                 {Way{DemoKey::left, -right}, Way{DemoKey::right, right}, Way{DemoKey::down, -up},
-                  Way{DemoKey::up, up}, Way{DemoKey::page_down, eye}, Way{DemoKey::page_up, -eye}}) {
+                 {Way{DemoKey::left, -right}, Way{DemoKey::right, right}, Way{DemoKey::down, -up}, Way{DemoKey::up, up},
+                  Way{DemoKey::page_down, eye}, Way{DemoKey::page_up, -eye}}) {
                 demo.drag_target({0.1f, 0.9f, 0.1f});
                 const glm::vec3 before = demo.state().target;
                 demo.press(key);
