@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "input_file.h"
 #include "late_progress.h"
+#include "output_folder.h"
 #include "problem.h"
 
 #include <bendy/converter/source_format.h>
@@ -37,6 +38,7 @@ void refuse_other_kinds(const std::filesystem::path& file, Bytes bytes) {
 }
 
 void run(AssembleArguments arguments) {
+    require_folder_of(arguments.output);
     const MappedFile file = open_file(arguments.file);
     refuse_other_kinds(arguments.file, file.bytes());
     if (arguments.output.empty()) arguments.output = default_output(arguments.file);

@@ -1,5 +1,6 @@
 #include "batch_plan.h"
 
+#include "colour.h"
 #include "problem.h"
 
 #include <bendy/converter/readable_files.h>
@@ -32,15 +33,14 @@ public:
         if (fs::is_directory(input, ignored)) {
             add_folder(input);
         } else {
-            add_file(input, input.filename());
+            add_file(input, folder_.empty() ? input.parent_path() : folder_, input.filename());
         }
     }
 
     BatchPlan finish() {
-        for (const auto& [place, input] : inputs_) {
-            const fs::path output = folder_ / place;
-            if (sources_.contains(plain(output))) clash(output, "is an input as well as an output");
-            plan_.files.push_back({input, place, output});
+        for (const auto& [output, file] : files_) {
+            if (sources_.contains(output)) clash(file.output, "is an input as well as an output");
+            plan_.files.push_back(file);
         }
         if (clashes_ != 0) throw Failed{};
         return std::move(plan_);
@@ -48,38 +48,39 @@ public:
 
 private:
     void add_folder(const fs::path& folder) {
-        const std::size_t before = inputs_.size();
+        const std::size_t before = files_.size();
         std::error_code error;
         fs::recursive_directory_iterator entry(folder, error);
         for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
             std::error_code ignored;
             if (converter::has_readable_extension(entry->path()) && !entry->is_directory(ignored))
-                add_file(entry->path(), entry->path().lexically_relative(folder));
+                add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
         }
         if (error) {
             plan_.unread.push_back(folder.string() + ": cannot be read to its end: " + error.message());
-        } else if (inputs_.size() == before) {
+        } else if (files_.size() == before) {
             warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
         }
     }
 
-    void add_file(const fs::path& input, fs::path place) {
+    void add_file(const fs::path& input, const fs::path& folder, fs::path place) {
         place.replace_extension(".bendy");
-        const auto [earlier, is_new] = inputs_.try_emplace(place, input);
-        if (!is_new && plain(earlier->second) != plain(input)) {
-            clash(folder_ / place, "both " + printable(earlier->second.string()) + " and " + printable(input.string()) +
-                                       " would be written there");
+        const fs::path output = folder / place;
+        const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
+        if (!is_new && plain(earlier->second.input) != plain(input)) {
+            clash(output, "both " + printable(earlier->second.input.string()) + " and " + printable(input.string()) +
+                              " would be written there");
         }
         sources_.insert(plain(input));
     }
 
     void clash(const fs::path& output, const std::string& what) {
-        std::cerr << "bendy: error: " << printable(output.string()) << ": " << what << '\n';
+        std::cerr << error_label() << printable(output.string()) << ": " << what << '\n';
         ++clashes_;
     }
 
     fs::path folder_;
-    std::map<fs::path, fs::path> inputs_;  // by the output's place
+    std::map<fs::path, BatchFile> files_;  // by output, plain
     std::set<fs::path> sources_;           // all inputs, plain
     std::size_t clashes_ = 0;
     BatchPlan plan_;

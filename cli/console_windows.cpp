@@ -28,6 +28,10 @@ std::string to_utf8(std::wstring_view text) {
     return bytes;
 }
 
+HANDLE handle_of(Stream stream) {
+    return ::GetStdHandle(stream == Stream::output ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE);
+}
+
 }  // namespace
 
 std::vector<std::string> command_line(int argc, const char* const* argv) {
@@ -46,11 +50,16 @@ void prepare_console() {
     ::SetConsoleOutputCP(CP_UTF8);
 }
 
-bool is_terminal() {
-    auto* const error = ::GetStdHandle(STD_ERROR_HANDLE);
+bool is_terminal(Stream stream) {
     DWORD mode = 0;
-    return ::GetConsoleMode(error, &mode) != 0 &&
-           ::SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+    return ::GetConsoleMode(handle_of(stream), &mode) != 0 &&
+           ::SetConsoleMode(handle_of(stream), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+std::size_t columns_of(Stream stream) {
+    CONSOLE_SCREEN_BUFFER_INFO info{};
+    if (::GetConsoleScreenBufferInfo(handle_of(stream), &info) == 0) return 0;
+    return static_cast<std::size_t>(info.srWindow.Right - info.srWindow.Left + 1);
 }
 
 }  // namespace bendy::cli

@@ -1,10 +1,13 @@
 #include "commands.h"
+#include "console.h"
 #include "convert_arguments.h"
 #include "convert_batch.h"
 #include "depfile.h"
 #include "import_problem.h"
+#include "live_progress.h"
+#include "output_folder.h"
 #include "problem.h"
-#include "progress_bar.h"
+#include "summary.h"
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
@@ -17,41 +20,13 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bendy::cli {
 namespace {
-
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
-}
-
-std::string list_cycles(const Model& model) {
-    constexpr std::size_t kShown = 20;
-    std::ostringstream list;
-    list << std::setprecision(3);
-    for (std::size_t i = 0; i < std::min(model.cycles().size(), kShown); ++i) {
-        const Cycle& cycle = model.cycles()[i];
-        list << (i == 0 ? ": " : ", ") << (cycle.name.empty() ? '#' + std::to_string(i) : printable(cycle.name)) << ' '
-             << cycle.end - cycle.start << " s";
-    }
-    if (model.cycles().size() > kShown) list << ", ...";
-    return list.str();
-}
-
-std::string list_chains(const Model& model) {
-    constexpr std::size_t kShown = 20;
-    const auto chains = model.chains();
-    std::string list;
-    for (std::size_t i = 0; i < std::min(chains.size(), kShown); ++i)
-        list += (i == 0 ? ": " : ", ") + (chains[i].name.empty() ? '#' + std::to_string(i) : printable(chains[i].name));
-    return chains.size() > kShown ? list + ", ..." : list;
-}
 
 /// Bytes by kind before and after, and the worst error.
 void print_compact(const converter::CompactReport& report) {
@@ -76,64 +51,20 @@ void print_compact(const converter::CompactReport& report) {
     std::cout << '\n';
 }
 
-auto convert_with_bar(const ConvertArguments& arguments, converter::ConvertOptions options, converter::Report& report) {
-    ProgressBar bar("compacting");
-    std::uint64_t shown = 0;
-    if (!arguments.quiet) {
-        options.progress = [&](double share) {
-            const auto percent = static_cast<std::uint64_t>(100.0 * share);
-            if (percent > shown) bar.show(shown = percent, 100);
-        };
-    }
-    return converter::convert(arguments.inputs.front(), options, report);
+auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,
+                           converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    LiveProgress progress("converting " + printable(input.filename().string()), !arguments.quiet);
+    options.output = arguments.output;
+    options.progress = [&](double share) { progress.set(share); };
+    return converter::convert(input, options, report);
 }
 
-void print_summary(const ConvertArguments& arguments, Bytes bytes) {
+void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_bytes_by_kind) {
     const Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(arguments.output, model.error(), bytes);
-    std::uint64_t triangles = 0;
-    std::uint64_t most_influences = 0;
-    for (const Draw& draw : model->draws()) triangles += draw.topology == Topology::triangles ? draw.count / 3 : 0;
-    for (const Pool& pool : model->pools())
-        most_influences = std::max<std::uint64_t>(most_influences, pool.bones ? pool.bones->components : 0);
-    std::set<std::string_view> targets;
-    for (const Pool& pool : model->pools()) {
-        for (const TargetView& target : pool.targets) targets.insert(target.name);
-    }
-    std::uint64_t images = 0;
-    for (const Texture& texture : model->textures()) {
-        for (const ImageView& image : texture.images) images += image.bytes.size();
-    }
-
-    std::cout << printable(arguments.output.string()) << ": " << grouped(bytes.size()) << " bytes";
-    if (images != 0) std::cout << ", " << grouped(images) << " of them images";
-    std::cout << "\n  skeleton   " << counted(model->joints().size(), "joint", "joints");
-    if (!model->constraints().empty() || !model->chains().empty())
-        std::cout << "\n  rig        " << counted(model->constraints().size(), "constraint", "constraints");
-    if (!model->chains().empty())
-        std::cout << ", " << counted(model->chains().size(), "chain", "chains") << list_chains(*model);
-    std::cout << "\n  skin       " << counted(model->vertex_count(), "vertex", "vertices") << " in "
-              << counted(model->pools().size(), "pool", "pools") << ", " << counted(triangles, "triangle", "triangles");
-    if (most_influences != 0)
-        std::cout << ", up to " << counted(most_influences, "influence", "influences") << " a vertex";
-    if (model->collapse() != nullptr) {
-        Lod lod(*model);
-        lod.set_share(0.0f);
-        std::cout << "\n  detail     from " << counted(triangles, "triangle", "triangles") << " down to "
-                  << grouped(lod.triangles());
-    }
-    if (model->target_count() != 0) {
-        std::cout << "\n  targets    " << grouped(model->target_count());
-        const char* separator = ": ";
-        for (const std::string_view name : targets) {
-            if (name.empty()) continue;
-            std::cout << separator << printable(name);
-            separator = ", ";
-        }
-    }
-    std::cout << "\n  cycles     " << grouped(model->cycles().size()) << list_cycles(*model);
-    std::cout << "\n  surface    " << counted(model->materials().size(), "material", "materials") << ", "
-              << counted(model->textures().size(), "texture", "textures") << '\n';
+    std::cout << summary_as_text(summarize(*model, bytes), arguments.output.string(), columns_of(Stream::output),
+                                 with_bytes_by_kind);
 }
 
 void write_depfile(const ConvertArguments& arguments, const converter::Report& report) {
@@ -146,7 +77,7 @@ void write_depfile(const ConvertArguments& arguments, const converter::Report& r
 void convert_file(const ConvertArguments& arguments) {
     const std::filesystem::path& input = arguments.inputs.front();
     converter::Report report;
-    const auto bytes = convert_with_bar(arguments, options_of(arguments), report);
+    const auto bytes = convert_with_progress(arguments, options_of(arguments), report);
     if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
     std::error_code ignored;
     if (std::filesystem::equivalent(input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
@@ -155,7 +86,7 @@ void convert_file(const ConvertArguments& arguments) {
     if (!arguments.depfile.empty()) write_depfile(arguments, report);
     print_warnings(input, report);
     print_proposals(report);
-    if (!arguments.quiet) print_summary(arguments, *bytes);
+    if (!arguments.quiet) print_summary(arguments, *bytes, !report.compact);
     if (!arguments.quiet && report.compact) print_compact(*report.compact);
 }
 
@@ -165,16 +96,13 @@ void run(ConvertArguments arguments) {
     const bool has_folder =
         std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
                     [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
-    if (arguments.output.empty()) {
-        if (arguments.inputs.size() > 1) {
-            throw CLI::ValidationError(arguments.inputs[1].string(),
-                                       "several inputs need a folder to go to, -o OUTDIR");
-        }
-        if (has_folder) fail(input, "is a folder: its files need one to go to, -o OUTDIR");
+    const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
+                          (!arguments.output.empty() && (!arguments.output.has_filename() ||
+                                                         std::filesystem::is_directory(arguments.output, ignored)));
+    if (!is_batch) require_folder_of(arguments.output);
+    require_folder_of(arguments.depfile);
+    if (arguments.output.empty() && !is_batch)
         arguments.output = std::filesystem::path(input).replace_extension(".bendy");
-    }
-    const bool is_batch = has_folder || arguments.inputs.size() > 1 || !arguments.output.has_filename() ||
-                          std::filesystem::is_directory(arguments.output, ignored);
     if (!is_batch) return convert_file(arguments);
     if (!arguments.depfile.empty())
         throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
@@ -196,28 +124,42 @@ void add_convert(CLI::App& program) {
         ->required();
     command->add_option("-o,--output", arguments->output,
                         "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "
-                        "folder to write to, where files from a folder have the places that they have in it");
+                        "folder to write to, which is made, and where files from a folder have the places that they "
+                        "have in it; beside each input if not given");
     command
         ->add_option("-j,--jobs", arguments->jobs,
                      "of several inputs, how many at a time; one for each processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
-                      "of several inputs, all; else only what has changed since it was converted into this folder");
+                      "of several inputs, all; else only what has changed since it was converted to the same place");
     command->add_option("--depfile", arguments->depfile,
                         "of one input: write which files were read, as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--ticks-per-second", arguments->ticks_per_second,
+            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+            "file's AnimTicksPerSecond, or 4800, if not given")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--merge-clips", arguments->merge_clips,
+                      "clips that move different joints become one, as for files with a clip for each joint");
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
-                      "propose IK chains and joint limits by the joints' names, and list them");
+                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
+                      "the clips, and list them");
     command->add_flag("--auto-skin", arguments->auto_skin,
                       "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
                       "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");
@@ -253,6 +195,7 @@ void add_convert(CLI::App& program) {
     command->footer(
         "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
         "Example: bendy convert fox.glb -o build/fox.bendy\n"
+        "         bendy convert *.glb\n"
         "         bendy convert models/ -o build/models --compact");
     command->callback([arguments] { run(*arguments); });
 }

@@ -2,8 +2,10 @@
 
 #include "batch_plan.h"
 #include "batch_record.h"
+#include "colour.h"
 #include "import_problem.h"
 #include "interrupt.h"
+#include "live_progress.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"
@@ -18,8 +20,10 @@
 #include <exception>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <shared_mutex>
 #include <sstream>
 #include <system_error>
@@ -45,20 +49,29 @@ struct Failure {
     std::string what;
 };
 
+/// How it went with one file.
+struct Outcome {
+    converter::Report report;
+    std::uint64_t size = 0;  ///< of the output
+    std::chrono::duration<double> time{0.0};
+    std::optional<Failure> failure;
+};
+
+/// What of a file is done: from any thread. Outside of Batch's lock, so that reports of progress cost next to nothing.
+struct Share {
+    std::atomic<float> done{0.0f};
+};
+
 /// Workers take one file each at a time: no more is in memory than their files.
 class Batch {
 public:
     Batch(const ConvertArguments& arguments, BatchPlan plan)
-        : arguments_(arguments),
-          recipe_(recipe_of(arguments)),
-          plan_(std::move(plan)),
-          record_(arguments.output),
-          bar_("converting") {}
+        : arguments_(arguments), recipe_(recipe_of(arguments)), plan_(std::move(plan)), bar_("converting") {}
 
     void run() {
         const Interrupt interrupt;
         for (const std::string& what : plan_.unread) {
-            std::cerr << "bendy: error: " << printable(what) << '\n';
+            std::cerr << error_label() << printable(what) << '\n';
             ++totals_.failed;
         }
         skip_what_is_up_to_date();
@@ -76,12 +89,23 @@ public:
 private:
     void skip_what_is_up_to_date() {
         for (const BatchFile& file : plan_.files) {
-            if (!arguments_.force && record_.is_up_to_date(file, recipe_)) {
+            if (!arguments_.force && record_of(file).is_up_to_date(file, recipe_)) {
                 ++totals_.up_to_date;
             } else {
                 to_do_.push_back(&file);
             }
         }
+        outcomes_.resize(to_do_.size());
+        shares_ = std::vector<Share>(to_do_.size());
+        for (const BatchFile* file : to_do_) {
+            std::error_code unknown;
+            const std::uintmax_t size = std::filesystem::file_size(file->input, unknown);
+            sizes_.push_back(unknown ? 1.0 : 1.0 + static_cast<double>(size));
+        }
+    }
+
+    BatchRecord& record_of(const BatchFile& file) {
+        return records_.try_emplace(file.folder, file.folder).first->second;
     }
 
     void start_workers(std::size_t count) {
@@ -95,29 +119,37 @@ private:
     void work() {
         for (std::size_t next = next_++; next < to_do_.size() && !Interrupt::has_come(); next = next_++) {
             const BatchFile& file = *to_do_[next];
-            converter::Report report;
-            std::uint64_t size = 0;
-            std::optional<Failure> failure;
+            const Clock::time_point start = Clock::now();
+            Outcome outcome;
             try {
-                failure = convert(file, report, size);
+                outcome.failure = convert(next, outcome);
             } catch (const std::exception& problem) {
-                failure = Failure{file.input, problem.what()};
+                outcome.failure = Failure{file.input, problem.what()};
             }
+            outcome.time = Clock::now() - start;
+            shares_[next].done.store(1.0f, std::memory_order_relaxed);
             const std::lock_guard lock(state_);
             ++done_;
-            account(file, report, size, failure);
+            account(file, outcome);
+            outcomes_[next] = std::move(outcome);
+            print_outcomes();
             finished_.notify_one();
         }
     }
 
-    /// Converts one file and writes it; `size` becomes that of the output.
-    std::optional<Failure> convert(const BatchFile& file, converter::Report& report, std::uint64_t& size) {
-        const auto bytes = converter::convert(file.input, options_of(arguments_), report);
+    std::optional<Failure> convert(std::size_t number, Outcome& outcome) {
+        const BatchFile& file = *to_do_[number];
+        converter::ConvertOptions options = options_of(arguments_);
+        options.output = file.output;
+        options.progress = [&share = shares_[number]](double done) {
+            share.done.store(static_cast<float>(done), std::memory_order_relaxed);
+        };
+        const auto bytes = converter::convert(file.input, options, outcome.report);
         if (!bytes) return Failure{file_of(bytes.error(), file.input), describe(bytes.error())};
-        size = bytes->size();
+        outcome.size = bytes->size();
         const std::shared_lock writing(writing_);
         std::error_code problem;
-        std::filesystem::create_directories(file.output.parent_path(), problem);
+        if (file.output.has_parent_path()) std::filesystem::create_directories(file.output.parent_path(), problem);
         if (problem) return Failure{file.output.parent_path(), "cannot be made: " + problem.message()};
         if (std::filesystem::equivalent(file.input, file.output, problem))
             return Failure{file.output, "is the input itself"};
@@ -126,29 +158,48 @@ private:
         return std::nullopt;
     }
 
-    /// Says how it went with a file. `state_` is held: what is said of one file stands together.
-    void account(const BatchFile& file, const converter::Report& report, std::uint64_t size,
-                 const std::optional<Failure>& failure) {
-        bar_.clear();
-        print_warnings(file.input, report);
-        for (const std::string& line : report.proposals())
-            std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
-        if (failure) {
+    /// `state_` is held.
+    void account(const BatchFile& file, const Outcome& outcome) {
+        if (outcome.failure) {
             ++totals_.failed;
-            std::cerr << "bendy: error: " << printable(failure->file.string()) << ": " << failure->what;
-            if (failure->file != file.input) std::cerr << " (for " << printable(file.input.string()) << ')';
-            std::cerr << '\n';
-        } else {
-            ++totals_.converted;
-            for (const converter::SourceFile& source : report.sources()) totals_.bytes_in += source.stamp.size;
-            totals_.bytes_out += size;
-            record_.note(file, recipe_, report.sources());
-            if (!arguments_.quiet && !bar_.is_terminal()) {
-                std::cout << printable(file.input.string()) << " -> " << printable(file.output.string()) << ": "
-                          << grouped(size) << " bytes" << std::endl;
-            }
+            return;
+        }
+        ++totals_.converted;
+        for (const converter::SourceFile& source : outcome.report.sources()) totals_.bytes_in += source.stamp.size;
+        totals_.bytes_out += outcome.size;
+        record_of(file).note(file, recipe_, outcome.report.sources());
+        noted_.insert(file.folder);
+    }
+
+    /// Says how it went, in the order of the outputs, whichever was done first. `state_` is held: what is said of one
+    /// file stands together.
+    void print_outcomes() {
+        if (!outcomes_[told_]) return;
+        bar_.clear();
+        for (; told_ < outcomes_.size() && outcomes_[told_]; ++told_) {
+            print(*to_do_[told_], *outcomes_[told_]);
+            *outcomes_[told_] = {};  // all but the fact
         }
         show_bar();
+    }
+
+    void print(const BatchFile& file, const Outcome& outcome) const {
+        print_warnings(file.input, outcome.report);
+        for (const std::string& line : outcome.report.proposals())
+            std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
+        if (outcome.failure) {
+            std::cerr << error_label() << printable(outcome.failure->file.string()) << ": " << outcome.failure->what;
+            if (outcome.failure->file != file.input) std::cerr << " (for " << printable(file.input.string()) << ')';
+            std::cerr << '\n';
+        } else if (!arguments_.quiet) {
+            std::ostringstream line;
+            line << printable(file.input.string()) << " -> " << printable(file.output.string()) << "  "
+                 << grouped(outcome.size) << " bytes  ";
+            if (const std::uint64_t count = outcome.report.warnings().size(); count != 0)
+                line << count << (count == 1 ? " warning  " : " warnings  ");
+            line << std::fixed << std::setprecision(1) << outcome.time.count() << " s";
+            std::cout << line.str() << std::endl;
+        }
     }
 
     void show_bar() {
@@ -157,7 +208,19 @@ private:
         std::ostringstream note;
         if (done_ != 0) note << ", " << std::fixed << std::setprecision(1) << rate(passed.count()) << " files/s";
         if (totals_.failed != 0) note << ", " << totals_.failed << " failed";
+        note << ", " << clock_text(passed) << time_left_text(share_done(), passed);
         bar_.show(done_, to_do_.size(), note.str());
+    }
+
+    /// Of the whole work, by the sizes of the inputs.
+    [[nodiscard]] double share_done() const {
+        double done = 0.0;
+        double all = 0.0;
+        for (std::size_t k = 0; k < sizes_.size(); ++k) {
+            done += sizes_[k] * static_cast<double>(shares_[k].done.load(std::memory_order_relaxed));
+            all += sizes_[k];
+        }
+        return all > 0.0 ? done / all : 1.0;
     }
 
     [[nodiscard]] double rate(double seconds) const { return static_cast<double>(done_) / std::max(seconds, 1e-3); }
@@ -165,10 +228,12 @@ private:
     /// Until all is done; or, after an interrupt, ends the program between two outputs.
     void wait() {
         std::unique_lock lock(state_);
-        while (done_ < to_do_.size()) {
+        for (std::size_t turn = 1; done_ < to_do_.size(); ++turn) {
             constexpr auto kPatience = std::chrono::milliseconds(50);
+            constexpr std::size_t kTurnsPerFrame = 5;
             finished_.wait_for(lock, kPatience);
             if (Interrupt::has_come()) stop();
+            if (turn % kTurnsPerFrame == 0 && bar_.is_terminal()) show_bar();
         }
     }
 
@@ -177,15 +242,19 @@ private:
         const std::unique_lock none_writes(writing_);
         write_record();
         bar_.clear();
+        for (; told_ < outcomes_.size(); ++told_) {
+            if (outcomes_[told_]) print(*to_do_[told_], *outcomes_[told_]);
+        }
         std::cout.flush();
         std::cerr << "bendy: interrupted: " << totals_.converted << " of " << to_do_.size() << " files converted\n";
         Interrupt::obey();
     }
 
     void write_record() {
-        if (totals_.converted == 0) return;
-        const std::string problem = record_.write();
-        if (!problem.empty()) warn(arguments_.output, "what was done cannot be noted: " + problem);
+        for (const std::filesystem::path& folder : noted_) {
+            const std::string problem = records_.at(folder).write();
+            if (!problem.empty()) warn(folder.empty() ? "." : folder, "what was done cannot be noted: " + problem);
+        }
     }
 
     void print_table() const {
@@ -213,13 +282,18 @@ private:
     const BatchPlan plan_;
     const Clock::time_point start_ = Clock::now();
     std::vector<const BatchFile*> to_do_;
+    std::vector<double> sizes_;  // of its inputs, bytes and a bit
+    std::vector<Share> shares_;
     std::vector<std::thread> workers_;
     std::atomic<std::size_t> next_{0};
     std::shared_mutex writing_;  // shared while an output is written
 
     std::mutex state_;  // guards what follows, and the output streams
     std::condition_variable finished_;
-    BatchRecord record_;
+    std::map<std::filesystem::path, BatchRecord> records_;  // by folder
+    std::set<std::filesystem::path> noted_;                 // folders whose records are to be written
+    std::vector<std::optional<Outcome>> outcomes_;          // of what is done of to_do_
+    std::size_t told_ = 0;                                  // of those: the first that were told
     ProgressBar bar_;
     Totals totals_;
     std::size_t done_ = 0;
@@ -230,7 +304,7 @@ private:
 void convert_batch(const ConvertArguments& arguments) {
     BatchPlan plan = plan_batch(arguments.inputs, arguments.output);
     std::error_code problem;
-    std::filesystem::create_directories(arguments.output, problem);
+    if (!arguments.output.empty()) std::filesystem::create_directories(arguments.output, problem);
     if (problem) fail(arguments.output, "cannot be made: " + problem.message());
     Batch(arguments, std::move(plan)).run();
 }

@@ -1,4 +1,5 @@
 #include "brief.h"
+#include "colour.h"
 #include "commands.h"
 #include "compare_files.h"
 #include "diff_characters.h"
@@ -204,11 +205,11 @@ void run(const Arguments& arguments) {
     } catch (const Failed&) {
         throw Failed{kTrouble};
     } catch (const TooMuchToCompare&) {
-        std::cerr << "bendy: error: " << printable(arguments.files[0].string())
+        std::cerr << error_label() << printable(arguments.files[0].string())
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {
-        std::cerr << "bendy: error: " << problem.what() << '\n';
+        std::cerr << error_label() << problem.what() << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "input_file.h"
 #include "late_progress.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 
@@ -23,6 +24,7 @@ struct DumpArguments {
 };
 
 void run(const DumpArguments& arguments) {
+    require_folder_of(arguments.output);
     const MappedFile file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);

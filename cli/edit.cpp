@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "import_problem.h"
 #include "input_file.h"
+#include "output_folder.h"
 #include "problem.h"
 
 #include <bendy/edit/extract.h>
@@ -56,6 +57,7 @@ std::pair<edit::Named, std::string> split_rename(const std::string& text) {
 
 /// {"old": "new", ...}
 edit::Rename read_table(const std::filesystem::path& path) {
+    require_folder_of(arguments.output);
     const MappedFile file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;

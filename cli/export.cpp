@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "input_file.h"
 #include "level_of_detail.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "warnings.h"
 
@@ -45,14 +46,15 @@ void refuse_input(const std::filesystem::path& input, const std::filesystem::pat
         fail(input, "the output would be the input: give another name with -o");
 }
 
-/// The level of detail that is asked for.
+/// Where it goes, and the level of detail.
 converter::ExportOptions options_of(const ExportArguments& arguments) {
-    if (!(arguments.lod < 1.0f)) return {};
+    converter::ExportOptions options;
+    options.output = arguments.output;
+    if (!(arguments.lod < 1.0f)) return options;
     const MappedFile file = open_bendy_file(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
     const Lod lod = level_of(arguments.file, *model, arguments.lod);
-    converter::ExportOptions options;
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
     return options;
 }
@@ -101,6 +103,7 @@ std::uint64_t export_x(const ExportArguments& arguments, converter::Report& repo
 }
 
 void run(ExportArguments arguments) {
+    require_folder_of(arguments.output);
     const std::string format = format_of(arguments);
     if (arguments.output.empty()) {
         arguments.output = arguments.file;

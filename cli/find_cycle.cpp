@@ -2,8 +2,12 @@
 
 #include "problem.h"
 
+#include <bendy/edit/names.h>
+
 #include <charconv>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace bendy::cli {
 
@@ -14,14 +18,9 @@ const Cycle& find_cycle(const std::string& clip, const std::filesystem::path& fi
     if (is_number && number < model.cycles().size()) return model.cycles()[number];
     if (const Cycle* cycle = model.cycle(clip)) return *cycle;
 
-    std::string known;
-    for (std::size_t i = 0; i < model.cycles().size(); ++i) {
-        const std::string_view name = model.cycles()[i].name;
-        known += (i == 0 ? "" : ", ") + (name.empty() ? "number " + std::to_string(i) : printable(name));
-    }
-    fail(file,
-         "there is no cycle \"" + printable(clip) + "\"; there " +
-             (model.cycles().empty() ? "are none" : "are " + std::to_string(model.cycles().size()) + ": " + known));
+    std::vector<std::string_view> names;
+    for (const Cycle& cycle : model.cycles()) names.push_back(cycle.name);
+    fail(file, printable(edit::no_such_name("clip", clip, names)));
 }
 
 }  // namespace bendy::cli

@@ -1,21 +1,27 @@
+#include "colour.h"
 #include "commands.h"
 #include "describe_chunk.h"
 #include "input_file.h"
 #include "inspect_html.h"
 #include "inspect_json.h"
 #include "problem.h"
+#include "summary.h"
+#include "terminal_text.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
+#include <bendy/runtime/model.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 namespace bendy::cli {
 namespace {
@@ -24,6 +30,7 @@ struct InspectArguments {
     std::filesystem::path file;
     std::string chunk;
     bool json = false;
+    bool summary = false;
     bool hex = false;
     bool all = false;
     std::filesystem::path html;
@@ -33,7 +40,8 @@ struct InspectArguments {
 bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
     constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
                                  FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY"), FourCC("KINF")};
-    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN")) return tree[chunk.parent].id == FourCC("SKIN");
+    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN") || chunk.id == FourCC("MORE"))
+        return tree[chunk.parent].id == FourCC("SKIN");
     return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
 }
 
@@ -73,7 +81,8 @@ std::string indentation(std::size_t depth) {
 }
 
 void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
-    std::cout << "      offset         size  chunk\n";
+    const std::size_t width = columns_of(Stream::output);
+    std::cout << in_colour(Colour::bold, "      offset         size  chunk", Stream::output) << '\n';
     std::vector<std::uint32_t> ends;  // of the containers that we are in
     Counters counters;
     const RigIndex rigs(tree);
@@ -92,10 +101,16 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
         std::array<char, 32> columns{};
         std::snprintf(columns.data(), columns.size(), "%12llu %12llu  ", static_cast<unsigned long long>(chunk.offset),
                       static_cast<unsigned long long>(chunk.size));
-        std::cout << columns.data() << indentation(ends.size()) << chunk.id.letters().data() << label;
+        const std::string before = columns.data() + indentation(ends.size());
+        std::string line = before + chunk.id.letters().data() + label;
         const std::string content = describe_chunk(tree, number, rigs);
-        if (!content.empty()) std::cout << "  " << content;
-        std::cout << '\n';
+        if (!content.empty()) line += "  " + content;
+        line = cut_to(line, width);
+        const std::size_t start = std::min(before.size(), line.size());
+        const std::size_t end = std::min(start + chunk.id.letters().size() - 1, line.size());
+        std::cout << line.substr(0, start)
+                  << in_colour(Colour::bold, std::string_view(line).substr(start, end - start), Stream::output)
+                  << line.substr(end) << '\n';
         if (chunk.is_container()) ends.push_back(chunk.end);
         ++number;
     }
@@ -124,6 +139,29 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
         }
         std::cout << "  " << text << '\n';
     }
+}
+
+void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
+                const std::optional<Summary>& summary) {
+    nlohmann::ordered_json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};
+    if (arguments.chunk.empty())
+        document["summary"] = summary ? summary_as_json(*summary) : nlohmann::ordered_json(nullptr);
+    if (!arguments.summary) document["chunks"] = chunks_as_json(tree, root);
+    std::cout << document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
+                const std::optional<Summary>& summary) {
+    const std::string name = arguments.file.filename().string();
+    if (arguments.chunk.empty() && summary) {
+        std::cout << summary_as_text(*summary, name, columns_of(Stream::output));
+        if (arguments.summary) return;
+        std::cout << '\n';
+    } else if (root == 0) {
+        std::cout << printable(name) << ", " << grouped(tree.bytes().size()) << " bytes, "
+                  << grouped(tree.chunks().size()) << " chunks\n";
+    }
+    print_tree(tree, root, arguments.all);
 }
 
 void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
@@ -156,6 +194,8 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
+    file.pictures = draw_page_pictures(
+        file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
     const std::size_t size = write_page(arguments, file);
     std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
               << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
@@ -177,17 +217,20 @@ void run(const InspectArguments& arguments) {
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
     }
 
+    // A file with faults may have chunks to show, but no character to sum up.
+    std::optional<Summary> summary;
+    if (root == 0 && !arguments.hex) {
+        const Result<Model> model = Model::from_memory(file.bytes());
+        if (model) summary = summarize(*model, file.bytes());
+        if (!model && arguments.summary) fail(arguments.file, model.error(), file.bytes());
+    }
     if (arguments.json) {
-        std::cout << chunks_as_json(arguments.file.string(), *tree, root);
+        print_json(arguments, *tree, root, summary);
     } else if (arguments.hex) {
         const Chunk& chunk = (*tree)[root];
         print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
-        if (root == 0) {
-            std::cout << printable(arguments.file.filename().string()) << ", " << grouped(file.bytes().size())
-                      << " bytes, " << grouped(tree->chunks().size()) << " chunks\n";
-        }
-        print_tree(*tree, root, arguments.all);
+        print_text(arguments, *tree, root, summary);
     }
     Faults faults;
     check_sums(*tree, faults);
@@ -199,15 +242,23 @@ void run(const InspectArguments& arguments) {
 
 void add_inspect(CLI::App& program) {
     const auto arguments = std::make_shared<InspectArguments>();
-    CLI::App* command =
-        program.add_subcommand("inspect", "Show the chunk tree: ids, offsets, sizes, and what is in them");
+    CLI::App* command = program.add_subcommand(
+        "inspect", "Show what is in a file: a summary, then the chunk tree with ids, offsets, sizes");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     CLI::Option* chunk =
         command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
-    CLI::Option* json = command->add_flag("--json", arguments->json, "print JSON, with every record's fields");
+    CLI::Option* json = command->add_flag("--json", arguments->json,
+                                          "print JSON: the summary by name, and every chunk with its record's fields");
     CLI::Option* hex = command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
     CLI::Option* all =
         command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
+    CLI::Option* summary = command
+                               ->add_flag("--summary", arguments->summary,
+                                          "only what the character consists of: joints, rig, meshes, clips, materials, "
+                                          "textures, bounds, sizes; without the chunk tree")
+                               ->excludes(hex)
+                               ->excludes(all)
+                               ->excludes(chunk);
     command
         ->add_option("--html", arguments->html,
                      "write OUT.html instead: one page for a browser with the chunks, skeleton, cycles, textures, "
@@ -215,9 +266,12 @@ void add_inspect(CLI::App& program) {
         ->excludes(json)
         ->excludes(hex)
         ->excludes(chunk)
-        ->excludes(all);
+        ->excludes(all)
+        ->excludes(summary);
     command->footer(
-        "Example: bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]\n"
+        "What is in the JSON: docs/inspect.md.\n"
+        "Example: bendy inspect fox.bendy --summary\n"
+        "         bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]\n"
         "         bendy inspect fox.bendy --html fox.html");
     command->callback([arguments] { run(*arguments); });
 }

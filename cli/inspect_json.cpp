@@ -7,7 +7,7 @@
 
 namespace bendy::cli {
 
-std::string chunks_as_json(const std::string& file, const ChunkTree& tree, std::uint32_t root) {
+nlohmann::ordered_json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
     nlohmann::ordered_json chunks = nlohmann::ordered_json::array();
     for (std::uint32_t number = root; number < tree[root].end; ++number) {
         const Chunk& chunk = tree[number];
@@ -30,9 +30,7 @@ std::string chunks_as_json(const std::string& file, const ChunkTree& tree, std::
         if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
         chunks.push_back(std::move(entry));
     }
-    const nlohmann::ordered_json document{
-        {"file", file}, {"bytes", tree.bytes().size()}, {"chunks", std::move(chunks)}};
-    return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+    return chunks;
 }
 
 }  // namespace bendy::cli

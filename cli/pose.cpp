@@ -3,6 +3,7 @@
 #include "input_file.h"
 #include "level_of_detail.h"
 #include "mesh_writer.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "reach_request.h"
 #include "text_output.h"
@@ -105,6 +106,7 @@ void run(const PoseArguments& arguments) {
     if (!arguments.output.empty() && extension != ".obj" && extension != ".ply" && extension != ".json") {
         throw CLI::ValidationError("--output", "must end in .obj, .ply or .json");
     }
+    require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());

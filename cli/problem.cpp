@@ -1,5 +1,7 @@
 #include "problem.h"
 
+#include "colour.h"
+
 #include <bendy/format/diagnostics.h>
 
 #include <array>
@@ -9,7 +11,7 @@
 namespace bendy::cli {
 
 void fail(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << "bendy: error: " << printable(file.string()) << ": " << what << '\n';
+    std::cerr << error_label() << printable(file.string()) << ": " << what << '\n';
     throw Failed{};
 }
 
@@ -18,7 +20,7 @@ void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
 }
 
 void warn(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << "bendy: warning: " << printable(file.string()) << ": " << what << '\n';
+    std::cerr << warning_label() << printable(file.string()) << ": " << what << '\n';
 }
 
 std::string printable(std::string_view text) {

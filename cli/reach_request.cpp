@@ -2,7 +2,12 @@
 
 #include "problem.h"
 
+#include <bendy/edit/names.h>
+#include <bendy/runtime/local_to_model.h>
+
 #include <CLI/Error.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -47,11 +52,25 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
     const auto moves = [&](const Chain& chain) { return model.joints()[chain.effector].name == name; };
     const auto chains = model.chains();
     if (const auto found = std::find_if(chains.begin(), chains.end(), moves); found != chains.end()) return *found;
+    if (chains.empty()) {
+        fail(file, "there is no IK chain \"" + printable(name) +
+                       "\"; there are none (`bendy convert --rig` or `--auto-rig` brings some in)");
+    }
+    // Chains by their own names and by those of the joints that they move: either may have been meant.
+    std::vector<std::string_view> names;
+    for (const Chain& chain : chains) {
+        if (!chain.name.empty()) names.push_back(chain.name);
+        names.push_back(model.joints()[chain.effector].name);
+    }
     std::string known;
-    for (const Chain& chain : chains) known += (known.empty() ? "" : ", ") + chain_label(model, chain);
-    fail(file, "there is no IK chain \"" + printable(name) + "\"; there " +
-                   (chains.empty() ? "are none (`bendy convert --rig` or `--auto-rig` brings some in)"
-                                   : "are " + std::to_string(chains.size()) + ": " + known));
+    constexpr std::size_t kShown = 8;
+    for (const Chain& chain : chains.first(std::min(kShown, chains.size())))
+        known += (known.empty() ? "" : ", ") + chain_label(model, chain);
+    if (chains.size() > kShown) known += ", ...";
+    const std::string suggestion = printable(edit::did_you_mean(names, name));
+    fail(file, "there is no IK chain \"" + printable(name) + '"' + suggestion +
+                   (suggestion.empty() ? "; there " : " There ") + (chains.size() == 1 ? "is " : "are ") +
+                   std::to_string(chains.size()) + ": " + known);
 }
 
 /// In the order of Solver.
@@ -81,6 +100,7 @@ std::string in_millimetres(float metres) {
 /// What is left between the tip and its target.
 std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
     std::string gap = in_millimetres(result.distance);
+    if (result.status == ReachStatus::aimed) return gap + " away";
     if (!goal.target.rotation) return gap;
     std::ostringstream angle;
     angle << std::setprecision(3) << result.angle * 57.29578f;
@@ -114,6 +134,30 @@ ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file,
     return {&find_chain(file, model, text.substr(0, equals)), target};
 }
 
+bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
+    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
+    return joint != kNone;
+}
+
+/// Takes the joint that the chain follows along to where the tip is now, with all that hangs on it: a foot that has a
+/// joint of its own beside the leg stays at the leg's end.
+void carry_target(const Chain& chain, Pose& pose) {
+    const Model& model = pose.model();
+    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
+        is_at_or_below(model, chain.start, chain.target)) {
+        return;
+    }
+    local_to_model(pose);
+    const auto& offset = chain.record.tip_offset;
+    const glm::dvec4 tip =
+        glm::dmat4(pose.model_space()[chain.effector]) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const std::uint32_t parent = model.joints()[chain.target].parent;
+    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : glm::dmat4(pose.model_space()[parent]);
+    if (std::abs(glm::determinant(space)) < 1e-30) return;
+    const glm::vec3 place(glm::inverse(space) * tip);
+    pose.change_local()[chain.target].translation = place;
+}
+
 }  // namespace
 
 void add_reach(CLI::App& command, ReachRequest& request) {
@@ -131,7 +175,7 @@ void add_reach(CLI::App& command, ReachRequest& request) {
 }
 
 bool has_reached(const ReachResult& result) {
-    return result.status == ReachStatus::reached;
+    return result.status == ReachStatus::reached || result.status == ReachStatus::aimed;
 }
 
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model) {
@@ -146,7 +190,10 @@ std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vec
     options.solver = find_solver(request.solver);
     options.obey_constraints = !request.ignore_limits;
     std::vector<ReachResult> results;
-    for (const ReachGoal& goal : goals) results.push_back(reach(goal.chain, goal.target, pose, options));
+    for (const ReachGoal& goal : goals) {
+        results.push_back(reach(goal.chain, goal.target, pose, options));
+        carry_target(*goal.chain, pose);
+    }
     return results;
 }
 
@@ -171,9 +218,10 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
         if (count.worst.status == ReachStatus::refused) {
             warn(file, chain + " was not moved: its numbers leave a float's range");
         } else if (count.short_ones == 0) {
-            std::cerr << "bendy: " << chain << " reaches its target";
+            const bool is_aim = count.worst.status == ReachStatus::aimed;
+            std::cerr << "bendy: " << chain << (is_aim ? " aims at its target" : " reaches its target");
             if (count.poses > 1) std::cerr << " in all " << count.poses << " pictures";
-            std::cerr << ", to " << gap << '\n';
+            std::cerr << (is_aim ? ", " : ", to ") << gap << '\n';
         } else {
             text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
             if (count.poses > 1)

@@ -6,6 +6,7 @@
 #include "find_cycle.h"
 #include "input_file.h"
 #include "level_of_detail.h"
+#include "output_folder.h"
 #include "progress_bar.h"
 #include "reach_request.h"
 
@@ -243,6 +244,7 @@ void run(RenderArguments arguments) {
                                : arguments.context == "osmesa" ? viewer::ContextKind::osmesa
                                                                : viewer::ContextKind::any;
     arguments.render.draw.targets = arguments.render.draw.constraints;
+    require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "input_file.h"
+#include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
 
@@ -21,6 +22,7 @@ struct RigArguments {
 };
 
 void run(const RigArguments& arguments) {
+    require_folder_of(arguments.output);
     const MappedFile file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);

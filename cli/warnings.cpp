@@ -15,6 +15,8 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
         warn(file, printable(line));
     }
+    for (const std::string& line : report.suggestions())
+        std::cerr << "bendy: note: " << printable(file.string()) << ": " << printable(line) << '\n';
 }
 
 void print_proposals(const converter::Report& report) {

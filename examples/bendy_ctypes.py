@@ -3,19 +3,22 @@
 
     ./bendy_ctypes.py mannequin.bendy Walk 0.3 IK_LeftArm 0.3 1.2 0.4 > posed.obj
 
-As a module: Model and Pose below; put the library where the loader finds it, or its path into BENDY_LIBRARY. Numbers go in and out
+As a module: Model and Pose below. The library is found beside this file or the program bendy, by the loader, or by its path in
+BENDY_LIBRARY. Numbers go in and out
 as array.array("f"), which numpy.asarray takes without a copy.
 """
 
 import array
 import ctypes
 import os
+import shutil
 import sys
 from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_float, c_int, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from pathlib import Path
 
 NONE = 0xFFFFFFFF
 TRIANGLES, LINES, POINTS = range(3)
-REACH_STATUS = ("reached", "out of reach", "not reached")
+REACH_STATUS = ("reached", "out of reach", "not reached", "aimed")
 
 
 class BendyError(Exception):
@@ -98,8 +101,28 @@ SIGNATURES = {
 COUNTS = ("joint", "cycle", "chain", "target", "mesh", "draw", "material")
 
 
+def find_library():
+    """The library's path: what BENDY_LIBRARY says; else in the folder where Bendy is installed, told by where this file lies or by
+    the program bendy on the PATH; else its name alone, for the system's loader."""
+    if "BENDY_LIBRARY" in os.environ:
+        return os.environ["BENDY_LIBRARY"]
+    name = {"win32": "libbendy.dll", "darwin": "libbendy.0.dylib"}.get(sys.platform, "libbendy.so.0")
+    roots = [Path(__file__).resolve().parent, *Path(__file__).resolve().parents[1:4]]
+    if program := shutil.which("bendy"):
+        roots.append(Path(program).resolve().parents[1])
+    for root in roots:
+        for folder in (root, root / "lib", root / "lib64", *sorted((root / "lib").glob("*-linux-gnu*")), root / "bin"):
+            if (folder / name).is_file():
+                return str(folder / name)
+    return name
+
+
 def load_library():
-    library = ctypes.CDLL(os.environ.get("BENDY_LIBRARY", "libbendy.so.0"))
+    path = find_library()
+    try:
+        library = ctypes.CDLL(path)
+    except OSError as problem:
+        raise ImportError(f"{path} cannot be loaded ({problem}): put the path of libbendy into BENDY_LIBRARY") from problem
     for name, (result, *arguments) in SIGNATURES.items():
         function = getattr(library, "bendy_" + name)
         function.restype, function.argtypes = result, [*arguments, POINTER(Error)]
@@ -183,7 +206,7 @@ class Pose:
         call("constrain", self.handle)
 
     def reach(self, chain, position, rotation=None, **options):
-        """Gives (status, metres left). options: fields of ReachOptions."""
+        """Gives (status, metres from tip to target). options: fields of ReachOptions."""
         result = ReachResult()
         turned = None if rotation is None else (c_float * 4)(*rotation)
         call("reach", self.handle, self.model.find("chain", chain), (c_float * 3)(*position), turned, byref(ReachOptions(**options)),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numeric>
 #include <system_error>
 
 namespace bendy::edit {
@@ -118,13 +119,24 @@ Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string
         }
         if (!found.empty()) return found;
     }
-    std::string message = "there is no " + std::string(kind) + " \"" + std::string(wanted) + '"';
+    return Problem{no_such_name(kind, wanted, names)};
+}
+
+std::string did_you_mean(std::span<const std::string_view> names, std::string_view wanted) {
     const std::string_view nearest = nearest_name(names, wanted);
-    if (names.empty()) return Problem{message + "; there are none"};
-    if (!nearest.empty()) return Problem{message + "; is \"" + std::string(nearest) + "\" meant?"};
+    return nearest.empty() ? std::string() : "; did you mean \"" + std::string(nearest) + "\"?";
+}
+
+std::string no_such_name(std::string_view kind, std::string_view wanted, std::span<const std::string_view> names) {
+    constexpr std::size_t kFew = 8;
+    const std::string suggestion = did_you_mean(names, wanted);
+    std::string message = "there is no " + std::string(kind) + " \"" + std::string(wanted) + '"' + suggestion;
+    if (names.empty()) return message + "; there are none";
+    if (!suggestion.empty() && names.size() > kFew) return message;
     std::vector<std::size_t> all(names.size());
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    return Problem{message + "; there " + (all.size() == 1 ? "is " : "are ") + list_names(names, all)};
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return message + (suggestion.empty() ? "; there " : " There ") + (all.size() == 1 ? "is " : "are ") +
+           list_names(names, all);
 }
 
 }  // namespace bendy::edit

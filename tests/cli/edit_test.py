@@ -105,7 +105,7 @@ class Strip(EditCase):
         "chains": ({"IKCH", "PULL"}, set()),
         "limits": ({"LIMT"}, set()),
         "lod": ({"LODD"}, set()),
-        "extras": ({"EXTR"}, set()),
+        "extras": ({"EXTR", "MORE"}, set()),
         "extensions": ({"EXTN"}, set()),
     }
 
@@ -163,11 +163,11 @@ class Strip(EditCase):
 
     def test_mistakes_are_explained(self):
         source = self.made("mannequin")
-        self.assertIn('there is no cycle "Wlak"; is "Walk" meant?',
+        self.assertIn('there is no cycle "Wlak"; did you mean "Walk"?',
                       self.failed("edit", source, "-o", "x.bendy", "--strip", "cycle:Wlak"))
-        self.assertIn('there is no joint "LeftArm"; is "mixamorig:LeftArm" meant?',
+        self.assertIn('there is no joint "LeftArm"; did you mean "mixamorig:LeftArm"?',
                       self.failed("edit", source, "-o", "x.bendy", "--extract", "LeftArm"))
-        self.assertIn('is "cycles" meant?', self.misused("edit", source, "-o", "x.bendy", "--strip", "cycels"))
+        self.assertIn('did you mean "cycles"?', self.misused("edit", source, "-o", "x.bendy", "--strip", "cycels"))
         self.assertIn("cycle:NAME", self.misused("edit", source, "-o", "x.bendy", "--strip", "cycle"))
         self.assertIn("takes no name", self.misused("edit", source, "-o", "x.bendy", "--strip", "lod:x"))
         self.assertIn("nothing to do", self.misused("edit", source, "-o", "x.bendy"))
@@ -316,7 +316,7 @@ class Rename(EditCase):
         def said(*arguments):
             return self.failed("edit", source, "-o", "x.bendy", *arguments)
 
-        self.assertIn('is "mixamorig:Hips" meant?', said("--rename-joint", "Hips=Pelvis"))
+        self.assertIn('did you mean "mixamorig:Hips"?', said("--rename-joint", "Hips=Pelvis"))
         self.assertIn('called like "bip*"', said("--rename-joint", "bip*=*"))
         self.assertIn("would be empty", said("--rename-joint", "mixamorig:Hips*=*"))
         self.assertIn("OLD=NEW", self.misused("edit", source, "-o", "x.bendy", "--rename-joint", "Hips"))

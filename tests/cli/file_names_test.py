@@ -53,7 +53,7 @@ class FileNames(unittest.TestCase):
             result = self.run_in_folder("convert", f"{name}.glb")
             self.assertTrue(result.stdout.startswith(f"{name}.bendy: ".encode()), result.stdout)
             self.run_in_folder("validate", f"{name}.bendy")
-            self.assertIn(f"{name}.bendy, ".encode(), self.run_in_folder("inspect", f"{name}.bendy").stdout)
+            self.assertIn(f"{name}.bendy: ".encode(), self.run_in_folder("inspect", f"{name}.bendy").stdout)
             self.assertEqual(json.loads(self.run_in_folder("inspect", "--json", f"{name}.bendy").stdout)["file"], f"{name}.bendy")
             self.run_in_folder("pose", f"{name}.bendy", "-o", f"{name}.obj")
             self.assertTrue((self.folder / f"{name}.obj").read_bytes().startswith(b"#"))

@@ -30,15 +30,19 @@ def install(build, work):
     return work / "moved"
 
 
+def without_paths():
+    """An environment that does not tell where libraries are: what is installed under a prefix of one's own must do without."""
+    return {name: value for name, value in os.environ.items() if name not in ("LD_LIBRARY_PATH", "BENDY_LIBRARY")}
+
+
 def library_folder(prefix):
     return next(prefix.rglob("bendy-runtime.pc")).parent.parent
 
 
 class Case(unittest.TestCase):
-    def check_program(self, program, prefix, shared):
+    def check_program(self, program, shared):
         model = ARGUMENTS.source / "spec/examples/one_joint.bendy"
-        environment = {**os.environ, "LD_LIBRARY_PATH": str(library_folder(prefix))} if shared else None
-        self.assertRegex(run(program, model, env=environment), r"^1 joints, first vertex at ")
+        self.assertRegex(run(program, model, env=without_paths()), r"^1 joints, first vertex at ")
         needed = re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", program))
         self.assertEqual([name for name in needed if "bendy" in name],
                          ["libbendy-runtime.so.0.1", "libbendy-format.so.0.1"] if shared else [])
@@ -47,7 +51,7 @@ class Case(unittest.TestCase):
         run(ARGUMENTS.cmake, "-S", EMBED, "-B", work / "embed", "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={ARGUMENTS.cxx}",
             f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_DISABLE_FIND_PACKAGE_zstd={'ON' if shared else 'OFF'}")
         run(ARGUMENTS.cmake, "--build", work / "embed")
-        self.check_program(work / "embed/embed", prefix, shared)
+        self.check_program(work / "embed/embed", shared)
 
     def check_pkg_config(self, prefix, work, shared):
         environment = {**os.environ, "PKG_CONFIG_PATH": str(library_folder(prefix) / "pkgconfig")}
@@ -57,7 +61,7 @@ class Case(unittest.TestCase):
             self.assertNotIn("first", " ".join(flags[wanted]))
         program = work / "by_pkg_config"
         run(ARGUMENTS.cxx, "-std=c++20", EMBED / "main.cpp", *flags["--cflags"], "-o", program, *flags["--libs"])
-        self.check_program(program, prefix, shared)
+        self.check_program(program, shared)
         static = run("pkg-config", "--static", "--libs", "bendy-runtime", env=environment).split()
         self.assertLess(static.index("-lbendy-runtime"), static.index("-lbendy-format"))
         self.assertLess(static.index("-lbendy-format"), static.index("-lzstd"))
@@ -71,6 +75,37 @@ class Static(Case):
         self.assertFalse(list(prefix.rglob("libbendy-format.so*")))
         self.check_find_package(prefix, work, shared=False)
         self.check_pkg_config(prefix, work, shared=False)
+
+
+    def test_the_c_api_is_found_under_a_prefix_of_ones_own(self):
+        work = ARGUMENTS.work / "c"
+        prefix = install(ARGUMENTS.build, work)
+        library = next(prefix.rglob("libbendy.so.0"), None)
+        if library is None:
+            self.skipTest("this build has no shared libbendy")
+        request = [ARGUMENTS.source / "spec/examples/every_chunk.bendy", "wave", "0.3"]
+        # From C: what pkg-config says is enough to link the program and to run it.
+        flags = run("pkg-config", "--cflags", "--libs", "bendy",
+                    env={**os.environ, "PKG_CONFIG_PATH": str(library.parent / "pkgconfig")}).split()
+        program = work / "pose_c"
+        run("cc", "-std=c99", ARGUMENTS.source / "examples/pose.c", *flags, "-o", program)
+        from_c = run(program, *request, env=without_paths())
+        self.assertIn("\nv ", from_c)
+        # From Python: beside the file, by the program on the PATH, and as BENDY_LIBRARY says.
+        script = prefix / "share/bendy/bendy_ctypes.py"
+        script.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ARGUMENTS.source / "examples/bendy_ctypes.py", script)
+        alone = work / "alone.py"
+        shutil.copy(script, alone)
+        plain = {**without_paths(), "PATH": "/usr/bin:/bin"}
+        for file, environment in ((script, plain), (alone, {**plain, "PATH": f"{prefix / 'bin'}:/usr/bin:/bin"}),
+                                  (alone, {**plain, "BENDY_LIBRARY": str(library)})):
+            with self.subTest(file=file.name, environment=environment["PATH"]):
+                self.assertEqual(run(sys.executable, file, *request, env=environment), from_c)
+        done = subprocess.run([sys.executable, *map(str, (alone, *request))], capture_output=True, text=True, check=False,
+                              env={**plain, "BENDY_LIBRARY": "/nowhere/libbendy.so.0"})
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("BENDY_LIBRARY", done.stderr)
 
 
 class Shared(Case):

@@ -11,6 +11,7 @@ import json
 import math
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -18,9 +19,10 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
-sys.path.insert(0, str(Path(__file__).parent))
-sys.path.insert(0, str(Path(__file__).parent.parent / "cli"))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent / "cli"),
+                str(Path(__file__).parent.parent / "pictures")]
 from chunk_file import Chunk  # noqa: E402
+from made_files import ALL_MAPS, Made  # noqa: E402
 from png_file import read_png, write_png  # noqa: E402
 from surfaces_file import surfaces  # noqa: E402
 
@@ -183,6 +185,59 @@ class Render(WithFolder):
         said = bendy("convert", "-q", SOURCE / "examples/tentacle.glb", "-o", self.folder / "again.bendy").stderr
         self.assertEqual(done.stderr, said)
 
+    def test_maps_that_cannot_be_shown(self):
+        """Without its images a surface is plain, and its colour a check; it neither glows nor has bumps."""
+        path = Made("metallic_roughness", "normal", "occlusion", "emissive").write(self.folder / "lost.gltf")
+        document = json.loads(path.read_text())
+        plain = dict(document, images=[])
+        plain["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}]
+        del plain["textures"], plain["images"]
+        document["images"] = [{"uri": "data:image/png;base64,AAAA"}] * 4
+        pictures = []
+        for content, warnings in ((document, 4), (plain, 0)):
+            path.write_text(json.dumps(content), encoding="utf-8")
+            self.assertEqual(bendy("convert", path, "-q").returncode, 0)
+            out = self.folder / "lost.png"
+            done = bendy("render", self.folder / "lost.bendy", "-o", out, "--size", "80x60")
+            self.assertEqual((done.returncode, done.stderr.count("cannot be shown")), (0, warnings), done.stderr)
+            pictures.append(read_png(out.read_bytes()))
+        self.assertTrue(pictures[0] == pictures[1])
+
+    def test_bmp_and_tga_textures(self):
+        header = bytes((0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, 0x20))
+        texels = bytes((0, 0, 255) * 2 + (0, 255, 0) * 2)  # blue green red: two red ones over two green ones
+        (self.folder / "skin.tga").write_bytes(header + texels)
+        bitmap = struct.pack("<2sIHHI", b"BM", 70, 0, 0, 54) + struct.pack("<IiiHHIIiiII", 40, 2, -2, 1, 24, 0, 16, 0, 0, 0, 0)
+        (self.folder / "skin.bmp").write_bytes(bitmap + texels[:6] + b"\0\0" + texels[6:] + b"\0\0")
+        pictures = []
+        for ending in ("tga", "bmp"):
+            (self.folder / "square.x").write_text(
+                "xof 0303txt 0032 Mesh { 4; 0;0;0;, 1;0;0;, 1;1;0;, 0;1;0;; 1; 4;0,3,2,1;;\n"
+                "MeshTextureCoords { 4; 0;1;, 1;1;, 1;0;, 0;0;; }\n"
+                'MeshMaterialList { 1; 1; 0; Material { 1;1;1;1;; 0; 0;0;0;; 0;0;0;; TextureFilename { "skin.%s"; } } } }'
+                % ending)
+            done = bendy("convert", self.folder / "square.x", "-o", self.folder / "square.bendy", "-q")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            width, height, channels, pixels = self.render("square", "--size", "60x60", "--camera", "0,0")
+            upper, lower = (pixels[channels * (y * width + 30):][:3] for y in (18, 42))
+            self.assertGreater(upper[0], 2 * upper[1], ending)
+            self.assertGreater(lower[1], 2 * lower[0], ending)
+            pictures.append(pixels)
+        self.assertTrue(pictures[0] == pictures[1])
+
+    def test_the_first_picture_is_as_the_second(self):
+        """Textures that are loaded while a material is being set must not change what it has been given before."""
+        Made(*ALL_MAPS, stands_still=True).write(self.folder / "maps.gltf")
+        self.assertEqual(bendy("convert", self.folder / "maps.gltf", "-q").returncode, 0)
+        width, height, channels, pixels = self.render("maps", "--clip", "0", "--frames", "2", "--size", "80x60")
+        self.assertEqual((width, height), (160, 60))
+        rows = [pixels[channels * width * y:channels * width * (y + 1)] for y in range(height)]
+        cells = [b"".join(row[half * 80 * channels:(half + 1) * 80 * channels] for row in rows) for half in (0, 1)]
+        self.assertGreater(len(set(cells[0])), 50)
+        self.assertEqual(cells[0], cells[1])
+        still = self.render("maps", "--clip", "0", "--time", "0", "--size", "80x60")
+        self.assertEqual(still[3], cells[1])
+
     def test_animations(self):
         for ending, start in ((".gif", b"GIF89a"), (".webp", b"RIFF")):
             out = self.folder / f"a{ending}"
@@ -202,7 +257,7 @@ class Render(WithFolder):
                 self.refused(2, text, file, *option)
 
     def test_bad_input(self):
-        self.refused(1, 'there is no cycle "Run"; there are 2: Reach, Wave', self.folder / "tentacle.bendy", "--clip", "Run")
+        self.refused(1, 'there is no clip "Run"; there are "Reach" and "Wave"', self.folder / "tentacle.bendy", "--clip", "Run")
         self.refused(1, "error: ", self.folder / "missing.bendy")
         bad = self.folder / "bad.bendy"
         bad.write_bytes((self.folder / "tentacle.bendy").read_bytes()[:5000])

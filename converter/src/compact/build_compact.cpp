@@ -4,6 +4,7 @@
 #include "compact/pack_cycles.h"
 #include "error_place.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
@@ -72,9 +73,10 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
                                      Report& report, const std::function<void(double)>& progress) {
     constexpr int kAttempts = 6;            // the last leaves the cycles as they are
     constexpr double kGeometryDone = 0.05;  // of the whole work
-    constexpr double kPackingDone = 0.6;
-    constexpr double kOvershoot = 1.1;  // of what is taken off the cycles, for what is too much
-    constexpr double kLeast = 0.2;      // of their share, from one attempt to the next
+    constexpr double kPackingShare = 0.6;   // of an attempt
+    constexpr double kAttemptShare = 0.9;   // of what is left of the work
+    constexpr double kOvershoot = 1.1;      // of what is taken off the cycles, for what is too much
+    constexpr double kLeast = 0.2;          // of their share, from one attempt to the next
     constexpr double kStep =
         0.02;  // taken off at least, twice as much at each attempt: small changes may change nothing
 
@@ -91,15 +93,20 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, kGeometryDone));
     double cycle_share = kCycleShare;
     Attempt attempt;
+    double done = kGeometryDone;
     for (int number = 0; number < kAttempts; ++number) {
+        // The first is mostly the last: what is told never falls, and leaves some room for others.
+        const double attempt_done = done + kAttemptShare * (1.0 - done);
+        const double packing_done = done + kPackingShare * (attempt_done - done);
         Scene scene = geometry_scene;
         if (number + 1 < kAttempts)
-            pack_cycles(scene, result.max_error * cycle_share, part_of(progress, kGeometryDone, kPackingDone));
+            pack_cycles(scene, result.max_error * cycle_share, part_of(progress, done, packing_done));
         BuildOptions options;
         options.compact = true;
         options.geometry = &geometry;
         attempt.bytes = build_chunks(scene, generator, unheard, options);
-        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, kPackingDone, 1.0));
+        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, packing_done, attempt_done));
+        done = attempt_done;
         if (attempt.error.metres <= result.max_error) {
             attempt.bytes = with_bound(attempt.bytes,
                                        {static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),

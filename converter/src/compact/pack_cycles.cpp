@@ -4,11 +4,16 @@
 #include "compact/measure.h"
 #include "compact/quantise_cycle.h"
 #include "compact/thin_grid.h"
+#include "cycle_span.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <functional>
 #include <optional>
 #include <set>
 #include <utility>
@@ -98,23 +103,35 @@ std::optional<Packed> pack_best(const Scene& scene, const Cycle& cycle, const Gr
     return best;
 }
 
+using Progress = std::function<void(double)>;
+
 /// Takes fewer and fewer frames while that makes the cycle smaller: it does where motion is smooth and long.
 void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& tracks,
                   const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
-                  double max_error, Packed& best) {
+                  double max_error, Packed& best, const Progress& progress) {
     constexpr double kMost = 0.7;  // of the bound, for lines between frames: more leaves steps too fine
-    for (const std::uint32_t fewer : {2u, 3u, 4u, 6u, 8u, 12u}) {
-        const std::optional<ThinGrid> thin = thin_grid(scene, cycle, tracks, fewer, probes, kMost * max_error);
+    constexpr std::array kFewer{2u, 3u, 4u, 6u, 8u, 12u};
+    for (std::size_t k = 0; k < kFewer.size(); ++k) {
+        const std::optional<ThinGrid> thin = thin_grid(scene, cycle, tracks, kFewer.at(k), probes, kMost * max_error);
         if (!thin) return;
         const GridTracks thinner{thin->grid, tracks.tracks};
         auto packed = pack_best(scene, cycle, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
         if (!packed || !is_smaller(*packed, best)) return;
         best = *std::move(packed);
+        if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(kFewer.size()));
     }
 }
 
+/// The clip's span; a little longer where the first frame's time is rounded down.
+CycleSpan with_frames(CycleSpan span, Bytes payload) {
+    PackRecord record;
+    std::memcpy(&record, payload.data(), sizeof record);
+    return {std::min(span.start, record.start), span.end};
+}
+
 PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std::vector<glm::dvec3>>& probes,
-                        double max_error) {
+                        double max_error, const Progress& progress) {
+    constexpr double kPackedOnce = 0.5;  // of the work, about
     PackedReport report;
     report.name = cycle.name;
     report.source_bytes = report.kept_bytes = key_bytes(cycle);
@@ -123,9 +140,15 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
     std::vector<bool> is_replaced(cycle.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
     std::optional<Packed> best = pack_best(scene, cycle, *tracks, is_replaced, probes, max_error, 1.0);
-    if (best) pack_thinner(scene, cycle, *tracks, is_replaced, probes, max_error, *best);
+    if (progress) progress(kPackedOnce);
+    if (best) {
+        pack_thinner(
+            scene, cycle, *tracks, is_replaced, probes, max_error, *best,
+            progress ? Progress([&](double done) { progress(kPackedOnce + (1.0 - kPackedOnce) * done); }) : Progress());
+    }
     if (!best || best->bytes.size() >= key_bytes(cycle, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
         return report;
+    cycle.stated_span = with_frames(span_of(cycle), best->bytes);  // tracks that stand still may not be written
     std::size_t number = 0;
     std::erase_if(cycle.tracks, [&](const Track&) { return is_replaced[number++]; });
     report.packed_bytes = best->bytes.size();
@@ -143,10 +166,18 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
 std::vector<PackedReport> pack_cycles(Scene& scene, double max_error, const std::function<void(double)>& progress,
                                       Probes kind) {
     const auto probes = find_probes(scene, kind);
+    // A cycle takes about as long as it has keys.
+    double all = 0.0;
+    for (const Cycle& cycle : scene.cycles) all += 1.0 + static_cast<double>(key_bytes(cycle));
+    double before = 0.0;
     std::vector<PackedReport> reports;
     for (Cycle& cycle : scene.cycles) {
-        reports.push_back(pack_cycle(scene, cycle, probes, max_error));
-        if (progress) progress(static_cast<double>(reports.size()) / static_cast<double>(scene.cycles.size()));
+        const double own = 1.0 + static_cast<double>(key_bytes(cycle));
+        reports.push_back(pack_cycle(
+            scene, cycle, probes, max_error,
+            !progress ? Progress() : [&](double done) { progress((before + own * done) / all); }));
+        before += own;
+        if (progress) progress(before / all);
     }
     return reports;
 }

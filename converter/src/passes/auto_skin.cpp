@@ -4,6 +4,8 @@
 #include "failure.h"
 #include "rig/joint_index.h"
 
+#include <bendy/edit/names.h>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -13,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -62,6 +65,12 @@ std::optional<Flags> joints_below(const Scene& scene, const std::string& top) {
     Flags found(scene.joints.size());
     std::fill(found.begin() + joint, found.begin() + index.end(joint), true);
     return found;
+}
+
+std::vector<std::string_view> names_of(const Scene& scene) {
+    std::vector<std::string_view> names;
+    for (const Joint& joint : scene.joints) names.emplace_back(joint.name);
+    return names;
 }
 
 bool has_any(const Flags& flags) {
@@ -173,7 +182,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     Flags joints = joints_of_skins(scene);
     if (!skeleton.empty()) {
         auto below = joints_below(scene, skeleton);
-        if (!below) return ImportError{{}, "there is no joint " + quote(skeleton) + " for the skeleton"};
+        if (!below) return ImportError{"skeleton", edit::no_such_name("joint", skeleton, names_of(scene))};
         joints = *std::move(below);
     } else if (!has_any(joints)) {
         joints = joints_without_meshes(scene);

@@ -1,0 +1,84 @@
+#include "live_progress.h"
+
+#include "console.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+namespace bendy::cli {
+
+std::string clock_text(std::chrono::duration<double> time) {
+    constexpr long long kMost = 99 * 3600;
+    const auto seconds = static_cast<long long>(std::clamp(time.count(), 0.0, static_cast<double>(kMost)) + 0.5);
+    std::array<char, 48> text{};
+    if (seconds >= 3600) {
+        std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", seconds / 3600, seconds / 60 % 60, seconds % 60);
+    } else {
+        std::snprintf(text.data(), text.size(), "%lld:%02lld", seconds / 60, seconds % 60);
+    }
+    return text.data();
+}
+
+std::string time_left_text(double share, std::chrono::duration<double> passed) {
+    constexpr double kLittle = 0.01;  // of the work: tells nothing of the rest
+    if (share < kLittle || share >= 1.0 || passed < std::chrono::seconds(1)) return {};
+    return ", about " + clock_text(passed * ((1.0 - share) / share)) + " left";
+}
+
+LiveProgress::LiveProgress(std::string what, bool shows) : what_(std::move(what)) {
+    if (!shows || !is_terminal()) return;
+    try {
+        thread_ = std::thread([this] { show_again_and_again(); });
+    } catch (const std::system_error&) {  // no more threads are to be had: then it works in silence
+    }
+}
+
+LiveProgress::~LiveProgress() {
+    if (!thread_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        has_ended_ = true;
+    }
+    ended_.notify_one();
+    thread_.join();
+    std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void LiveProgress::set(double share) {
+    double before = share_.load(std::memory_order_relaxed);
+    while (share > before && !share_.compare_exchange_weak(before, share, std::memory_order_relaxed)) {
+    }
+}
+
+void LiveProgress::show_again_and_again() {
+    constexpr auto kPatience = std::chrono::milliseconds(500);
+    constexpr auto kPause = std::chrono::milliseconds(200);
+    std::unique_lock lock(mutex_);
+    if (ended_.wait_for(lock, kPatience, [this] { return has_ended_; })) return;
+    do {
+        show();
+    } while (!ended_.wait_for(lock, kPause, [this] { return has_ended_; }));
+}
+
+void LiveProgress::show() const {
+    constexpr std::size_t kWidth = 30;
+    const std::chrono::duration<double> passed = Clock::now() - start_;
+    const double share = std::clamp(share_.load(std::memory_order_relaxed), 0.0, 1.0);
+    std::string line = what_ + ' ';
+    if (share > 0.0) {
+        const auto full = static_cast<std::size_t>(static_cast<double>(kWidth) * share);
+        std::array<char, 8> percent{};
+        std::snprintf(percent.data(), percent.size(), "%3d %%", static_cast<int>(100.0 * share));
+        line += '[' + std::string(full, '#') + std::string(kWidth - full, ' ') + "] " + percent.data() + ", ";
+    }
+    line += clock_text(passed) + time_left_text(share, passed);
+    const std::size_t columns = columns_of(Stream::error);
+    if (columns != 0 && line.size() >= columns) line.resize(columns - 1);
+    std::cerr << '\r' << line << "\x1b[K" << std::flush;
+}
+
+}  // namespace bendy::cli
