@@ -1,8 +1,10 @@
 #include "commands.h"
+#include "input_file.h"
 #include "late_progress.h"
 #include "output_folder.h"
 #include "problem.h"
 
+#include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/format/validate.h>
@@ -26,17 +28,26 @@ std::filesystem::path default_output(const std::filesystem::path& file) {
     return stem;
 }
 
+/// Fails for a file that is known to be something else than text of ours, with the command that reads it.
+void refuse_other_kinds(const std::filesystem::path& file, Bytes bytes) {
+    const auto kind = converter::find_file_kind(bytes, file);
+    if (!kind) return;
+    if (kind->format == converter::SourceFormat::bendy)
+        fail(file, "is a bendy file, not the text of one, which `bendy dump` writes");
+    if (kind->format || !kind->way_in.empty()) fail(file, printable(converter::why_not_bendy(*kind, file)));
+}
+
 void run(AssembleArguments arguments) {
     require_folder_of(arguments.output);
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
+    const MappedFile file = open_file(arguments.file);
+    refuse_other_kinds(arguments.file, file.bytes());
     if (arguments.output.empty()) arguments.output = default_output(arguments.file);
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.file, arguments.output, ignored))
         fail(arguments.file, "the output would be the input: give another name with -o");
 
     LateProgress progress("assembling");
-    const auto bytes = twin::assemble(as_text(file->bytes()), progress.callback());
+    const auto bytes = twin::assemble(as_text(file.bytes()), progress.callback());
     if (!bytes) {
         const twin::TextFault& fault = bytes.error();
         const std::string place = std::to_string(fault.line) + ':' + std::to_string(fault.column);

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "find_cycle.h"
+#include "input_file.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "side_by_side.h"
@@ -134,10 +135,9 @@ void print_json(const BenchArguments& arguments, const Model& model, const Cycle
 }
 
 void run(const BenchArguments& arguments) {
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Result<Model> model = Model::from_memory(file->bytes());
-    if (!model) fail(arguments.file, model.error(), file->bytes());
+    const MappedFile file = open_bendy_file(arguments.file);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
     const Cycle* cycle = model->cycles().empty() ? nullptr : model->cycles().data();
     if (!arguments.clip.empty()) cycle = &find_cycle(arguments.clip, arguments.file, *model);
 

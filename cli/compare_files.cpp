@@ -18,6 +18,20 @@ void add_stream(ReadFile& file, const std::optional<StreamView>& stream) {
     if (stream) add_stream(file, *stream);
 }
 
+/// The streams of all frames together. \param frame  any of them
+void add_frames(ReadFile& file, const TargetView& frame) {
+    add_stream(file, frame.places);
+    for (const auto* stream : {&frame.positions, &frame.normals}) {
+        if (!*stream) continue;
+        StreamView& whole = *file.frames.emplace_back(std::make_unique<StreamView>(**stream));
+        whole.data = file.tree.payload(whole.chunk).subspan(sizeof(StreamRecord));
+        const std::size_t row = std::size_t{whole.components} * component_size(whole.type);
+        whole.elements = static_cast<std::uint32_t>(whole.data.size() / row);
+        whole.boxes = {};
+        add_stream(file, whole);
+    }
+}
+
 void add_streams(ReadFile& file, const PoolView& pool) {
     add_stream(file, pool.positions);
     for (const auto* stream : {&pool.normals, &pool.tangents, &pool.bones, &pool.weights, &pool.indices})
@@ -28,11 +42,13 @@ void add_streams(ReadFile& file, const PoolView& pool) {
     if (const std::uint32_t palette = file.tree.find(pool.chunk, FourCC("PALT")); palette != kNone)
         file.palettes[palette] = &pool.palette;
     for (const TargetView& target : pool.targets) {
+        if (target.is_frame()) break;
         for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents}) {
             add_stream(file, *stream);
             if (*stream) file.targets[file.tree[(*stream)->chunk].parent] = &target;
         }
     }
+    if (pool.frames() > 1) add_frames(file, pool.targets.back());
 }
 
 /// Chunks whose number among their siblings says something.

@@ -161,6 +161,10 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
         if (chunk.id == FourCC("JNTS")) compare_joint_tables(leaves);
         if (chunk.id == FourCC("JNAM")) compare_joint_names(leaves);
         if (chunk.id == FourCC("LODD")) compare_collapses(leaves);
+    } else if (chunk.id == FourCC("GRID") || chunk.id == FourCC("NLST")) {
+        const auto floats = [](Bytes payload) { return view_at<float>(payload, 0, payload.size() / sizeof(float)); };
+        if (a.size() != b.size()) add_value(leaves, "floats", a.size() / sizeof(float), b.size() / sizeof(float));
+        compare_spans(leaves, {}, chunk.id == FourCC("GRID") ? 6 : 3, floats(a), floats(b));
     } else if (chunk.id == FourCC("MARK") && a_.cycles[chunk.parent] != nullptr &&
                b_.cycles[b_.tree[leaves.b].parent] != nullptr) {
         compare_markers(leaves, *a_.cycles[chunk.parent], *b_.cycles[b_.tree[leaves.b].parent]);

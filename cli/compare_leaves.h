@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,9 +18,10 @@ namespace bendy::cli {
 struct ReadFile {
     ChunkTree tree;
     Document document;
-    std::vector<UnpackedTrack> unpacked;       ///< what the document's packed cycles hold, as tracks of theirs
-    std::vector<const StreamView*> streams;    ///< by chunk number; null: no stream
-    std::vector<const CycleView*> cycles;      ///< by chunk number; null: no cycle
+    std::vector<UnpackedTrack> unpacked;              ///< what the document's packed cycles hold, as tracks of theirs
+    std::vector<std::unique_ptr<StreamView>> frames;  ///< streams of FRMS, all frames together
+    std::vector<const StreamView*> streams;           ///< by chunk number; null: no stream
+    std::vector<const CycleView*> cycles;             ///< by chunk number; null: no cycle
     std::vector<const TargetView*> targets;    ///< by chunk number; null: no target, or one that displaces nothing
     std::vector<const PaletteView*> palettes;  ///< by chunk number; null: no palette
     std::vector<const ObjectView*> tables;     ///< of JNTS, JNAM and LODD, by chunk number: whose they are; else null

@@ -28,10 +28,6 @@
 namespace bendy::cli {
 namespace {
 
-void print_proposals(const converter::Report& report) {
-    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
-}
-
 /// Bytes by kind before and after, and the worst error.
 void print_compact(const converter::CompactReport& report) {
     std::uint64_t before = 0;
@@ -59,6 +55,7 @@ auto convert_with_progress(const ConvertArguments& arguments, converter::Convert
                            converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
     LiveProgress progress("converting " + printable(input.filename().string()), !arguments.quiet);
+    options.output = arguments.output;
     options.progress = [&](double share) { progress.set(share); };
     return converter::convert(input, options, report);
 }
@@ -141,15 +138,28 @@ void add_convert(CLI::App& program) {
                         "the scene of a glTF file to take, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs")
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--ticks-per-second", arguments->ticks_per_second,
+            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+            "file's AnimTicksPerSecond, or 4800, if not given")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--merge-clips", arguments->merge_clips,
+                      "clips that move different joints become one, as for files with a clip for each joint");
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
     command->add_option("--rig", arguments->rig,
                         "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
     CLI::Option* exact =
         command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
-                      "propose IK chains and joint limits by the joints' names, and list them");
+                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
+                      "the clips, and list them");
     command->add_flag("--auto-skin", arguments->auto_skin,
                       "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
                       "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");

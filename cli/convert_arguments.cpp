@@ -8,7 +8,10 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     converter::ConvertOptions options;
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
+    options.gltf.instances = arguments.instances;
     if (!arguments.rig.empty()) options.rig = arguments.rig;
+    options.ticks_per_second = arguments.ticks_per_second;
+    options.merge_clips = arguments.merge_clips;
     options.auto_rig = arguments.auto_rig;
     options.auto_skin = arguments.auto_skin || !arguments.skeleton.empty();
     options.skeleton = arguments.skeleton;
@@ -23,7 +26,10 @@ std::string recipe_of(const ConvertArguments& arguments) {
     const nlohmann::json recipe{{"bendy", BENDY_VERSION},
                                 {"scene", arguments.scene},
                                 {"images", arguments.images},
+                                {"instances", arguments.instances},
                                 {"rig", arguments.rig.empty() ? "" : std::filesystem::absolute(arguments.rig).string()},
+                                {"ticks_per_second", arguments.ticks_per_second},
+                                {"merge_clips", arguments.merge_clips},
                                 {"auto_rig", arguments.auto_rig},
                                 {"auto_skin", arguments.auto_skin},
                                 {"skeleton", arguments.skeleton},

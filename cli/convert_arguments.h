@@ -14,9 +14,12 @@ struct ConvertArguments {
     std::filesystem::path output;  ///< a file; of several inputs, a folder
     std::string scene;
     std::string images = "embed";
+    bool instances = false;
     std::filesystem::path rig;
     std::filesystem::path depfile;
     bool exact = true;
+    double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says
+    bool merge_clips = false;
     bool auto_rig = false;
     bool auto_skin = false;
     std::string skeleton;

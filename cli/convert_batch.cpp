@@ -140,6 +140,7 @@ private:
     std::optional<Failure> convert(std::size_t number, Outcome& outcome) {
         const BatchFile& file = *to_do_[number];
         converter::ConvertOptions options = options_of(arguments_);
+        options.output = file.output;
         options.progress = [&share = shares_[number]](double done) {
             share.done.store(static_cast<float>(done), std::memory_order_relaxed);
         };

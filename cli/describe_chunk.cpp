@@ -93,6 +93,7 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
     text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
     if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
     if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::listed)) text += " listed";
     if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
         text += ", set " + std::to_string(record.set);
     return text;
@@ -135,9 +136,11 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
     bool has_extras = false;
     bool has_extensions = false;
+    bool has_more = false;
     for (const std::uint32_t child : tree.children(number)) {
         has_extras = has_extras || (tree[child].id == FourCC("EXTR") && tree[child].size != 0);
         has_extensions = has_extensions || (tree[child].id == FourCC("EXTN") && tree[child].size != 0);
+        has_more = has_more || (tree[child].id == FourCC("MORE") && tree[child].size != 0);
     }
     for (std::size_t topology = 0; topology < kTopologies; ++topology) {
         if (polygons[topology] != 0)
@@ -146,6 +149,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
     if (const std::string limits = limits_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
     if (has_extensions) add_part(text, "extensions");
+    if (has_more) add_part(text, "further members");
     return text;
 }
 
@@ -186,12 +190,56 @@ std::string markers_text(const ChunkTree& tree, std::uint32_t number) {
     return markers.size() > kShown ? text + ", ..." : text;
 }
 
+constexpr std::uint64_t kGridBytes = 24;    // of a frame
+constexpr std::uint64_t kNormalBytes = 12;  // three f32
+
+std::uint64_t frames_in(const ChunkTree& tree, std::uint32_t grid) {
+    return grid == kNone || tree.encoding_fault(grid) ? 0 : tree.payload(grid).size() / kGridBytes;
+}
+
+std::string frames_text(const ChunkTree& tree, std::uint32_t number) {
+    const std::uint64_t frames = frames_in(tree, tree.find(number, FourCC("GRID")));
+    const auto positions = record_at<StreamRecord>(tree, tree.find(number, FourCC("POSI")));
+    std::string text = grouped(frames) + (frames == 1 ? " frame" : " frames");
+    if (frames != 0) text += " of " + grouped(positions.elements / frames) + " places";
+    return text;
+}
+
+/// The records of PLAY; nothing if it cannot be read.
+std::vector<PlayRecord> plays_at(const ChunkTree& tree, std::uint32_t number) {
+    std::vector<PlayRecord> plays;
+    if (number == kNone || tree[number].is_container() || tree.encoding_fault(number)) return plays;
+    const Bytes payload = tree.payload(number);
+    const auto records = view_at<PlayRecord>(payload, 0, payload.size() / sizeof(PlayRecord));
+    plays.assign(records.begin(), records.end());
+    return plays;
+}
+
+std::string plays_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::size_t kShown = 6;
+    std::string text;
+    const std::vector<PlayRecord> plays = plays_at(tree, number);
+    for (std::size_t k = 0; k < std::min(plays.size(), kShown); ++k) {
+        const PlayRecord& play = plays[k];
+        add_part(text, grouped(play.frames) + (play.frames == 1 ? " frame" : " frames") + " of pool " +
+                           std::to_string(play.pool) + " from frame " + std::to_string(play.first) +
+                           (play.closed != 0 ? ", closed" : ""));
+    }
+    return plays.size() > kShown ? text + ", ..." : text;
+}
+
 std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
     const std::uint32_t table = tree.find(number, FourCC("TRAK"));
     std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
     if (const auto packed = packed_at(tree, tree.find(number, FourCC("PACK")))) tracks += track_count(*packed);
-    std::string text = brief(info.start) + " to " + brief(info.end) + " s, " + grouped(tracks) + " tracks";
+    std::uint64_t frames = 0;
+    for (const PlayRecord& play : plays_at(tree, tree.find(number, FourCC("PLAY"))))
+        frames = std::max(frames, std::uint64_t{play.frames});
+    std::string text = brief(info.start) + " to " + brief(info.end) + " s, ";
+    if (frames != 0) text += grouped(frames) + (frames == 1 ? " frame" : " frames");
+    if (frames != 0 && tracks != 0) text += ", ";
+    if (frames == 0 || tracks != 0) text += grouped(tracks) + " tracks";
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
     const std::size_t markers = markers_at(tree, tree.find(number, FourCC("MARK"))).size();
@@ -261,7 +309,11 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         const auto table = record_at<JointsRecord>(tree, number);
         return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
     }
-    if (chunk.id == FourCC("JNAM")) {
+    if (chunk.id == FourCC("FRMS")) return frames_text(tree, number);
+    if (chunk.id == FourCC("GRID")) return grouped(frames_in(tree, number)) + " frames";
+    if (chunk.id == FourCC("NLST")) return grouped(tree.payload(number).size() / kNormalBytes) + " normals";
+    if (chunk.id == FourCC("PLAY")) return plays_text(tree, number);
+    if (chunk.id == FourCC("JNAM") || chunk.id == FourCC("FNAM")) {
         std::string names(as_text(tree.payload(number)));
         std::replace(names.begin(), names.end(), '\0', ' ');
         return quoted(std::string_view(names));
@@ -345,11 +397,12 @@ nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number)
             markers.push_back({{"seconds", marker.seconds}, {"name", marker.name}});
         return {{"markers", markers}};
     }
-    if (chunk.id != FourCC("TRAK")) return fields_at(payload, *record, 0);
-    nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
-    for (std::uint64_t at = 0; payload.size() - at >= sizeof(TrackRecord); at += sizeof(TrackRecord))
-        tracks.push_back(fields_at(payload, *record, at));
-    return {{"tracks", tracks}};
+    const bool is_plays = chunk.id == FourCC("PLAY");
+    if (chunk.id != FourCC("TRAK") && !is_plays) return fields_at(payload, *record, 0);
+    const std::uint64_t size = is_plays ? sizeof(PlayRecord) : sizeof(TrackRecord);
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::uint64_t at = 0; payload.size() - at >= size; at += size) list.push_back(fields_at(payload, *record, at));
+    return {{is_plays ? "plays" : "tracks", list}};
 }
 
 std::string_view chunk_meaning(FourCC id) {

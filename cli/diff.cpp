@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "compare_files.h"
 #include "diff_characters.h"
+#include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -181,9 +182,7 @@ bool are_same(const Arguments& arguments) {
     std::array<MappedFile, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
-        Result<MappedFile> mapped = MappedFile::open(arguments.files[i]);
-        if (!mapped) fail(arguments.files[i], mapped.error(), {});
-        files[i] = *std::move(mapped);
+        files[i] = open_bendy_file(arguments.files[i]);
         read[i] = open(arguments.files[i], files[i]);
     }
     const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);

@@ -2,6 +2,7 @@
 
 #include "brief.h"
 #include "compare_files.h"
+#include "input_file.h"
 #include "problem.h"
 #include "progress_bar.h"
 
@@ -30,16 +31,15 @@ struct Character {
 };
 
 Character read_character(const std::filesystem::path& path) {
-    const Result<MappedFile> file = MappedFile::open(path);
-    if (!file) fail(path, file.error(), {});
+    const MappedFile file = open_bendy_file(path);
     converter::Report report;
-    auto scene = converter::import_bendy(file->bytes(), report);
+    auto scene = converter::import_bendy(file.bytes(), report);
     if (!scene) fail(path, printable(scene.error().message));
     for (const converter::Warning& warning : report.warnings()) {
         const std::string place = warning.first_place.empty() ? "" : warning.first_place + ": ";
         warn(path, printable("not compared: " + place + warning.message));
     }
-    return {*std::move(scene), converter::write_rig(read_file(file->bytes())->document.objects.front(), false)};
+    return {*std::move(scene), converter::write_rig(read_file(file.bytes())->document.objects.front(), false)};
 }
 
 /// Three digits, in millimetres where that is not too many.

@@ -1,10 +1,9 @@
 #include "commands.h"
 #include "import_problem.h"
+#include "input_file.h"
 #include "output_folder.h"
 #include "problem.h"
 
-#include <bendy/converter/convert.h>
-#include <bendy/converter/import_bendy.h>
 #include <bendy/edit/extract.h>
 #include <bendy/edit/merge_cycles.h>
 #include <bendy/edit/names.h>
@@ -58,11 +57,11 @@ std::pair<edit::Named, std::string> split_rename(const std::string& text) {
 
 /// {"old": "new", ...}
 edit::Rename read_table(const std::filesystem::path& path) {
-    const Result<MappedFile> file = MappedFile::open(path);
-    if (!file) fail(path, file.error(), {});
+    require_folder_of(arguments.output);
+    const MappedFile file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;
-    const auto table = nlohmann::ordered_json::parse(as_text(file->bytes()), nullptr, false);
+    const auto table = nlohmann::ordered_json::parse(as_text(file.bytes()), nullptr, false);
     if (table.is_discarded()) fail(path, "is not JSON");
     if (!table.is_object()) fail(path, "must be a JSON object, from old names to new ones");
     for (const auto& [before, after] : table.items()) {
@@ -74,13 +73,10 @@ edit::Rename read_table(const std::filesystem::path& path) {
 
 /// A bendy file, or one of another kind made one.
 Buffer read_other(const std::filesystem::path& path) {
-    const Result<MappedFile> file = MappedFile::open(path);
-    if (!file) fail(path, file.error(), {});
-    if (converter::is_bendy_file(path)) return {file->bytes().begin(), file->bytes().end()};
-    converter::Report report;
-    const auto bytes = converter::convert(path, {}, report);
-    if (!bytes) fail(file_of(bytes.error(), path), describe(bytes.error()));
-    return *bytes;
+    converter::Report unheard;
+    const auto file = read_character(path, unheard);
+    if (!file) fail(file_of(file.error(), path), describe(file.error()));
+    return {file->bytes().begin(), file->bytes().end()};
 }
 
 edit::SameName same_name_of(const std::string& word) {
@@ -178,18 +174,16 @@ void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t 
 }
 
 void run(const Arguments& arguments, const std::vector<Step>& steps) {
-    require_folder_of(arguments.output);
-    Result<MappedFile> file = MappedFile::open(arguments.input);
-    if (!file) fail(arguments.input, file.error(), {});
-    const std::uint64_t size_before = file->bytes().size();
+    MappedFile file = open_bendy_file(arguments.input);
+    const std::uint64_t size_before = file.bytes().size();
     Buffer bytes;
     edit::Log log;
     for (const Step& step : steps) {
-        auto edited = step(bytes.empty() ? file->bytes() : Bytes(bytes), log);
+        auto edited = step(bytes.empty() ? file.bytes() : Bytes(bytes), log);
         if (!edited) fail(arguments.input, printable(edited.error().message));
         bytes = *std::move(edited);
     }
-    *file = MappedFile();  // the output may be the input, and Windows replaces no mapped file
+    file = MappedFile();  // the output may be the input, and Windows replaces no mapped file
     if (const auto written = write_file(arguments.output, bytes); !written)
         fail(arguments.output, describe(written.error()));
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));

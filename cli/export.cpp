@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "input_file.h"
 #include "level_of_detail.h"
 #include "output_folder.h"
 #include "problem.h"
@@ -45,15 +46,15 @@ void refuse_input(const std::filesystem::path& input, const std::filesystem::pat
         fail(input, "the output would be the input: give another name with -o");
 }
 
-/// The level of detail that is asked for.
+/// Where it goes, and the level of detail.
 converter::ExportOptions options_of(const ExportArguments& arguments) {
-    if (!(arguments.lod < 1.0f)) return {};
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Result<Model> model = Model::from_memory(file->bytes());
-    if (!model) fail(arguments.file, model.error(), file->bytes());
-    const Lod lod = level_of(arguments.file, *model, arguments.lod);
     converter::ExportOptions options;
+    options.output = arguments.output;
+    if (!(arguments.lod < 1.0f)) return options;
+    const MappedFile file = open_bendy_file(arguments.file);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
+    const Lod lod = level_of(arguments.file, *model, arguments.lod);
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
     return options;
 }
@@ -108,6 +109,7 @@ void run(ExportArguments arguments) {
         arguments.output = arguments.file;
         arguments.output.replace_extension(format);
     }
+    static_cast<void>(open_bendy_file(arguments.file));  // what is wrong with it comes first
     refuse_input(arguments.file, arguments.output);
     converter::Report report;
     const std::uint64_t size =

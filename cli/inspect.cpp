@@ -1,6 +1,7 @@
 #include "colour.h"
 #include "commands.h"
 #include "describe_chunk.h"
+#include "input_file.h"
 #include "inspect_html.h"
 #include "inspect_json.h"
 #include "output_folder.h"
@@ -40,7 +41,8 @@ struct InspectArguments {
 bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
     constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
                                  FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY"), FourCC("KINF")};
-    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN")) return tree[chunk.parent].id == FourCC("SKIN");
+    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN") || chunk.id == FourCC("MORE"))
+        return tree[chunk.parent].id == FourCC("SKIN");
     return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
 }
 
@@ -178,11 +180,10 @@ std::size_t write_page(const InspectArguments& arguments, const InspectedFile& f
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
 void run_html(const InspectArguments& arguments) {
-    const Result<MappedFile> mapped = MappedFile::open(arguments.file);
-    if (!mapped) fail(arguments.file, mapped.error(), {});
+    const MappedFile mapped = open_bendy_file(arguments.file);
     InspectedFile file;
     file.name = arguments.file.filename().string();
-    file.bytes = mapped->bytes();
+    file.bytes = mapped.bytes();
     Result<ChunkTree> tree = read_chunk_tree(file.bytes);
     if (!tree) {
         file.faults.add(tree.error());
@@ -194,6 +195,8 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
+    file.pictures = draw_page_pictures(
+        file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
     const std::size_t size = write_page(arguments, file);
     std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
               << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
@@ -218,10 +221,9 @@ void run(const InspectArguments& arguments) {
         run_html(arguments);
         return;
     }
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    Result<ChunkTree> tree = read_chunk_tree(file->bytes());
-    if (!tree) fail(arguments.file, tree.error(), file->bytes());
+    const MappedFile file = open_bendy_file(arguments.file);
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes());
+    if (!tree) fail(arguments.file, tree.error(), file.bytes());
     decode_leaves(*tree);
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
     if (root == kNone) {
@@ -231,20 +233,20 @@ void run(const InspectArguments& arguments) {
 
     std::optional<Summary> summary;
     if (root == 0 && !arguments.hex) {
-        summary = summarize_file(arguments, *tree, file->bytes());
+        summary = summarize_file(arguments, *tree, file.bytes());
     }
     if (arguments.json) {
         print_json(arguments, *tree, root, summary);
     } else if (arguments.hex) {
         const Chunk& chunk = (*tree)[root];
-        print_hex(file->bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
+        print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
         print_text(arguments, *tree, root, summary);
     }
     Faults faults;
     check_sums(*tree, faults);
     if (faults.empty()) read_document(*tree, faults);
-    if (!faults.empty()) warn_of_faults(arguments.file, faults, file->bytes());
+    if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
 }
 
 }  // namespace

@@ -66,8 +66,7 @@ void warn_of_rig(const ObjectView& object, Warnings& warnings) {
     const auto warn_of_flags = [&](std::uint32_t chunk, std::uint8_t flags, const std::string& what) {
         if ((flags & kApproximated) != 0)
             warnings.add(chunk, what + " is approximated: the source says more, or otherwise");
-        if ((flags & kProposed) != 0)
-            warnings.add(chunk, what + " is proposed from the joints' names; nobody has authored it");
+        if ((flags & kProposed) != 0) warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
     };
     for (const LimitView& limit : object.skeleton.limits) {
         warn_of_flags(limit.chunk, limit.record.flags, "the constraint");
@@ -151,6 +150,18 @@ Json facts_json(const Document& document) {
             {"textures", document.textures.size()}};
 }
 
+Json pictures_json(const InspectedFile& file) {
+    Json list = Json::array();
+    for (const PagePicture& picture : file.pictures.list) {
+        list.push_back({{"name", brief(picture.name)},
+                        {"clip", picture.is_clip},
+                        {"src", data_uri(picture.media_type, picture.bytes)}});
+    }
+    return {{"list", std::move(list)},
+            {"leftOut", file.pictures.clips_left_out},
+            {"whyNone", printable(file.pictures.why_none)}};
+}
+
 Json page_data(const InspectedFile& file) {
     Json data{{"file", printable(file.name)},
               {"bytes", file.bytes.size()},
@@ -162,6 +173,7 @@ Json page_data(const InspectedFile& file) {
     const std::uint32_t version = tree[0].is_container() ? tree.find(0, FourCC("VERS")) : kNone;
     data["version"] = version == kNone ? std::string() : describe_chunk(tree, version, rigs);
     data["warnings"] = warnings_json(file);
+    data["pictures"] = pictures_json(file);
     data["facts"] = facts_json(file.document);
     data["chunks"] = chunks_json(tree, rigs);
     CurveSampler curves(file.document.objects);

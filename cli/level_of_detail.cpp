@@ -16,9 +16,13 @@ void add_lod(CLI::App& command, float& share) {
         ->capture_default_str();
 }
 
-Lod level_of(const std::filesystem::path& file, const Model& model, float share) {
+void warn_without_levels(const std::filesystem::path& file, const Model& model, float share) {
     if (share < 1.0f && model.collapse() == nullptr)
-        warn(file, "there are no levels of detail in it: all of it is written (bendy convert --lod makes them)");
+        warn(file, "there are no levels of detail in it: it stays whole (bendy convert --lod makes them)");
+}
+
+Lod level_of(const std::filesystem::path& file, const Model& model, float share) {
+    warn_without_levels(file, model, share);
     Lod lod(model);
     lod.set_share(share);
     return lod;

@@ -11,6 +11,8 @@ namespace bendy::cli {
 
 /// Adds it; the share is from 0 to 1.
 void add_lod(CLI::App& command, float& share);
+/// Warns where a level is asked for of a file that has none.
+void warn_without_levels(const std::filesystem::path& file, const Model& model, float share);
 /// That level of the file's model; full detail, and a warning, if the file has no levels.
 Lod level_of(const std::filesystem::path& file, const Model& model, float share);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <span>
 
 namespace bendy::cli {
@@ -71,6 +72,38 @@ std::span<const float> floats_of(std::span<const glm::vec3> vectors) {
 
 std::string quoted(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// JSON has no infinities.
+void put_finite(std::string& out, float number) {
+    if (std::isfinite(number)) {
+        put(out, number);
+    } else {
+        out += "null";
+    }
+}
+
+void put_reaches(std::string& out, std::span<const PosedReach> reaches) {
+    out += ",\"reaches\":[";
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+        const PosedReach& reach = reaches[i];
+        out += (i == 0 ? "\n{\"chain\":" : ",\n{\"chain\":") + quoted(reach.chain) + ",\"target\":";
+        put_list(out, std::span<const float>(&reach.target.position.x, 3));
+        if (reach.target.rotation) {
+            const glm::quat& q = *reach.target.rotation;
+            const std::array<float, 4> numbers{q.x, q.y, q.z, q.w};
+            out += ",\"rotation\":";
+            put_list(out, std::span<const float>(numbers));
+        }
+        out += ",\"distance\":";
+        put_finite(out, reach.distance);
+        if (reach.target.rotation) {
+            out += ",\"angle\":";
+            put_finite(out, reach.angle);
+        }
+        out += reach.is_reached ? ",\"reached\":true}" : ",\"reached\":false}";
+    }
+    out += ']';
 }
 
 /// Normals are written for all vertices or for none: OBJ counts them with the vertices, PLY has one vertex layout.
@@ -145,6 +178,7 @@ std::string write_json(const PosedObject& object) {
     std::string out = "{\"file\":" + quoted(object.file) +
                       ",\"clip\":" + (object.clip.empty() ? "null" : quoted(object.clip)) + ",\"time\":";
     put(out, object.time);
+    if (!object.reaches.empty()) put_reaches(out, object.reaches);
     out += ",\"joints\":[";
     for (std::size_t i = 0; i < object.joints.size(); ++i) {
         const PosedJoint& joint = object.joints[i];

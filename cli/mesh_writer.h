@@ -21,10 +21,20 @@ struct PosedJoint {
     glm::mat4 world{1.0f};
 };
 
+/// An IK target, and how near its chain came.
+struct PosedReach {
+    std::string chain;  ///< its name, or its number
+    ReachTarget target;
+    float distance = 0.0f;  ///< metres left
+    float angle = 0.0f;     ///< radians left, where the target has a rotation
+    bool is_reached = false;
+};
+
 struct PosedObject {
     std::string file;
     std::string clip;  ///< empty: the rest pose
     float time = 0.0f;
+    std::vector<PosedReach> reaches;  ///< empty: no chain was to reach anything
     std::vector<PosedJoint> joints;
     std::vector<PosedMesh> meshes;
 };
@@ -33,7 +43,9 @@ struct PosedObject {
 std::string write_obj(const PosedObject& object);
 /// PLY, binary little-endian: vertices with normals, faces; edges if there are any.
 std::string write_ply(const PosedObject& object);
-/// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]}.
+/// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]};
+/// and where chains were to reach targets "reaches": [{"chain", "target", "distance", "reached"}] after "time", with
+/// "rotation" and "angle" where the target has a rotation.
 std::string write_json(const PosedObject& object);
 
 }  // namespace bendy::cli

@@ -30,6 +30,10 @@ public:
 
 private:
     nlohmann::ordered_json sampled(const TrackView& track, const CycleView& cycle, const ObjectView& object);
+    /// Adds the tracks of a PACK, at some of its frames.
+    void add_packed(const PackedView& packed, const CycleView& cycle, const ObjectView& object,
+                    nlohmann::ordered_json& tracks);
+    static nlohmann::ordered_json packed_track(const PackedGroup& group, std::uint32_t track, std::uint32_t frames);
     std::size_t number_of(std::vector<float> times);
 
     std::map<std::vector<float>, std::size_t> numbers_;  // of the lists of times

@@ -47,20 +47,6 @@ std::string sampler_text(const SamplerRecord& sampler) {
     return text;
 }
 
-std::string base64(Bytes bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        const std::size_t left = bytes.size() - at;
-        std::uint32_t group = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            group = group << 8u | (i < left ? std::to_integer<std::uint32_t>(bytes[at + i]) : 0u);
-        for (std::size_t i = 0; i < 4; ++i) text += i <= left ? kDigits[group >> (18 - 6 * i) & 63u] : '=';
-    }
-    return text;
-}
-
 Json image_json(const ImageView& image, std::size_t& budget) {
     constexpr std::array<std::string_view, kMediaTypes> kNames{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
     constexpr std::array<std::string_view, kMediaTypes> kShown{"", "image/png",  "image/jpeg",
@@ -75,7 +61,7 @@ Json image_json(const ImageView& image, std::size_t& budget) {
         json["why"] = "not embedded: the page holds up to 32 MiB of images";
     } else {
         budget -= image.bytes.size();
-        json["src"] = "data:" + std::string(kShown[media]) + ";base64," + base64(image.bytes);
+        json["src"] = data_uri(kShown[media], image.bytes);
     }
     return json;
 }
@@ -93,6 +79,21 @@ std::vector<Json> uses_by_texture(const Document& document) {
 }
 
 }  // namespace
+
+std::string data_uri(std::string_view media_type, Bytes bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text("data:");
+    text.append(media_type).append(";base64,");
+    text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+        const std::size_t left = bytes.size() - at;
+        std::uint32_t group = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            group = group << 8u | (i < left ? std::to_integer<std::uint32_t>(bytes[at + i]) : 0u);
+        for (std::size_t i = 0; i < 4; ++i) text += i <= left ? kDigits[group >> (18 - 6 * i) & 63u] : '=';
+    }
+    return text;
+}
 
 Json page_textures(const Document& document) {
     std::vector<Json> uses = uses_by_texture(document);

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "find_cycle.h"
+#include "input_file.h"
 #include "level_of_detail.h"
 #include "mesh_writer.h"
 #include "output_folder.h"
@@ -7,8 +8,6 @@
 #include "reach_request.h"
 #include "text_output.h"
 
-#include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
 #include <glm/mat3x3.hpp>
@@ -26,7 +25,6 @@ struct PoseArguments {
     std::string clip;
     bool has_clip = false;
     float time = 0.0f;
-    bool constrain = false;
     ReachRequest reach;
     float lod = 1.0f;  // share of the triangles
     std::filesystem::path output;
@@ -54,6 +52,22 @@ void add_elements(const Model& model, const Pose& pose, const Lod& lod, std::vec
     }
 }
 
+/// What --reach and its companions do to the pose; says how near each chain came.
+std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose) {
+    const std::vector<ReachGoal> goals = find_goals(arguments.reach, arguments.file, pose.model());
+    const std::vector<ReachResult> results = reach_goals(arguments.reach, goals, pose);
+    ReachTally tally;
+    tally.add(results, arguments.time);
+    tally.print(arguments.file, pose.model(), goals);
+    std::vector<PosedReach> reaches;
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+        const Chain& chain = *goals[k].chain;
+        reaches.push_back({chain.name.empty() ? std::to_string(chain.number) : std::string(chain.name), goals[k].target,
+                           results[k].distance, results[k].angle, has_reached(results[k])});
+    }
+    return reaches;
+}
+
 PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     PosedObject object;
     object.file = arguments.file.filename().string();
@@ -64,8 +78,7 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
         object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
         object.time = arguments.time;
     }
-    if (arguments.constrain) constrain(pose);
-    reach_targets(arguments.reach, arguments.file, pose);
+    object.reaches = reach_chains(arguments, pose);
     local_to_model(pose);
     const Lod lod = level_of(arguments.file, model, arguments.lod);
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
@@ -94,10 +107,9 @@ void run(const PoseArguments& arguments) {
         throw CLI::ValidationError("--output", "must end in .obj, .ply or .json");
     }
     require_folder_of(arguments.output);
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Result<Model> model = Model::from_memory(file->bytes());
-    if (!model) fail(arguments.file, model.error(), file->bytes());
+    const CharacterFile file = open_character(arguments.file);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
 
     const std::string text = writer(pose_object(arguments, *model));
     write_text(arguments.output, text);
@@ -108,28 +120,24 @@ void run(const PoseArguments& arguments) {
 void add_pose(CLI::App& program) {
     const auto arguments = std::make_shared<PoseArguments>();
     CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a cycle");
-    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command
+        ->add_option("FILE", arguments->file,
+                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
+        ->required();
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
     command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
         ->needs(clip);
-    command->add_flag("--constrain", arguments->constrain, "bring the clip's pose inside the joints' constraints");
-    CLI::Option* reach =
-        command->add_option("--reach", arguments->reach.targets,
-                            "after the clip, move an IK chain's tip to a point: CHAIN=X,Y,Z in metres; or "
-                            "with an orientation, CHAIN=X,Y,Z,QX,QY,QZ,QW; may be repeated");
-    command->add_option("--solver", arguments->reach.solver, "for --reach; chain: what the file says")
-        ->check(CLI::IsMember(solver_names()))
-        ->capture_default_str()
-        ->needs(reach);
-    command->add_flag("--ignore-limits", arguments->reach.ignore_limits, "reach without the joints' constraints")
-        ->needs(reach);
+    add_reach(*command, arguments->reach);
     add_lod(*command, arguments->lod);
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
     command->footer(
+        "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "
+        "meshes: name, positions, normals and indices of triangles. After --reach also reaches, one for each target: "
+        "chain, target, distance (metres left), reached; with an orientation also rotation and angle (radians left).\n"
         "Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
         "         bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");
     command->callback([arguments, clip] {

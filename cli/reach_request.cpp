@@ -3,15 +3,20 @@
 #include "problem.h"
 
 #include <bendy/edit/names.h>
+#include <bendy/runtime/local_to_model.h>
 
 #include <CLI/Error.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 namespace bendy::cli {
 namespace {
@@ -68,61 +73,162 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
                    std::to_string(chains.size()) + ": " + known);
 }
 
+/// In the order of Solver.
+const std::vector<std::string>& solver_names() {
+    static const std::vector<std::string> names{"chain", "pull", "two_bone", "ccd", "fabrik", "aim", "least_squares"};
+    return names;
+}
+
 Solver find_solver(const std::string& name) {
     const auto& names = solver_names();
     const auto found = std::find(names.begin(), names.end(), name);
     return static_cast<Solver>(found == names.end() ? 0 : found - names.begin());
 }
 
-std::string length_text(float metres) {
+std::string in_millimetres(float metres) {
+    const double length = 1e3 * static_cast<double>(metres);
+    if (length < 1e-3) return "less than 0.001 mm";
     std::ostringstream text;
-    text.precision(3);
-    if (metres < 1e-6f) return "less than 0.001 mm";
-    if (metres < 0.001f) {
-        text << metres * 1000.0f << " mm";
+    if (length < 100.0) {
+        text << std::setprecision(3) << length;
     } else {
-        text << metres << " m";
+        text << std::fixed << std::setprecision(0) << length;
     }
-    return text.str();
+    return text.str() + " mm";
 }
 
-void report(const Model& model, const Chain& chain, const ReachResult& result) {
-    constexpr std::array<std::string_view, 4> kWords{"reached", "out of reach, points at the target", "not reached",
-                                                     "refused"};
-    std::cerr << "bendy: reach: " << chain_label(model, chain) << ": "
-              << kWords.at(static_cast<std::size_t>(result.status)) << ", " << length_text(result.distance) << " left, "
-              << result.iterations << (result.iterations == 1 ? " iteration\n" : " iterations\n");
+/// What is left between the tip and its target.
+std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
+    std::string gap = in_millimetres(result.distance);
+    if (result.status == ReachStatus::aimed) return gap + " away";
+    if (!goal.target.rotation) return gap;
+    std::ostringstream angle;
+    angle << std::setprecision(3) << result.angle * 57.29578f;
+    return gap + " and " + angle.str() + " degrees";
+}
+
+bool is_worse(const ReachResult& a, const ReachResult& b) {
+    const auto rank = [](const ReachResult& result) {
+        return result.status == ReachStatus::refused ? 2 : has_reached(result) ? 0 : 1;
+    };
+    if (rank(a) != rank(b)) return rank(a) > rank(b);
+    return a.distance != b.distance ? a.distance > b.distance : a.angle > b.angle;
+}
+
+/// CHAIN=X,Y,Z or CHAIN=X,Y,Z,QX,QY,QZ,QW.
+ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file, const Model& model) {
+    const std::size_t equals = text.rfind('=');
+    const std::vector<float> n =
+        equals == std::string::npos ? std::vector<float>() : read_numbers(std::string_view(text).substr(equals + 1));
+    if (n.size() != 3 && n.size() != 7) {
+        throw CLI::ValidationError("--reach",
+                                   "must be CHAIN=X,Y,Z in metres, or with a rotation CHAIN=X,Y,Z,QX,QY,QZ,QW");
+    }
+    ReachTarget target({n[0], n[1], n[2]});
+    if (n.size() == 7) {
+        const glm::quat rotation(n[6], n[3], n[4], n[5]);
+        if (std::abs(glm::length(rotation) - 1.0f) > 1e-2f)
+            throw CLI::ValidationError("--reach", "the rotation must be a unit quaternion x y z w");
+        target.rotation = glm::normalize(rotation);
+    }
+    return {&find_chain(file, model, text.substr(0, equals)), target};
+}
+
+bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
+    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
+    return joint != kNone;
+}
+
+/// Takes the joint that the chain follows along to where the tip is now, with all that hangs on it: a foot that has a
+/// joint of its own beside the leg stays at the leg's end.
+void carry_target(const Chain& chain, Pose& pose) {
+    const Model& model = pose.model();
+    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
+        is_at_or_below(model, chain.start, chain.target)) {
+        return;
+    }
+    local_to_model(pose);
+    const auto& offset = chain.record.tip_offset;
+    const glm::dvec4 tip =
+        glm::dmat4(pose.model_space()[chain.effector]) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const std::uint32_t parent = model.joints()[chain.target].parent;
+    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : glm::dmat4(pose.model_space()[parent]);
+    if (std::abs(glm::determinant(space)) < 1e-30) return;
+    const glm::vec3 place(glm::inverse(space) * tip);
+    pose.change_local()[chain.target].translation = place;
 }
 
 }  // namespace
 
-const std::vector<std::string>& solver_names() {
-    static const std::vector<std::string> names{"chain", "pull", "two_bone", "ccd", "fabrik", "aim", "least_squares"};
-    return names;
+void add_reach(CLI::App& command, ReachRequest& request) {
+    command.add_flag("--constrain", request.constrain, "bring the clip's pose inside the joints' constraints");
+    CLI::Option* reach =
+        command.add_option("--reach", request.targets,
+                           "after the clip, move an IK chain's tip to a point: CHAIN=X,Y,Z in metres; or "
+                           "with an orientation, CHAIN=X,Y,Z,QX,QY,QZ,QW; may be repeated. A chain that falls short of "
+                           "its target is reported with what is left, and is not an error");
+    command.add_option("--solver", request.solver, "for --reach; chain: what the file says")
+        ->check(CLI::IsMember(solver_names()))
+        ->capture_default_str()
+        ->needs(reach);
+    command.add_flag("--ignore-limits", request.ignore_limits, "reach without the joints' constraints")->needs(reach);
 }
 
-void reach_targets(const ReachRequest& request, const std::filesystem::path& file, Pose& pose) {
-    for (const std::string& text : request.targets) {
-        const std::size_t equals = text.rfind('=');
-        const std::vector<float> n = equals == std::string::npos
-                                         ? std::vector<float>()
-                                         : read_numbers(std::string_view(text).substr(equals + 1));
-        if (n.size() != 3 && n.size() != 7) {
-            throw CLI::ValidationError("--reach",
-                                       "must be CHAIN=X,Y,Z in metres, or with a rotation CHAIN=X,Y,Z,QX,QY,QZ,QW");
+bool has_reached(const ReachResult& result) {
+    return result.status == ReachStatus::reached || result.status == ReachStatus::aimed;
+}
+
+std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model) {
+    std::vector<ReachGoal> goals;
+    for (const std::string& text : request.targets) goals.push_back(parse_goal(text, file, model));
+    return goals;
+}
+
+std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose) {
+    if (request.constrain) constrain(pose);
+    ReachOptions options;
+    options.solver = find_solver(request.solver);
+    options.obey_constraints = !request.ignore_limits;
+    std::vector<ReachResult> results;
+    for (const ReachGoal& goal : goals) {
+        results.push_back(reach(goal.chain, goal.target, pose, options));
+        carry_target(*goal.chain, pose);
+    }
+    return results;
+}
+
+void ReachTally::add(const std::vector<ReachResult>& results, float time) {
+    counts_.resize(results.size());
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        Count& count = counts_[k];
+        if (!has_reached(results[k])) ++count.short_ones;
+        if (count.poses++ != 0 && !is_worse(results[k], count.worst)) continue;
+        count.worst = results[k];
+        count.time = time;
+    }
+}
+
+void ReachTally::print(const std::filesystem::path& file, const Model& model,
+                       const std::vector<ReachGoal>& goals) const {
+    for (std::size_t k = 0; k < counts_.size(); ++k) {
+        const Count& count = counts_[k];
+        const std::string chain = "reach: " + chain_label(model, *goals[k].chain);
+        const std::string gap = gap_of(goals[k], count.worst);
+        std::ostringstream text;
+        if (count.worst.status == ReachStatus::refused) {
+            warn(file, chain + " was not moved: its numbers leave a float's range");
+        } else if (count.short_ones == 0) {
+            const bool is_aim = count.worst.status == ReachStatus::aimed;
+            std::cerr << "bendy: " << chain << (is_aim ? " aims at its target" : " reaches its target");
+            if (count.poses > 1) std::cerr << " in all " << count.poses << " pictures";
+            std::cerr << (is_aim ? ", " : ", to ") << gap << '\n';
+        } else {
+            text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
+            if (count.poses > 1)
+                text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " pictures";
+            if (count.worst.status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
+            warn(file, text.str());
         }
-        ReachTarget target({n[0], n[1], n[2]});
-        if (n.size() == 7) {
-            const glm::quat rotation(n[6], n[3], n[4], n[5]);
-            if (std::abs(glm::length(rotation) - 1.0f) > 1e-2f)
-                throw CLI::ValidationError("--reach", "the rotation must be a unit quaternion x y z w");
-            target.rotation = glm::normalize(rotation);
-        }
-        const Chain& chain = find_chain(file, pose.model(), text.substr(0, equals));
-        ReachOptions options;
-        options.solver = find_solver(request.solver);
-        options.obey_constraints = !request.ignore_limits;
-        report(pose.model(), chain, reach(&chain, target, pose, options));
     }
 }
 

@@ -2,25 +2,59 @@
 
 #include <bendy/runtime.h>
 
+#include <CLI/CLI.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
+// The options --constrain, --reach, --solver and --ignore-limits: what is done to a pose after the clip.
 namespace bendy::cli {
 
-/// What `--reach` and its companions ask for.
+/// What they ask for.
 struct ReachRequest {
+    bool constrain = false;
     std::vector<std::string> targets;  ///< CHAIN=X,Y,Z or CHAIN=X,Y,Z,QX,QY,QZ,QW
     std::string solver = "chain";      ///< the chain's own
     bool ignore_limits = false;
 };
 
-/// The names that --solver takes.
-const std::vector<std::string>& solver_names();
+/// Adds them.
+void add_reach(CLI::App& command, ReachRequest& request);
 
-/// Runs IK on the pose, one target after another, and says on standard error how near each came. CHAIN is a chain's
-/// name, its number, or the name of the joint that it moves. Fails with the chains that there are if it is none; throws
-/// CLI::ValidationError where the text is no target.
-void reach_targets(const ReachRequest& request, const std::filesystem::path& file, Pose& pose);
+/// A chain of the model, and what it is to reach.
+struct ReachGoal {
+    const Chain* chain = nullptr;
+    ReachTarget target;
+};
+
+/// The chains and targets that are asked for. CHAIN is a chain's name, its number, or the name of the joint that it
+/// moves. Fails with the chains that there are if it is none; throws CLI::ValidationError where the text is no target.
+std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model);
+
+/// Brings the pose inside the joints' limits, if asked to, and then lets one chain after another reach. One result a
+/// goal.
+std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose);
+
+/// How a chain did in one pose or several.
+class ReachTally {
+public:
+    /// \param time  of the clip, seconds
+    void add(const std::vector<ReachResult>& results, float time);
+    /// Says on standard error how near each chain came: a warning where it falls short.
+    void print(const std::filesystem::path& file, const Model& model, const std::vector<ReachGoal>& goals) const;
+
+private:
+    struct Count {
+        ReachResult worst;
+        float time = 0.0f;  // of the worst
+        std::size_t poses = 0;
+        std::size_t short_ones = 0;
+    };
+    std::vector<Count> counts_;  // one a goal
+};
+
+/// False where the tip is farther from the target, or turned further, than the solver tolerates.
+bool has_reached(const ReachResult& result);
 
 }  // namespace bendy::cli

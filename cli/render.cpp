@@ -4,8 +4,11 @@
 #ifdef BENDY_HAS_VIEWER
 
 #include "find_cycle.h"
+#include "input_file.h"
+#include "level_of_detail.h"
 #include "output_folder.h"
 #include "progress_bar.h"
+#include "reach_request.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -40,6 +43,7 @@ struct RenderArguments {
     std::string context = "auto";
     unsigned frames = 0;  // 0: not said
     bool verbose = false;
+    ReachRequest reach;
     viewer::RenderOptions render;
 };
 
@@ -135,7 +139,41 @@ void check_sheet(const RenderArguments& arguments) {
         fail_option("--frames", "so many pictures of this --size are too large for one");
 }
 
-std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const RenderArguments& arguments) {
+/// Draws poses whose chains have reached for their targets, and keeps count of how near they came.
+class ReachingMaker {
+public:
+    ReachingMaker(const RenderArguments& arguments, const Model& model)
+        : goals_(find_goals(arguments.reach, arguments.file, model)),
+          maker_(model, options_of(arguments),
+                 [&](const std::string& what) { warn(arguments.file, printable(what)); }) {}
+
+    viewer::Picture draw(float time) {
+        viewer::Picture picture = maker_.draw(time);
+        tally_.add(results_, time);
+        return picture;
+    }
+    viewer::Picture draw_nothing() { return maker_.draw_nothing(); }
+
+    [[nodiscard]] const std::string& context() const { return maker_.context(); }
+    void print_tally(const std::filesystem::path& file, const Model& model) const { tally_.print(file, model, goals_); }
+
+private:
+    viewer::RenderOptions options_of(const RenderArguments& arguments) {
+        viewer::RenderOptions options = arguments.render;
+        options.adjust = [this, &request = arguments.reach](Pose& pose) {
+            results_ = reach_goals(request, goals_, pose);
+        };
+        for (const ReachGoal& goal : goals_) options.targets.push_back({goal.chain, goal.target.position});
+        return options;
+    }
+
+    std::vector<ReachGoal> goals_;
+    std::vector<ReachResult> results_;  // of the last pose
+    ReachTally tally_;
+    viewer::PictureMaker maker_;
+};
+
+std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& arguments) {
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
     const Cycle& cycle = *arguments.render.cycle;
@@ -143,10 +181,10 @@ std::vector<std::byte> draw_sheet(viewer::PictureMaker& maker, const RenderArgum
         pictures.push_back(maker.draw(time));
         bar.show(pictures.size(), arguments.frames);
     }
-    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames)));
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames), maker.draw_nothing()));
 }
 
-std::vector<std::byte> draw_animation(viewer::PictureMaker& maker, const RenderArguments& arguments, bool is_gif) {
+std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArguments& arguments, bool is_gif) {
     const viewer::RenderOptions& render = arguments.render;
     const auto file =
         is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
@@ -177,12 +215,16 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
         render.cycle = model.cycles().data();
     }
     if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.cycle);
-    viewer::PictureMaker maker(model, render, [&](const std::string& what) { warn(arguments.file, printable(what)); });
+    warn_without_levels(arguments.file, model, render.lod);
+    ReachingMaker maker(arguments, model);
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
-    if (is_animation) return draw_animation(maker, arguments, extension == ".gif");
-    if (arguments.frames > 1) return draw_sheet(maker, arguments);
     const float start = render.cycle == nullptr ? 0.0f : render.cycle->start;
-    return viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, extension == ".gif")
+                                   : arguments.frames > 1
+                                       ? draw_sheet(maker, arguments)
+                                       : viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+    maker.print_tally(arguments.file, model);
+    return bytes;
 }
 
 void run(RenderArguments arguments) {
@@ -203,10 +245,9 @@ void run(RenderArguments arguments) {
                                                                : viewer::ContextKind::any;
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Result<Model> model = Model::from_memory(file->bytes());
-    if (!model) fail(arguments.file, model.error(), file->bytes());
+    const CharacterFile file = open_character(arguments.file);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
     arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
     try {
         const std::vector<std::byte> bytes = draw_all(arguments, *model, extension);
@@ -222,11 +263,15 @@ void run(RenderArguments arguments) {
 void add_render(CLI::App& program) {
     const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = program.add_subcommand("render", "Make a picture or an animation, without a display");
-    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command
+        ->add_option("FILE", arguments->file,
+                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
+        ->required();
     command->add_option("-o,--output", arguments->output, "OUT.png; or OUT.gif, OUT.webp: an animation")->required();
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the cycle's time line")->needs(clip);
+    add_reach(*command, arguments->reach);
     command
         ->add_option("--frames", arguments->frames,
                      "so many pictures over the cycle: in rows in OUT.png, or one after another in an animation")
@@ -239,13 +284,17 @@ void add_render(CLI::App& program) {
     command->add_flag("--constraints", arguments->render.draw.constraints,
                       "draw the joints' limits and the IK targets");
     command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
-    command->add_option("--lod", arguments->render.lod, "share of the triangles, 0 to 1")->check(CLI::Range(0.0, 1.0));
+    add_lod(*command, arguments->render.lod);
     command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
     command->add_option("--context", arguments->context, "where OpenGL comes from")
         ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
         ->capture_default_str();
     command->add_flag("-v,--verbose", arguments->verbose, "say which OpenGL draws");
-    command->footer("Example: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png");
+    command->footer(
+        "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, with a line to what is to "
+        "reach them.\n"
+        "Example: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n"
+        "         bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
     command->callback([arguments, clip, time] {
         arguments->has_clip = clip->count() != 0;
         arguments->has_time = time->count() != 0;

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "input_file.h"
 #include "output_folder.h"
 #include "problem.h"
 #include "text_output.h"
@@ -22,9 +23,8 @@ struct RigArguments {
 
 void run(const RigArguments& arguments) {
     require_folder_of(arguments.output);
-    const Result<MappedFile> file = MappedFile::open(arguments.file);
-    if (!file) fail(arguments.file, file.error(), {});
-    const Bytes bytes = file->bytes();
+    const MappedFile file = open_bendy_file(arguments.file);
+    const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
     Faults faults;

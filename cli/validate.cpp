@@ -1,5 +1,7 @@
 #include "colour.h"
 #include "commands.h"
+#include "dangling_links.h"
+#include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
@@ -10,6 +12,8 @@
 
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -42,16 +46,38 @@ void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes 
         std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
 }
 
-nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+/// What is wrong with a file that is no bendy file at all: it cannot be opened, or is known to be something else.
+/// Empty for all others, whose faults tell.
+std::string why_no_file(const std::filesystem::path& file, const Result<MappedFile>& mapped) {
+    return mapped ? why_not_bendy(file, mapped->bytes()) : why_not_opened(file, mapped.error());
+}
+
+using Links = std::vector<DanglingLink>;
+
+std::string text_of(const DanglingLink& link) {
+    return "linked image does not exist: " + link.uri;
+}
+
+nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, const Links& links, Bytes bytes,
+                       const std::string& why) {
     nlohmann::json list = nlohmann::json::array();
     for (const Error& fault : faults.list()) {
         list.push_back({{"code", code_name(fault.code)},
                         {"class", class_name(error_class(fault.code))},
                         {"path", whole_chunk_path(bytes, fault.offset)},
                         {"offset", fault.offset},
-                        {"message", describe(fault)}});
+                        {"message", why.empty() ? describe(fault) : why}});
     }
-    return {{"file", file.string()}, {"valid", faults.empty()}, {"faults", list}, {"faultsLeftOut", faults.left_out()}};
+    nlohmann::json warnings = nlohmann::json::array();
+    for (const DanglingLink& link : links) {
+        warnings.push_back(
+            {{"path", whole_chunk_path(bytes, link.offset)}, {"offset", link.offset}, {"message", text_of(link)}});
+    }
+    return {{"file", file.string()},
+            {"valid", faults.empty()},
+            {"faults", list},
+            {"faultsLeftOut", faults.left_out()},
+            {"warnings", warnings}};
 }
 
 void run(const ValidateArguments& arguments) {
@@ -61,19 +87,24 @@ void run(const ValidateArguments& arguments) {
         const Result<MappedFile> mapped = MappedFile::open(file);
         Faults faults;
         Bytes bytes;
+        Links links;
         if (mapped) {
             bytes = mapped->bytes();
             faults = validate(bytes);
+            if (faults.empty()) links = find_dangling_links(file, bytes);
         } else {
             faults.add(mapped.error());
         }
         all_good = all_good && faults.empty();
+        const std::string why = why_no_file(file, mapped);
         if (arguments.json) {
-            report.push_back(to_json(file, faults, bytes));
-        } else if (!mapped) {
-            std::cerr << error_label() << printable(file.string()) << ": " << describe(mapped.error()) << '\n';
+            report.push_back(to_json(file, faults, links, bytes, why));
+        } else if (!why.empty()) {
+            std::cerr << error_label() << printable(file.string()) << ": " << printable(why) << '\n';
         } else {
             print_lines(file, faults, bytes);
+            for (const DanglingLink& link : links)
+                warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
         }
     }
     if (arguments.json) std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -88,7 +119,9 @@ void add_validate(CLI::App& program) {
     command->add_option("FILE", arguments->files, "bendy files")->required();
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
-        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1.\n"
+        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1. A link to an image that does "
+        "not "
+        "exist is a warning, on standard error or in the report's \"warnings\": the exit status stays 0.\n"
         "Example: bendy validate fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }

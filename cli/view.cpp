@@ -1,16 +1,13 @@
 #include "commands.h"
 #include "import_problem.h"
+#include "input_file.h"
 #include "problem.h"
+#include "warnings.h"
 
 #ifdef BENDY_HAS_VIEWER
 
 #include "tentacle.h"
 
-#include <bendy/converter/convert.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/readable_files.h>
-#include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/viewer/view.h>
 #include <bendy/viewer/viewer_error.h>
 
@@ -25,17 +22,15 @@ struct ViewArguments {
     viewer::ViewOptions view;
 };
 
-/// The bytes of a bendy file, or of a glTF file converted to one.
+/// The bytes of a bendy file, or of one of another kind converted.
 std::vector<std::byte> open_any(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const Result<MappedFile> mapped = MappedFile::open(file);
-    if (!mapped) throw viewer::ViewerError(name + ": " + describe(mapped.error()));
-    const Bytes bytes = mapped->bytes();
-    if (converter::is_bendy_file(file) || !converter::has_readable_extension(file)) return {bytes.begin(), bytes.end()};
     converter::Report report;
-    auto converted = converter::convert(file, {}, report);
-    if (!converted) throw viewer::ViewerError(name + ": " + describe(converted.error()));
-    return *std::move(converted);
+    const auto character = read_character(file, report);
+    if (!character)
+        throw viewer::ViewerError(file_of(character.error(), file).string() + ": " + describe(character.error()));
+    print_warnings(file, report);
+    print_proposals(report);
+    return {character->bytes().begin(), character->bytes().end()};
 }
 
 void run(ViewArguments arguments) {
@@ -60,7 +55,8 @@ void run(ViewArguments arguments) {
 void add_view(CLI::App& program) {
     const auto arguments = std::make_shared<ViewArguments>();
     CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
-    command->add_option("FILE", arguments->file, "a bendy file, or a .glb or .gltf, which is converted on the fly");
+    command->add_option("FILE", arguments->file,
+                        "a bendy file, or one that `bendy convert` reads, which is converted on the fly");
     command->add_flag("-v,--verbose", arguments->view.verbose, "say which OpenGL draws");
     // For tests, see viewer/src/window.h.
     command->add_option("--script", arguments->view.script)->group("");

@@ -2,6 +2,7 @@
 
 #include "problem.h"
 
+#include <iostream>
 #include <string>
 
 namespace bendy::cli {
@@ -14,6 +15,12 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         if (warning.count > 1) line += " (" + grouped(warning.count) + " times)";
         warn(file, printable(line));
     }
+    for (const std::string& line : report.suggestions())
+        std::cerr << "bendy: note: " << printable(file.string()) << ": " << printable(line) << '\n';
+}
+
+void print_proposals(const converter::Report& report) {
+    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
 }
 
 }  // namespace bendy::cli

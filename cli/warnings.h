@@ -6,7 +6,9 @@
 
 namespace bendy::cli {
 
-/// Prints what a conversion has left out or changed, a line each, to standard error.
+/// Prints what a conversion has left out or changed, and what it suggests, a line each, to standard error.
 void print_warnings(const std::filesystem::path& file, const converter::Report& report);
+/// Prints what it has guessed, likewise.
+void print_proposals(const converter::Report& report);
 
 }  // namespace bendy::cli

@@ -18,7 +18,7 @@ from pathlib import Path
 
 NONE = 0xFFFFFFFF
 TRIANGLES, LINES, POINTS = range(3)
-REACH_STATUS = ("reached", "out of reach", "not reached")
+REACH_STATUS = ("reached", "out of reach", "not reached", "aimed")
 
 
 class BendyError(Exception):
@@ -206,7 +206,7 @@ class Pose:
         call("constrain", self.handle)
 
     def reach(self, chain, position, rotation=None, **options):
-        """Gives (status, metres left). options: fields of ReachOptions."""
+        """Gives (status, metres from tip to target). options: fields of ReachOptions."""
         result = ReachResult()
         turned = None if rotation is None else (c_float * 4)(*rotation)
         call("reach", self.handle, self.model.find("chain", chain), (c_float * 3)(*position), turned, byref(ReachOptions(**options)),

@@ -38,7 +38,7 @@ fetch_aarch64() {
     mkdir -p "$here/aarch64/packages"
     cd "$here/aarch64/packages"
     apt-get "${apt[@]}" download libzstd1:arm64 libzstd-dev:arm64 libmeshoptimizer2d:arm64 libmeshoptimizer-dev:arm64 libdraco7:arm64 \
-        libdraco-dev:arm64 libgtest-dev:arm64 libgmock-dev:arm64
+        libdraco-dev:arm64 libgtest-dev:arm64 libgmock-dev:arm64 zlib1g:arm64 zlib1g-dev:arm64
     for package in *.deb; do dpkg-deb -x "$package" "$root"; done
     # Its targets name the place that they would be installed to.
     sed -i "s,\"/usr/*,\"$root/usr/," "$root"/usr/lib/*/cmake/draco/draco-targets*.cmake
@@ -61,6 +61,8 @@ fetch_windows() {
     build_windows meshoptimizer "$sources"/meshoptimizer-*/
     build_windows draco "$sources"/draco-*/
     build_windows googletest /usr/src/googletest
+    (cd "$here/windows/libraries" && apt-get "${apt[@]}" download libz-mingw-w64-dev && dpkg-deb -x libz-mingw-w64-dev_*.deb zlib)
+    cp -r "$here"/windows/libraries/zlib/usr/x86_64-w64-mingw32/{include,lib} "$root/usr/"
 }
 
 copy_headers

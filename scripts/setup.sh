@@ -22,6 +22,7 @@ need /usr/include/rapidjson/reader.h rapidjson-dev
 need /usr/include/CLI/App.hpp libcli11-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
+need /usr/include/zlib.h zlib1g-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
 need python3 python3
@@ -34,6 +35,7 @@ need /usr/include/png.h libpng-dev
 need /usr/include/turbojpeg.h libturbojpeg0-dev
 need /usr/include/webp/mux.h libwebp-dev
 need /usr/include/gif_lib.h libgif-dev
+need /usr/include/stb/stb_image.h libstb-dev
 need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
 need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
 if [ "${1:-build}" = cross ]; then

@@ -46,7 +46,7 @@ types:
         value: >-
           is_named and (header.id == "HEAD" or header.id == "TEXT" or header.id == "MATE" or header.id == "OBJE"
           or header.id == "SKIN" or header.id == "PIVO" or header.id == "IKCH" or header.id == "VECT"
-          or header.id == "TARG" or header.id == "USER" or header.id == "CYCL")
+          or header.id == "TARG" or header.id == "FRMS" or header.id == "USER" or header.id == "CYCL")
       is_known_leaf:
         value: >-
           header.id == "VERS" or header.id == "BNDS" or header.id == "SAMP" or header.id == "IMAG" or header.id == "LINK"
@@ -56,7 +56,7 @@ types:
           or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or header.id == "COLR"
           or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or header.id == "INDX" or header.id == "LODD"
           or header.id == "CINF" or header.id == "TRAK" or header.id == "PACK" or header.id == "TIME" or header.id == "KEYV"
-          or header.id == "MARK"
+          or header.id == "MARK" or header.id == "MORE" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or header.id == "PLAY"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -86,6 +86,7 @@ types:
             '"EXTN"': text
             '"NAME"': text
             '"EXTR"': text
+            '"MORE"': text
             '"REST"': rest_record
             '"LIMT"': limit_record
             '"PULL"': pull_record
@@ -112,6 +113,10 @@ types:
             '"TIME"': float_list
             '"KEYV"': float_list
             '"MARK"': marker_list
+            '"FNAM"': joint_names
+            '"GRID"': frame_grids
+            '"NLST"': normal_list
+            '"PLAY"': play_table
   encoded:
     doc: "codecs.md."
     seq:
@@ -132,7 +137,7 @@ types:
       - {id: bytes, size-eos: true, doc: "a PNG, JPEG, ... file"}
   joint_names:
     seq:
-      - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
+      - {id: names, type: strz, repeat: eos, doc: "a name for each joint, or each frame"}
   joint_table:
     seq:
       - {id: record, type: joints_record}
@@ -214,6 +219,15 @@ types:
   track_table:
     seq:
       - {id: tracks, type: track_record, repeat: eos}
+  frame_grids:
+    seq:
+      - {id: sides, type: side, repeat: eos, doc: "three for each frame"}
+  normal_list:
+    seq:
+      - {id: values, type: f4, repeat: eos, doc: "three for each normal"}
+  play_table:
+    seq:
+      - {id: plays, type: play_record, repeat: eos}
   marker_list:
     seq:
       - {id: record, type: markers_record}
@@ -422,7 +436,7 @@ types:
     seq:
       - {id: start, type: f4, doc: "seconds: the earliest key"}
       - {id: end, type: f4, doc: "seconds: the latest key; the cycle's length is end - start"}
-      - {id: frame_rate, type: f4, doc: "frames per second of tracks with fixed frames; 0 if there are none"}
+      - {id: frame_rate, type: f4, doc: "frames per second of PLAY and of tracks with fixed frames; 0 if there are none"}
       - {id: loop, type: u1, doc: "0 plays once, 1 repeats"}
       - {id: reserved, size: 3, doc: "zero"}
   marker_record:
@@ -443,6 +457,13 @@ types:
       - {id: lists, type: u1, doc: "bit k: list k has tracks"}
       - {id: wide, type: u1, doc: "bit k: list k's bases have 4 bytes, not 2"}
       - {id: reserved, size: 2, doc: "zero"}
+  play_record:
+    seq:
+      - {id: pool, type: u4, doc: "VECT number inside the object"}
+      - {id: first, type: u4, doc: "frame at the cycle's start; 0 the pool's own streams, k frame k - 1 of its FRMS"}
+      - {id: frames, type: u4, doc: "number of frames, 1 or more; frame k is at start + k / frame_rate"}
+      - {id: closed, type: u1, doc: "1: the first frame follows on the last one, another 1 / frame_rate later; else 0"}
+      - {id: reserved, size: 3, doc: "zero"}
   track_record:
     seq:
       - {id: target, type: u4, doc: "joint number, or for weights pool number"}
@@ -455,7 +476,7 @@ types:
   stream_record:
     seq:
       - {id: component_type, type: u1, enum: component_type, doc: "0 u8, 1 i8, 2 u16, 3 i16, 4 u32, 5 f32"}
-      - {id: normalised, type: u1, enum: numbers, doc: "1: integers stand for 0 to 1, or -1 to 1 if signed; 2: for minimum + step * integer"}
+      - {id: normalised, type: u1, enum: numbers, doc: "1: integers stand for 0 to 1, or -1 to 1 if signed; 2: for minimum + step * integer; 3: for an entry of the pool's NLST"}
       - {id: components, type: u2, doc: "numbers per element, 1 or more"}
       - {id: elements, type: u4, doc: "number of elements; they follow this record without gaps"}
       - {id: set, type: u4, doc: "number of the set, for TEXC and COLR; else zero"}
@@ -482,7 +503,7 @@ types:
       - {id: reserved, size: 15, doc: "zero; the image's bytes follow this record"}
 enums:
   component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}
-  numbers: {0: plain, 1: normalised, 2: boxed}
+  numbers: {0: plain, 1: normalised, 2: boxed, 3: listed}
   topology: {0: triangles, 1: lines, 2: points}
   track_path: {0: translation, 1: rotation, 2: scale, 3: weights}
   interpolation: {0: step, 1: linear, 2: cubic}

@@ -275,13 +275,16 @@ def pool_info(vertices, joint):
 TYPES = {'u8': (0, 'B'), 'i8': (1, 'b'), 'u16': (2, 'H'), 'i16': (3, 'h'), 'u32': (4, 'I'), 'f32': (5, 'f')}
 
 
-def stream(chunk_id, kind, elements, normalised=0, number=0):
-    """`elements` is a list of lists, one a vertex; one row of the dump each."""
+def stream(chunk_id, kind, elements, normalised=0, number=0, box=()):
+    """`elements` is a list of lists, one a vertex; one row of the dump each. `box`: (minimum, step) of each component."""
     code, letter = TYPES[kind]
     width = len(elements[0])
     pieces = [u8(code, 'component_type %d (%s)' % (code, kind)), u8(normalised, 'normalised %d' % normalised),
               u16(width, 'components %d' % width), u32(len(elements), 'elements %d' % len(elements)),
               u32(number, 'set %d' % number), u32(0, 'reserved')]
+    pieces += [f32(side, 'minimum %g, step %g' % side) for side in box]
+    if len(box) * 8 % 16:
+        pieces.append(raw(bytes(8), 'zeros up to 16 bytes'))
     for index, element in enumerate(elements):
         pieces.append(numbers(letter, element, '[%d] %s' % (index, ' '.join('%g' % value for value in element))))
     return leaf(chunk_id, *pieces)
@@ -339,6 +342,17 @@ def track(target, path, interpolation, components, keys, first_time, first_value
             u32(first_time, 'first_time ' + time), u64(first_value, 'first_value %d' % first_value)]
 
 
+def play(pool, first, frames, closed):
+    return leaf('PLAY', u32(pool, 'pool %d' % pool), u32(first, 'first %d' % first), u32(frames, 'frames %d' % frames),
+                u8(closed, 'closed %d' % closed), u8([0, 0, 0], 'reserved'))
+
+
+def grid(frames):
+    """(minimum, step) of each axis of each frame"""
+    return leaf('GRID', *(f32(side, 'frame %d, %s: minimum %g, step %g' % (number, axis, *side))
+                          for number, sides in enumerate(frames) for axis, side in zip('xyz', sides)))
+
+
 def packed_tracks():
     """Joint 0 turns about x at 2 frames a second, joint 1 stands aside: one list of each."""
     return [u32(3, 'frames 3'), f32(0, 'start 0'), f32(2, 'frame_rate 2'), u16(2, 'joints 2'), u16(0, 'segment_frames 0'),
@@ -391,7 +405,8 @@ def make_one_joint():
 
 
 def make_every_chunk():
-    """Every chunk that version 0.1 has a record for: two joints with an IK chain, a soft-skinned triangle, a target, a cycle."""
+    """Every chunk that version 0.1 has a record for: two joints with an IK chain, a soft-skinned triangle, a target, a clip;
+    and a triangle with frames, and a clip that plays them."""
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     one_down = identity[:13] + [-1] + identity[14:]
     half = 0.7071067811865476
@@ -406,7 +421,7 @@ def make_every_chunk():
     png = smallest_png()
     return box(
         'HEAD',
-        version(objects=1, joints=2, pools=1, vertices=3, cycles=1, materials=2, textures=3, generator='make_bytes'),
+        version(objects=1, joints=2, pools=2, vertices=6, cycles=2, materials=2, textures=3, generator='make_bytes'),
         leaf('BNDS', f32(0.0005, 'max_error 0.0005'), f32(0.0004, 'measured_error 0.0004'), f32(2, 'height 2')),
         box('TEXT', name('cloth'), sampler(2, 6, 0, 1), leaf('LINK', text('cloth.png')), extras('{"from":"scan"}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('SAME', u32(2, 'texture 2'), u32(0, 'image 0'))),
@@ -415,7 +430,7 @@ def make_every_chunk():
         box('OBJE',
             name('worm'),
             extras('{"species":"worm"}'),
-            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0]), pull(0, 0.5)), extras('{"side":"mid"}'),
+            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0]), pull(0, 0.5)), polygons(1, NONE, 0, 3), extras('{"side":"mid"}'),
                 leaf('EXTN', text('{"KHR_node_visibility":{"visible":true}}')),
                 box('SKIN', name('tip'),
                     box('PIVO', rest([0, 1, 0]),
@@ -441,14 +456,26 @@ def make_every_chunk():
                     stream('NORM', 'f32', [[0, 0, 0]] * 2),
                     stream('TANG', 'f32', [[0, 0, 0]] * 2)),
                 stream('INDX', 'u16', [[0], [1], [2]])),
+            box('VECT', name('wing'), pool_info(3, 0),
+                leaf('NLST', f32([0, 0, 1], '[0] 0 0 1'), f32([0, 1, 0], '[1] 0 1 0')),
+                stream('POSI', 'u8', [[0, 0, 0], [2, 0, 0], [2, 2, 0]], normalised=2, box=[(0, 0.5)] * 3),
+                stream('NORM', 'u8', [[0]] * 3, normalised=3),
+                box('FRMS', leaf('FNAM', raw(b'up\0', '"up"'), raw(b'high\0', '"high"')),
+                    grid([[(0, 0.5), (0, 0.25), (0, 0)], [(0, 0.5), (0.5, 0.25), (0, 0)]]),
+                    stream('INDX', 'u8', [[0], [1], [1]]),
+                    stream('POSI', 'u8', [[0, 0, 0], [2, 2, 0], [0, 0, 0], [2, 4, 0]]),
+                    stream('NORM', 'u8', [[0], [1], [0], [1]], normalised=3)),
+                stream('INDX', 'u16', [[0], [1], [2]])),
             collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
                 leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values),
-                marked((0.25, 'up'), (0.75, 'down')))),
+                marked((0.25, 'up'), (0.75, 'down'))),
+            box('CYCL', name('flap'), cycle_info(0, 1.5, 2, 1), play(1, 0, 3, 1))),
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),
-                                              raw(png, 'the PNG file, %d bytes' % len(png)))))
+                                              raw(png, 'the PNG file, %d bytes' % len(png))),
+            leaf('MORE', text('{"source":[{"name":"dot"}]}'))))
 
 
 def make_unknown_chunks():

@@ -12,7 +12,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 TABLES = HERE.parent / "format/include/bendy/format"
 STREAMS = ("POSI", "NORM", "TANG", "TEXC", "COLR", "BONE", "WGHT", "VALS", "INDX")
-TEXTS = ("NAME", "EXTR", "EXTN", "LINK")
+TEXTS = ("NAME", "EXTR", "EXTN", "MORE", "LINK")
 TYPES = ("u8", "i8", "u16", "i16", "u32", "i32", "u64")
 
 
@@ -72,13 +72,15 @@ def leaf_forms(records):
                                               "values": {"description": "elements x components numbers",
                                                          "type": "array", "items": {"anyOf": [ref("f32"), ref("i16"), ref("u32")]}}})
     forms.update(dict.fromkeys(STREAMS, stream))
-    forms["JNAM"] = {"type": "object", "properties": {"names": {"type": "array", "items": {"type": "string"}}, "more": ref("digits")},
+    forms["JNAM"] = forms["FNAM"] = {"type": "object", "properties": {"names": {"type": "array", "items": {"type": "string"}}, "more": ref("digits")},
                      "required": ["names"], "additionalProperties": False}
-    for chunk in ("TIME", "KEYV"):
+    for chunk in ("TIME", "KEYV", "GRID", "NLST"):
         forms[chunk] = {"type": "object", "properties": {"values": array("f32"), "more": ref("digits")},
                         "required": ["values"], "additionalProperties": False}
     forms["TRAK"] = {"type": "object", "properties": {"tracks": {"type": "array", "items": ref("TrackRecord")}, "more": ref("digits")},
                      "required": ["tracks"], "additionalProperties": False}
+    forms["PLAY"] = {"type": "object", "properties": {"plays": {"type": "array", "items": ref("PlayRecord")}, "more": ref("digits")},
+                     "required": ["plays"], "additionalProperties": False}
     forms["MARK"] = {"type": "object", "properties": {"markers": {"type": "array", "items": {
         "type": "object", "properties": {"seconds": ref("f32"), "name": {"type": "string"}}, "required": ["seconds", "name"],
         "additionalProperties": False}}}, "required": ["markers"], "additionalProperties": False}
@@ -121,7 +123,7 @@ def schema():
         "type": "object", "properties": properties, "additionalProperties": ref("any"),
         "propertyNames": {"pattern": "^([A-Z0-9]{4}|required|codec|encoded)$"}, "minProperties": 1, "maxProperties": 4,
         "dependentRequired": {"codec": ["encoded"], "encoded": ["codec"]}}
-    for struct in ("TrackRecord", "RestRecord", "PoolCollapseRecord", "TextureUseRecord"):
+    for struct in ("TrackRecord", "PlayRecord", "RestRecord", "PoolCollapseRecord", "TextureUseRecord"):
         definitions[struct] = record(records, struct, is_in_array=True)
     polygons = record(records, "PolygonRecord", is_in_array=True)
     polygons["properties"] = {"joint": ref("u32"), **polygons["properties"]}

@@ -330,16 +330,18 @@ typedef struct bendy_reach_options {
     }
 
 typedef enum bendy_reach_status {
-    BENDY_REACHED = 0,      /* within the tolerance */
+    BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */
     BENDY_OUT_OF_REACH = 1, /* farther than the chain is long: it points at the target */
-    BENDY_NOT_REACHED = 2   /* stopped at the nearest that was found */
+    BENDY_NOT_REACHED = 2,  /* stopped at the nearest that was found; of aim: the tip does not point at the target */
+    BENDY_AIMED = 3         /* of aim alone: the tip's Z axis points at the target, however far that is */
 } bendy_reach_status;
 
 typedef struct bendy_reach_result {
     uint32_t size;
     uint32_t status; /* a bendy_reach_status */
-    float distance;  /* metres left between tip and target */
-    float angle;     /* radians left between the tip's orientation and the target's, if one was asked for */
+    float distance;  /* metres between tip and target */
+    float angle;     /* radians left between the tip's orientation and the target's, if it has one; of aim: between the
+                        tip's Z axis and the line to the target */
     uint32_t iterations;
 } bendy_reach_result;
 

@@ -132,13 +132,28 @@ function outline(host, nodes, view) {
   };
 }
 
+// The character
+
+function pictureSection() {
+  const { list, leftOut, whyNone } = data.pictures;
+  if (!list.length && !whyNone) return;
+  show('pictures');
+  document.querySelector('.pictures').replaceChildren(...list.map((picture, i) => {
+    const name = picture.clip ? quoted(picture.name, `clip ${i - 1}`) : 'At rest';
+    const image = make('img', { alt: picture.clip ? `The character in its clip ${name}` : 'The character at rest', src: picture.src });
+    image.addEventListener('error', e => { e.stopPropagation(); image.remove(); });
+    return make('figure', {}, image, make('figcaption', {}, name));
+  }));
+  $('picturenote').textContent = list.length ? (leftOut ? `${plural(leftOut, 'more clip')} in the file.` : '') : `No pictures: ${whyNone}.`;
+}
+
 // Chunks
 
 const families = { joint: 'joints', rig: 'constraints, IK', mesh: 'geometry', anim: 'animation', image: 'textures', look: 'materials', rest: 'other' };
 const familyOf = {};
 for (const [family, ids] of Object.entries({
   joint: 'SKIN PIVO REST', rig: 'LIMT PULL IKCH KINF', mesh: 'VECT VINF PALT TARG TINF POSI NORM TANG TEXC COLR BONE WGHT USER VALS INDX POLY LODD',
-  anim: 'CYCL CINF TRAK TIME KEYV MARK', image: 'TEXT SAMP IMAG LINK SAME', look: 'MATE SURF' })) for (const id of ids.split(' ')) familyOf[id] = family;
+  anim: 'CYCL CINF TRAK PACK TIME KEYV MARK', image: 'TEXT SAMP IMAG LINK SAME', look: 'MATE SURF' })) for (const id of ids.split(' ')) familyOf[id] = family;
 
 const chunks = data.chunks;
 let nodes, revealChunk = () => {}, zoom = () => {};
@@ -462,33 +477,53 @@ function ticks(low, high, most) {
 }
 function legendLine(c) { return draw('svg', { viewBox: '0 0 28 10' }, draw('line', { class: `curve c${c % 4}`, x1: 0, x2: 28, y1: 5, y2: 5 })); }
 
+/** Of a list of numbers and nulls: a range that shows how they change, with some room; null if they do not. */
+function rangeOf(lists) {
+  let low = Infinity, high = -Infinity;
+  for (const v of lists.flat()) if (v !== null) { low = Math.min(low, v); high = Math.max(high, v); }
+  const moves = high - low > Math.max(Math.abs(low), Math.abs(high)) * 1e-5 + 1e-9;
+  const room = moves ? (high - low) * 0.08 : Math.max(Math.abs(low), Math.abs(high)) * 0.1 || 1;
+  return low <= high ? { low: low - room, high: high + room, size: high - low, moves } : { low: 0, high: 1, size: 0, moves: false };
+}
+/** Curves that share an axis: all, or each moving one by itself where one axis would flatten them. */
+function bandsOf(values) {
+  const all = { ...rangeOf(values), curves: values.map((_, c) => c) };
+  const single = values.map((list, c) => ({ ...rangeOf([list]), curves: [c] })).filter(range => range.moves);
+  const flattens = single.some(range => all.size > 3 * range.size);
+  return single.length && single.length <= 4 && flattens ? single : [all];
+}
+
 function chart(cycle, track) {
   const turns = track.path === 1, degrees = turns && $('degrees').checked;
   const times = data.times[track.times], raw = turns ? unleaped(track.values) : track.values, values = degrees ? inDegrees(raw) : raw;
   const names = track.path === 3 ? values.map((_, c) => quoted((track.names || [])[c], `target ${c}`)) : ['x', 'y', 'z', 'w'];
-  const finite = values.flat().filter(v => v !== null);
-  let low = Math.min(...finite, Infinity), high = Math.max(...finite, -Infinity);
-  if (!(low <= high)) { low = 0; high = 1; }
-  const room = Math.max((high - low) * 0.08, Math.max(Math.abs(low), Math.abs(high)) * 1e-3, 1e-6);
-  low -= room;
-  high += room;
+  const bands = bandsOf(values);
   const start = Math.min(times[0], cycle.start ?? times[0]), end = Math.max(times[times.length - 1], cycle.end ?? start, start + 1e-6);
   const info = make('span', { class: 'readout quiet' });
   const svg = draw('svg', { class: 'chart', tabindex: 0, role: 'img', 'aria-label': `${pathNames[track.path]} over time. Left and right arrow keys read values.` });
   let x = () => 0;
   let at = -1;
   const cursor = draw('line', { class: 'cursor', visibility: 'hidden' });
+  if (bands.length > 1) svg.style.height = `${1.5 + 5.5 * bands.length}rem`;
   function layout() {
     const w = svg.clientWidth, h = svg.clientHeight, left = 62, right = 14, top = 10, bottom = 24;
     if (!w) return;
     x = t => left + (t - start) / (end - start) * (w - left - right);
-    const y = v => top + (high - v) / (high - low) * (h - top - bottom);
+    const gap = 10, tall = (h - top - bottom - gap * (bands.length - 1)) / bands.length;
+    const scales = bands.map(({ low, high }, i) => v => top + i * (tall + gap) + (high - v) / (high - low) * tall);
     svg.setAttribute('viewBox', `0 0 ${w} ${h}`);
     svg.replaceChildren();
-    for (const v of ticks(low, high, 4)) svg.append(draw('line', { class: 'grid', x1: left, x2: w - right, y1: y(v), y2: y(v) }), draw('text', { x: left - 8, y: y(v) + 4, 'text-anchor': 'end' }, short(v)));
+    bands.forEach(({ low, high }, i) => {
+      for (const v of ticks(low, high, bands.length > 1 ? 2 : 4)) {
+        const level = scales[i](v);
+        svg.append(draw('line', { class: 'grid', x1: left, x2: w - right, y1: level, y2: level }), draw('text', { x: left - 8, y: level + 4, 'text-anchor': 'end' }, short(v)));
+      }
+      if (bands.length > 1) svg.append(draw('text', { x: 8, y: scales[i]((low + high) / 2) + 4 }, names[bands[i].curves[0]]));
+    });
     for (const t of ticks(start, end, 8)) svg.append(draw('line', { class: 'grid', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { x: x(t), y: h - 7, 'text-anchor': 'middle' }, `${short(t)} s`));
     for (const [t, name] of cycle.markers) if (t !== null) svg.append(draw('line', { class: 'marker', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { class: 'marker', x: x(t) + 3, y: top + 9 }, name));
-    values.forEach((list, c) => {
+    bands.forEach((band, i) => band.curves.forEach(c => {
+      const list = values[c], y = scales[i];
       let path = '', pen = 'M', before = 0;
       list.forEach((v, k) => {
         if (v === null || times[k] === null) { pen = 'M'; return; }
@@ -499,7 +534,7 @@ function chart(cycle, track) {
         before = py;
       });
       svg.append(draw('path', { class: `curve c${c % 4}`, d: path || 'M0 0' }));
-    });
+    }));
     cursor.setAttribute('y1', top);
     cursor.setAttribute('y2', h - bottom);
     svg.append(cursor);
@@ -524,7 +559,7 @@ function chart(cycle, track) {
   const unit = track.path === 0 ? ', m' : degrees ? ', degrees about x, y, z together' : turns ? ', quaternion' : '';
   const more = track.components > raw.length ? `, the first ${raw.length} of ${track.components}` : '';
   const figure = make('figure', {}, make('h3', {}, `${pathNames[track.path]}${unit}`, make('span', { class: 'quiet' }, ` \u00b7 ${plural(track.keys, 'key')}, ${interpolations[track.interpolation]}${more}`)), svg,
-    make('figcaption', { class: 'quiet' }, ...values.map((_, c) => make('span', { class: 'key' }, legendLine(c), names[c])), info));
+    make('figcaption', { class: 'quiet' }, ...values.map((list, c) => make('span', { class: 'key' }, legendLine(c), bands.some(band => band.curves.includes(c)) ? names[c] : `${names[c]} ${short(list[0])} throughout`)), info));
   new ResizeObserver(layout).observe(svg);
   return figure;
 }
@@ -549,7 +584,7 @@ function cycleSection(object) {
     targets = [...groups.values()];
     $('target').replaceChildren(...targets.map((group, i) => make('option', { value: i }, group.name)));
     $('target').value = Math.max(0, targets.findIndex(group => group.key === kept));
-    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${plural(cycle.total, 'track')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
+    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${[...(cycle.total || !cycle.plays.length ? [plural(cycle.total, 'track')] : []), ...cycle.plays.map(play => `${plural(play.frames, 'frame')} of ${quoted(play.pool, 'a mesh')} from frame ${play.first}${play.closed ? ', closed' : ''}`)].join(', ')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
     charts();
   }
   $('cycle').onchange = choose;
@@ -617,6 +652,7 @@ function listSection(id, list, line) {
 }
 function setUp() {
   header();
+  if (data.pictures) pictureSection();
   if (chunks) chunkSection();
   listSection('faults', data.faults, fault => make('p', {}, make('code', {}, fault.code), ` ${fault.text} \u00b7 `,
     chunks && fault.chunk !== null ? goTo(fault.chunk) : make('code', {}, fault.path), ` \u00b7 offset ${grouped(fault.offset)}`));

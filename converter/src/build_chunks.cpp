@@ -6,6 +6,7 @@
 #include "passes/assign_polygons.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
+#include "store_frames.h"
 
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
@@ -113,6 +114,7 @@ void put_textures(LeafWriter& out, const Scene& scene) {
             static_cast<std::uint8_t>(texture.wrap_s), static_cast<std::uint8_t>(texture.wrap_t)};
         out.leaf(FourCC("SAMP"), bytes_of(sampler));
         put_text(out, FourCC("EXTR"), texture.extras);
+        put_text(out, FourCC("MORE"), texture.more);
         for (std::uint32_t place = 0; place < texture.images.size(); ++place) {
             const std::uint32_t index = texture.images[place];
             const auto [known, is_new] = written.try_emplace(index, SameRecord{number, place});
@@ -163,6 +165,7 @@ void put_material(LeafWriter& out, const Material& material) {
     out.leaf(FourCC("SURF"), bytes_of(surface));
     put_text(out, FourCC("EXTN"), material.extensions);
     put_text(out, FourCC("EXTR"), material.extras);
+    put_text(out, FourCC("MORE"), material.more);
     out.end();
 }
 
@@ -256,6 +259,7 @@ void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& poly
         }
         put_text(out, FourCC("EXTR"), joint.extras);
         put_text(out, FourCC("EXTN"), joint.extensions);
+        put_text(out, FourCC("MORE"), joint.more);
     }
     for (; !open.empty(); open.pop_back()) out.end();
     if (has_table && !scene.joints.empty()) put_joint_table(out, scene, polygons);
@@ -358,15 +362,30 @@ void put_sets(LeafWriter& out, FourCC id, std::span<const Stream> streams,
     }
 }
 
+void put_frames(LeafWriter& out, const StoredFrames& frames) {
+    out.begin(FourCC("FRMS"));
+    put_text(out, FourCC("FNAM"), frames.names);
+    out.leaf(FourCC("GRID"), std::as_bytes(std::span(frames.grid)), LeafShape{0, 0, sizeof(float), false});
+    put_stream(out, FourCC("INDX"), narrow_indices(frames.places, frames.place_count, true), 1,
+               static_cast<std::uint32_t>(frames.places.size()));
+    put_stored(out, FourCC("POSI"), frames.positions);
+    if (frames.normals) put_stored(out, FourCC("NORM"), *frames.normals);
+    out.end();
+}
+
 void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact) {
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     out.begin(FourCC("VECT"));
     put_text(out, FourCC("NAME"), mesh.name);
     out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
+    put_text(out, FourCC("MORE"), mesh.more);
     if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
-    put_either<glm::vec3>(out, FourCC("POSI"), compact.positions, mesh.positions);
-    put_either<glm::vec3>(out, FourCC("NORM"), compact.normals, mesh.normals);
+    const StoredShapes shapes = store_shapes(mesh);
+    if (!shapes.list.empty())
+        out.leaf(FourCC("NLST"), std::as_bytes(std::span(shapes.list)), LeafShape{0, 0, sizeof(float), false});
+    put_either<glm::vec3>(out, FourCC("POSI"), shapes.positions ? shapes.positions : compact.positions, mesh.positions);
+    put_either<glm::vec3>(out, FourCC("NORM"), shapes.normals ? shapes.normals : compact.normals, mesh.normals);
     put_either<glm::vec4>(out, FourCC("TANG"), compact.tangents, mesh.tangents);
     put_sets(out, FourCC("TEXC"), mesh.texture_coords, compact.texture_coords, vertices);
     put_sets(out, FourCC("COLR"), mesh.colours, compact.colours, vertices);
@@ -390,8 +409,11 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
         put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1,
                    static_cast<std::uint32_t>(indices.size()));
     }
-    for (std::size_t k = 0; k < mesh.targets.size(); ++k)
+    for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
+        if (mesh.targets[k].is_frame) break;
         put_target(out, mesh.targets[k], k < compact.targets.size() ? compact.targets[k] : CompactTarget(), vertices);
+    }
+    if (shapes.frames) put_frames(out, *shapes.frames);
     out.end();
 }
 
@@ -468,16 +490,6 @@ private:
     std::vector<float> floats_;
 };
 
-/// Packed tracks have the cycle's first and last frames, if timed keys do not lie before or after them.
-void extend_to_packed(const Cycle& cycle, CycleRecord& info) {
-    Faults faults;
-    const auto packed = read_packed(cycle.packed, kMaxJoints, 0, faults);
-    if (!packed) return;
-    const auto last = static_cast<float>(packed->time_of(packed->record.frames - 1));
-    info.start = cycle.tracks.empty() ? packed->record.start : std::min(info.start, packed->record.start);
-    info.end = cycle.tracks.empty() ? last : std::max(info.end, last);
-}
-
 /// Packed frames may end a float before the keys that they stand for: markers stay inside.
 void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
     if (cycle.markers.empty()) return;
@@ -488,12 +500,26 @@ void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
     out.leaf(FourCC("MARK"), write_markers(markers));
 }
 
+void put_plays(LeafWriter& out, const Cycle& cycle) {
+    if (cycle.plays.empty()) return;
+    std::vector<PlayRecord> records;
+    for (const Play& play : cycle.plays) {
+        PlayRecord& record = records.emplace_back();
+        record.pool = play.mesh;
+        record.first = play.first;
+        record.frames = play.frames;
+        record.closed = play.closed ? 1 : 0;
+    }
+    out.leaf(FourCC("PLAY"), std::as_bytes(std::span(records)));
+}
+
 void put_cycle(LeafWriter& out, const Cycle& cycle) {
     CycleRecord info;
     info.loop = cycle.loop ? 1 : 0;
     const CycleSpan span = span_of(cycle);
     info.start = span.start;
     info.end = span.end;
+    if (!cycle.plays.empty()) info.frame_rate = cycle.frame_rate;
     FloatPool times;
     FloatPool values;
     std::vector<TrackRecord> tracks;
@@ -508,12 +534,13 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         record.first_value = values.add(track.values);
         tracks.push_back(record);
     }
-    extend_to_packed(cycle, info);
     out.begin(FourCC("CYCL"));
     put_text(out, FourCC("NAME"), cycle.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
     put_text(out, FourCC("EXTR"), cycle.extras);
+    put_text(out, FourCC("MORE"), cycle.more);
     if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
+    put_plays(out, cycle);
     if (!tracks.empty()) {
         constexpr LeafShape kFloats{0, 0, sizeof(float), false};
         out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)), kFloats);
@@ -616,11 +643,13 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     out.raw_leaf(FourCC("VERS"), std::array{bytes_of(make_version(scene, generator))});
     put_text(out, FourCC("EXTR"), source_facts(scene));
     put_text(out, FourCC("EXTN"), scene.extensions);
+    put_text(out, FourCC("MORE"), scene.source_more);
     if (!embeds) put_textures(out, scene);
     for (const Material& material : scene.materials) put_material(out, material);
     out.begin(FourCC("OBJE"));
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
+    put_text(out, FourCC("MORE"), scene.more);
     put_joints(out, scene, sort_by_joint(scene, polygons));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;

@@ -5,19 +5,22 @@
 #include "passes/attach_rigs.h"
 #include "passes/auto_skin.h"
 #include "passes/collapse_vertices.h"
+#include "passes/merge_clips.h"
+#include "passes/move_links.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
-#include "source_format.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
 #include <bendy/converter/import_md2.h>
 #include <bendy/converter/import_x.h>
+#include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
 #include <algorithm>
 #include <new>
+#include <string>
 #include <utility>
 
 namespace bendy::converter {
@@ -31,7 +34,7 @@ Result<Scene, ImportError> read_source(const std::filesystem::path& file, Source
         case SourceFormat::bendy:
             return import_bendy(file, report);
         case SourceFormat::x:
-            return import_x(file, options.gltf.embed_images, report);
+            return import_x(file, {options.gltf.embed_images, options.ticks_per_second}, report);
         case SourceFormat::md2:
             return import_md2(file, report);
         default:
@@ -42,11 +45,17 @@ Result<Scene, ImportError> read_source(const std::filesystem::path& file, Source
 /// The scene of a source of any kind, with its rig.
 Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
                                          const std::optional<Rig>& rig, Report& report) {
+    if (std::string why = why_not_convertible(file); !why.empty()) return ImportError{{}, std::move(why)};
     const SourceFormat format = find_source_format(file);
     if (format != SourceFormat::gltf && options.gltf.scene)
         return ImportError{{}, "a scene can be chosen in glTF files only"};
+    if (format != SourceFormat::x && options.ticks_per_second != 0.0)
+        return ImportError{{}, "ticks per second can be set for X-files only"};
     auto scene = read_source(file, format, options, report);
     if (!scene) return scene;
+    // Where images are to be embedded, a link is what could not be read: it stays what the source says.
+    if (format == SourceFormat::bendy || !options.gltf.embed_images)
+        move_links(*scene, file, options.output.empty() ? file : options.output, report);
     if (format == SourceFormat::gltf) {
         attach_rigs(*scene, rig, options.auto_rig, report);
     } else {
@@ -66,6 +75,12 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         if (options.rig) rig = read_rig(*options.rig, report);
         auto scene = import_source(file, options, rig, report);
         if (!scene) return scene.error();
+        if (options.merge_clips) {
+            merge_clips(*scene, report);
+        } else if (is_spread_motion(*scene)) {
+            report.suggest("the motion is spread over " + std::to_string(scene->cycles.size()) +
+                           " clips, most of one joint each: --merge-clips makes one of them");
+        }
         if (options.auto_skin) {
             if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
         }

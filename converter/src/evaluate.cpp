@@ -1,5 +1,7 @@
 #include "evaluate.h"
 
+#include "frame_shapes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,6 +167,15 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
                 break;
         }
     }
+    for (const Play& play : cycle.plays) {
+        const FramePair pair = frames_at(cycle, play, seconds);
+        Numbers& weights = pose.target_weights[play.mesh];
+        const auto add = [&](std::uint32_t frame, double weight) {
+            if (frame != 0) weights[first_frame(scene.meshes[play.mesh]) + frame - 1] += weight;
+        };
+        add(pair.left, 1.0 - pair.fraction);
+        add(pair.right, pair.fraction);
+    }
     to_model_space(scene, locals, pose);
 }
 
@@ -173,9 +184,9 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& targe
     std::vector<glm::dvec3> vertices(mesh.positions.begin(), mesh.positions.end());
     for (std::size_t number = 0; number < target_weights.size(); ++number) {
         if (target_weights[number] == 0.0) continue;
-        const std::vector<glm::vec3>& displacements = mesh.targets[number].positions;
-        for (std::size_t vertex = 0; vertex < displacements.size(); ++vertex)
-            vertices[vertex] += target_weights[number] * glm::dvec3(displacements[vertex]);
+        const Target& target = mesh.targets[number];
+        for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex)
+            vertices[vertex] += target_weights[number] * shift_of(target, target.positions, mesh.positions, vertex);
     }
     std::vector<glm::dmat4> palette;
     for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry)

@@ -1,6 +1,8 @@
 #include "measure_error.h"
 
 #include "evaluate.h"
+#include "frame_shapes.h"
+#include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -68,8 +70,8 @@ public:
         for (const Target& target : mesh.targets) {
             std::vector<Displacement>& list = targets_.emplace_back();
             for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex) {
-                if (target.positions[vertex] == glm::vec3(0.0f)) continue;
-                list.push_back({static_cast<std::uint32_t>(vertex), glm::dvec3(target.positions[vertex])});
+                const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
+                if (shift != glm::dvec3(0.0)) list.push_back({static_cast<std::uint32_t>(vertex), shift});
             }
         }
         matrices_.resize(joints_.size());
@@ -344,10 +346,31 @@ std::vector<std::uint32_t> loose_joints(const Scene& scene) {
     return loose;
 }
 
+/// Points of a joint, in its own space, that show how it moves: its origin and, where the scene has no vertex at all
+/// that would show how it turns and stretches, one on each axis.
+std::vector<glm::dvec3> points_of_joints(const Scene& scene) {
+    std::vector<glm::dvec3> points{glm::dvec3(0.0)};
+    const bool has_vertices =
+        std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return !mesh.positions.empty(); });
+    if (has_vertices) return points;
+    const double reach = kJointReach * height_at_rest(scene);
+    for (int axis = 0; axis < 3; ++axis) {
+        points.emplace_back(0.0);
+        points.back()[axis] = reach;
+    }
+    return points;
+}
+
 std::vector<double> sample_times(const Cycle& exact, const Cycle& decoded) {
     std::vector<double> times;
     for (const Cycle* cycle : {&exact, &decoded}) {
         for (const Track& track : cycle->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
+        for (const Play& play : cycle->plays) {
+            for (std::uint32_t frame = 0; frame <= play.frames; ++frame) {
+                const double at = frame / double{cycle->frame_rate};
+                if (at <= length_of(*cycle, play)) times.push_back(cycle->frame_start + at);
+            }
+        }
         std::sort(times.begin(), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
     }
@@ -371,6 +394,7 @@ public:
             pairs_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
         }
         loose_ = loose_joints(exact);
+        points_ = points_of_joints(exact);
     }
 
     [[nodiscard]] bool is_possible() const {
@@ -400,8 +424,10 @@ private:
             has_risen = true;
         }
         for (const std::uint32_t joint : loose_) {
-            const double error =
-                glm::distance(glm::dvec3(exact_pose_.joints[joint][3]), glm::dvec3(decoded_pose_.joints[joint][3]));
+            const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
+            double error = 0.0;
+            for (const glm::dvec3& point : points_)
+                raise(error, glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
             if (error <= worst_.metres) continue;
             worst_.metres = or_infinite(error);
             worst_.mesh = worst_.vertex = kNone;
@@ -417,6 +443,7 @@ private:
     const Scene& decoded_;
     std::vector<MeshPair> pairs_;
     std::vector<std::uint32_t> loose_;
+    std::vector<glm::dvec3> points_;  // of each of these, see points_of_joints
     EvaluatedPose exact_pose_, decoded_pose_;
     MeasuredError worst_;
 };

@@ -101,6 +101,21 @@ std::optional<glm::dquat> RestFrames::orientation(std::uint32_t joint) const {
     return rotation_of_axes(axes);
 }
 
+std::optional<glm::dquat> RestFrames::turning_axes(std::uint32_t joint) const {
+    if (const std::optional<glm::dquat> exact = orientation(joint)) return exact;
+    constexpr double kFlat = 0.2;
+    const auto x = unit(joints_[joint].axes[0]);
+    const auto y = unit(joints_[joint].axes[1]);
+    const auto z = unit(joints_[joint].axes[2]);
+    if (!x || !y || !z) return std::nullopt;
+    const double volume = glm::dot(glm::cross(*x, *y), *z);
+    if (!(std::abs(volume) > kFlat)) return std::nullopt;
+    const double side = volume < 0.0 ? -1.0 : 1.0;
+    const std::optional<glm::dvec3> across = unit_across(side * *y, side * *x);
+    if (!across) return std::nullopt;
+    return rotation_of_axes(glm::dmat3(side * *x, *across, glm::cross(side * *x, *across)));
+}
+
 std::optional<glm::dvec3> RestFrames::to_space_of(std::uint32_t joint, glm::dvec3 direction) const {
     if (joint == kNone) return unit(direction);
     const std::optional<glm::dmat3> inverse = inverse_of(joints_[joint].space);

@@ -42,6 +42,10 @@ public:
     /// The joint's rest axes in model space; nothing where the ancestors' scale makes them no rotation.
     [[nodiscard]] std::optional<glm::dquat> orientation(std::uint32_t joint) const;
 
+    /// A rotation that takes axes of the joint's rotations to those in model space, also where the ancestors' scale
+    /// stretches or mirrors them (a mirror turns an axis of rotation round); nothing where it squeezes them flat.
+    [[nodiscard]] std::optional<glm::dquat> turning_axes(std::uint32_t joint) const;
+
     /// A direction of model space in the joint's own space, unit; kNone: a root's parent.
     [[nodiscard]] std::optional<glm::dvec3> to_space_of(std::uint32_t joint, glm::dvec3 direction) const;
 

@@ -1,32 +1,171 @@
-#include "source_format.h"
+#include <bendy/converter/source_format.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <string>
-#include <string_view>
 #include <system_error>
 
 namespace bendy::converter {
+namespace {
 
-SourceFormat find_source_format(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::array<char, 4> id{};
-    if (std::filesystem::is_regular_file(file, ignored)) {
-        std::ifstream stream(file, std::ios::binary);
-        stream.read(id.data(), id.size());
-    }
-    const std::string_view begin(id.data(), id.size());
-    if (begin == "HEAD") return SourceFormat::bendy;
-    if (begin == "xof ") return SourceFormat::x;
-    if (begin == "IDP2") return SourceFormat::md2;
-    if (begin == "glTF") return SourceFormat::gltf;
+constexpr std::string_view kBlender =
+    "export it as glTF 2.0 from Blender (File > Import, then File > Export > glTF 2.0)";
+constexpr std::string_view kMeshOnly =
+    "it holds a mesh without a skeleton; bind it to one in Blender, and export that (File > Export > glTF 2.0)";
+constexpr std::string_view kFbx =
+    "export it as glTF 2.0 from Blender (File > Import > FBX, then File > Export > glTF 2.0), or convert it with "
+    "FBX2glTF";
+constexpr std::string_view kUsd =
+    "export it as glTF 2.0 from Blender (File > Import > Universal Scene Description, then File > Export > glTF 2.0)";
+constexpr std::string_view kBlend = "open it in Blender and export it (File > Export > glTF 2.0)";
+constexpr std::string_view kCollada =
+    "export it as glTF 2.0 from Blender 4 (File > Import > Collada, then File > Export > glTF 2.0), or convert it with "
+    "COLLADA2GLTF";
+constexpr std::string_view kOtherTool = "export it as glTF 2.0 from the program that made it";
+constexpr std::string_view kArchive = "unpack it, and convert the model that is in it";
+
+constexpr FileKind kFbxFile{"an FBX file", std::nullopt, kFbx};
+constexpr FileKind kUsdFile{"a USD file", std::nullopt, kUsd};
+constexpr FileKind kBlendFile{"a Blender file", std::nullopt, kBlend};
+constexpr FileKind kColladaFile{"a COLLADA file", std::nullopt, kCollada};
+constexpr FileKind kPlyFile{"a PLY file", std::nullopt, kMeshOnly};
+constexpr FileKind kZipFile{"a ZIP archive", std::nullopt, kArchive};
+constexpr FileKind kGltfFile{"a glTF file", SourceFormat::gltf, {}};
+
+constexpr std::size_t kKindBytes = 4096;
+
+struct Recognised {
+    std::string_view by;  // what a file begins with, or what its name ends in
+    FileKind kind;
+};
+
+/// Signatures. USDZ is a ZIP archive: names go before this one.
+constexpr std::array kBeginnings{
+    Recognised{"HEAD", {"a bendy file", SourceFormat::bendy, {}}},
+    Recognised{"glTF", {"a glTF binary file", SourceFormat::gltf, {}}},
+    Recognised{"xof ", {"a DirectX X-file", SourceFormat::x, {}}},
+    Recognised{"IDP2", {"a Quake II model", SourceFormat::md2, {}}},
+    Recognised{"Kaydara FBX Binary", kFbxFile},
+    Recognised{"; FBX ", kFbxFile},
+    Recognised{"PXR-USDC", kUsdFile},
+    Recognised{"#usda ", kUsdFile},
+    Recognised{"BLENDER", kBlendFile},
+    Recognised{"IDPO", {"a Quake model (MDL)", std::nullopt, kBlender}},
+    Recognised{"IDP3", {"a Quake III model (MD3)", std::nullopt, kBlender}},
+    Recognised{"MD5Version", {"a Doom 3 file (MD5)", std::nullopt, kBlender}},
+    Recognised{"IDST", {"a Half-Life model (MDL)", std::nullopt, kBlender}},
+    Recognised{"HIERARCHY", {"a BVH file", std::nullopt, kBlender}},
+    Recognised{"ply\n", kPlyFile},
+    Recognised{"ply\r", kPlyFile},
+};
+
+/// Names of what has no signature, or may be packed so that it does not show.
+constexpr std::array kEndings{
+    Recognised{".fbx", kFbxFile},
+    Recognised{".usd", kUsdFile},
+    Recognised{".usda", kUsdFile},
+    Recognised{".usdc", kUsdFile},
+    Recognised{".usdz", kUsdFile},
+    Recognised{".blend", kBlendFile},
+    Recognised{".dae", kColladaFile},
+    Recognised{".obj", {"an OBJ file", std::nullopt, kMeshOnly}},
+    Recognised{".stl", {"an STL file", std::nullopt, kMeshOnly}},
+    Recognised{".ply", kPlyFile},
+    Recognised{".3ds", {"a 3DS file", std::nullopt, kOtherTool}},
+    Recognised{".max", {"a 3ds Max file", std::nullopt, kOtherTool}},
+    Recognised{".ma", {"a Maya file", std::nullopt, kOtherTool}},
+    Recognised{".mb", {"a Maya file", std::nullopt, kOtherTool}},
+    Recognised{".c4d", {"a Cinema 4D file", std::nullopt, kOtherTool}},
+    Recognised{".zip", kZipFile},
+};
+
+std::string small_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+/// A text without a byte order mark and white space at its start.
+std::string_view trimmed(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    return start == std::string_view::npos ? std::string_view() : text.substr(start);
+}
+
+std::optional<FileKind> find_kind_of_text(std::string_view text, const std::string& extension) {
+    if (text.starts_with('<') && text.find("<COLLADA") != std::string_view::npos) return kColladaFile;
+    if (!text.starts_with('{')) return std::nullopt;
+    if (text.find("\"bendy_text\"") != std::string_view::npos)
+        return FileKind{"the text of a bendy file", std::nullopt, {}};
+    if (extension == ".gltf" || text.find("\"asset\"") != std::string_view::npos) return kGltfFile;
+    return std::nullopt;
+}
+
+/// A file's name as it stands in a command line.
+std::string as_argument(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    return name.find(' ') == std::string::npos ? name : '"' + name + '"';
+}
+
+std::string read_beginning(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return {};
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(kKindBytes, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    return text;
+}
+
+}  // namespace
+
+std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name) {
+    const std::string_view text = as_text(bytes).substr(0, kKindBytes);
+    for (const Recognised& each : kBeginnings) {
+        if (text.starts_with(each.by)) return each.kind;
+    }
+    const std::string extension = small_extension(name);
+    if (const auto kind = find_kind_of_text(trimmed(text), extension)) return kind;
+    for (const Recognised& each : kEndings) {
+        if (extension == each.by) return each.kind;
+    }
+    if (text.starts_with("PK\3\4")) return kZipFile;
+    return std::nullopt;
+}
+
+std::optional<FileKind> find_file_kind(const std::filesystem::path& file) {
+    const std::string beginning = read_beginning(file);
+    return find_file_kind(as_byte_span(beginning), file);
+}
+
+SourceFormat find_source_format(const std::filesystem::path& file) {
+    if (const auto kind = find_file_kind(file); kind && kind->format) return *kind->format;
+    const std::string extension = small_extension(file);
     if (extension == ".x") return SourceFormat::x;
     if (extension == ".md2") return SourceFormat::md2;
     return SourceFormat::gltf;
+}
+
+std::string why_not_a_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+    if (status.type() == std::filesystem::file_type::not_found) return "there is no such file";
+    return std::filesystem::is_directory(status) ? "is a folder, not a file" : "";
+}
+
+std::string why_not_bendy(const FileKind& kind, const std::filesystem::path& file) {
+    if (kind.format == SourceFormat::bendy) return {};
+    const std::string is_this = "is " + std::string(kind.name);
+    if (kind.format) return is_this + ", not a bendy file; convert it first: bendy convert " + as_argument(file);
+    if (kind.way_in.empty()) return is_this + "; make a bendy file of it first: bendy assemble " + as_argument(file);
+    return is_this + ", which bendy does not read: " + std::string(kind.way_in);
+}
+
+std::string why_not_convertible(const std::filesystem::path& file) {
+    if (std::string why = why_not_a_file(file); !why.empty()) return why;
+    const auto kind = find_file_kind(file);
+    return kind && !kind->format ? why_not_bendy(*kind, file) : std::string();
 }
 
 }  // namespace bendy::converter

@@ -91,6 +91,7 @@ public:
         times_ = floats_in(tree_, cycle_.chunk, FourCC("TIME"));
         for (const TrackRecord& record : table_) sort_out(record);
         send_packed();
+        send_plays();
         if (is_rebuilt_) {
             if (!rebuild()) {
                 return Problem{"cycle \"" + std::string(cycle_.name) +
@@ -126,6 +127,52 @@ private:
         ++counts_.stay;
         staying_.push_back(record);
         laid_anew_.push_back(is_laid_anew ? &go_.weights[before] : nullptr);
+    }
+
+    /// Frames stay that follow one another there, too.
+    void send_plays() {
+        const std::uint32_t chunk = tree_.find(cycle_.chunk, FourCC("PLAY"));
+        if (chunk == kNone) return;
+        const Bytes payload = tree_.payload(chunk);
+        const auto records = view_at<PlayRecord>(payload, 0, payload.size() / sizeof(PlayRecord));
+        std::vector<PlayRecord> staying;
+        bool is_changed = false;
+        for (PlayRecord record : records) {
+            const WeightsGo& go = go_.weights[record.pool];
+            const std::uint32_t first = frame_there(go, record.first);
+            bool stays = go.pool != kNone && first != kNone;
+            for (std::uint32_t k = 1; stays && k < record.frames; ++k)
+                stays = frame_there(go, record.first + k) == first + k;
+            if (!stays) {
+                ++counts_.go;
+                continue;
+            }
+            ++counts_.stay;
+            is_changed = is_changed || record.pool != go.pool || record.first != first;
+            record.pool = go.pool;
+            record.first = first;
+            staying.push_back(record);
+        }
+        plays_ = staying.size();
+        if (plays_ == records.size() && !is_changed) return;
+        if (plays_ == 0) is_rebuilt_ = true;  // the frame rate may mean nothing any more
+        put(FourCC("PLAY"), std::as_bytes(std::span(staying)));
+    }
+
+    /// The frame's number there; kNone: it goes.
+    [[nodiscard]] std::uint32_t frame_there(const WeightsGo& go, std::uint32_t frame) {
+        if (frame == 0) return 0;
+        std::vector<std::uint32_t>& there = targets_there_[&go];
+        if (there.empty()) {
+            for (std::uint32_t k = 0; k < go.from.size(); ++k) {
+                if (go.from[k] == kNone) continue;
+                if (there.size() <= go.from[k]) there.resize(go.from[k] + std::size_t{1}, kNone);
+                there[go.from[k]] = k;
+            }
+        }
+        const std::uint64_t target = std::uint64_t{go.first_frame} + frame - 1;
+        if (target >= there.size() || there[target] == kNone || there[target] < go.first_frame_there) return kNone;
+        return there[target] - go.first_frame_there + 1;
     }
 
     [[nodiscard]] bool is_decoded(std::uint32_t joint) const { return !go_.decoded.empty() && go_.decoded[joint]; }
@@ -193,7 +240,7 @@ private:
         values.finish();
         new_times_ = times.take(times_);
         new_values_ = values.take(values_);
-        bool has_frames = false;
+        bool has_frames = plays_ != 0;
         for (std::size_t t = 0; t < staying_.size(); ++t) {
             TrackRecord& record = staying_[t];
             has_frames = has_frames || record.first_time == kNone;
@@ -287,6 +334,8 @@ private:
     std::span<const float> times_, values_;
     std::vector<TrackRecord> staying_;
     std::vector<const WeightsGo*> laid_anew_;  // of each that stays; null: its values stay as they are
+    std::size_t plays_ = 0;                    // that stay
+    std::map<const WeightsGo*, std::vector<std::uint32_t>> targets_there_;  // for each target here
     std::vector<UnpackedTrack> decoded_;
     std::vector<float> new_times_, new_values_;
     std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint8_t, const WeightsGo*>, std::uint64_t> laid_;

@@ -16,6 +16,8 @@ struct WeightsGo {
     std::uint32_t pool = kNone;       ///< kNone: they go
     std::vector<std::uint32_t> from;  ///< for each target there: which target here; kNone: none
     std::vector<float> at_rest;       ///< the weight where there is none
+    std::uint32_t first_frame = 0;    ///< PoolView::first_frame, here; and there
+    std::uint32_t first_frame_there = 0;
 };
 
 /// Where the tracks of a cycle go: by the joints and pools of the object that it stands in now.
@@ -30,8 +32,8 @@ struct TrackCounts {
     std::uint32_t stay = 0, go = 0, decoded = 0;
 };
 
-/// Changes the cycle's TRAK, PACK, TIME and KEYV so that its tracks go there. Chunks that need no change keep their
-/// bytes. A problem if tracks share their values in a way that would make the file much larger.
+/// Changes the cycle's TRAK, PACK, PLAY, TIME and KEYV so that its tracks go there. Chunks that need no change keep
+/// their bytes. A problem if tracks share their values in a way that would make the file much larger.
 Result<TrackCounts, Problem> send_tracks(const ChunkTree& tree, const ObjectView& object, const CycleView& cycle,
                                          const TracksGo& go, Rewrite& rewrite);
 

@@ -236,8 +236,11 @@ private:
             WeightsGo& weights = go.weights.emplace_back();
             weights.pool = numbers_.pools[p];
             for (std::uint32_t t = 0; t < here_.pools[p].targets.size(); ++t) {
-                if (here_.pools[p].targets[t]) weights.from.push_back(t);
+                if (!here_.pools[p].targets[t]) continue;
+                weights.first_frame_there += t < object_.pools[p].first_frame ? 1 : 0;
+                weights.from.push_back(t);
             }
+            weights.first_frame = object_.pools[p].first_frame;
         }
         std::vector<std::string_view> names;
         std::vector<std::size_t> emptied;

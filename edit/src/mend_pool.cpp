@@ -145,6 +145,13 @@ private:
                 cut_target(pool_.targets[target]);
             }
         }
+        if (pool_.first_frame == pool_.targets.size()) return;
+        const TargetView& frame = pool_.targets.back();  // they go or stay together
+        if (!staying_.targets.back()) {
+            rewrite_.remove(frame.chunk);
+        } else if (!now_.empty()) {
+            rewrite_.replace(frame.places->chunk, with_elements(tree_, *frame.places, kept_));
+        }
     }
 
     void cut_target(const TargetView& target) {

@@ -113,6 +113,8 @@ WeightsGo pair_targets(const PoolView& there, const PoolView& here, std::uint32_
     const bool fits = std::any_of(pairs.begin(), pairs.end(), [](std::uint32_t k) { return k != kNone; });
     if (!fits) return {};
     go.from = std::move(pairs);
+    go.first_frame = there.first_frame;
+    go.first_frame_there = here.first_frame;
     for (const TargetView& target : here.targets) go.at_rest.push_back(target.rest_weight);
     return go;
 }
@@ -200,6 +202,7 @@ void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<st
                 joints[track.target] = true;
             }
         }
+        for (const PlayView& play : cycle.plays) pools.insert(play.pool);
         if (!cycle.packed) continue;
         for (std::uint32_t j = 0; j < cycle.packed->record.joints; ++j) {
             joints[j] = joints[j] || cycle.packed->animates(j, TrackPath::rotation) ||

@@ -156,6 +156,8 @@ private:
             if (!(source_.tree[child].id == FourCC("TARG"))) continue;
             things_.push_back({pool.targets[target++].name, child, group});
         }
+        for (; target < pool.targets.size(); ++target)
+            things_.push_back({pool.targets[target].name, pool.targets[target].chunk, group});
     }
 
     [[nodiscard]] static std::optional<Problem> check(std::string_view before, const std::string& after) {
@@ -206,6 +208,10 @@ private:
             next += what_.kind == Named::joint ? object.skeleton.joints.size() : 0;
         }
         for (std::size_t k = 0; k < names.size(); ++k) {
+            if (is_frame(things_[k])) {
+                k = put_frames(names, k);
+                continue;
+            }
             if (names[k] == things_[k].name) continue;
             const std::uint32_t chunk = source_.tree.find(things_[k].chunk, FourCC("NAME"));
             if (chunk != kNone && as_text(source_.tree.payload(chunk)) == things_[k].name) {
@@ -214,6 +220,28 @@ private:
                 rewrite_.prepend(things_[k].chunk, whole_leaf(FourCC("NAME"), as_byte_span(names[k])));
             }
         }
+    }
+
+    [[nodiscard]] bool is_frame(const Thing& thing) const {
+        return what_.kind == Named::target && source_.tree[thing.chunk].id == FourCC("FRMS");
+    }
+
+    /// FNAM of the frames that begin with thing `first`.
+    /// \return the number of the last one
+    std::size_t put_frames(const std::vector<std::string>& names, std::size_t first) {
+        std::string text;
+        bool is_changed = false;
+        std::size_t k = first;
+        for (; k < names.size() && things_[k].chunk == things_[first].chunk; ++k) {
+            is_changed = is_changed || names[k] != things_[k].name;
+            text += names[k];
+            text += '\0';
+        }
+        const std::uint32_t frames = things_[first].chunk;
+        const std::uint32_t chunk = source_.tree.find(frames, FourCC("FNAM"));
+        if (is_changed && chunk != kNone) rewrite_.replace(chunk, as_byte_span(text));
+        if (is_changed && chunk == kNone) rewrite_.prepend(frames, whole_leaf(FourCC("FNAM"), as_byte_span(text)));
+        return k - 1;
     }
 
     [[nodiscard]] bool is_in_table(const Thing& thing) const {

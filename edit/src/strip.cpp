@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -94,7 +95,7 @@ private:
             case Part::attributes:
                 return strip_leaves(FourCC("USER"));
             case Part::extras:
-                return strip_leaves(FourCC("EXTR"));
+                return strip_leaves(FourCC("EXTR"), FourCC("MORE"));
             case Part::extensions:
                 return strip_leaves(FourCC("EXTN"));
         }
@@ -177,7 +178,26 @@ private:
                     things.add(object.pools[p].targets[t].name, here.pools[p].targets[t]);
             }
         });
-        return take_out(std::move(things));
+        if (const auto done = take_out(std::move(things)); !done) return done;
+        for (std::size_t k = 0; k < staying_.objects.size(); ++k) {
+            const ObjectView& object = source_.document.objects[k];
+            for (std::size_t p = 0; p < object.pools.size(); ++p) {
+                if (const auto split = find_split_frames(object.pools[p], staying_.objects[k].pools[p])) return *split;
+            }
+        }
+        return {};
+    }
+
+    /// Frames are one block, and cycles play them by their numbers.
+    static std::optional<Problem> find_split_frames(const PoolView& pool, const Staying::Pool& here) {
+        const auto first = here.targets.begin() + static_cast<std::ptrdiff_t>(pool.first_frame);
+        const auto gone = std::find(first, here.targets.end(), false);
+        if (gone == here.targets.end() || std::find(first, here.targets.end(), true) == here.targets.end())
+            return std::nullopt;
+        return Problem{"target \"" +
+                       std::string(pool.targets[static_cast<std::size_t>(gone - here.targets.begin())].name) +
+                       "\" is one of " + std::to_string(here.targets.end() - first) + " frames of mesh \"" +
+                       std::string(pool.name) + "\": they can only be stripped together, with all targets"};
     }
 
     Result<void, Problem> strip_cycles() {
@@ -221,10 +241,12 @@ private:
         }
     }
 
-    Result<void, Problem> strip_leaves(FourCC id) {
+    Result<void, Problem> strip_leaves(FourCC id) { return strip_leaves(id, id); }
+
+    Result<void, Problem> strip_leaves(FourCC id, FourCC other) {
         std::size_t count = 0;
         walk([&](std::uint32_t number, const Chunk& chunk) {
-            if (!(chunk.id == id)) return true;
+            if (!(chunk.id == id || chunk.id == other)) return true;
             rewrite_.remove(number);
             ++count;
             return false;

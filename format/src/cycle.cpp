@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace bendy {
 namespace {
@@ -27,6 +28,12 @@ std::optional<std::span<const float>> read_floats(const ChunkTree& tree, std::ui
         return std::nullopt;
     }
     return view_at<float>(payload, 0, count);
+}
+
+/// Whether the pool has frames that could not be read, so that nobody knows how many targets there are: there is one at
+/// least where there are any.
+bool has_lost_frames(const ChunkTree& tree, const PoolView& pool) {
+    return pool.frames() == 1 && tree.find(pool.chunk, FourCC("FRMS")) != kNone;
 }
 
 std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<const PoolView> pools) {
@@ -93,11 +100,68 @@ bool holds_frames(const CycleView& cycle, const PackedView& packed) {
 bool holds_all_keys(const CycleView& cycle) {
     if (!(cycle.start <= cycle.end && cycle.frame_rate >= 0.0f)) return false;
     if (cycle.packed && !holds_frames(cycle, *cycle.packed)) return false;
+    constexpr double kFrames = 1e-3;  // of a frame: `end` is a rounded float
+    const double most = (double{cycle.end} - cycle.start) * cycle.frame_rate + kFrames;
+    const auto fits = [&](const PlayView& play) { return play.frames - 1.0 + (play.closed ? 1.0 : 0.0) <= most; };
+    if (!std::all_of(cycle.plays.begin(), cycle.plays.end(), fits)) return false;
     return std::all_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const TrackView& track) {
         if (!track.times.empty()) return track.times.front() >= cycle.start && track.times.back() <= cycle.end;
-        constexpr double kFrames = 1e-3;  // of a frame: `end` is a rounded float
-        return track.keys - 1.0 <= (double{cycle.end} - cycle.start) * cycle.frame_rate + kFrames;
+        return track.keys - 1.0 <= most;
     });
+}
+
+/// A pool is played once, and by no track.
+void check_repeated_plays(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> pools;
+    for (std::size_t index = 0; index < cycle.plays.size(); ++index) pools.emplace_back(cycle.plays[index].pool, index);
+    std::sort(pools.begin(), pools.end());
+    for (std::size_t k = 1; k < pools.size(); ++k) {
+        if (pools[k].first == pools[k - 1].first) faults.add({ErrorCode::kTrackRepeated, offset, pools[k].second});
+    }
+    for (const TrackView& track : cycle.tracks) {
+        if (track.path != TrackPath::weights) continue;
+        const auto play = std::lower_bound(pools.begin(), pools.end(), std::pair(track.target, std::size_t{0}));
+        if (play != pools.end() && play->first == track.target)
+            faults.add({ErrorCode::kTrackRepeated, offset, play->second});
+    }
+}
+
+std::vector<PlayView> read_plays(const ChunkTree& tree, const CycleView& cycle, std::span<const PoolView> pools,
+                                 Faults& faults) {
+    std::vector<PlayView> plays;
+    const std::uint32_t number = tree.find(cycle.chunk, FourCC("PLAY"));
+    if (number == kNone || tree[number].is_container() || !cycle.has_info) return plays;
+    const std::uint64_t offset = tree[number].offset;
+    if (const auto fault = tree.encoding_fault(number)) {
+        faults.add(*fault);
+        return plays;
+    }
+    const Bytes payload = tree.payload(number);
+    const std::uint64_t count = payload.size() / sizeof(PlayRecord);
+    if (payload.size() % sizeof(PlayRecord) != 0) {
+        faults.add({ErrorCode::kRecordSize, offset, payload.size(), count * sizeof(PlayRecord)});
+        return plays;
+    }
+    plays.reserve(count);
+    for (std::uint64_t index = 0; index < count; ++index) {
+        PlayRecord record;
+        copy_at(payload, index * sizeof(PlayRecord), record);
+        check_reserved(record.reserved, offset, faults);
+        if (!check_enum(record.closed, 2, offset, faults)) continue;
+        if (record.pool >= pools.size()) {
+            faults.add({ErrorCode::kPoolRange, offset, record.pool, pools.size()});
+            continue;
+        }
+        if (has_lost_frames(tree, pools[record.pool])) continue;
+        const std::uint32_t frames = pools[record.pool].frames();
+        const bool is_there = record.frames != 0 && record.first <= frames && record.frames <= frames - record.first;
+        if (!is_there || !(cycle.frame_rate > 0.0f)) {
+            faults.add({ErrorCode::kFrameRange, offset, index});
+            continue;
+        }
+        plays.push_back({record.pool, record.first, record.frames, record.closed != 0});
+    }
+    return plays;
 }
 
 void check_repeated_tracks(const CycleView& cycle, std::uint64_t offset, Faults& faults) {
@@ -163,6 +227,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     cycle.chunk = chunk;
     cycle.name = read_text(tree, chunk, FourCC("NAME"), faults);
     cycle.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    cycle.more = read_text(tree, chunk, FourCC("MORE"), faults);
     const auto read_info = read_child_record<CycleRecord>(tree, chunk, FourCC("CINF"), faults);
     const CycleRecord info = read_info.value_or(CycleRecord{});
     cycle.has_info = read_info.has_value();
@@ -176,6 +241,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
 
     cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
     cycle.markers = read_marker_leaf(tree, chunk, faults);
+    cycle.plays = read_plays(tree, cycle, pools, faults);
     const auto read_times = read_floats(tree, chunk, FourCC("TIME"), faults);
     const auto read_values = read_floats(tree, chunk, FourCC("KEYV"), faults);
 
@@ -213,6 +279,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
             faults.add({on_pool ? ErrorCode::kPoolRange : ErrorCode::kJointRange, offset, track.target, targets});
             continue;
         }
+        if (on_pool && has_lost_frames(tree, pools[track.target])) continue;
         if (track.components == 0 || track.components != components_of(track.path, track.target, pools)) {
             faults.add({ErrorCode::kTrackComponents, offset, index});
             continue;
@@ -252,6 +319,7 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
     check_shared_values(cycle, table_offset, faults);
     if (cycle.has_info && !holds_all_keys(cycle)) faults.add({ErrorCode::kCycleLength, info_offset});
     check_repeated_tracks(cycle, table_offset, faults);
+    check_repeated_plays(cycle, offset_of(tree, cycle.chunk, FourCC("PLAY")), faults);
     check_markers(cycle, offset_of(tree, cycle.chunk, FourCC("MARK")), faults);
     if (cycle.packed) check_packed_values(*cycle.packed, offset_of(tree, cycle.chunk, FourCC("PACK")), faults);
 }

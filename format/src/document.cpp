@@ -158,6 +158,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
     document.bound = read_child_record<BoundRecord>(tree, 0, FourCC("BNDS"), faults);
     document.extras = read_text(tree, 0, FourCC("EXTR"), faults);
     document.extensions = read_text(tree, 0, FourCC("EXTN"), faults);
+    document.more = read_text(tree, 0, FourCC("MORE"), faults);
 
     for (const std::uint32_t number : tree.children(0)) {
         if (tree[number].id == FourCC("TEXT") && tree[number].is_container())
@@ -179,6 +180,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.chunk = number;
         object.name = read_text(tree, number, FourCC("NAME"), faults);
         object.extras = read_text(tree, number, FourCC("EXTR"), faults);
+        object.more = read_text(tree, number, FourCC("MORE"), faults);
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
         object.chains = read_chains(tree, number, object.skeleton, faults);

@@ -165,10 +165,10 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
         const bool in_joint = !open.empty();
         if (chunk.id == FourCC("SKIN") && chunk.is_container()) {
             const auto joint = static_cast<std::uint32_t>(skeleton.joints.size());
-            skeleton.joints.push_back({number, in_joint ? open.back().joint : kNone,
-                                       read_text(tree, number, FourCC("NAME"), faults), RestRecord{},
-                                       read_text(tree, number, FourCC("EXTR"), faults),
-                                       read_text(tree, number, FourCC("EXTN"), faults)});
+            skeleton.joints.push_back(
+                {number, in_joint ? open.back().joint : kNone, read_text(tree, number, FourCC("NAME"), faults),
+                 RestRecord{}, read_text(tree, number, FourCC("EXTR"), faults),
+                 read_text(tree, number, FourCC("EXTN"), faults), read_text(tree, number, FourCC("MORE"), faults)});
             read_pivot(tree, number, skeleton, faults);
             skeleton.first_local_material.push_back(static_cast<std::uint32_t>(skeleton.local_materials.size()));
             open.push_back({chunk.end, joint});

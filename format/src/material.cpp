@@ -11,6 +11,7 @@ MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint
     material.name = read_text(tree, chunk, FourCC("NAME"), faults);
     material.extensions = read_text(tree, chunk, FourCC("EXTN"), faults);
     material.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    material.more = read_text(tree, chunk, FourCC("MORE"), faults);
     material.surface = read_child_record<SurfaceRecord>(tree, chunk, FourCC("SURF"), faults).value_or(SurfaceRecord{});
 
     const std::uint64_t offset = offset_of(tree, chunk, FourCC("SURF"));
@@ -34,6 +35,7 @@ TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& fau
     texture.chunk = chunk;
     texture.name = read_text(tree, chunk, FourCC("NAME"), faults);
     texture.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    texture.more = read_text(tree, chunk, FourCC("MORE"), faults);
     texture.sampler = read_child_record<SamplerRecord>(tree, chunk, FourCC("SAMP"), faults).value_or(SamplerRecord{});
     SamplerRecord& sampler = texture.sampler;
     const std::uint64_t offset = offset_of(tree, chunk, FourCC("SAMP"));

@@ -43,7 +43,11 @@ using enum Numbers;
 
 constexpr StreamForm kPositions[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, u16, u32), 3, 3, boxed}};
 constexpr StreamForm kShifts[] = {{any_of(f32), 3, 3, plain}, {any_of(u8, i8, u16, i16), 3, 3, boxed}};
-constexpr StreamForm kNormals[] = {{any_of(f32), 3, 3, plain}, {any_of(i8, i16), 2, 2, normalised}};
+constexpr StreamForm kNormals[] = {
+    {any_of(f32), 3, 3, plain}, {any_of(i8, i16), 2, 2, normalised}, {any_of(u8), 1, 1, listed}};
+constexpr StreamForm kFrameNormals[] = {{any_of(u8), 1, 1, listed}};
+constexpr StreamForm kFramePositions[] = {{any_of(u8, u16), 3, 3, plain}};
+constexpr StreamForm kPlaces[] = {{any_of(u8, u16, u32), 1, 1, plain}};
 constexpr StreamForm kTangents[] = {{any_of(f32), 4, 4, plain}, {any_of(i8, i16), 3, 3, normalised}};
 constexpr StreamForm kCoords[] = {
     {any_of(f32), 2, 2, plain}, {any_of(u8, u16), 2, 2, normalised}, {any_of(u8, u16), 2, 2, boxed}};
@@ -132,6 +136,13 @@ public:
                       chunk.offset);
         }
         view.is_octahedral = view.normalised && is_one_of(rule, forms::kNormals, forms::kTangents);
+        if (record->normalised == static_cast<std::uint8_t>(Numbers::listed)) {
+            if (is_list_lost_) return std::nullopt;  // which has been said
+            view.list = list_;
+            const std::uint32_t largest = view.empty() ? 0 : largest_of<std::uint8_t>(view);
+            if (!view.empty() && largest >= list_.size())
+                return fault({ErrorCode::kIndexRange, chunk.offset, largest, list_.size()});
+        }
         return view;
     }
 
@@ -205,6 +216,66 @@ public:
         return palette;
     }
 
+    /// NLST: what listed normals are numbers of. Read before them.
+    void list_of_normals(std::uint32_t pool) {
+        const std::uint32_t number = tree_.find(pool, FourCC("NLST"));
+        const auto payload = rows(number, sizeof(glm::vec3));
+        if (payload) list_ = view_at<glm::vec3>(*payload, 0, payload->size() / sizeof(glm::vec3));
+        is_list_lost_ = number != kNone && !payload;
+    }
+
+    /// A leaf that is nothing but rows of so many bytes.
+    std::optional<Bytes> rows(std::uint32_t number, std::uint64_t size) {
+        if (number == kNone || tree_[number].is_container()) return std::nullopt;
+        if (const auto encoding = tree_.encoding_fault(number)) {
+            faults_.add(*encoding);
+            return std::nullopt;
+        }
+        const Bytes payload = tree_.payload(number);
+        if (payload.size() % size == 0) return payload;
+        faults_.add({ErrorCode::kRecordSize, tree_[number].offset, payload.size(), payload.size() / size * size});
+        return std::nullopt;
+    }
+
+    /// FRMS: all frames, behind the pool's other targets.
+    void frames(std::uint32_t block, PoolView& pool) {
+        const std::uint32_t grid_chunk = tree_.find(block, FourCC("GRID"));
+        const auto grid = rows(grid_chunk, kAxes * sizeof(StreamBox));
+        for (const FourCC id : {FourCC("INDX"), FourCC("POSI")}) {
+            if (tree_.find(block, id) == kNone) faults_.add({ErrorCode::kChunkMissing, tree_[block].offset, id.value});
+        }
+        const auto places = find(block, FourCC("INDX"), forms::kPlaces, pool.vertices);
+        const auto positions = find(block, FourCC("POSI"), forms::kFramePositions, std::nullopt);
+        if (grid && grid->empty()) {
+            fault({ErrorCode::kRecordTooShort, tree_[grid_chunk].offset, 0, kAxes * sizeof(StreamBox)});
+            return;
+        }
+        if (!grid || !places || !positions) return;
+        const std::uint64_t count = grid->size() / (kAxes * sizeof(StreamBox));
+        const std::uint64_t each = positions->elements / count;
+        if (positions->elements != each * count) {
+            fault({ErrorCode::kStreamCount, tree_[positions->chunk].offset, positions->elements, each * count});
+            return;
+        }
+        const auto normals = find(block, FourCC("NORM"), forms::kFrameNormals, positions->elements);
+        if (!normals && tree_.find(block, FourCC("NORM")) != kNone) return;
+        const std::size_t faults_before = faults_.count();
+        check_indices(places, each, ErrorCode::kIndexRange);
+        std::vector<std::string_view> names = frame_names(block, count);
+        if (faults_.count() != faults_before) return;
+        pool.targets.reserve(pool.targets.size() + count);
+        const auto boxes = view_at<StreamBox>(*grid, 0, count * kAxes);
+        for (std::uint64_t frame = 0; frame < count; ++frame) {
+            TargetView& target = pool.targets.emplace_back();
+            target.chunk = block;
+            if (!names.empty()) target.name = names[frame];
+            target.places = places;
+            target.positions = part_of(*positions, frame, each);
+            target.positions->boxes = boxes.subspan(frame * kAxes, kAxes);
+            if (normals) target.normals = part_of(*normals, frame, each);
+        }
+    }
+
     TargetView target(std::uint32_t number, std::uint32_t vertices) {
         TargetView target;
         target.chunk = number;
@@ -232,8 +303,40 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t kAxes = 3;
+
+    /// Part `number` of a stream that is cut into parts of `size` elements.
+    static StreamView part_of(const StreamView& stream, std::uint64_t number, std::uint64_t size) {
+        StreamView part = stream;
+        const std::uint64_t bytes = size * stream.components * component_size(stream.type);
+        part.elements = static_cast<std::uint32_t>(size);
+        part.data = stream.data.subspan(number * bytes, bytes);
+        return part;
+    }
+
+    /// FNAM: as many names as frames, a zero behind each. Empty: there is none.
+    std::vector<std::string_view> frame_names(std::uint32_t container, std::uint64_t count) {
+        std::vector<std::string_view> names;
+        const std::uint32_t chunk = tree_.find(container, FourCC("FNAM"));
+        if (chunk == kNone || tree_[chunk].is_container()) return names;
+        const std::size_t faults_before = faults_.count();
+        std::string_view text = read_text(tree_, container, FourCC("FNAM"), faults_);
+        if (faults_.count() != faults_before) return names;
+        names.reserve(count);
+        std::uint64_t named = 0;
+        for (std::size_t end = text.find('\0'); end != std::string_view::npos; end = text.find('\0')) {
+            if (named++ < count) names.push_back(text.substr(0, end));
+            text.remove_prefix(end + 1);
+        }
+        if (named != count || !text.empty())
+            faults_.add({ErrorCode::kCountMismatch, tree_[chunk].offset, named, count});
+        return names;
+    }
+
     const ChunkTree& tree_;
     Faults& faults_;
+    std::span<const glm::vec3> list_;  // of the pool's normals
+    bool is_list_lost_ = false;        // it is there and cannot be read
 };
 
 void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>& stream, Faults& faults) {
@@ -243,6 +346,12 @@ void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>&
     const float most_steps = stream->type == ComponentType::u32 ? 4294967296.0f : 65536.0f;
     for (const StreamBox& box : stream->boxes)  // the largest number must be finite, too
         check_finite(std::array{box.minimum, box.step, box.minimum + most_steps * box.step}, offset, faults);
+}
+
+/// Row by row of GRID, so that a fault says which frame is wrong.
+void check_frame_boxes(const TargetView& frame, std::uint64_t offset, Faults& faults) {
+    for (const StreamBox& box : frame.positions->boxes)
+        check_finite(std::array{box.minimum, box.step, box.minimum + 65536.0f * box.step}, offset, faults);
 }
 
 /// What an integer stands for.
@@ -293,6 +402,9 @@ template <class Vector, class Load>
 Vector vector_at(const StreamView& stream, const Load& load, std::uint64_t element) {
     const std::uint64_t at = element * stream.components;
     Vector vector;
+    if constexpr (Vector::length() == 3) {
+        if (!stream.list.empty()) return stream.list[static_cast<std::size_t>(load(at))];
+    }
     if (stream.is_octahedral) {
         const glm::vec3 direction = direction_at(stream, load, at);
         for (int c = 0; c < 3; ++c) vector[c] = direction[c];
@@ -331,7 +443,7 @@ glm::vec3 decode_octahedral(float x, float y) {
 }
 
 glm::vec3 StreamView::vec3(std::uint32_t element) const {
-    assert(element < elements && components >= (is_octahedral ? 2u : 3u));
+    assert(element < elements && (!list.empty() || components >= (is_octahedral ? 2u : 3u)));
     if (type == ComponentType::f32)
         return load<glm::vec3>(data.subspan(std::size_t{element} * components * sizeof(float)), 0);
     return with_type(*this, [&](const auto& load) { return vector_at<glm::vec3>(*this, load, element); });
@@ -377,6 +489,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     pool.chunk = chunk;
     pool.name = read_text(tree, chunk, FourCC("NAME"), faults);
     pool.extras = read_text(tree, chunk, FourCC("EXTR"), faults);
+    pool.more = read_text(tree, chunk, FourCC("MORE"), faults);
     const std::uint64_t offset = tree[chunk].offset;
     const auto record = read_child_record<PoolRecord>(tree, chunk, FourCC("VINF"), faults);
     if (!record) return pool;
@@ -388,6 +501,7 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
         pool.joint = kNone;
     }
 
+    reader.list_of_normals(chunk);
     for (const std::uint32_t number : tree.children(chunk)) {
         const FourCC id = tree[number].id;
         if (id == FourCC("TEXC")) {
@@ -404,6 +518,8 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
         }
     }
 
+    pool.first_frame = static_cast<std::uint32_t>(pool.targets.size());
+
     reader.check_sets(pool.texture_coords);
     reader.check_sets(pool.colours);
 
@@ -414,6 +530,8 @@ PoolView read_pool(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
         faults.add({ErrorCode::kChunkMissing, offset, FourCC("POSI").value});
     }
     pool.normals = reader.find(chunk, FourCC("NORM"), forms::kNormals, pool.vertices);
+    if (const std::uint32_t frames = tree.find(chunk, FourCC("FRMS")); frames != kNone && tree[frames].is_container())
+        reader.frames(frames, pool);
     pool.tangents = reader.find(chunk, FourCC("TANG"), forms::kTangents, pool.vertices);
 
     pool.bones = reader.find(chunk, FourCC("BONE"), forms::kBones, pool.vertices);
@@ -449,8 +567,16 @@ void check_pool_values(const ChunkTree& tree, const PoolView& pool, Faults& faul
     for (const AttributeView& attribute : pool.attributes) check_stream_values(tree, attribute.values, faults);
     for (const TargetView& target : pool.targets) {
         check_finite(std::array{target.rest_weight}, offset_of(tree, target.chunk, FourCC("TINF")), faults);
+        if (target.is_frame()) {
+            check_frame_boxes(target, offset_of(tree, target.chunk, FourCC("GRID")), faults);
+            continue;  // its normals are of NLST, or directions
+        }
         for (const auto& stream : {target.positions, target.normals, target.tangents})
             check_stream_values(tree, stream, faults);
+    }
+    if (const std::uint32_t list = tree.find(pool.chunk, FourCC("NLST")); list != kNone && !tree[list].is_container()) {
+        const Bytes payload = tree.payload(list);
+        check_finite(view_at<float>(payload, 0, payload.size() / sizeof(float)), tree[list].offset, faults);
     }
     for (const glm::mat4& matrix : pool.palette.inverse_bind())
         check_finite(std::span(&matrix[0][0], 16), tree[pool.palette.chunk].offset, faults);

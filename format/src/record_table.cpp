@@ -70,7 +70,7 @@ const RecordLayout* layout_of(FourCC chunk) {
 }
 
 bool is_text(FourCC chunk) {
-    constexpr std::array kTexts{FourCC("NAME"), FourCC("EXTR"), FourCC("EXTN"), FourCC("LINK")};
+    constexpr std::array kTexts{FourCC("NAME"), FourCC("EXTR"), FourCC("EXTN"), FourCC("MORE"), FourCC("LINK")};
     return is_one_of(chunk, kTexts);
 }
 

@@ -2,6 +2,7 @@
 
 #include <bendy/runtime/sample.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
@@ -140,16 +141,22 @@ void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float r
         }
         bound.joints.push_back(made);
     }
+    const auto bind_target = [&](std::uint32_t target) {
+        if (targets_[target] == kNone) {
+            missed_targets[target] = true;
+        } else {
+            bound.targets.push_back({target, targets_[target]});
+        }
+    };
     for (const TrackView& track : cycle.tracks) {
         if (track.path != TrackPath::weights || track.target >= animated_->pools().size()) continue;
-        for (std::uint32_t k = 0; k < animated_->pools()[track.target].targets.size(); ++k) {
-            const std::uint32_t target = animated_->first_target(track.target) + k;
-            if (targets_[target] == kNone) {
-                missed_targets[target] = true;
-            } else {
-                bound.targets.push_back({target, targets_[target]});
-            }
-        }
+        for (std::uint32_t k = 0; k < animated_->pools()[track.target].targets.size(); ++k)
+            bind_target(animated_->first_target(track.target) + k);
+    }
+    for (const PlayView& play : cycle.plays) {
+        const std::uint32_t frame_1 = animated_->first_target(play.pool) + animated_->pools()[play.pool].first_frame;
+        for (std::uint32_t k = std::max(play.first, 1u); k < play.first + play.frames; ++k)
+            bind_target(frame_1 + k - 1);
     }
     cycles_.push_back(std::move(bound));
 }

@@ -84,9 +84,10 @@ struct Bounds::Builder {
         const TargetView& target = model.pools()[number].targets[k];
         if (!target.positions) return;
         const std::uint32_t place = model.first_target(number) + k;
-        for (std::uint32_t entry = 0; entry < target.positions->elements; ++entry) {
-            const glm::dvec3 displacement(target.positions->vec3(entry));
-            const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
+        const Pool& pool = model.pools()[number];
+        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry) {
+            const glm::dvec3 displacement(target.displacement(*target.positions, pool.positions, entry));
+            const std::uint32_t vertex = target.vertex(entry);
             for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
                 // The joint's other vertices stay: no displacement is in the box as well.
                 Box& box = shifts[joint].try_emplace(place, Box{glm::vec3(0.0f), glm::vec3(0.0f)}).first->second;

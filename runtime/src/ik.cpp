@@ -41,8 +41,8 @@ public:
         const bool is_aim = solver() == Solver::aim;
         ReachResult result;
         result.iterations = solve();
-        constexpr int kCorrections = 8;
-        for (int i = 0; i < kCorrections && !is_aim && correct_target(); ++i) result.iterations += solve();
+        constexpr int kCorrections = 32;
+        for (int i = 0; i < kCorrections && !is_aim && correct_bones(); ++i) result.iterations += solve();
         if (!is_aim && !is_uneven_ && chain_can_change_length() && !problem_.is_reached()) {
             fit_length();
             result.iterations += solve();
@@ -83,7 +83,7 @@ private:
     void gather_links() {
         const auto local = std::as_const(pose_).local();
         double scale = 1.0;   // of the links so far
-        double length = 0.0;  // metres
+        double length = 0.0;  // in the base's space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
             const JointTransform& transform = local[link.joint];
@@ -103,9 +103,23 @@ private:
         }
         problem_.scale = length > 0.0 ? length : 1.0;
         problem_.reach = length > 0.0 ? 1.0 : 0.0;
+        if (is_uneven_) find_longest();
         for (IkLink& link : links_) {
             link.bone /= problem_.scale;
             link.bone_length /= problem_.scale;
+        }
+    }
+
+    void find_longest() {
+        const auto local = std::as_const(pose_).local();
+        double scale = 1.0;  // of the links so far, along their longest axes
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            const glm::vec3 axes = glm::abs(local[links_[i].joint].scale);
+            const glm::vec3 shear = glm::abs(model_.joints()[links_[i].joint].shear);
+            scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
         }
     }
 
@@ -143,19 +157,28 @@ private:
             problem_.position_weight = 1.0;
         }
         const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
-        problem_.tolerance = tolerance > 0.0f ? std::max(double{tolerance} / problem_.scale, 1e-9) : 1e-4;
+        problem_.tolerance =
+            tolerance > 0.0f ? std::max(double{tolerance} / (problem_.scale * base_scale()), 1e-9) : 1e-4;
         constexpr std::uint16_t kMostIterations = 1000;  // whatever a file says
         problem_.iterations =
             options_.iterations != 0 ? options_.iterations : std::min(record.iterations, kMostIterations);
         gather_pole();
         wanted_ = problem_.target;
-        const glm::dvec3 way = wanted_ - problem_.origin;
-        problem_.is_out_of_reach = glm::dot(way, way) > problem_.reach * problem_.reach;
+        find_reach();
         problem_.place();
+        if (is_uneven_) match_bones();
         const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
                            glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
                            glm::dot(problem_.pole, problem_.pole) + problem_.pole_angle;
         return std::isfinite(sum);
+    }
+
+    void find_reach() {
+        const glm::dvec3 way = wanted_ - problem_.origin;
+        const double distance = std::sqrt(glm::dot(way, way));
+        constexpr double kStraight = 1e-6;  // chain lengths: no bend that would be seen
+        is_far_ = distance > problem_.reach - kStraight;
+        problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
     }
 
     void gather_pole() {
@@ -173,6 +196,13 @@ private:
         } else {
             problem_.has_pole = false;
         }
+    }
+
+    /// Metres of model space for one of the base's space, where its axes differ those of the longest.
+    [[nodiscard]] double base_scale() const {
+        const glm::dvec3 x(base_[0]), y(base_[1]), z(base_[2]);
+        const double scale = std::sqrt(std::max({glm::dot(x, x), glm::dot(y, y), glm::dot(z, z)}));
+        return scale > 0.0 ? scale : 1.0;
     }
 
     [[nodiscard]] glm::dvec3 tip_offset() const {
@@ -209,15 +239,14 @@ private:
     std::uint32_t solve() {
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
-        if (problem_.is_out_of_reach && chosen != Solver::pull && problem_.position_weight > 0.0)
-            point_at_target(problem_);
+        if (is_far_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
         switch (chosen) {
             case Solver::pull:
                 return solve_pull(problem_);
             case Solver::ccd:
-                return solve_ccd(problem_);
+                return finish(solve_ccd(problem_));
             case Solver::fabrik:
-                return solve_fabrik(problem_);
+                return finish(solve_fabrik(problem_));
             case Solver::two_bone:
                 return two_bone();
             default:
@@ -225,34 +254,58 @@ private:
         }
     }
 
-    /// Where limits keep the closed form from the target, least squares goes on from there.
     std::uint32_t two_bone() {
-        const std::uint32_t iterations = solve_two_bone(problem_);
-        const bool is_free =
-            std::all_of(links_.begin(), links_.end(), [](const IkLink& link) { return link.constraint == nullptr; });
-        if (is_free || problem_.is_out_of_reach || problem_.is_reached()) return iterations;
+        const glm::dvec3 target = problem_.target;
+        soften_target(problem_);
+        const std::uint32_t iterations = finish(solve_two_bone(problem_));
+        problem_.target = target;
+        return iterations;
+    }
+
+    /// Where a solver stops short of a target within reach, least squares goes on from there.
+    std::uint32_t finish(std::uint32_t iterations) {
+        if (problem_.is_out_of_reach || problem_.is_reached()) return iterations;
         return iterations + solve_least_squares(problem_);
     }
 
     /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds
-    /// only about where they are. Moves the problem's target by what the true tip is off; false if that is within
-    /// tolerance.
-    bool correct_target() {
+    /// only about where they are. Gives the links the bones that they have now; false if the tip is within tolerance.
+    bool correct_bones() {
         if (!is_uneven_ || problem_.is_out_of_reach) return false;
-        const glm::dvec3 left = wanted_ - true_tip();
-        if (glm::dot(left, left) <= problem_.tolerance * problem_.tolerance) return false;
-        problem_.target += left;
-        return true;
+        match_bones();
+        return !problem_.is_reached();
+    }
+
+    void match_bones() {
+        glm::dmat4 matrix(1.0);
+        glm::dvec3 position = problem_.origin;
+        problem_.reach = 0.0;
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            IkLink& link = links_[i];
+            matrix = matrix * link_to_parent(link);
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset =
+                is_last ? tip_offset() : glm::dvec3(std::as_const(pose_).local()[links_[i + 1].joint].translation);
+            const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(offset, 1.0)) / problem_.scale;
+            link.bone = glm::conjugate(link.global) * (end - position);
+            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            problem_.reach += link.bone_length;
+            position = end;
+        }
+        find_reach();
+        problem_.place();
+    }
+
+    [[nodiscard]] glm::dmat4 link_to_parent(const IkLink& link) const {
+        JointTransform transform = std::as_const(pose_).local()[link.joint];
+        transform.rotation = glm::quat(link.local);
+        return to_matrix(transform, model_.joints()[link.joint].shear);
     }
 
     [[nodiscard]] glm::dvec3 true_tip() const {
         if (!is_uneven_) return problem_.tip;
         glm::dmat4 matrix(1.0);
-        for (const IkLink& link : links_) {
-            JointTransform transform = pose_.local()[link.joint];
-            transform.rotation = glm::quat(link.local);
-            matrix = matrix * to_matrix(transform, model_.joints()[link.joint].shear);
-        }
+        for (const IkLink& link : links_) matrix = matrix * link_to_parent(link);
         return glm::dvec3(matrix * glm::dvec4(tip_offset(), 1.0)) / problem_.scale;
     }
 
@@ -272,6 +325,7 @@ private:
         }
         problem_.reach *= stretch_;
         problem_.is_out_of_reach = problem_.is_out_of_reach && wanted > stretch_;
+        is_far_ = is_far_ && problem_.is_out_of_reach;
         problem_.place();
     }
 
@@ -292,13 +346,15 @@ private:
     }
 
     void measure(ReachResult& result) const {
-        const double distance = glm::length(wanted_ - true_tip());
-        result.distance = static_cast<float>(distance * problem_.scale);
+        const glm::dvec3 left = wanted_ - true_tip();
+        const double distance = std::sqrt(glm::dot(left, left));
+        const glm::dvec3 in_model = glm::dmat3(base_) * (left * problem_.scale);
+        result.distance = static_cast<float>(std::sqrt(glm::dot(in_model, in_model)));
         if (solver() == Solver::aim) {
             const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
-            const glm::dvec3 left = to_vector(between(forward, problem_.target - problem_.tip));
-            result.angle = static_cast<float>(std::sqrt(glm::dot(left, left)));
-            result.status = result.angle <= problem_.tolerance ? ReachStatus::reached : ReachStatus::not_reached;
+            const glm::dvec3 turn = to_vector(between(forward, problem_.target - problem_.tip));
+            result.angle = static_cast<float>(std::sqrt(glm::dot(turn, turn)));
+            result.status = result.angle <= problem_.tolerance ? ReachStatus::aimed : ReachStatus::not_reached;
             return;
         }
         result.angle = static_cast<float>(problem_.rotation_error());
@@ -320,8 +376,10 @@ private:
     IkProblem problem_;
     glm::dmat4 base_{1.0};
     glm::dmat4 inverse_base_{1.0};
-    glm::dvec3 wanted_{0};  ///< the problem's target before corrections
+    glm::dvec3 wanted_{0};  ///< the target, not softened
     double stretch_ = 1.0;
+    double longest_ = 0.0;    ///< of a chain that scales its axes differently: no pose is longer; chain lengths
+    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
 };
 

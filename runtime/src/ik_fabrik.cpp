@@ -3,11 +3,13 @@
 
 #include <bendy/format/trig.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Forward and backward reaching (Aristidou and Lasenby, "FABRIK: a fast, iterative solver for the inverse kinematics
-// problem", 2011). Backwards the joints move freely, each keeping its bone's length; forwards each bone is turned to
-// where its end should be, as far as its constraint lets it.
+// problem", 2011). Backwards the joints move to where their bones, which keep their lengths, should begin; forwards
+// each bone is turned to where its end should be. Both passes keep to the constraints. Where those stop it short of the
+// target, least squares goes on (ik.cpp).
 namespace bendy {
 namespace {
 
@@ -45,17 +47,48 @@ void reach_backwards(IkProblem& problem) {
     }
 }
 
-/// A hinge bends in one plane only. Turns the bone before it about itself, until that plane holds the hinge's goal.
+/// The same inside the constraints: each link is turned towards the end of its bone, then brought back to where the
+/// link after it, which is placed already, is legal. Its orientation is the link's trial.
+void reach_backwards_legally(IkProblem& problem) {
+    glm::dvec3 end = problem.target;
+    glm::dvec3 end_now = problem.tip;
+    std::size_t next = problem.links.size();  // the moving link that is placed already
+    for (std::size_t i = problem.links.size(); i-- > 0;) {
+        IkLink& link = problem.links[i];
+        if (link.is_fixed) continue;
+        const glm::dvec3 bone = end_now - link.position;
+        link.trial = link.global;
+        if (turns_by_orientation(problem, i)) {
+            link.trial = problem.target_rotation * glm::conjugate(problem.tip_global) * link.global;
+        } else if (glm::dot(bone, bone) > 1e-24) {
+            link.trial = between(bone, end - link.position) * link.global;
+        }
+        if (next < problem.links.size() && problem.links[next].constraint != nullptr) {
+            const IkLink& after = problem.links[next];
+            const glm::dquat held = glm::conjugate(link.global) * problem.parent_global(next);  // by fixed links
+            const glm::dquat legal = legal_local(after, glm::conjugate(link.trial * held) * after.trial);
+            link.trial = glm::normalize(after.trial * glm::conjugate(held * legal));
+        }
+        end -= link.trial * (glm::conjugate(link.global) * bone);
+        link.goal = end;
+        end_now = link.position;
+        if (glm::dot(bone, bone) > 1e-24 || turns_by_orientation(problem, i)) next = i;
+    }
+}
+
+/// A hinge, or a swing without width, bends in one plane only. Turns the bone before it about itself, until that plane
+/// holds the hinge's goal.
 void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
     if (next == problem.links.size()) return;
     const IkLink& link = problem.links[i];
     const IkLink& hinged = problem.links[next];
-    if (hinged.constraint == nullptr || hinged.constraint->model != LimitModel::hinge) return;
+    const glm::dvec3 own = hinged.constraint == nullptr ? glm::dvec3(0.0) : only_axis(*hinged.constraint);
+    if (own == glm::dvec3(0.0)) return;
     const glm::dvec3 bone = hinged.position - link.position;
     const double length = std::sqrt(glm::dot(bone, bone));
     if (length < 1e-9) return;
     const glm::dvec3 axis = bone / length;
-    const glm::dvec3 hinge = problem.parent_global(next) * (hinged.rest_frame * glm::dvec3(1.0, 0.0, 0.0));
+    const glm::dvec3 hinge = problem.parent_global(next) * (hinged.rest_frame * own);
     const std::size_t after = next_moving(problem, next);
     const glm::dvec3 goal = after == problem.links.size() ? problem.target : problem.links[after].goal;
     const glm::dvec3 way = goal - hinged.position;
@@ -100,25 +133,32 @@ void reach_forwards(IkProblem& problem) {
 
 std::uint32_t solve_fabrik(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 100;
+    const bool is_limited = std::any_of(problem.links.begin(), problem.links.end(),
+                                        [](const IkLink& link) { return link.constraint != nullptr; });
+    // Inside constraints another solver finishes what goes slowly.
+    const double least_gain = is_limited ? 0.1 : 1e-6;  // of the cost
+    const std::uint32_t patience = is_limited ? 4 : 8;
     double best = problem.cost();
     problem.save();
     std::uint32_t without_gain = 0;
     for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
         if (problem.is_reached()) return iteration;
-        reach_backwards(problem);
+        if (is_limited) {
+            reach_backwards_legally(problem);
+        } else {
+            reach_backwards(problem);
+        }
         reach_forwards(problem);
         problem.place();
         const double now = problem.cost();
-        constexpr double kGain = 1e-6;  // of the cost
-        constexpr std::uint32_t kPatience = 8;
         if (now < best) {
-            without_gain = best - now < kGain * best ? without_gain + 1 : 0;
+            without_gain = best - now < least_gain * best ? without_gain + 1 : 0;
             best = now;
             problem.save();
         } else {
             ++without_gain;
         }
-        if (without_gain >= kPatience) {
+        if (without_gain >= patience) {
             problem.restore();
             return iteration + 1;
         }

@@ -197,23 +197,61 @@ private:
     std::uint64_t state_ = 1;
 };
 
-/// Another beginning: first the preferred pose, then any legal one.
-void begin_anew(IkProblem& problem, std::uint32_t attempt, Dice& dice) {
+/// Three unit axes across each other, in base space, in which a chain and its mirror image have the same numbers for
+/// mirrored turns: made of the chain's bends at rest, what its constraints allow, its pole, and where the target lies.
+/// How the joints' own axes are laid counts nothing. Turns are axial vectors, and so is what follows.
+glm::dmat3 turn_axes(const IkProblem& problem) {
+    glm::dvec3 bends(0.0);
+    glm::dquat global(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 tip = problem.origin;
+    glm::dvec3 before(0.0);
+    for (const IkLink& link : problem.links) {
+        if (link.constraint != nullptr) {
+            bends += global * (link.rest_frame * (link.freedom * preferred_side(*link.constraint)));
+        }
+        global = global * link.rest_frame * glm::conjugate(link.frame);
+        const glm::dvec3 bone = global * link.bone;
+        bends += glm::cross(before, bone);
+        if (link.bone_length > 0.0) before = bone / link.bone_length;
+        tip += bone;
+    }
+    const glm::dvec3 reached = tip - problem.origin;
+    if (problem.has_pole) bends += glm::cross(problem.pole - problem.origin, reached);
+    const glm::dvec3 aside = glm::cross(problem.target - problem.origin, reached);
+    const double size = std::sqrt(glm::dot(bends, bends));
+    constexpr double kClear = 1e-3;
+    if (!(size > kClear && std::isfinite(size))) return glm::dmat3(1.0);
+    const glm::dvec3 x = bends / size;
+    const glm::dvec3 across = aside - x * glm::dot(x, aside);
+    const double rest = std::sqrt(glm::dot(across, across));
+    if (!(rest > kClear)) return glm::dmat3(1.0);
+    const glm::dvec3 y = across / rest;
+    return {x, y, glm::cross(x, y)};
+}
+
+/// Another beginning: first the preferred pose, then that brought near by the closed form, then any legal one.
+void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axes, Dice& dice) {
+    constexpr std::uint32_t kPreferred = 2;  // attempts
+    glm::dquat parent(1.0, 0.0, 0.0, 0.0);   // at rest
     for (IkLink& link : problem.links) {
+        const glm::dquat rest = parent * link.rest_frame;
+        parent = rest * glm::conjugate(link.frame);
         if (link.is_fixed) continue;
-        glm::dvec3 turn(0.0);
-        if (attempt == 0) {
+        glm::dvec3 turn(0.0);  // about the frame's axes
+        if (attempt < kPreferred) {
             if (link.constraint == nullptr) continue;
             const auto& preferred = link.constraint->record.preferred;
             turn = {preferred[0], preferred[1], preferred[2]};
         } else {
             // One after another: in which order arguments are computed is the compiler's choice.
             for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
+            turn = glm::conjugate(rest) * (axes * turn);
         }
         link.local = legal_local(
             link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));
     }
     problem.place();
+    if (attempt == kPreferred - 1) solve_two_bone(problem);
 }
 
 }  // namespace
@@ -228,16 +266,29 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     if (problem.is_reached()) return iterations;
     double best = problem.cost();
     problem.save();
-    Dice dice;
-    for (std::uint32_t attempt = 0; attempt < restarts; ++attempt) {
-        begin_anew(problem, attempt, dice);
+    const auto descend = [&] {
         iterations += method.descend(most);
-        if (problem.cost() < best) {
-            best = problem.cost();
-            problem.save();
-        }
-        if (problem.is_reached()) break;
+        // Of two ends as near as each other the first counts: rounding must not choose between them.
+        constexpr double kNearer = 0.99;
+        if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
+        best = problem.cost();
+        problem.save();
+    };
+    // The closed form from the best place so far: it slides along a limit in one step where descending creeps.
+    const auto bend_best = [&] {
+        problem.restore();
+        solve_two_bone(problem);
+        descend();
+    };
+    if (restarts > 0) bend_best();
+    const glm::dmat3 axes = restarts > 0 ? turn_axes(problem) : glm::dmat3(1.0);
+    Dice dice;
+    for (std::uint32_t attempt = 0; attempt < restarts && !problem.is_reached(); ++attempt) {
+        begin_anew(problem, attempt, axes, dice);
+        descend();
     }
+    constexpr int kLast = 4;
+    for (int i = 0; i < kLast && restarts > 0 && !problem.is_reached(); ++i) bend_best();
     problem.restore();
     return iterations;
 }

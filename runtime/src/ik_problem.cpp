@@ -3,6 +3,9 @@
 #include "nearest_rotation.h"
 #include "rotation.h"
 
+#include <bendy/format/trig.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace bendy {
@@ -101,6 +104,48 @@ glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
         const bool goes_deeper = in_zone > 0.0 && in_zone > depth(before);
         return quick_legal_rotation(c.model, c.euler_order, c.shape, goes_deeper ? between(before, R, 0.5) : R);
     });
+}
+
+glm::dvec3 preferred_side(const Constraint& constraint) {
+    const auto& preferred = constraint.record.preferred;
+    const glm::dvec3 said(preferred[0], preferred[1], preferred[2]);
+    if (said != glm::dvec3(0.0)) return said;
+    const LimitShape& shape = constraint.shape;
+    const auto middle = [&](std::size_t axis) {
+        return shape.angles.at(axis).half < trig::kPi ? shape.angles.at(axis).middle : 0.0;
+    };
+    const auto swing = [&](std::size_t side) {  // free: infinite, and then as far as half a turn
+        return std::min(shape.swing_high.at(side), 1.0) - std::min(shape.swing_low.at(side), 1.0);
+    };
+    switch (constraint.model) {
+        case LimitModel::hinge:
+            return {middle(0), 0.0, 0.0};
+        case LimitModel::swing_twist_ellipse:
+        case LimitModel::swing_twist_pyramid:
+            return {middle(0), swing(0), swing(1)};
+        case LimitModel::euler_box:
+            return {middle(0), middle(1), middle(2)};
+        default:
+            return glm::dvec3(0.0);
+    }
+}
+
+glm::dvec3 only_axis(const Constraint& constraint) {
+    const LimitShape& shape = constraint.shape;
+    const auto has_width = [&](std::size_t side) {
+        constexpr double kNarrow = 1e-6;  // radians
+        return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
+    };
+    switch (constraint.model) {
+        case LimitModel::hinge:
+            return {1.0, 0.0, 0.0};
+        case LimitModel::swing_twist_ellipse:
+        case LimitModel::swing_twist_pyramid:
+            if (has_width(0) == has_width(1)) return glm::dvec3(0.0);
+            return {0.0, has_width(0) ? 1.0 : 0.0, has_width(1) ? 1.0 : 0.0};
+        default:
+            return glm::dvec3(0.0);
+    }
 }
 
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector) {

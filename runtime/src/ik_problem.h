@@ -55,6 +55,13 @@ glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
 /// A turn by a rotation vector in base space, lessened by the link's freedom about its axes.
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
+/// Which way a joint prefers to turn, or where that is not said, to which side its constraint lets it turn farther, as
+/// a rotation vector about the frame's axes: what a mirrored joint has mirrored, whichever way its axes are laid. Zero
+/// where nothing is preferred.
+glm::dvec3 preferred_side(const Constraint& constraint);
+/// The axis, in the constraint's frame, about which alone the joint bends: a hinge's, or that of a swing which has no
+/// width. Zero if there is none.
+glm::dvec3 only_axis(const Constraint& constraint);
 /// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by.
 /// The links after it are not placed anew.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
@@ -64,6 +71,12 @@ glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rot
 // The solvers. Each begins with a placed problem whose links are legal, leaves it so, and returns its iterations.
 std::uint32_t solve_pull(IkProblem& problem);
 std::uint32_t solve_two_bone(IkProblem& problem);
+/// Moves a two-bone problem's target nearer by its softness: near full reach, where a straight leg would snap, the tip
+/// slows, comes nearer and nearer, and never arrives.
+void soften_target(IkProblem& problem);
+/// Of two equal turns of a straight chain's hinge, whether the one against its axis is preferred: which end of its axis
+/// the file gives says nothing. False for what is no hinge.
+bool hinge_prefers_back(const Constraint* constraint);
 std::uint32_t solve_ccd(IkProblem& problem);
 std::uint32_t solve_fabrik(IkProblem& problem);
 std::uint32_t solve_aim(IkProblem& problem);

@@ -1,9 +1,11 @@
 #include "ik_quick.h"
 
+#include "ik_problem.h"
 #include "nearest_rotation.h"
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bendy {
@@ -90,6 +92,7 @@ public:
 
     BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == LimitModel::hinge; }
+    [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
     /// Whether it says nothing but which rotations there are.
     BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// The hinge's axis in the parent's space, for a unit rotation.
@@ -138,10 +141,20 @@ BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOpt
     return true;
 }
 
-BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, double length) {
+/// In lengths of the base's space, as `length` is.
+BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, const glm::dmat4& base,
+                                 double length) {
     const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
     constexpr double kOfLength = 1e-4, kLeast = 1e-9;
-    return tolerance > 0.0f ? std::max(double{tolerance}, kLeast * length) : kOfLength * length;
+    if (!(tolerance > 0.0f)) return kOfLength * length;
+    const double scale =
+        std::max({squared(glm::dvec3(base[0])), squared(glm::dvec3(base[1])), squared(glm::dvec3(base[2]))});
+    return std::max(double{tolerance} / std::sqrt(scale), kLeast * length);
+}
+
+/// How long a vector of the base's space is in model space, metres.
+BENDY_INLINE float length_in_model(const glm::dmat4& base, const glm::dvec3& v) {
+    return static_cast<float>(std::sqrt(squared(glm::dmat3(base) * v)));
 }
 
 /// How the middle joint bends: the rest of the chain turns about a unit axis, in the start's axes.
@@ -213,7 +226,9 @@ BENDY_INLINE bool bend_middle(const Limit& limit, const Bend& bend, glm::dquat& 
     if (!limit.is_there()) return turn_middle(bend, turn, before, local);
     Turn other = turn;
     if (limit.is_hinge()) other = turn_to(bend, 1.0);
-    if (other.cosine > turn.cosine) std::swap(turn, other);
+    constexpr double kSame = 1e-6;
+    const double gain = other.cosine - turn.cosine;
+    if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
     if (!turn_middle(bend, turn, before, local)) return false;
     const Limit::Side side = limit.side(local);
     if (side != Limit::Side::outside) return side == Limit::Side::inside;
@@ -285,11 +300,11 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
 
     const double length = std::sqrt(squared(bend.bone)) + std::sqrt(squared(rest));
     const double left = std::abs(std::sqrt(squared(reached)) - std::sqrt(distance));  // the direction is right
-    if (!(left <= tolerance_of(chain, options, length)) || !(squared(upper) > 0.5)) return std::nullopt;
+    if (!(left <= tolerance_of(chain, options, base, length)) || !(squared(upper) > 0.5)) return std::nullopt;
     const auto changed = pose.change_local();
     changed[start].rotation = glm::quat(upper);
     changed[middle].rotation = glm::quat(lower);
-    return ReachResult{ReachStatus::reached, static_cast<float>(left), 0.0f, 1};
+    return ReachResult{ReachStatus::reached, length_in_model(base, way * (left / std::sqrt(distance))), 0.0f, 1};
 }
 
 std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& target, Pose& pose,
@@ -312,7 +327,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     const glm::dvec3 ahead = way * (1.0 / distance);
     const glm::dvec3 forward = turned(rotation, turned(tip, {0.0, 0.0, 1.0}));
     const glm::dquat turn(1.0 + glm::dot(forward, ahead), glm::cross(forward, ahead));
-    const double tolerance = tolerance_of(chain, options, 1.0);
+    const double tolerance = tolerance_of(chain, options, base, 1.0);
     // What looks at the target already stays as it is; behind the back there is no nearest way round.
     constexpr double kOpposite = 1e-4;
     if (!(squared(vector_of(turn)) > 4.0 * tolerance * tolerance && turn.w > kOpposite)) return std::nullopt;
@@ -329,7 +344,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     }
     if (!limit.holds(rotation) || !(squared(rotation) > 0.5)) return std::nullopt;
     pose.change_local()[joint].rotation = glm::quat(rotation);
-    return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
+    return ReachResult{ReachStatus::aimed, length_in_model(base, way), 0.0f, 1};
 }
 
 #undef BENDY_INLINE

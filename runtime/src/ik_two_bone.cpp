@@ -11,6 +11,8 @@
 namespace bendy {
 namespace {
 
+constexpr double kSame = 1e-6;  // radians, and cosines: what rounding could take to either side
+
 double length_of(const glm::dvec3& v) {
     return std::sqrt(glm::dot(v, v));
 }
@@ -29,16 +31,6 @@ std::size_t find_middle(const IkProblem& problem) {
     return middle;
 }
 
-/// How far the tip should be from the start: the target's distance, slowed near full reach, where a straight leg would
-/// snap: it then comes nearer and nearer and never arrives.
-double wanted_distance(double distance, double full, double softness) {
-    const double zone = full * std::clamp(softness, 0.0, 1.0);
-    const double hard = full - zone;
-    if (zone <= 0.0 || distance <= hard) return distance;
-    const double past = (distance - hard) / zone;
-    return hard + zone * past / (1.0 + past);
-}
-
 /// The axis about which the middle joint bends, not of unit length.
 glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::dvec3& u, const glm::dvec3& v) {
     if (middle.constraint != nullptr && middle.constraint->model == LimitModel::hinge)
@@ -54,8 +46,7 @@ glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::
     // A straight chain bends the way its joint prefers, else about the more crosswise of its axes.
     const glm::dquat axes = middle.global * middle.frame;
     if (middle.constraint != nullptr) {
-        const auto& preferred = middle.constraint->record.preferred;
-        axis = axes * glm::dvec3(preferred[0], preferred[1], preferred[2]);
+        axis = axes * preferred_side(*middle.constraint);
         axis -= u * (glm::dot(axis, u) / glm::dot(u, u));
         if (length_of(axis) > kStraight) return axis;
     }
@@ -72,15 +63,20 @@ double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& 
     return angle_between(legal_local(l, local), local);
 }
 
-/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
-void bend(IkProblem& problem, std::size_t middle, double distance) {
+struct Bend {
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    double illegality = 0.0;  ///< radians
+};
+
+/// The turn of the middle joint about `axis` that takes the tip as far from the start as `distance`, or as near to that
+/// as it gets.
+Bend find_bend(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
     const IkLink& link = problem.links[middle];
     const glm::dvec3 u = link.position - problem.origin;
     const glm::dvec3 v = problem.tip - link.position;
-    glm::dvec3 h = bend_axis(problem, link, u, v);
-    const double size = length_of(h);
-    if (size < 1e-12) return;
-    h /= size;
+    const double size = length_of(axis);
+    if (size < 1e-12) return {};
+    const glm::dvec3 h = axis / size;
     // |u + turned v| = distance:  along + b cos(f) + c sin(f) = wanted, f the turn about h.
     const double wanted = 0.5 * (distance * distance - glm::dot(u, u) - glm::dot(v, v));
     const double along = glm::dot(u, h) * glm::dot(v, h);
@@ -88,7 +84,7 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
     const double b = glm::dot(u, across);
     const double c = glm::dot(u, glm::cross(h, across));
     const double most = std::sqrt(b * b + c * c);
-    if (most < 1e-12) return;
+    if (most < 1e-12) return {};
     // f is the opening to one side or the other of where the chain is straight; as cosine and sine.
     const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
     const double sine = std::sqrt(1.0 - open * open);
@@ -98,12 +94,34 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
         const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
         return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    glm::dquat best = turn(-1.0);  // a straight chain bends the axis' way
-    const glm::dquat other = turn(1.0);
-    const double excess = illegality(problem, middle, best) - illegality(problem, middle, other);
-    constexpr double kSame = 1e-6;
-    if (excess > kSame || (excess > -kSame && other.w > best.w)) best = other;
-    turn_link(problem, middle, best);
+    const Bend one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
+    const Bend other{turn(1.0), illegality(problem, middle, turn(1.0))};
+    const double excess = one.illegality - other.illegality;
+    const bool is_smaller =
+        std::abs(other.turn.w - one.turn.w) > kSame ? other.turn.w > one.turn.w : hinge_prefers_back(link.constraint);
+    return excess > kSame || (excess > -kSame && is_smaller) ? other : one;
+}
+
+/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
+void bend(IkProblem& problem, std::size_t middle, double distance) {
+    IkLink& link = problem.links[middle];
+    const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
+    Bend best = find_bend(problem, middle, axis, distance);
+    if (best.illegality > kSame) {
+        // From rest the way that the constraint allows most.
+        const glm::dquat before = link.local;
+        link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
+        problem.place(middle);
+        const glm::dvec3 preferred = link.global * (link.frame * preferred_side(*link.constraint));
+        const Bend other = find_bend(problem, middle, preferred, distance);
+        if (other.illegality < best.illegality && preferred != glm::dvec3(0.0)) {
+            best = other;
+        } else {
+            link.local = before;
+            problem.place(middle);
+        }
+    }
+    turn_link(problem, middle, best.turn);
     problem.place(middle);
 }
 
@@ -118,42 +136,78 @@ glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm
     return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
 }
 
-/// The turn about `axis`, of all around, that takes the start least outside its constraint.
+/// The turn about `axis`, of all around, that takes the start least outside its constraint: of the legal ones the
+/// smallest, to either side, so that a mirrored chain turns the other way.
 glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const glm::dvec3& axis) {
     constexpr int kTurns = 24;
     constexpr double kStep = 2.0 * trig::kPi / kTurns;
+    constexpr double kLegal = 1e-9;  // radians
     const auto badness = [&](double angle) { return illegality(problem, 0, from_vector(axis * angle) * aimed); };
     double best = 0.0;
     double least = illegality(problem, 0, aimed);
-    // From no turn outwards to both sides: of two legal ones the smaller.
-    for (int i = 1; i <= kTurns / 2 && least > 0.0; ++i) {
-        for (const double angle : {kStep * i, -kStep * i}) {
-            const double here = badness(angle);
-            if (here >= least) continue;
-            least = here;
-            best = angle;
+    const auto consider = [&](double angle) {
+        const double here = badness(angle);
+        if (here >= least) return;
+        least = here;
+        best = angle;
+    };
+    /// The smallest legal turn of this side, the one before `legal` on the ring being illegal.
+    const auto edge = [&](double legal) {
+        double illegal = legal - std::copysign(kStep, legal);
+        constexpr double kNear = 1e-6;
+        while (std::abs(legal - illegal) > kNear) {
+            const double middle = 0.5 * (legal + illegal);
+            (badness(middle) > kLegal ? illegal : legal) = middle;
+        }
+        return legal;
+    };
+    for (int i = 1; i <= kTurns / 2 && least > kLegal; ++i) {
+        const double there = badness(kStep * i);
+        const double back = badness(-kStep * i);
+        if (there <= kLegal || back <= kLegal) {
+            constexpr double kMore = 4.0;  // than half a turn
+            const double one = there <= kLegal ? edge(kStep * i) : kMore;
+            const double other = back <= kLegal ? edge(-kStep * i) : -kMore;
+            best = one <= -other ? one : other;
+            least = 0.0;
+        } else {
+            consider(there <= back ? kStep * i : -kStep * i);
         }
     }
-    for (double step = 0.5 * kStep; step > 1e-7 && least > 0.0; step *= 0.5) {
-        for (const double angle : {best - step, best + step}) {
-            const double here = badness(angle);
-            if (here >= least) continue;
-            least = here;
-            best = angle;
-        }
+    for (double step = 0.5 * kStep; step > 1e-7 && least > kLegal; step *= 0.5) {
+        const double middle = best;
+        consider(middle - step);
+        consider(middle + step);
     }
     return best == 0.0 ? aimed : from_vector(axis * best) * aimed;
 }
 
 }  // namespace
 
+bool hinge_prefers_back(const Constraint* constraint) {
+    return constraint != nullptr && constraint->model == LimitModel::hinge && preferred_side(*constraint).x < 0.0;
+}
+
+void soften_target(IkProblem& problem) {
+    const std::size_t middle = find_middle(problem);
+    const glm::dvec3 way = problem.target - problem.origin;
+    const double distance = length_of(way);
+    if (middle == 0 || !(distance > 1e-12)) return;
+    const glm::dvec3& knee = problem.links[middle].position;
+    const double full = length_of(knee - problem.origin) + length_of(problem.tip - knee);
+    const double zone = full * std::clamp(double{problem.options->softness}, 0.0, 1.0);
+    const double hard = full - zone;
+    if (!(zone > 0.0) || distance <= hard) return;
+    const double past = (distance - hard) / zone;
+    problem.target = problem.origin + way * ((hard + zone * past / (1.0 + past)) / distance);
+}
+
 std::uint32_t solve_two_bone(IkProblem& problem) {
     const std::size_t middle = find_middle(problem);
     if (middle == 0) return solve_ccd(problem);  // there are no two bones
     const glm::dvec3& knee = problem.links[middle].position;
-    const double full = length_of(knee - problem.origin) + length_of(problem.tip - knee);
     const double distance = length_of(problem.target - problem.origin);
-    bend(problem, middle, wanted_distance(distance, full, problem.options->softness));
+    bend(problem, middle, distance);
     const glm::dvec3 way = problem.target - problem.origin;
     glm::dquat aim = between(problem.tip - problem.origin, way);
     if (distance > 1e-12) {

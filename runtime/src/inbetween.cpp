@@ -1,5 +1,7 @@
 #include <bendy/runtime/inbetween.h>
 
+#include "frame_shape.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
@@ -22,6 +24,7 @@ template <class Vector>
 void displace(const TargetView& target, const std::optional<StreamView>& stream, float weight, std::uint32_t vertices,
               std::span<Vector> out) {
     if (!stream || out.empty()) return;
+    if (target.is_frame()) return add_frame(*target.places, *stream, weight, 0, out.first(vertices));
     const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
     const bool is_plain = stream->type == ComponentType::f32;
     for (std::uint32_t entry = 0; entry < stream->elements; ++entry) {
@@ -50,6 +53,11 @@ bool inbetween(const Pool& pool, std::span<const float> weights, std::uint32_t v
     fill<glm::vec3>(pool.positions, vertices, out.positions);
     fill<glm::vec3>(pool.normals, vertices, out.normals);
     fill<glm::vec4>(pool.tangents, vertices, out.tangents);
+    const float share = rest_share(pool, weights);
+    if (have_frames(pool, &TargetView::positions) && !out.positions.empty())
+        lighten(share, out.positions.first(vertices));
+    if (have_frames(pool, &TargetView::normals) && pool.normals && !out.normals.empty())
+        lighten(share, out.normals.first(vertices));
     for (std::size_t k = 0; k < pool.targets.size(); ++k) {
         if (weights[k] == 0.0f) continue;
         const TargetView& target = pool.targets[k];

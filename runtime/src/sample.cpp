@@ -179,6 +179,18 @@ void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std
     sample_between(track, find_interval(track, cycle, seconds), value);
 }
 
+FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds) {
+    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+    const std::uint32_t intervals = play.closed ? play.frames : play.frames - 1;
+    const std::uint32_t end = play.closed ? play.first : play.first + intervals;
+    if (!(frame > 0.0)) return {play.first, play.first};
+    if (frame >= intervals) return {end, end};
+    const double whole = std::floor(frame);
+    const auto left = static_cast<std::uint32_t>(whole);
+    const std::uint32_t right = left + 1 == play.frames ? 0 : left + 1;
+    return {play.first + left, play.first + right, static_cast<float>(frame - whole)};
+}
+
 /// The work on a pose.
 class Sampling {
 public:
@@ -190,6 +202,7 @@ public:
           weights_(pose.change_target_weights()) {}
 
     void run() const {
+        for (const PlayView& play : cycle_.plays) sample_frames(play);
         const PoseKernels* const kernels = pose_kernels();
         const std::size_t number = model_.number_of(cycle_);
         if (number >= model_.cycles().size()) {  // of another model
@@ -207,6 +220,19 @@ public:
     }
 
 private:
+    void sample_frames(const PlayView& play) const {
+        if (play.pool >= model_.pools().size()) return;  // a cycle of another model
+        const Pool& pool = model_.pools()[play.pool];
+        if (play.first + play.frames > pool.frames()) return;
+        const FrameMix mix = mix_frames(play, cycle_, seconds_);
+        const auto add = [&](std::uint32_t frame, float weight) {
+            if (frame == 0) return;  // the pool's own streams have what the others leave
+            weights_[model_.first_target(play.pool) + pool.first_frame + frame - 1] += weight;
+        };
+        add(mix.left, 1.0f - mix.fraction);
+        add(mix.right, mix.fraction);
+    }
+
     void sample_tracks() const {
         // Neighbouring tracks mostly share their times.
         const TrackView* same = nullptr;

@@ -1,5 +1,7 @@
 #include "staging.h"
 
+#include "frame_shape.h"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -20,6 +22,7 @@ StreamView part_of(const StreamView& stream, std::size_t first, std::size_t coun
 template <class Vector>
 void shift(const TargetView& target, const StreamView& shifts, float weight, std::size_t first,
            std::span<Vector> vectors) {
+    if (target.is_frame()) return add_frame(*target.places, shifts, weight, first, vectors);
     auto entry = static_cast<std::uint32_t>(first);
     if (target.vertices) {  // they ascend
         std::uint32_t last = shifts.elements;
@@ -67,6 +70,7 @@ Staging::Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> 
     : pool_(pool), plan_(plan), target_weights_(weights), positions_(pool.positions) {
     const auto is_active = [](float weight) { return weight != 0.0f; };
     is_shifted_ = std::any_of(weights.begin(), weights.end(), is_active);
+    rest_share_ = is_shifted_ ? rest_share(pool, weights) : 1.0f;
     const auto in_place = [&](const std::optional<StreamView>& stream, const SkinOutput& out) {
         return out.data == nullptr || (stream && stream->type == ComponentType::f32 && !is_shifted_);
     };
@@ -97,6 +101,7 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
     } else {
         part_of(*stream, first, count).decode(vectors);
     }
+    if (have_frames(pool_, shifts)) lighten(rest_share_, vectors);
     for (std::size_t k = 0; k < pool_.targets.size(); ++k) {
         const TargetView& target = pool_.targets[k];
         if (target_weights_[k] != 0.0f && target.*shifts)

@@ -39,6 +39,7 @@ private:
     std::span<const float> target_weights_;
     std::optional<StreamView> positions_;
     bool is_shifted_ = false;  // some target has a weight
+    float rest_share_ = 1.0f;  // of the pool's own streams, beside its frames
     bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
     std::size_t capacity_ = 0;
     std::array<float, 3 * kVertices> positions_scratch_;

@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
-from md2_file import md2_file  # noqa: E402
+from md2_file import Md2, md2_file, player_names, tube_md2  # noqa: E402
 from schema import is_valid  # noqa: E402
 
 BENDY = ""
@@ -362,8 +362,9 @@ class Convert(Case):
         result = self.bendy("convert", "legs.gltf", "--auto-rig")
         self.assertEqual(result.returncode, 0)
         lines = result.stderr.decode().splitlines()
-        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone", lines)
-        self.assertIn("bendy: proposed: LeftLeg: hinge 0 to 135 degrees", lines)
+        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone, "
+                      "knee points forward", lines)
+        self.assertIn("bendy: proposed: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees", lines)
         self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
         self.assertNotIn(b"proposed", result.stdout)
         self.done("validate", "legs.bendy")
@@ -373,6 +374,72 @@ class Convert(Case):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
         self.assertIn("slide\\x09now", text)
         self.assertFalse(any(ord(c) < 0x20 and c != "\n" for c in text))
+
+
+class LinkedImages(Case):
+    """--images link: URIs are relative to where they stand, and a dangling one is said."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "lk").mkdir()
+        file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], images=[{"uri": "the%20axe.png"}],
+                        textures=[{"source": 0}],
+                        materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])
+        positions = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "VEC3")
+        file.document["meshes"] = [{"primitives": [{"attributes": {"POSITION": positions}, "material": 0}]}]
+        file.write(self.folder / "lk" / "m.gltf")
+        (self.folder / "lk" / "the axe.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+
+    def links(self, path):
+        root = Chunk.read((self.folder / path).read_bytes())
+        return [chunk.payload.decode() for _, chunk in root.walk() if chunk.letters == "LINK"]
+
+    def test_is_relative_to_the_output(self):
+        for output, uri in (("m.bendy", "lk/the%20axe.png"), ("lk/m.bendy", "the%20axe.png"),
+                            ("out/m.bendy", "../lk/the%20axe.png")):
+            (self.folder / output).parent.mkdir(exist_ok=True)
+            result = self.bendy("convert", "lk/m.gltf", "-o", output, "--images", "link")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(self.links(output), [uri])
+            self.assertEqual(b"viewer does not follow it" in result.stderr, output == "out/m.bendy")
+            self.assertEqual(self.bendy("validate", output).stderr, b"")
+
+    def test_of_a_batch_is_relative_to_each_output(self):
+        self.done("convert", "lk", "-o", "out", "--images", "link")
+        self.assertEqual(self.links("out/m.bendy"), ["../lk/the%20axe.png"])
+
+    def test_follows_the_file(self):
+        self.done("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        (self.folder / "out").mkdir()
+        self.done("convert", "m.bendy", "-o", "out/again.bendy")
+        self.assertEqual(self.links("out/again.bendy"), ["../lk/the%20axe.png"])
+        self.done("export", "out/again.bendy", "-o", "lk/back.gltf")
+        document = json.loads((self.folder / "lk" / "back.gltf").read_text())
+        self.assertEqual(document["images"][0]["uri"], "the%20axe.png")
+        self.done("export", "out/again.bendy", "-o", "back.x")
+        self.assertIn('"lk/the axe.png"', (self.folder / "back.x").read_text())
+
+    def test_that_dangles_is_a_warning(self):
+        (self.folder / "lk" / "the axe.png").unlink()
+        result = self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        self.assertIn(b"linked image does not exist: 'the%20axe.png'", result.stderr)
+        result = self.bendy("validate", "m.bendy")
+        self.assertEqual((result.returncode, result.stdout), (0, b""))
+        self.assertEqual(result.stderr.decode(), "bendy: warning: m.bendy: HEAD/TEXT/LINK: linked image does not "
+                                                 "exist: lk/the%20axe.png\n")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertTrue(entry["valid"])
+        self.assertEqual([warning["path"] for warning in entry["warnings"]], ["HEAD/TEXT/LINK"])
+        (self.folder / "lk" / "the axe.png").write_bytes(b"")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertEqual(entry["warnings"], [])
+
+    def test_elsewhere_is_not_looked_at(self):
+        text = (self.folder / "lk" / "m.gltf").read_text().replace("the%20axe.png", "https://example.org/a.png")
+        (self.folder / "lk" / "m.gltf").write_text(text)
+        self.assertEqual(self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link").stderr, b"")
+        self.assertEqual(self.links("m.bendy"), ["https://example.org/a.png"])
+        self.assertEqual(self.bendy("validate", "m.bendy").stderr, b"")
 
 
 class ConvertBatch(Case):
@@ -500,7 +567,7 @@ class ConvertBatch(Case):
         told = sorted(line for line in errors if line.startswith("bendy: error: "))
         self.assertEqual(len(told), 2)
         self.assertIn("in/bad.glb: GLB header truncated", told[0])
-        self.assertIn("missing.glb: file not found", told[1])
+        self.assertIn("missing.glb: there is no such file", told[1])
         converted, table, _ = self.batch("in", "missing.glb", "-o", "out", status=1)  # tried again, the others not
         self.assertEqual((converted, table["up to date"], table["failed"]), ([], "3", "2"))
 
@@ -1979,8 +2046,8 @@ class XFiles(Case):
         (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 1; 1;2;oops; 0;}\n")
         message = self.failed("convert", "bad.x", file="bad.x")
         self.assertIn("line 3, column 9: a number is due here, not 'oops'", message)
-        (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + bytes(32))
-        self.assertIn("compressed (tzip)", self.failed("convert", "packed.x", file="packed.x"))
+        (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + b"\x40" + bytes(31))
+        self.assertIn("byte 20: a compressed block of 0 bytes", self.failed("convert", "packed.x", file="packed.x"))
         (self.folder / "other.x").write_bytes(b"solid")
         self.assertIn("no X-file", self.failed("convert", "other.x", file="other.x"))
         self.assertIn("glTF files only", self.failed("convert", "bad.x", "--scene", "0", file="bad.x"))
@@ -1991,11 +2058,102 @@ class QuakeModels(Case):
         md2_file(self.folder / "man.md2")
         shown = self.done("convert", "man.md2").decode()
         self.assertIn("morph targets  3: run1, run2, stand02", shown)
-        self.assertIn("clips          2: stand 0.1 s, run 0.1 s", shown)
+        self.assertIn("clips          2: stand 0.2 s, run 0.2 s", shown)
         self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
         heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
         # The fourth frame: 3 units up, and from 0 to 2 of its own.
         self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
+
+    def corners(self, file, clip, seconds):
+        """Of all triangles, in model space."""
+        self.done("pose", file, "--clip", clip, "--time", repr(seconds), "-o", "pose.json")
+        mesh = json.loads((self.folder / "pose.json").read_text())["meshes"][0]
+        places = [mesh["positions"][k:k + 3] for k in range(0, len(mesh["positions"]), 3)]
+        return [places[index] for index in mesh["indices"]]
+
+    def assert_at(self, model, file, clip, seconds, frame, after=None, fraction=0.0):
+        wanted = model.corners(frame, after, fraction)
+        for here, there in zip(self.corners(file, clip, seconds), wanted, strict=True):
+            for a, b in zip(here, there):
+                self.assertAlmostEqual(a, b, delta=1e-6 * (1 + abs(b)), msg=f"{clip} at {seconds}")
+
+    def test_poses_are_those_of_the_file(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()))
+        self.done("convert", "man.md2")
+        self.assertLess((self.folder / "man.bendy").stat().st_size, (self.folder / "man.md2").stat().st_size)
+        self.done("export", "man.bendy", "-o", "man.glb")
+        self.done("convert", "man.glb", "-o", "glb.bendy")
+        self.done("convert", "man.md2", "--compact", "-o", "small.bendy")
+        for file in ("man.bendy", "glb.bendy", "small.bendy"):
+            for frame in (0, 3, 5):
+                self.assert_at(model, file, "run", frame / 10, 40 + frame)
+            self.assert_at(model, file, "run", 0.125, 41, 42, 0.25)
+            self.assert_at(model, file, "run", 0.5625, 45, 40, 0.625)  # around
+            self.assert_at(model, file, "run", 0.6, 40)
+            self.assert_at(model, file, "stand", 3.9375, 39, 0, 0.375)  # to the pool's own shape
+            self.assert_at(model, file, "stand", 0.03125, 0, 1, 0.3125)
+            self.assert_at(model, file, "death2", 0.4375, 188, 189, 0.375)
+            self.assert_at(model, file, "death2", 0.5, 189)
+
+    def test_players_clips(self):
+        tube_md2(self.folder / "man.md2", player_names(), sides=3, rings=2)
+        self.done("convert", "man.md2")
+        tree = json.loads(self.done("dump", "man.bendy"))
+        clips = {}
+        for chunk in next(chunk["OBJE"] for chunk in tree["HEAD"] if "OBJE" in chunk):
+            if "CYCL" not in chunk:
+                continue
+            leaves = {name: value for child in chunk["CYCL"] for name, value in child.items()}
+            play = leaves["PLAY"]["plays"][0]
+            clips[leaves["NAME"]] = (play["first"], play["frames"], play["closed"], leaves["CINF"]["loop"], leaves["CINF"]["end"])
+        wanted = {"stand": (0, 40, 1), "run": (40, 6, 1), "attack": (46, 8, 0), "pain1": (54, 4, 0), "pain2": (58, 4, 0),
+                  "pain3": (62, 4, 0), "jump": (66, 6, 0), "flip": (72, 12, 0), "salute": (84, 11, 0), "taunt": (95, 17, 0),
+                  "wave": (112, 11, 0), "point": (123, 12, 0), "crstnd": (135, 19, 1), "crwalk": (154, 6, 1),
+                  "crattak": (160, 9, 0), "crpain": (169, 4, 0), "crdeath": (173, 5, 0), "death1": (178, 6, 0),
+                  "death2": (184, 6, 0), "death3": (190, 8, 0)}
+        self.assertEqual({name: values[:3] for name, values in clips.items()}, wanted)
+        for first, frames, closed, loop, end in clips.values():
+            self.assertEqual(loop, closed)
+            self.assertAlmostEqual(end, (frames if closed else frames - 1) / 10, places=6)
+
+    def test_frames_come_through_everything(self):
+        tube_md2(self.folder / "man.md2", player_names()[:60])
+        self.done("convert", "man.md2")
+        before = (self.folder / "man.bendy").read_bytes()
+        self.done("convert", "man.bendy", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), before)
+        self.done("dump", "man.bendy", "-o", "man.json")
+        self.done("assemble", "man.json", "-o", "back.bendy")
+        self.assertEqual((self.folder / "back.bendy").read_bytes(), before)
+        for options in (["--lod"], ["--compact"], ["--lod", "--compact"]):
+            self.done("convert", "man.md2", *options, "-o", "other.bendy")
+            self.done("validate", "other.bendy")
+            self.done("diff", "man.bendy", "other.bendy", "--tolerance", "0.1mm")
+            if options == ["--compact"]:
+                self.assertLess((self.folder / "other.bendy").stat().st_size, len(before))
+        shown = self.done("inspect", "man.bendy").decode()
+        self.assertIn("59 frames of 48 places", shown)
+        self.assertIn("6 frames of pool 0 from frame 40, closed", shown)
+        self.done("inspect", "man.bendy", "--html", "page.html")
+
+    def test_frames_are_edited(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()[:60]))
+        self.done("convert", "man.md2")
+        self.done("edit", "man.bendy", "-o", "named.bendy", "--rename", "target:run2=stride")
+        self.assertIn("stride", json.dumps(json.loads(self.done("dump", "named.bendy"))))
+        self.assert_at(model, "named.bendy", "run", 0.1, 41)
+        self.done("edit", "man.bendy", "-o", "fewer.bendy", "--strip", "cycle:stand")
+        self.assert_at(model, "fewer.bendy", "run", 0.5625, 45, 40, 0.625)
+        self.done("edit", "man.bendy", "-o", "none.bendy", "--strip", "cycles")
+        self.done("edit", "none.bendy", "-o", "back.bendy", "--merge", "man.bendy")
+        self.assert_at(model, "back.bendy", "stand", 3.9375, 39, 0, 0.375)
+        tube_md2(self.folder / "other.md2", [f"other{k}" for k in range(60)])
+        self.done("convert", "other.md2")
+        self.assertIn("animate nothing that is here", self.failed("edit", "other.bendy", "-o", "no.bendy", "--merge", "man.bendy"))
+        message = self.failed("edit", "man.bendy", "-o", "no.bendy", "--strip", "target:run2")
+        self.assertIn("can only be stripped together", message)
+        self.done("edit", "man.bendy", "-o", "still.bendy", "--strip", "targets")
+        self.assertNotIn("FRMS", self.done("inspect", "still.bendy").decode())
 
     def test_what_is_wrong_has_its_byte(self):
         path = md2_file(self.folder / "man.md2")

@@ -105,7 +105,7 @@ class Strip(EditCase):
         "chains": ({"IKCH", "PULL"}, set()),
         "limits": ({"LIMT"}, set()),
         "lod": ({"LODD"}, set()),
-        "extras": ({"EXTR"}, set()),
+        "extras": ({"EXTR", "MORE"}, set()),
         "extensions": ({"EXTN"}, set()),
     }
 

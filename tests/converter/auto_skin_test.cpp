@@ -261,7 +261,8 @@ TEST(AutoSkin, TheSkeletonIsTheSkinsOrWhatCarriesNoMeshOrWhatIsNamed) {
     scene.meshes = {mesh};
     EXPECT_EQ(bind(scene, "Armature"),
               Lines{": no vertices bound: every mesh has a skin or hangs on a joint of the skeleton"});
-    EXPECT_EQ(bind(scene, "Tail"), Lines{"error: there is no joint \"Tail\"; there are \"Armature\", \"Hips\" and \"Spine\""});
+    EXPECT_EQ(bind(scene, "Tail"),
+              Lines{"error: there is no joint \"Tail\"; there are \"Armature\", \"Hips\" and \"Spine\""});
 }
 
 TEST(AutoSkin, WithoutASkeletonItWarns) {

@@ -212,8 +212,7 @@ TEST(ImportBendy, CompactFilesKeepMarkers) {
     EXPECT_NEAR(scene.cycles[0].markers[3].seconds, 1.0f, 1e-6f);
 }
 
-/// A cycle of ours is as long as its keys.
-TEST(ImportBendy, MarkersBehindTheLastKeyAreNamed) {
+TEST(ImportBendy, AClipThatIsLongerThanItsKeysStaysAsLong) {
     test::Buffer payload = write_markers(std::vector<bendy::Marker>{{0.5f, "in"}, {1.5f, "behind"}});
     Report report;
     Buffer file = build_chunks(marked_scene(2), "g", report);
@@ -222,10 +221,10 @@ TEST(ImportBendy, MarkersBehindTheLastKeyAreNamed) {
     test::at(root, "HEAD/OBJE/CYCL/MARK").payload = payload;
     file = test::to_file(root);
     const Scene scene = import_good(file, report);
-    ASSERT_EQ(scene.cycles[0].markers.size(), 1u);
-    EXPECT_EQ(scene.cycles[0].markers[0].name, "in");
-    EXPECT_EQ(messages_of(report).back(),
-              "HEAD/OBJE/CYCL: marker left out: 1.5 s is outside the cycle, which lasts from 0.0 s to 1.0 s");
+    ASSERT_EQ(scene.cycles[0].markers.size(), 2u);
+    EXPECT_EQ(scene.cycles[0].markers[1].name, "behind");
+    EXPECT_TRUE(report.warnings().empty());
+    EXPECT_EQ(build_chunks(scene, "g", report), file);
 }
 
 TEST(ImportBendy, UnknownChunksAreNamed) {

@@ -1,4 +1,4 @@
-// Rules of cycles: CINF, TRAK, TIME, KEYV, PACK and MARK.
+// Rules of cycles: CINF, TRAK, TIME, KEYV, PACK, PLAY and MARK.
 
 import { all_finite, all_zero, is_unit, is_utf8, kNone } from './numbers.mjs';
 import { joints_of, kNumbers, kPaths, segments_of } from './packed.mjs';
@@ -129,6 +129,39 @@ function check_tracks(file, cycle, info, rig, pools) {
     return animated;
 }
 
+/** PLAY.md. */
+function check_plays(file, cycle, info, pools, animated) {
+    const chunk = file.child(cycle, 'PLAY');
+    const payload = chunk && file.payload(chunk);
+    if (!payload || !info) return;
+    if (payload.length % 16 !== 0) {
+        file.add('RECORD_SIZE', chunk);
+        return;
+    }
+    const played = new Set();
+    for (const play of file.body(chunk).plays) {
+        if (!all_zero(play.reserved)) file.add('RESERVED_FIELD', chunk);
+        if (play.closed > 1) {
+            file.add('ENUM_RANGE', chunk);
+            continue;
+        }
+        if (play.pool >= pools.length) {
+            file.add('POOL_RANGE', chunk);
+            continue;
+        }
+        const { frames } = pools[play.pool];
+        if (frames === null) continue;
+        if (play.frames === 0 || play.first + play.frames > frames || !(info.frameRate > 0)) {
+            file.add('FRAME_RANGE', chunk);
+            continue;
+        }
+        if (played.has(play.pool) || animated.has(`${kWeights} ${play.pool}`)) file.add('TRACK_REPEATED', chunk);
+        played.add(play.pool);
+        const spare = play.frames - 1 + play.closed - (info.end - info.start) * info.frameRate;
+        if (!(spare <= kFrameTolerance)) file.add('CYCLE_LENGTH', file.child(cycle, 'CINF'));
+    }
+}
+
 /** The code of what is wrong with a PACK's layout, or { record, joints } of good ones. */
 export function read_packed(payload, record) {
     const view = new DataView(payload.buffer, payload.byteOffset, payload.length);
@@ -246,6 +279,7 @@ function check_markers(file, cycle, info) {
 export function check_cycle(file, cycle, rig, pools) {
     const info = read_info(file, cycle);
     const animated = check_tracks(file, cycle, info, rig, pools);
+    check_plays(file, cycle, info, pools, animated);
     check_packed(file, cycle, info, rig, animated);
     check_markers(file, cycle, info);
 }

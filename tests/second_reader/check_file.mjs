@@ -77,10 +77,10 @@ export function check_material(file, material) {
         if (use.texture !== kNone && use.texture >= file.counts.textures) file.add('TEXTURE_RANGE', chunk);
 }
 
-/** NAME, EXTR, EXTN and LINK, wherever they stand. */
+/** NAME, EXTR, EXTN, MORE and LINK, wherever they stand. */
 export function check_texts(file) {
     for (const chunk of file.chunks) {
-        if (!chunk.meant || !['NAME', 'EXTR', 'EXTN', 'LINK'].includes(chunk.id)) continue;
+        if (!chunk.meant || !['NAME', 'EXTR', 'EXTN', 'MORE', 'LINK'].includes(chunk.id)) continue;
         const payload = file.payload(chunk);
         if (payload && !is_utf8(payload)) file.add('NOT_UTF8', chunk);
     }

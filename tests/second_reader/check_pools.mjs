@@ -1,7 +1,7 @@
 // Rules of pools, palettes, targets, polygons and the collapse sequence.
 
 import { check_sets, check_weights, read_stream } from './check_streams.mjs';
-import { all_finite, all_zero, kLocal, kNone } from './numbers.mjs';
+import { all_finite, all_zero, f32, is_utf8, kLocal, kNone } from './numbers.mjs';
 
 function check_palette(file, chunk, joints) {
     const record = file.record(chunk, 'PaletteRecord', 16);
@@ -45,18 +45,72 @@ function check_target(file, target, vertices) {
     for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(target, id), touched);
 }
 
+/** NLST: how many normals there are; none without it, null where they cannot be read. */
+function count_normals(file, pool) {
+    if (!file.has(pool, 'NLST')) return 0;
+    const chunk = file.child(pool, 'NLST');
+    const payload = chunk && file.payload(chunk);
+    if (!payload) return null;
+    if (payload.length % 12 !== 0) {
+        file.add('RECORD_SIZE', chunk);
+        return null;
+    }
+    if (!all_finite(file.body(chunk).values)) file.add('NOT_FINITE', chunk);
+    return payload.length / 12;
+}
+
+/** FRMS.md: the number of frames; null where they cannot be read. */
+function count_frames(file, block, vertices, normals) {
+    for (const id of ['INDX', 'POSI']) if (!file.has(block, id)) file.add('CHUNK_MISSING', block);
+    const chunk = file.child(block, 'GRID');
+    const grid = chunk && file.payload(chunk);
+    let count = null;
+    if (grid && grid.length % 24 !== 0) file.add('RECORD_SIZE', chunk);
+    else if (grid && grid.length === 0) file.add('RECORD_TOO_SHORT', chunk);
+    else if (grid) count = grid.length / 24;
+    const place_chunk = file.child(block, 'INDX');
+    const places = read_stream(file, place_chunk, vertices);
+    const positions = read_stream(file, file.child(block, 'POSI'), null);
+    if (count === null || !places || !positions) return null;
+    const { elements } = positions.record;
+    if (elements % count !== 0) {
+        file.add('STREAM_COUNT', file.child(block, 'POSI'));
+        return null;
+    }
+    if (file.has(block, 'NORM') && !read_stream(file, file.child(block, 'NORM'), elements, normals)) return null;
+    let is_good = true;
+    if (places.values.some((place) => place >= elements / count)) {
+        file.add('INDEX_RANGE', place_chunk);
+        is_good = false;
+    }
+    const name_chunk = file.child(block, 'FNAM');
+    const text = name_chunk && file.payload(name_chunk);
+    if (name_chunk && !text) is_good = false;
+    if (text && !is_utf8(text)) {
+        file.add('NOT_UTF8', name_chunk);
+        is_good = false;
+    } else if (text && (text.filter((byte) => byte === 0).length !== count || text[text.length - 1] !== 0)) {
+        file.add('COUNT_MISMATCH', name_chunk);
+        is_good = false;
+    }
+    const ends = file.body(chunk).sides.flatMap((s) => [s.minimum, s.step, f32(s.minimum + f32(65536 * s.step))]);
+    if (!all_finite(ends)) file.add('NOT_FINITE', chunk);
+    return is_good ? count : null;
+}
+
 /** A pool: { vertices, indices, is_skinned, targets }; what cannot be read is null. */
 export function check_pool(file, pool, joints) {
     const info = file.child(pool, 'VINF');
     const record = file.record(info, 'PoolRecord', 8);
-    if (!record) return { vertices: null, indices: null, is_skinned: false, targets: null };
+    if (!record) return { vertices: null, indices: null, is_skinned: false, targets: null, frames: null };
     const { vertices } = record;
     file.counts.vertices += vertices;
     if (record.joint !== kNone && record.joint >= joints) file.add('JOINT_RANGE', info);
     if (vertices > 0 && !file.has(pool, 'POSI')) file.add('CHUNK_MISSING', pool);
     const palette_chunk = file.child(pool, 'PALT');
     const palette = check_palette(file, palette_chunk, joints);
-    for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(pool, id), vertices);
+    const normals = count_normals(file, pool);
+    for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(pool, id), vertices, normals);
     for (const id of ['TEXC', 'COLR']) {
         const chunks = file.children(pool, id);
         check_sets(file, chunks, chunks.map((chunk) => read_stream(file, chunk, vertices)));
@@ -73,11 +127,14 @@ export function check_pool(file, pool, joints) {
     for (const user of file.children(pool, 'USER')) read_stream(file, file.child(user, 'VALS'), vertices);
     const targets = file.children(pool, 'TARG');
     for (const target of targets) check_target(file, target, vertices);
+    const block = file.child(pool, 'FRMS');
+    const frames = block ? count_frames(file, block, vertices, normals) : 0;
     const list = file.child(pool, 'INDX');
     const indices = read_stream(file, list, null);
     if (indices && indices.values.some((v) => v >= vertices)) file.add('INDEX_RANGE', list);
     return {
-        vertices, targets: targets.length, is_skinned: there > 0,
+        vertices, frames: frames === null ? null : frames + 1,
+        targets: frames === null ? null : targets.length + frames, is_skinned: there > 0,
         indices: list ? (indices ? indices.values : null) : [],
     };
 }

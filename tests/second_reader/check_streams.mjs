@@ -5,11 +5,12 @@ import { all_finite, all_zero, f32, kWeightTolerance } from './numbers.mjs';
 const kTypes = ['u8', 'i8', 'u16', 'i16', 'u32', 'f32'];
 const kBytes = [1, 1, 2, 2, 4, 4];
 const kBoxed = 2;
+const kListed = 3;
 
-/** "What each chunk may hold": parent, chunk, types, components, numbers (0 plain, 1 normalised, 2 boxed). */
+/** "What each chunk may hold": parent, chunk, types, components, numbers (0 plain, 1 normalised, 2 boxed, 3 listed). */
 const kForms = [
     ['VECT', 'POSI', 'f32', 3, 3, 0], ['VECT', 'POSI', 'u8 u16 u32', 3, 3, 2],
-    ['VECT', 'NORM', 'f32', 3, 3, 0], ['VECT', 'NORM', 'i8 i16', 2, 2, 1],
+    ['VECT', 'NORM', 'f32', 3, 3, 0], ['VECT', 'NORM', 'i8 i16', 2, 2, 1], ['VECT', 'NORM', 'u8', 1, 1, 3],
     ['VECT', 'TANG', 'f32', 4, 4, 0], ['VECT', 'TANG', 'i8 i16', 3, 3, 1],
     ['VECT', 'TEXC', 'f32', 2, 2, 0], ['VECT', 'TEXC', 'u8 u16', 2, 2, 1], ['VECT', 'TEXC', 'u8 u16', 2, 2, 2],
     ['VECT', 'COLR', 'f32', 3, 4, 0], ['VECT', 'COLR', 'u8 u16', 3, 4, 1], ['VECT', 'COLR', 'u8 u16', 3, 4, 2],
@@ -21,6 +22,7 @@ const kForms = [
     ['TARG', 'POSI', 'f32', 3, 3, 0], ['TARG', 'POSI', 'u8 i8 u16 i16', 3, 3, 2],
     ['TARG', 'NORM', 'f32', 3, 3, 0], ['TARG', 'NORM', 'u8 i8 u16 i16', 3, 3, 2],
     ['TARG', 'TANG', 'f32', 3, 3, 0], ['TARG', 'TANG', 'u8 i8 u16 i16', 3, 3, 2],
+    ['FRMS', 'INDX', 'u8 u16 u32', 1, 1, 0], ['FRMS', 'POSI', 'u8 u16', 3, 3, 0], ['FRMS', 'NORM', 'u8', 1, 1, 3],
 ];
 
 function form_fits(chunk, record) {
@@ -36,11 +38,11 @@ function check_box(file, chunk, stream) {
     if (!all_finite(ends)) file.add('NOT_FINITE', chunk);
 }
 
-/** A stream's record, box and values; null if it is not there or cannot be used. */
-export function read_stream(file, chunk, elements) {
+/** A stream's record, box and values; null if it is not there or cannot be used. `list`: how many normals NLST has. */
+export function read_stream(file, chunk, elements, list = null) {
     const record = file.record(chunk, 'StreamRecord', 16);
     if (!record) return null;
-    if (record.componentType > 5 || record.normalised > 2) {
+    if (record.componentType > 5 || record.normalised > 3) {
         file.add('ENUM_RANGE', chunk);
         return null;
     }
@@ -64,6 +66,13 @@ export function read_stream(file, chunk, elements) {
         return null;
     }
     const stream = file.body(chunk);
+    if (record.normalised === kListed) {
+        if (list === null) return null;
+        if (stream.values.some((number) => number >= list)) {
+            file.add('INDEX_RANGE', chunk);
+            return null;
+        }
+    }
     if (box) check_box(file, chunk, stream);
     if (kTypes[record.componentType] === 'f32' && !all_finite(stream.values)) file.add('NOT_FINITE', chunk);
     return stream;

@@ -85,7 +85,9 @@ function twin_of(chunk, body) {
     if (kTexts.has(chunk.id)) return body.value;
     switch (chunk.id) {
         case 'IMAG': return { ...fields_of(body.record), image: Buffer.from(body.bytes).toString('hex') };
-        case 'JNAM': return { names: body.names };
+        case 'JNAM': case 'FNAM': return { names: body.names };
+        case 'GRID': return { values: body.sides.flatMap((side) => [side.minimum, side.step]) };
+        case 'PLAY': return { plays: body.plays.map(fields_of) };
         case 'JNTS': return {
             ...fields_of(body.record), rests: body.rests.map(({ record }) => fields_of(record)),
             ranges: body.polygons.map(({ joint, range }) => ({ joint, ...fields_of(range) })),
@@ -95,7 +97,7 @@ function twin_of(chunk, body) {
         case 'TRAK': return { tracks: body.tracks.map(fields_of) };
         case 'PACK': return packed(body);
         case 'MARK': return { markers: body.markers.map(({ seconds }, k) => ({ seconds, name: body.names[k].value })) };
-        case 'TIME': case 'KEYV': return { values: body.values };
+        case 'TIME': case 'KEYV': case 'NLST': return { values: body.values };
         default:
     }
     if (!body.values) return { ...fields_of(body), ...more_of(body) };

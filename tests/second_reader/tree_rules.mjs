@@ -1,17 +1,18 @@
 // Which chunk stands where: tree.md. ? at most once, * any number of times, no mark exactly once.
 
 const kTree = `
-HEAD: VERS BNDS? TEXT* MATE* OBJE* EXTR? EXTN?
-TEXT: NAME? SAMP IMAG* LINK* SAME* EXTR?
-MATE: NAME? SURF EXTN? EXTR?
-OBJE: NAME? EXTR? SKIN* JNTS? JNAM? IKCH* VECT* LODD? CYCL*
-SKIN: NAME? PIVO? MATE* POLY* EXTR? EXTN? SKIN*
+HEAD: VERS BNDS? TEXT* MATE* OBJE* EXTR? EXTN? MORE?
+TEXT: NAME? SAMP IMAG* LINK* SAME* EXTR? MORE?
+MATE: NAME? SURF EXTN? EXTR? MORE?
+OBJE: NAME? EXTR? MORE? SKIN* JNTS? JNAM? IKCH* VECT* LODD? CYCL*
+SKIN: NAME? PIVO? MATE* POLY* EXTR? EXTN? MORE? SKIN*
 PIVO: REST? LIMT* PULL*
 IKCH: NAME? KINF EXTR?
-VECT: NAME? VINF EXTR? PALT? POSI? NORM? TANG? TEXC* COLR* BONE? WGHT? USER* TARG* INDX?
+VECT: NAME? VINF EXTR? MORE? PALT? NLST? POSI? NORM? TANG? TEXC* COLR* BONE? WGHT? USER* TARG* FRMS? INDX?
 USER: NAME? VALS
 TARG: NAME? TINF INDX? POSI? NORM? TANG?
-CYCL: NAME? CINF EXTR? TRAK? PACK? TIME? KEYV? MARK?`;
+FRMS: FNAM? GRID INDX? POSI? NORM?
+CYCL: NAME? CINF EXTR? MORE? TRAK? PACK? PLAY? TIME? KEYV? MARK?`;
 
 /** id -> id of child -> '' or '?' or '*' */
 export const kChildren = new Map();
@@ -24,7 +25,7 @@ for (const line of kTree.trim().split('\n')) {
 export const kKnown = new Set(['HEAD', ...[...kChildren.values()].flatMap((children) => [...children.keys()])]);
 
 export const kStreams = new Set(['POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX']);
-export const kTexts = new Set(['NAME', 'EXTR', 'EXTN', 'LINK']);
+export const kTexts = new Set(['NAME', 'EXTR', 'EXTN', 'MORE', 'LINK']);
 
 /**
  * Adds the tree's faults: those of all containers that no unknown one holds, misplaced ones too. Sets `meant` on each

@@ -127,7 +127,7 @@ def read_stream_rules(check):
     check.understood(rules, 'the StreamForm constants of pool.cpp')
     uses = {}
     for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), forms::(k\w+)', code):
-        parent = {'chunk': 'VECT', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
+        parent = {'chunk': 'VECT', 'block': 'FRMS', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
         uses[parent, chunk] = rules[rule]
     for chunk, rule in re.findall(r'id == FourCC\("(\w{4})"\)\) \{ const auto \w+ = reader\.stream\(number, forms::(k\w+)', code):
         uses['VECT', chunk] = rules[rule]

@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace bendy::viewer {
 namespace {
@@ -129,6 +132,136 @@ TEST_F(DemoTest, KeysMoveTheTarget) {
         const glm::vec3 moved = demo.state().target - before;
         EXPECT_GT(glm::length(moved), 1e-3f);
         EXPECT_NEAR(glm::dot(glm::normalize(moved), direction), 1.0f, 1e-5f);
+    }
+}
+
+TEST_F(DemoTest, KeysMoveTheTargetAsItIsSeen) {
+    demo.press(DemoKey::inverse);
+    for (const float yaw : {0.0f, 0.6f, 1.5707963f, 3.1415927f, -2.2f}) {
+        for (const float pitch : {0.0f, 0.5f, -1.2f}) {
+            const glm::vec3 eye(std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch));
+            const glm::vec3 right(std::cos(yaw), 0.0f, -std::sin(yaw));
+            const glm::vec3 up = glm::cross(eye, right);
+            demo.look_along(right, up);
+            struct Way {
+                DemoKey key;
+                glm::vec3 direction;
+            };
+            for (const auto& [key, direction] :
+                 {Way{DemoKey::left, -right}, Way{DemoKey::right, right}, Way{DemoKey::down, -up}, Way{DemoKey::up, up},
+                  Way{DemoKey::page_down, eye}, Way{DemoKey::page_up, -eye}}) {
+                demo.drag_target({0.1f, 0.9f, 0.1f});
+                const glm::vec3 before = demo.state().target;
+                demo.press(key);
+                const glm::vec3 moved = demo.state().target - before;
+                EXPECT_GT(glm::length(moved), 1e-3f);
+                EXPECT_NEAR(glm::dot(glm::normalize(moved), direction), 1.0f, 1e-4f) << yaw << ' ' << pitch;
+            }
+        }
+    }
+}
+
+TEST_F(DemoTest, KeysBendTheTentacleToTheSidesThatAreSeen) {
+    demo.press(DemoKey::forward);
+    run(0.5);
+    const glm::vec3 straight = demo.tip();
+    for (const float yaw : {0.0f, 0.7f, 1.5707963f, 3.1415927f}) {
+        const glm::vec3 right(std::cos(yaw), 0.0f, -std::sin(yaw));
+        demo.look_along(right, {0.0f, 1.0f, 0.0f});
+        demo.hold(DemoKey::right, 0.5);
+        run(0.05);
+        EXPECT_GT(glm::dot(demo.tip() - straight, right), 0.02f) << yaw;
+        demo.hold(DemoKey::left, 0.5);
+        run(0.05);
+        EXPECT_LT(glm::length(demo.tip() - straight), 1e-4f) << yaw;
+    }
+}
+
+TEST_F(DemoTest, TabGoesThroughTheJointsAndBackToAll) {
+    EXPECT_EQ(demo.state().joint, kNone);
+    EXPECT_EQ(demo.links().size(), demo.chain().links);
+    EXPECT_EQ(demo.links().front(), demo.chain().start);
+    EXPECT_EQ(demo.links().back(), demo.chain().effector);
+    for (const std::uint32_t joint : demo.links()) {
+        demo.press(DemoKey::next_joint);
+        EXPECT_EQ(demo.state().joint, joint);
+        EXPECT_TRUE(demo.state().forward);  // it is of no use elsewhere
+    }
+    demo.press(DemoKey::next_joint);
+    EXPECT_EQ(demo.state().joint, kNone);
+    demo.press(DemoKey::previous_joint);
+    EXPECT_EQ(demo.state().joint, demo.links().back());
+    demo.press(DemoKey::inverse);
+    demo.press(DemoKey::previous_joint);
+    EXPECT_TRUE(demo.state().forward);
+    EXPECT_FALSE(demo.state().inverse);
+    EXPECT_EQ(demo.state().joint, demo.links()[demo.links().size() - 2]);
+}
+
+TEST_F(DemoTest, KeysBendOneJointAndWhatHangsOnIt) {
+    demo.press(DemoKey::forward);
+    run(0.5);
+    for (std::size_t link = 0; link < demo.links().size(); ++link) {
+        demo.press(DemoKey::next_joint);
+        const std::uint32_t joint = demo.links()[link];
+        for (const auto& [key, back] : {std::pair(DemoKey::left, DemoKey::right), std::pair(DemoKey::up, DemoKey::down),
+                                        std::pair(DemoKey::page_up, DemoKey::page_down)}) {
+            const auto local = demo.pose().local();
+            const std::vector<JointTransform> before(local.begin(), local.end());
+            const glm::vec3 tip = demo.tip();
+            demo.hold(key, 0.05);
+            run(0.02);
+            for (std::uint32_t other = 0; other < before.size(); ++other) {
+                const float same = std::abs(glm::dot(before[other].rotation, demo.pose().local()[other].rotation));
+                if (other == joint) {
+                    EXPECT_LT(same, 0.9999f) << link;
+                } else {
+                    EXPECT_EQ(demo.pose().local()[other].rotation, before[other].rotation);
+                }
+            }
+            if (key == DemoKey::left) EXPECT_LT(demo.tip().x, tip.x - 1e-3f) << link;
+            demo.hold(back, 0.05);
+            run(0.02);
+            EXPECT_LT(glm::length(demo.tip() - tip), 1e-4f) << link;
+        }
+    }
+}
+
+TEST_F(DemoTest, OneJointBendsToTheSideThatIsSeen) {
+    for (const float yaw : {0.0f, 0.6f, 1.5707963f, 3.1415927f, -1.1f}) {
+        Demo own(*model);
+        own.press(DemoKey::next_joint);
+        own.step(0.5);
+        const glm::vec3 right(std::cos(yaw), 0.0f, -std::sin(yaw));
+        own.look_along(right, {0.0f, 1.0f, 0.0f});
+        const glm::vec3 tip = own.tip();
+        own.hold(DemoKey::right, 0.1);
+        own.step(kFrame);
+        EXPECT_GT(glm::dot(own.tip() - tip, right), 0.02f) << yaw;
+    }
+}
+
+TEST_F(DemoTest, AKeyHeldAtALimitLeavesNothingToTakeBack) {
+    demo.press(DemoKey::next_joint);
+    run(0.5);
+    demo.hold(DemoKey::right, 1.0);
+    run(0.05);
+    const glm::vec3 stopped = demo.tip();
+    for (int k = 0; k < 10; ++k) demo.hold(DemoKey::right, 1.0);
+    run(0.05);
+    EXPECT_LT(glm::length(demo.tip() - stopped), 1e-4f);
+    demo.hold(DemoKey::left, 0.05);
+    run(0.05);
+    EXPECT_GT(glm::length(demo.tip() - stopped), 0.02f);
+}
+
+TEST_F(DemoTest, OneJointAndAllBendTogetherInsideTheLimits) {
+    for (int round = 0; round < 12; ++round) {
+        demo.press(DemoKey::next_joint);
+        for (const DemoKey key : {DemoKey::right, DemoKey::up, DemoKey::page_up, DemoKey::left}) {
+            demo.hold(key, 0.7);
+            run(0.05);
+        }
     }
 }
 

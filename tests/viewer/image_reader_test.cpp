@@ -65,10 +65,79 @@ TEST(ImageReader, ALargePictureIsRefusedBeforeItIsMade) {
     EXPECT_NE(large.problem.find("too large: 16384 x 16384"), std::string::npos) << large.problem;
 }
 
+void put(std::vector<std::byte>& bytes, std::initializer_list<int> values) {
+    for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
+}
+
+/// 2 x 2, 24 bits, from the bottom up: red, green; blue, white at the top.
+std::vector<std::byte> small_bmp(int width = 2) {
+    std::vector<std::byte> bytes;
+    put(bytes,
+        {'B', 'M', 70, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, width & 255, width >> 8, 0, 0, 2, 0, 0, 0});
+    put(bytes, {1, 0, 24, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    put(bytes, {0, 0, 255, 0, 255, 0, 0, 0, 255, 0, 0, 255, 255, 255, 0, 0});
+    return bytes;
+}
+
+/// 3 x 2, 32 bits, from the top down, in runs: four of half-clear blue, then two pixels.
+std::vector<std::byte> small_tga() {
+    std::vector<std::byte> bytes;
+    put(bytes, {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 2, 0, 32, 0x28});
+    put(bytes, {0x83, 255, 0, 0, 128, 0x01, 1, 2, 3, 4, 5, 6, 7, 8});
+    return bytes;
+}
+
+using Texels = std::vector<std::uint8_t>;
+
+TEST(ImageReader, BmpAndTgaAreRead) {
+    const ReadImage bmp = read_image(small_bmp(), kPlenty);
+    EXPECT_EQ(bmp.problem, "");
+    EXPECT_EQ(bmp.picture.pixels, (Texels{0, 0, 255, 255, 255, 255, 255, 255, 255, 0, 0, 255, 0, 255, 0, 255}));
+    const ReadImage tga = read_image(small_tga(), kPlenty);
+    EXPECT_EQ(tga.problem, "");
+    EXPECT_EQ(tga.picture.width, 3u);
+    EXPECT_EQ(tga.picture.height, 2u);
+    EXPECT_EQ(tga.picture.pixels, (Texels{0, 0, 255, 128, 0, 0, 255, 128, 0, 0, 255, 128,  //
+                                          0, 0, 255, 128, 3, 2, 1,   4,   7, 6, 5,   8}));
+}
+
+TEST(ImageReader, BadBmpAndTgaGiveAPictureOrAProblem) {
+    for (const std::vector<std::byte>& good : {small_bmp(), small_tga()}) {
+        const auto check = [](Bytes bytes) {
+            const ReadImage read = read_image(bytes, 4096);
+            EXPECT_EQ(read.problem.empty(), !read.picture.pixels.empty());
+            EXPECT_EQ(read.picture.pixels.size(), read.picture.row_size() * read.picture.height);
+        };
+        for (std::size_t size = 0; size < good.size(); ++size) check(Bytes(good).first(size));
+        for (std::size_t at = 0; at < good.size(); ++at) {
+            for (const int wrong : {0x00, 0x01, 0x7f, 0x80, 0xff, 0x55}) {
+                std::vector<std::byte> bytes = good;
+                bytes[at] = static_cast<std::byte>(wrong);
+                check(bytes);
+            }
+        }
+    }
+}
+
+TEST(ImageReader, PixelsThatAShortFileLacksAreBlack) {
+    std::vector<std::byte> bytes;
+    put(bytes, {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64, 0, 64, 0, 24, 0x20, 9, 8, 7});
+    const ReadImage read = read_image(bytes, kPlenty);
+    ASSERT_EQ(read.problem, "");
+    EXPECT_EQ(Texels(read.picture.pixels.begin(), read.picture.pixels.begin() + 8),
+              (Texels{7, 8, 9, 255, 0, 0, 0, 255}));
+    for (std::size_t at = 4; at < read.picture.pixels.size(); at += 4) ASSERT_EQ(read.picture.pixels[at], 0) << at;
+}
+
+TEST(ImageReader, ALargeBmpOrTgaIsRefusedBeforeItIsMade) {
+    EXPECT_EQ(read_image(small_bmp(20'000), kPlenty).problem, "is too large: 20000 x 2");
+    EXPECT_EQ(read_image(small_tga(), 5).problem, "is too large: 3 x 2");
+}
+
 TEST(ImageReader, OtherFormatsAreNamed) {
     const std::string text = "not a picture at all";
-    EXPECT_EQ(read_image(std::as_bytes(std::span(text)), kPlenty).problem, "is neither PNG nor JPEG nor WebP");
-    EXPECT_EQ(read_image({}, kPlenty).problem, "is neither PNG nor JPEG nor WebP");
+    EXPECT_EQ(read_image(std::as_bytes(std::span(text)), kPlenty).problem, "is neither PNG, JPEG, WebP, BMP nor TGA");
+    EXPECT_EQ(read_image({}, kPlenty).problem, "is neither PNG, JPEG, WebP, BMP nor TGA");
     const unsigned char jpeg[] = {0xff, 0xd8, 0xff, 0xe0, 0, 16};
     const std::string problem = read_image(std::as_bytes(std::span(jpeg)), kPlenty).problem;
     EXPECT_EQ(problem.find("is no good JPEG: "), 0u) << problem;

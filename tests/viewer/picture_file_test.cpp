@@ -92,14 +92,21 @@ TEST(WebpFile, HoldsEveryFrameAndTheWholeLength) {
 
 TEST(ContactSheet, FillsRowsFromTheTopLeft) {
     const std::vector<Picture> pictures{plain(1, 0, 0), plain(2, 0, 0), plain(3, 0, 0)};
-    const Picture sheet = contact_sheet(pictures, 2);
+    Picture empty = plain(4, 0, 0);
+    for (std::size_t at = 3; at < empty.pixels.size(); at += 4) empty.pixels[at] = 7;
+    const Picture sheet = contact_sheet(pictures, 2, empty);
     EXPECT_EQ(sheet.width, 16u);
     EXPECT_EQ(sheet.height, 12u);
     const auto red = [&](std::size_t x, std::size_t y) { return sheet.pixels[y * sheet.row_size() + 4 * x]; };
     EXPECT_EQ(red(0, 0), 1);
     EXPECT_EQ(red(8, 0), 2);
     EXPECT_EQ(red(7, 6), 3);
-    EXPECT_EQ(red(8, 6), 0);
+    for (std::size_t y = 6; y < 12; ++y) {
+        for (std::size_t x = 8; x < 16; ++x) {
+            EXPECT_EQ(red(x, y), 4);
+            EXPECT_EQ(sheet.pixels[y * sheet.row_size() + 4 * x + 3], 7);
+        }
+    }
 }
 
 }  // namespace

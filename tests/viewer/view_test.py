@@ -8,8 +8,10 @@ With BENDY_NEW_PICTURES=1 the reference pictures are written again: look at them
 
 import argparse
 import json
+import math
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -17,7 +19,10 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent / "cli"),
+                str(Path(__file__).parent.parent / "pictures")]
+from chunk_file import Chunk  # noqa: E402
+from made_files import ALL_MAPS, Made  # noqa: E402
 from png_file import read_png, write_png  # noqa: E402
 from surfaces_file import surfaces  # noqa: E402
 
@@ -116,11 +121,122 @@ class Render(WithFolder):
     def test_full_detail_is_the_default(self):
         one = self.render("mannequin", "--size", "160x120", "--lod", "1")
         self.assertEqual(one, self.render("mannequin", "--size", "160x120"))
-        self.render("mannequin", "--size", "160x120", "--lod", "0.2")
+        levels = self.folder / "levels.bendy"
+        done = bendy("convert", SOURCE / "examples/mannequin.glb", "-o", levels, "-q", "--lod")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotEqual(self.render("levels", "--size", "160x120", "--lod", "0.1"),
+                            self.render("levels", "--size", "160x120"))
+
+    def test_levels_that_a_file_has_not_are_said(self):
+        for options in (["--lod", "0.5"], ["--lod", "0", "--frames", "2"]):
+            done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "o.png", "--size", "16x16", *options)
+            self.assertEqual(done.returncode, 0)
+            self.assertEqual(done.stderr, f"bendy: warning: {self.folder}/tentacle.bendy: there are no levels of detail in "
+                             "it: it stays whole (bendy convert --lod makes them)\n")
 
     def test_contact_sheet(self):
         sheet = self.render("tentacle", "--frames", "5", "--size", "40x30")
         self.assertEqual(sheet[:2], (120, 60))
+
+    def test_empty_cells_of_a_sheet_are_background(self):
+        for background, channels, colour in (("white", 3, b"\xff\xff\xff"), ("#3366cc", 3, b"\x33\x66\xcc"),
+                                             ("transparent", 4, bytes(4)), (None, 3, None)):
+            options = ["--background", background] if background else []
+            sheet = self.render("tentacle", "--frames", "5", "--size", "40x30", *options)
+            self.assertEqual(sheet[2], channels)
+            if colour is None:  # the default: as where a picture shows none of the character
+                colour = sheet[3][:channels]
+            for y in range(30, 60):
+                row = sheet[3][(y * 120 + 80) * channels:(y * 120 + 120) * channels]
+                self.assertEqual(row, colour * 40, background)
+
+    def test_a_file_without_a_surface_shows_its_skeleton(self):
+        done = bendy("edit", self.folder / "mannequin.bendy", "--strip", "meshes", "-o", self.folder / "none.bendy", "-q")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # A mesh whose vertices stay, and of which no triangle is left.
+        root = Chunk.read((self.folder / "mannequin.bendy").read_bytes())
+        without = [root]
+        for chunk in without:
+            chunk.children = [child for child in chunk.children if child.letters != "POLY"]
+            without += [child for child in chunk.children if child.children]
+        (self.folder / "empty.bendy").write_bytes(root.write())
+        self.assertEqual(bendy("validate", self.folder / "empty.bendy").stdout, "")
+        for name in ("none", "empty"):
+            plain = self.render(name, "--size", "200x300", "--clip", "Walk", "--time", "0.3", "--camera", "0,0")
+            back = plain[3][:3]
+            drawn = [at // 3 for at in range(0, len(plain[3]), 3) if plain[3][at:at + 3] != back]
+            rows = [at // 200 for at in drawn]
+            self.assertGreater(len(drawn), 300)
+            self.assertGreater(max(rows) - min(rows), 170)  # the camera is fitted to it
+            self.assertGreater(min(rows), 2)
+            self.assertLess(max(rows), 298)
+            self.assertEqual(plain, self.render(name, "--size", "200x300", "--clip", "Walk", "--time", "0.3", "--camera",
+                                                "0,0", "--bones"))
+            sheet = self.render(name, "--size", "60x80", "--clip", "Walk", "--frames", "2")
+            left, right = (b"".join(sheet[3][(y * 120 + x) * 3:(y * 120 + x + 60) * 3] for y in range(80)) for x in (0, 60))
+            self.assertNotEqual(left, right)
+
+    def test_sources_are_converted_on_the_fly(self):
+        self.render("tentacle", "--size", "80x60", "--clip", "Wave", "--time", "0.5")
+        out = self.folder / "from_glb.png"
+        done = bendy("render", SOURCE / "examples/tentacle.glb", "-o", out, "--size", "80x60", "--clip", "Wave", "--time", "0.5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(out.read_bytes(), (self.folder / "out.png").read_bytes())
+        said = bendy("convert", "-q", SOURCE / "examples/tentacle.glb", "-o", self.folder / "again.bendy").stderr
+        self.assertEqual(done.stderr, said)
+
+    def test_maps_that_cannot_be_shown(self):
+        """Without its images a surface is plain, and its colour a check; it neither glows nor has bumps."""
+        path = Made("metallic_roughness", "normal", "occlusion", "emissive").write(self.folder / "lost.gltf")
+        document = json.loads(path.read_text())
+        plain = dict(document, images=[])
+        plain["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}]
+        del plain["textures"], plain["images"]
+        document["images"] = [{"uri": "data:image/png;base64,AAAA"}] * 4
+        pictures = []
+        for content, warnings in ((document, 4), (plain, 0)):
+            path.write_text(json.dumps(content), encoding="utf-8")
+            self.assertEqual(bendy("convert", path, "-q").returncode, 0)
+            out = self.folder / "lost.png"
+            done = bendy("render", self.folder / "lost.bendy", "-o", out, "--size", "80x60")
+            self.assertEqual((done.returncode, done.stderr.count("cannot be shown")), (0, warnings), done.stderr)
+            pictures.append(read_png(out.read_bytes()))
+        self.assertTrue(pictures[0] == pictures[1])
+
+    def test_bmp_and_tga_textures(self):
+        header = bytes((0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, 0x20))
+        texels = bytes((0, 0, 255) * 2 + (0, 255, 0) * 2)  # blue green red: two red ones over two green ones
+        (self.folder / "skin.tga").write_bytes(header + texels)
+        bitmap = struct.pack("<2sIHHI", b"BM", 70, 0, 0, 54) + struct.pack("<IiiHHIIiiII", 40, 2, -2, 1, 24, 0, 16, 0, 0, 0, 0)
+        (self.folder / "skin.bmp").write_bytes(bitmap + texels[:6] + b"\0\0" + texels[6:] + b"\0\0")
+        pictures = []
+        for ending in ("tga", "bmp"):
+            (self.folder / "square.x").write_text(
+                "xof 0303txt 0032 Mesh { 4; 0;0;0;, 1;0;0;, 1;1;0;, 0;1;0;; 1; 4;0,3,2,1;;\n"
+                "MeshTextureCoords { 4; 0;1;, 1;1;, 1;0;, 0;0;; }\n"
+                'MeshMaterialList { 1; 1; 0; Material { 1;1;1;1;; 0; 0;0;0;; 0;0;0;; TextureFilename { "skin.%s"; } } } }'
+                % ending)
+            done = bendy("convert", self.folder / "square.x", "-o", self.folder / "square.bendy", "-q")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            width, height, channels, pixels = self.render("square", "--size", "60x60", "--camera", "0,0")
+            upper, lower = (pixels[channels * (y * width + 30):][:3] for y in (18, 42))
+            self.assertGreater(upper[0], 2 * upper[1], ending)
+            self.assertGreater(lower[1], 2 * lower[0], ending)
+            pictures.append(pixels)
+        self.assertTrue(pictures[0] == pictures[1])
+
+    def test_the_first_picture_is_as_the_second(self):
+        """Textures that are loaded while a material is being set must not change what it has been given before."""
+        Made(*ALL_MAPS, stands_still=True).write(self.folder / "maps.gltf")
+        self.assertEqual(bendy("convert", self.folder / "maps.gltf", "-q").returncode, 0)
+        width, height, channels, pixels = self.render("maps", "--clip", "0", "--frames", "2", "--size", "80x60")
+        self.assertEqual((width, height), (160, 60))
+        rows = [pixels[channels * width * y:channels * width * (y + 1)] for y in range(height)]
+        cells = [b"".join(row[half * 80 * channels:(half + 1) * 80 * channels] for row in rows) for half in (0, 1)]
+        self.assertGreater(len(set(cells[0])), 50)
+        self.assertEqual(cells[0], cells[1])
+        still = self.render("maps", "--clip", "0", "--time", "0", "--size", "80x60")
+        self.assertEqual(still[3], cells[1])
 
     def test_animations(self):
         for ending, start in ((".gif", b"GIF89a"), (".webp", b"RIFF")):
@@ -170,6 +286,107 @@ class Render(WithFolder):
             self.assertEqual(done.stderr == "", warning == "", done.stderr)
 
 
+class Reach(WithFolder):
+    """`render` takes what `pose` takes to change a pose after the clip."""
+
+    def draw(self, *arguments, file="mannequin.bendy", out="reach.png"):
+        path = self.folder / out
+        path.unlink(missing_ok=True)
+        done = bendy("render", self.folder / file, "-o", path, "--size", "160x120", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return path.read_bytes(), done.stderr
+
+    @staticmethod
+    def red_pixels(png):
+        """Places in the colour of targets."""
+        width, _, n, pixels = read_png(png)
+        return {(at // n % width, at // n // width) for at in range(0, len(pixels), n)
+                if pixels[at] > 170 and pixels[at] > 2.1 * max(pixels[at + 1], pixels[at + 2])}
+
+    def test_the_chain_reaches_and_the_target_is_seen(self):
+        plain, _ = self.draw()
+        self.assertEqual(self.red_pixels(plain), set())
+        reached, said = self.draw("--reach", "IK_LeftLeg=0.1,0.3,0.3")
+        self.assertRegex(said, r"^bendy: reach: IK_LeftLeg \(moves [^)]+\) reaches its target, to [^\n]*mm\n$")
+        self.assertGreater(len(self.red_pixels(reached)), 8)
+        other, _ = self.draw("--reach", "IK_LeftLeg=0.1,0.5,0.3")
+        self.assertNotEqual(self.red_pixels(reached), self.red_pixels(other))
+
+    def test_the_pose_is_that_of_pose(self):
+        # The same joints as `pose` gives, drawn from the same file posed and made a rest pose would be a long way round;
+        # what it says of the distance is the solver's own.
+        for options in ([], ["--ignore-limits"], ["--solver", "ccd"], ["--constrain"]):
+            goal = ["--clip", "Walk", "--time", "0.3", "--reach", "IK_LeftArm=0.1,1.25,-0.2", *options]
+            _, said = self.draw(*goal)
+            posed = bendy("pose", self.folder / "mannequin.bendy", *goal)
+            self.assertEqual(said, posed.stderr)
+            self.assertNotEqual(said, "")
+
+    def test_each_option_changes_the_picture(self):
+        pictures = [self.draw(*options)[0] for options in (
+            ["--reach", "IK_LeftArm=0.1,1.25,-0.2"], ["--reach", "IK_LeftArm=0.1,1.25,-0.2", "--ignore-limits"],
+            ["--reach", "IK_LeftArm=0.1,1.25,-0.2", "--solver", "pull"], [])]
+        self.assertEqual(len(set(pictures)), 4)
+
+    def test_what_falls_short_is_said_and_is_no_failure(self):
+        for goal, text in (("IK_LeftArm=3,1.2,0", r"falls short of its target by \d+ mm: it is farther away than the chain is long"),):
+            picture, said = self.draw("--reach", goal)
+            self.assertRegex(said, rf"^bendy: warning: .*mannequin.bendy: reach: IK_LeftArm \(moves [^)]+\) {text}\n$")
+            self.assertGreater(len(self.red_pixels(picture)), 8)  # however far it is, it is in the picture
+            done = bendy("pose", self.folder / "mannequin.bendy", "--reach", goal, "-o", self.folder / "short.json")
+            self.assertEqual((done.returncode, done.stderr), (0, said))
+            (entry,) = json.loads((self.folder / "short.json").read_bytes())["reaches"]
+            self.assertEqual(list(entry), ["chain", "target", "distance", "reached"])
+            self.assertEqual((entry["chain"], entry["reached"]), ("IK_LeftArm", False))
+            self.assertEqual([round(number, 6) for number in entry["target"]], [3, 1.2, 0])
+            shown = int(said.partition("target by ")[2].partition(" mm")[0])
+            self.assertAlmostEqual(1000 * entry["distance"], shown, delta=0.51)
+
+    def test_json_of_pose_tells_what_was_reached(self):
+        out = self.folder / "reached.json"
+        for goal, keys in (("IK_LeftLeg=0.1,0.3,0.3", ["chain", "target", "distance", "reached"]),
+                           ("IK_LeftLeg=0.1,0.3,0.3,0,0,0,1",
+                            ["chain", "target", "rotation", "distance", "angle", "reached"])):
+            done = bendy("pose", self.folder / "mannequin.bendy", "--reach", goal, "--reach", "IK_RightLeg=-0.1,0.2,0.2", "-o", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            document = json.loads(out.read_bytes())
+            self.assertEqual(list(document), ["file", "clip", "time", "reaches", "joints", "meshes"])
+            first, second = document["reaches"]
+            self.assertEqual(list(first), keys)
+            self.assertEqual(second["chain"], "IK_RightLeg")
+            self.assertTrue(second["reached"])
+            self.assertLess(second["distance"], 1e-3)
+        bendy("pose", self.folder / "mannequin.bendy", "-o", out)
+        self.assertEqual(list(json.loads(out.read_bytes())), ["file", "clip", "time", "joints", "meshes"])
+
+    def test_sheets_and_animations_reach_in_every_frame(self):
+        goal = ["--clip", "Walk", "--reach", "IK_LeftArm=0.3,1.2,0.4"]
+        sheet, said = self.draw(*goal, "--frames", "3", "--camera", "20,5")
+        self.assertRegex(said, r"in all 3 pictures|in \d of 3 pictures")
+        self.assertEqual(said.count("\n"), 1)
+        width = 160
+        cells = [{(x, y) for x, y in self.red_pixels(sheet) if (x // width, y // 120) == cell}
+                 for cell in ((0, 0), (1, 0), (0, 1))]
+        places = [{(x % width, y % 120) for x, y in cell} for cell in cells]
+        for cell in places:
+            self.assertGreater(len(cell), 8)
+        middles = [(sum(x for x, _ in cell) / len(cell), sum(y for _, y in cell) / len(cell)) for cell in places]
+        for x, y in middles[1:]:  # the camera stands still, and so does the target
+            self.assertAlmostEqual(x, middles[0][0], delta=4)
+            self.assertAlmostEqual(y, middles[0][1], delta=4)
+        for ending in (".gif", ".webp"):
+            _, said = self.draw(*goal, "--frames", "2", out="reach" + ending)
+            self.assertIn("2 pictures", said)
+
+    def test_wrong_requests(self):
+        file = self.folder / "mannequin.bendy"
+        for options, text in ((["--solver", "ccd"], "--reach"), (["--ignore-limits"], "--reach"),
+                              (["--reach", "IK_LeftArm=1,2"], "--reach"), (["--reach", "IK_LeftArm=0,1,0,0,0,0,3"], "quaternion"),
+                              (["--reach", "IK_LeftArm=0,1,0", "--solver", "magic"], "--solver")):
+            self.refused(2, text, file, *options)
+        self.refused(1, 'there is no IK chain "Tail"', file, "--reach", "Tail=0,1,0")
+
+
 class Pictures(WithFolder):
     """Small pictures that somebody has looked at. Another driver rounds otherwise: hence the tolerance."""
 
@@ -188,6 +405,13 @@ class Pictures(WithFolder):
     def test_mannequin_with_bones_and_limits(self):
         self.check("mannequin", self.render("mannequin", "--size", "320x240", "--clip", "Walk", "--time", "0.3",
                                             "--bones", "--constraints"))
+
+    def test_a_reach_that_falls_short_over_a_walk(self):
+        out = self.folder / "out.png"
+        done = bendy("render", self.folder / "mannequin.bendy", "-o", out, "--size", "320x240", "--clip", "Walk", "--time",
+                     "0.3", "--reach", "IK_LeftArm=0.75,1.5,0.6", "--bones", "--camera", "20,8")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.check("reach", read_png(out.read_bytes()))
 
     def test_surfaces(self):
         self.check("surfaces", self.render("surfaces", "--size", "320x240", "--camera", "0,0"))
@@ -257,22 +481,86 @@ class Window(WithFolder):
         self.assertFalse(states[7]["help"])
         self.assertTrue(states[8]["quits"])
 
-    def test_demo_moves_the_target_and_it_pulls(self):
-        start, *moved, pulled, dropped = self.play("key I", "key Left", "key Up", "key PgDn", "hold Down 0.5", "wait 6",
-                                                   "wait 0")
-        place = start["targets"][0]["position"]
-        for state, axis, sign in zip(moved, (0, 1, 2, 1), (-1, 1, 1, -1)):
-            now = state["targets"][0]["position"]
-            self.assertGreater(sign * (now[axis] - place[axis]), 1e-3)
-            place = now
+    def test_demo_moves_the_target_as_it_is_seen_and_it_pulls(self):
+        # As it stands, after the turntable, after orbiting with the mouse, and from high above.
+        for turn in ((), ("key R", "wait 2.5", "key R"), ("drag 900 700 300 700",), ("drag 900 300 700 650",),
+                     ("drag 900 300 100 200", "key R", "wait 1", "key R")):
+            states = self.play(*turn, "key I", "key Left", "key Up", "key Right", "key Down", "key PgDn", "key PgUp")[len(turn):]
+            places = [state["targets"][0]["pixels"] for state in states]
+            for before, after, axis, sign in zip(places, places[1:], (0, 1, 0, 1), (-1, -1, 1, 1)):
+                self.assertGreater(sign * (after[axis] - before[axis]), 3, turn)
+                self.assertLess(abs(after[1 - axis] - before[1 - axis]), 2, turn)
+            away = [self.depth(state) for state in states]
+            self.assertLess(away[5], away[4] - 1e-3, turn)  # PgDn: nearer
+            self.assertGreater(away[6], away[5] + 1e-3, turn)
+        pulled = self.play("key I", "key Left", "key Up", "key PgDn", "hold Down 0.5", "wait 6", "wait 0")[5]
         target = pulled["targets"][0]
         self.assertLess(sum((a - b) ** 2 for a, b in zip(target["tip"], target["position"])) ** 0.5, 0.05)
 
+    @staticmethod
+    def depth(state):
+        """Of the target, along the direction in which the camera looks."""
+        yaw, pitch = state["yaw"], state["pitch"]
+        outwards = (math.sin(yaw) * math.cos(pitch), math.sin(pitch), math.cos(yaw) * math.cos(pitch))
+        return -sum(a * b for a, b in zip(state["targets"][0]["position"], outwards))
+
     def test_demo_moves_the_tentacle_by_hand(self):
-        states = self.play("key F", "wait 1", "hold Right 0.6", "wait 0.1", "hold Left 1.2", "wait 0.1")
-        tips = [state["targets"][0]["tip"] for state in states]
-        self.assertGreater(tips[3][0], tips[1][0] + 0.02)
-        self.assertLess(tips[5][0], tips[1][0] - 0.02)
+        for turn in ((), ("key R", "wait 2", "key R"), ("drag 900 700 300 700",)):
+            states = self.play(*turn, "key F", "wait 1", "hold Right 0.6", "wait 0.1", "hold Left 1.2", "wait 0.1")[len(turn):]
+            tips = [state["targets"][0]["tip_pixels"] for state in states]
+            self.assertGreater(tips[3][0], tips[1][0] + 10, turn)
+            self.assertLess(tips[5][0], tips[1][0] - 10, turn)
+
+    def test_demo_bends_one_joint_by_hand(self):
+        for turn in ((), ("key R", "wait 2.5", "key R"), ("drag 900 700 300 700",)):
+            states = self.play(*turn, "key Tab", "wait 1", "key Tab", "key Tab", "hold Left 0.1", "wait 0", "hold Right 0.2",
+                               "key Shift+Tab", "key Shift+Tab", "key Shift+Tab", "key Shift+Tab")[len(turn):]
+            self.assertEqual([state["joint"] for state in states],
+                             ["seg_01", "seg_01", "seg_02", *["seg_03"] * 4, "seg_02", "seg_01", "", "seg_09"])
+            self.assertTrue(states[0]["forward"])
+            before, bent, back = states[3], states[5], states[6]
+            joints = [[link["position"] for link in state["links"]] for state in (before, bent)]
+            self.assertEqual(joints[0][:3], joints[1][:3])  # up to seg_03 nothing moves
+            for here, there in zip(joints[0][3:], joints[1][3:]):
+                self.assertNotEqual(here, there)
+            tips = [state["targets"][0]["tip_pixels"][0] for state in (before, bent, back)]
+            self.assertLess(tips[1], tips[0] - 5)
+            self.assertGreater(tips[2], tips[1] + 5)
+
+    def test_demo_shows_the_chosen_joint(self):
+        first, second = self.folder / "joint2.png", self.folder / "joint5.png"
+        self.play("key Tab", "wait 1", "key Tab", f"picture {first}", "key Tab", "key Tab", "key Tab", f"picture {second}")
+        marks = []
+        for path in (first, second):
+            width, _, n, pixels = read_png(path.read_bytes())
+            rows = [at // n // width for at in range(0, len(pixels), n)
+                    if pixels[at] > 200 and 130 < pixels[at + 1] < 235 and pixels[at + 2] < 110]
+            self.assertGreater(len(rows), 60)
+            marks.append(sum(rows) / len(rows))
+        self.assertLess(marks[1], marks[0] - 40)  # further up the tentacle
+
+    def test_a_file_without_a_surface_shows_its_bones(self):
+        source = json.loads((SOURCE / "tests/seeds/rope.gltf").read_text(encoding="utf-8"))
+        for key in ("meshes", "skins"):
+            source.pop(key, None)
+        for node in source["nodes"]:
+            for key in ("mesh", "skin"):
+                node.pop(key, None)
+        (self.folder / "bare.gltf").write_text(json.dumps(source), encoding="utf-8")
+        states = self.play("wait 0", "key B", f"drop {self.folder / 'tentacle.bendy'}", file=self.folder / "bare.gltf")
+        self.assertEqual([state["bones"] for state in states], [True, False, False])
+
+    def test_files_of_other_kinds_are_named(self):
+        fbx = self.folder / "a.fbx"
+        fbx.write_bytes(b"Kaydara FBX Binary  " + bytes(20))
+        state, = self.play(f"drop {fbx}", file=self.folder / "tentacle.bendy")
+        self.assertIn("is an FBX file, which bendy does not read: export it", state["message"])
+        for name, text in ((fbx, "is an FBX file"), (self.folder, "is a folder, not a file"),
+                           (self.folder / "missing.glb", "there is no such file")):
+            done = bendy("view", name, env=self.env)
+            self.assertEqual(done.returncode, 1)
+            self.assertTrue(done.stderr.startswith(f"bendy: error: {name}: {text}"), done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
 
     def test_demo_turntable_and_animation(self):
         states = self.play("wait 0", "wait 0.5", "key R", "wait 0.5", "key P", "wait 0.5")
@@ -332,8 +620,8 @@ class Window(WithFolder):
                 for key, name in (("b", "bones"), ("t", "wireframe"), ("i", "inverse"), ("r", "turntable")):
                     tool("key", key)
                     self.assertTrue(json.loads(program.stdout.readline())[name], name)
-                before = json.loads(self.press(tool, program, "Left"))["targets"][0]["position"]
-                after = json.loads(self.press(tool, program, "Left"))["targets"][0]["position"]
+                before = json.loads(self.press(tool, program, "Left"))["targets"][0]["pixels"]
+                after = json.loads(self.press(tool, program, "Left"))["targets"][0]["pixels"]
                 self.assertLess(after[0], before[0])
                 tool("key", "Escape")
                 self.assertTrue(json.loads(program.stdout.readline())["quits"])

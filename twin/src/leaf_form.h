@@ -180,7 +180,7 @@ void walk_packed(Io& io) {
 template <class Io>
 void walk_leaf(FourCC chunk, Io& io) {
     if (is_text(chunk)) return io.text();
-    if (chunk == FourCC("JNAM")) return io.names();
+    if (chunk == FourCC("JNAM") || chunk == FourCC("FNAM")) return io.names();
     if (is_stream(chunk)) return walk_stream(io);
     if (chunk == FourCC("PALT")) return walk_palette(io);
     if (chunk == FourCC("JNTS")) return walk_joints(io);
@@ -190,6 +190,18 @@ void walk_leaf(FourCC chunk, Io& io) {
     if (chunk == FourCC("MARK")) return io.markers();
     if (chunk == FourCC("TRAK")) {
         io.records("tracks", *find_layout("TrackRecord"), kTheRest);
+        return;
+    }
+    if (chunk == FourCC("PLAY")) {
+        io.records("plays", *find_layout("PlayRecord"), kTheRest);
+        return;
+    }
+    if (chunk == FourCC("GRID")) {
+        io.array({"values", NumberType::f32, kTheRest, 6});
+        return;
+    }
+    if (chunk == FourCC("NLST")) {
+        io.array({"values", NumberType::f32, kTheRest, 3});
         return;
     }
     if (chunk == FourCC("TIME") || chunk == FourCC("KEYV")) {

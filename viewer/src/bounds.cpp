@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -46,18 +47,38 @@ std::vector<std::uint64_t> drawn_vertices(const Model& model) {
 
 }  // namespace
 
-Box bounding_box(const Model& model, const Cycle* cycle) {
+bool has_surface(const Model& model) {
+    return std::any_of(model.draws().begin(), model.draws().end(), [](const Draw& draw) { return draw.count != 0; });
+}
+
+std::vector<bool> find_controls(const Model& model) {
+    std::vector<bool> is_control(model.joints().size());
+    for (const Chain& chain : model.chains()) {
+        for (const std::uint32_t joint : {chain.target, chain.pole}) {
+            if (joint != kNone) is_control[joint] = true;
+        }
+    }
+    return is_control;
+}
+
+Box bounding_box(const Model& model, const Cycle* cycle, const std::function<void(Pose&)>& adjust,
+                 std::span<const glm::vec3> others) {
     constexpr int kTimes = 12;
     const std::vector<std::uint64_t> drawn = drawn_vertices(model);
     std::vector<glm::vec3> positions(drawn.empty() ? 0 : model.vertex_count());
     Pose pose(model);
+    const std::vector<bool> is_control = find_controls(model);
     Points points;
+    for (const glm::vec3& other : others) points.add(other);
     for (int k = 0; k < (cycle == nullptr ? 1 : kTimes); ++k) {
         if (cycle != nullptr)
             sample(cycle, cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1), pose);
+        if (adjust) adjust(pose);
         if (drawn.empty()) {
             local_to_model(pose);
-            for (const glm::mat4& joint : pose.model_space()) points.add(glm::vec3(joint[3]));
+            for (std::uint32_t joint = 0; joint < is_control.size(); ++joint) {
+                if (!is_control[joint]) points.add(glm::vec3(pose.model_space()[joint][3]));
+            }
         } else {
             skin(model, pose, {positions, {}, {}});
             for (const std::uint64_t v : drawn) points.add(positions[v]);

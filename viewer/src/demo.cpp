@@ -21,6 +21,7 @@ constexpr double kPullEvery = 1.0 / 60.0;  // seconds between two steps of the p
 constexpr double kOtherWay = 0.8;          // seconds from where it was stuck to the other pose
 constexpr int kMostPulls = 30;             // in one step, whatever its length
 
+/// As the viewer sees it: X to the right, Y up, Z nearer.
 glm::vec3 direction_of(DemoKey key) {
     switch (key) {
         case DemoKey::left:
@@ -45,14 +46,35 @@ const Cycle* find_animation(const Model& model) {
     return wave != nullptr || model.cycles().empty() ? wave : model.cycles().data();
 }
 
-/// Calls take(joint) from the effector up to the start.
-template <class Take>
-void for_each_link(const Model& model, const Chain& chain, const Take& take) {
+/// A chain's joints from its start to the effector.
+std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
+    std::vector<std::uint32_t> links(chain.links);
     std::uint32_t joint = chain.effector;
-    for (std::uint32_t link = 0; link < chain.links; ++link) {
-        take(joint);
+    for (std::uint32_t link = chain.links; link-- > 0;) {
+        links[link] = joint;
         joint = model.joints()[joint].parent;
     }
+    return links;
+}
+
+glm::vec3 unit_axis(int number) {
+    glm::vec3 axis(0.0f);
+    axis[number] = 1.0f;
+    return axis;
+}
+
+/// The number of the axis that is nearest to a direction.
+int nearest_axis(const glm::vec3& direction) {
+    const glm::vec3 size = glm::abs(direction);
+    if (size.y >= size.x && size.y >= size.z) return 1;
+    return size.x >= size.z ? 0 : 2;
+}
+
+/// The picture's right, level: bending by hand goes by where the viewer stands, not by how high.
+glm::vec3 level_right(const glm::vec3& right) {
+    const glm::vec3 level(right.x, 0.0f, right.z);
+    const float length = glm::length(level);
+    return length > 0.0f ? level / length : glm::vec3(1.0f, 0.0f, 0.0f);
 }
 
 glm::quat rotation_of(const glm::mat4& matrix) {
@@ -73,14 +95,18 @@ Demo::Demo(const Model& model)
     local_to_model(pose_);
     start_ = glm::vec3(pose_.model_space()[chain_->start][3]);
     reach_ = 0.0f;
-    glm::vec3 last = tip();
+    glm::vec3 last = start_;
     is_link_.resize(model.joints().size());
-    for_each_link(model, *chain_, [&](std::uint32_t joint) {
+    joint_bends_.assign(model.joints().size(), glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
+    links_ = links_of(model, *chain_);
+    for (const std::uint32_t joint : links_) {
         is_link_[joint] = true;
         const glm::vec3 here(pose_.model_space()[joint][3]);
         reach_ += glm::length(here - last);
         last = here;
-    });
+    }
+    reach_ += glm::length(tip() - last);
+    for (const glm::mat4& joint : pose_.model_space()) rest_turns_.push_back(rotation_of(joint));
     reach_ = std::max(reach_, 1e-3f);
     move_target(chain_->target != kNone ? glm::vec3(pose_.model_space()[chain_->target][3]) : tip());
     step(0.0);
@@ -155,6 +181,12 @@ void Demo::press(DemoKey key) {
         case DemoKey::help:
             state_.help = !state_.help;
             break;
+        case DemoKey::next_joint:
+            choose_joint(1);
+            break;
+        case DemoKey::previous_joint:
+            choose_joint(-1);
+            break;
         default:
             hold(key, kPress);
             break;
@@ -167,13 +199,82 @@ void Demo::hold(DemoKey key, double seconds) {
 
 void Demo::move(const glm::vec3& direction, float amount) {
     if (state_.inverse) {
-        move_target(state_.target + direction * (0.6f * reach_ * amount));
+        const glm::vec3 nearer = glm::cross(right_, up_);
+        const glm::vec3 seen = direction.x * right_ + direction.y * up_ + direction.z * nearer;
+        move_target(state_.target + seen * (0.6f * reach_ * amount));
+    } else if (state_.forward && state_.joint != kNone) {
+        bend_joint(direction, 1.5f * amount);
     } else if (state_.forward) {
-        // The chain stands up: Left and Right bend it about Z, Up and Down about X, PgUp and PgDn twist it.
-        constexpr float kMost = 2.4f;
-        const glm::vec3 turn(direction.y, direction.z, -direction.x);
-        state_.bend = glm::clamp(state_.bend + turn * (1.5f * amount), -kMost, kMost);
+        bend_all(direction, 1.5f * amount);
     }
+}
+
+void Demo::look_along(const glm::vec3& right, const glm::vec3& up) {
+    right_ = right;
+    up_ = up;
+}
+
+/// From the whole chain to its first joint, and so on to the last and back to the whole.
+void Demo::choose_joint(int step) {
+    if (!state_.forward) set_mode(true, false);
+    const auto at = static_cast<int>(std::find(links_.begin(), links_.end(), state_.joint) - links_.begin());
+    const auto places = static_cast<int>(links_.size()) + 1;  // the last one: the whole chain
+    const int next = (at + step + places) % places;
+    state_.joint = next + 1 == places ? kNone : links_[static_cast<std::size_t>(next)];
+}
+
+/// The chain stands up: Left and Right bend it to the picture's sides, Up and Down nearer and away, PgUp and PgDn twist
+/// it.
+void Demo::bend_all(const glm::vec3& direction, float amount) {
+    constexpr float kMost = 2.4f;
+    const glm::vec3 right = level_right(right_);
+    const glm::vec3 nearer = glm::cross(right, glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::vec3 turn = direction.y * right + glm::vec3(0.0f, direction.z, 0.0f) - direction.x * nearer;
+    state_.bend = glm::clamp(state_.bend + turn * amount, -kMost, kMost);
+}
+
+/// As bend_all, but about the joint's own axes: of the two across its bone, Left and Right turn it about the one that
+/// faces the viewer more, Up and Down about the other.
+void Demo::bend_joint(const glm::vec3& direction, float amount) {
+    const std::uint32_t joint = state_.joint;
+    const bool is_last = joint == chain_->effector;
+    const auto& offset = chain_->record.tip_offset;
+    const auto next = std::find(links_.begin(), links_.end(), joint) + 1;
+    const glm::vec3 bone =
+        is_last ? glm::vec3(offset[0], offset[1], offset[2]) : model_->joints()[*next].rest.translation;
+    const int along = nearest_axis(bone);
+    const glm::mat3 axes = glm::mat3_cast(rotation_of(pose_.model_space()[joint]));
+    const glm::vec3 right = level_right(right_);
+    const glm::vec3 nearer = glm::cross(right, glm::vec3(0.0f, 1.0f, 0.0f));
+    int facing = (along + 1) % 3;
+    int across = (along + 2) % 3;
+    if (std::abs(glm::dot(axes[across], nearer)) > std::abs(glm::dot(axes[facing], nearer))) std::swap(facing, across);
+    const auto signed_axis = [&](int axis, const glm::vec3& towards) {
+        return glm::dot(axes[axis], towards) < 0.0f ? -unit_axis(axis) : unit_axis(axis);
+    };
+    const glm::vec3 turn = direction.y * signed_axis(across, right) - direction.x * signed_axis(facing, nearer) +
+                           direction.z * signed_axis(along, axes * bone);
+    const float length = glm::length(turn);
+    if (!(length > 0.0f)) return;
+    const glm::quat before = bent_with_all(joint);
+    glm::quat own = glm::normalize(before * joint_bends_[joint] * glm::angleAxis(amount * length, turn / length));
+    // The limits stop it here, so that a key that goes on being pressed leaves nothing to take back.
+    if (const Constraint* constraint = limit_of(joint)) {
+        const glm::quat& rest = model_->joints()[joint].rest.rotation;
+        const glm::dquat R = to_limit_space(*constraint, rest, own);
+        const glm::dquat legal = clamp_rotation(*constraint, R);
+        if (legal != R) own = from_limit_space(*constraint, rest, legal);
+    }
+    joint_bends_[joint] = glm::normalize(glm::conjugate(before) * own);
+}
+
+/// The joint's rotation by what bends the whole chain.
+glm::quat Demo::bent_with_all(std::uint32_t joint) const {
+    const glm::quat& rest = model_->joints()[joint].rest.rotation;
+    const glm::vec3 share = state_.bend / static_cast<float>(std::max(chain_->links, 1u));
+    const float angle = glm::length(share);
+    if (angle == 0.0f) return rest;
+    return glm::normalize(rest * glm::angleAxis(angle, glm::conjugate(rest_turns_[joint]) * (share / angle)));
 }
 
 void Demo::move_target(const glm::vec3& position) {
@@ -195,17 +296,9 @@ void Demo::drag_target(const glm::vec3& position) {
 
 void Demo::pose_by_hand() {
     pose_.set_rest();
-    local_to_model(pose_);
-    const glm::vec3 share = state_.bend / static_cast<float>(std::max(chain_->links, 1u));
-    const float angle = glm::length(share);
-    if (angle == 0.0f) return;
-    const glm::vec3 axis = share / angle;
-    const std::vector<glm::mat4> rest(pose_.model_space().begin(), pose_.model_space().end());
     const auto local = pose_.change_local();
-    for_each_link(*model_, *chain_, [&](std::uint32_t joint) {
-        const glm::vec3 own = glm::conjugate(rotation_of(rest[joint])) * axis;
-        local[joint].rotation = glm::normalize(local[joint].rotation * glm::angleAxis(angle, own));
-    });
+    for (const std::uint32_t joint : links_)
+        local[joint].rotation = glm::normalize(bent_with_all(joint) * joint_bends_[joint]);
 }
 
 void Demo::pull() {

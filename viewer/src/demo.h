@@ -2,6 +2,7 @@
 
 #include <bendy/runtime.h>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -18,6 +19,8 @@ enum class DemoKey : std::uint8_t {
     turntable,
     wireframe,
     help,
+    next_joint,
+    previous_joint,
     left,
     right,
     up,
@@ -35,10 +38,11 @@ struct DemoState {
     bool turntable = false;
     bool wireframe = false;
     bool help = true;
-    double time = 0.0;       ///< of the animation, seconds from its start
-    double angle = 0.0;      ///< of the turntable, radians
-    glm::vec3 bend{0.0f};    ///< by hand: of the whole chain about the model's axes, radians
-    glm::vec3 target{0.0f};  ///< metres, model space
+    double time = 0.0;            ///< of the animation, seconds from its start
+    double angle = 0.0;           ///< of the turntable, radians
+    glm::vec3 bend{0.0f};         ///< by hand: of the whole chain about the model's axes, radians
+    std::uint32_t joint = kNone;  ///< by hand: the one that the keys bend; kNone: the whole chain
+    glm::vec3 target{0.0f};       ///< metres, model space
 };
 
 /// The Bendy Tentacle Demo: what the keys do, without window or drawing. Takes a model with a chain; plays its cycle
@@ -48,7 +52,10 @@ public:
     /// The model must outlive it and have at least one chain.
     explicit Demo(const Model& model);
 
-    /// A key went down. An arrow, PgUp or PgDn moves the target or the tentacle a little.
+    /// How the picture lies in the model's space, unit vectors: the keys mean what the viewer sees. +X and +Y if nobody
+    /// says.
+    void look_along(const glm::vec3& right, const glm::vec3& up);
+    /// A key went down. An arrow, PgUp or PgDn moves the target, the tentacle or one joint a little.
     void press(DemoKey key);
     /// A key is held down for so long.
     void hold(DemoKey key, double seconds);
@@ -60,6 +67,8 @@ public:
     [[nodiscard]] const DemoState& state() const { return state_; }
     [[nodiscard]] Pose& pose() { return pose_; }
     [[nodiscard]] const Chain& chain() const { return *chain_; }
+    /// The chain's joints, from its start to the effector.
+    [[nodiscard]] const std::vector<std::uint32_t>& links() const { return links_; }
     [[nodiscard]] glm::vec3 tip() const;
     /// How far the worst of all joints is outside its limits, radians; while the target pulls, the chain's joints have
     /// those that the file gives for IK.
@@ -71,6 +80,10 @@ private:
     void set_mode(bool forward, bool inverse);
     void move(const glm::vec3& direction, float amount);
     void move_target(const glm::vec3& position);
+    void choose_joint(int step);
+    void bend_all(const glm::vec3& direction, float amount);
+    void bend_joint(const glm::vec3& direction, float amount);
+    [[nodiscard]] glm::quat bent_with_all(std::uint32_t joint) const;
     void pose_by_hand();
     void pull();
     void look_for_another_way(float distance);
@@ -81,9 +94,14 @@ private:
     Pose pose_;
     Pose before_;  // what the mode before left, from which the new one eases away
     DemoState state_;
-    glm::vec3 start_{0.0f};      // of the chain at rest, model space
-    std::vector<bool> is_link_;  // of the chain, one a joint
-    float reach_ = 1.0f;         // the chain's length at rest
+    glm::vec3 start_{0.0f};               // of the chain at rest, model space
+    glm::vec3 right_{1.0f, 0.0f, 0.0f};   // of the picture
+    glm::vec3 up_{0.0f, 1.0f, 0.0f};      // likewise
+    std::vector<std::uint32_t> links_;    // the chain's joints, from its start
+    std::vector<bool> is_link_;           // of the chain, one a joint
+    std::vector<glm::quat> rest_turns_;   // in model space, one a joint
+    std::vector<glm::quat> joint_bends_;  // by hand, after what bends the whole chain; one a joint
+    float reach_ = 1.0f;                  // the chain's length at rest
     double since_mode_ = 1e9;
     double pull_time_ = 0.0;  // not yet used by pulling
     // Where the limits keep the force from the target although the tip can reach it, the tentacle goes to a pose that

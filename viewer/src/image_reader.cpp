@@ -1,5 +1,7 @@
 #include "image_reader.h"
 
+#include "tga_bmp.h"
+
 #include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
@@ -13,18 +15,6 @@ namespace bendy::viewer {
 namespace {
 
 constexpr std::uint32_t kMostSide = 16'384;
-
-/// Makes room for a picture, or says why not.
-bool prepare(ReadImage& out, std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
-    if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width > most_pixels / height) {
-        out.problem = "is too large: " + std::to_string(width) + " x " + std::to_string(height);
-        return false;
-    }
-    out.picture.width = static_cast<std::uint32_t>(width);
-    out.picture.height = static_cast<std::uint32_t>(height);
-    out.picture.pixels.resize(out.picture.row_size() * height);
-    return true;
-}
 
 void read_png(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
     png_image image{};
@@ -87,6 +77,17 @@ bool begins(Bytes bytes, const std::array<unsigned char, N>& start, std::size_t 
 
 }  // namespace
 
+bool prepare(ReadImage& out, std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
+    if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width > most_pixels / height) {
+        out.problem = "is too large: " + std::to_string(width) + " x " + std::to_string(height);
+        return false;
+    }
+    out.picture.width = static_cast<std::uint32_t>(width);
+    out.picture.height = static_cast<std::uint32_t>(height);
+    out.picture.pixels.resize(out.picture.row_size() * height);
+    return true;
+}
+
 ReadImage read_image(Bytes bytes, std::uint64_t most_pixels) {
     constexpr std::array<unsigned char, 4> kPng{0x89, 'P', 'N', 'G'};
     constexpr std::array<unsigned char, 3> kJpeg{0xff, 0xd8, 0xff};
@@ -98,8 +99,8 @@ ReadImage read_image(Bytes bytes, std::uint64_t most_pixels) {
         read_jpeg(bytes, most_pixels, out);
     } else if (begins(bytes, kWebp, 8)) {
         read_webp(bytes, most_pixels, out);
-    } else {
-        out.problem = "is neither PNG nor JPEG nor WebP";
+    } else if (!read_bmp_or_tga(bytes, most_pixels, out)) {
+        out.problem = "is neither PNG, JPEG, WebP, BMP nor TGA";
     }
     if (!out.problem.empty()) out.picture = {};
     return out;

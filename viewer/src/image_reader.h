@@ -13,8 +13,8 @@ struct ReadImage {
     std::string problem;  ///< why there is no picture; empty if there is one
 };
 
-/// Decodes a PNG, JPEG or WebP image, told by its first bytes. Whatever the bytes hold, it gives a picture of at most
-/// `most_pixels` or says why not, before it allocates.
+/// Decodes a PNG, JPEG, WebP, BMP or TGA image, told by its first bytes. Whatever the bytes hold, it gives a picture of
+/// at most `most_pixels` or says why not, before it allocates.
 ReadImage read_image(Bytes bytes, std::uint64_t most_pixels);
 
 }  // namespace bendy::viewer

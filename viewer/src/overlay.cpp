@@ -1,5 +1,7 @@
 #include "overlay.h"
 
+#include "bounds.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -15,6 +17,7 @@ constexpr glm::vec3 kBoneColour{0.55f, 0.75f, 0.95f};
 constexpr glm::vec3 kEndColour{0.9f, 0.95f, 1.0f};
 constexpr glm::vec4 kTargetColour{1.0f, 0.12f, 0.1f, 1.0f};
 constexpr glm::vec4 kIdleColour{0.6f, 0.25f, 0.22f, 1.0f};
+constexpr glm::vec3 kMarkColour{1.0f, 0.72f, 0.1f};
 constexpr glm::vec4 kPointerColour{1.0f, 0.95f, 0.6f, 1.0f};
 
 glm::vec3 place(const Pose& pose, std::uint32_t joint) {
@@ -59,9 +62,14 @@ void add_diamond(const glm::vec3& centre, float radius, const glm::vec3& colour,
     add_octahedron(centre - up, centre + up, 0.5f, radius, colour, list);
 }
 
-/// Joints that move something or belong to a chain: a file's other nodes are no bones.
+/// Joints that move something or belong to a chain: a file's other nodes are no bones. Without a surface all are but
+/// the controls.
 std::vector<bool> find_bones(const Model& model) {
-    std::vector<bool> is_bone(model.joints().size(), model.pools().empty());
+    std::vector<bool> is_bone(model.joints().size());
+    if (!has_surface(model)) {
+        is_bone = find_controls(model);
+        is_bone.flip();
+    }
     for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
         const Pool& pool = model.pools()[number];
         for (std::uint32_t v = 0; v < pool.vertices; ++v) {
@@ -111,12 +119,7 @@ void OverlayList::triangle(std::vector<OverlayVertex>& list, const glm::vec3& a,
 
 Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     std::vector<bool> is_bone = find_bones(model);
-    std::vector<bool> is_control(is_bone.size());
-    for (const Chain& chain : model.chains()) {
-        for (const std::uint32_t joint : {chain.target, chain.pole}) {
-            if (joint != kNone) is_control[joint] = true;
-        }
-    }
+    const std::vector<bool> is_control = find_controls(model);
     Pose rest(model);
     local_to_model(rest);
     constexpr float kDefaultLength = 0.06f;  // of the character's size
@@ -168,18 +171,31 @@ void Overlay::add_bones(const Pose& pose, OverlayList& list) const {
 }
 
 void Overlay::add_axes(const Pose& pose, OverlayList& list) const {
-    for (const std::uint32_t joint : ends_) {
-        const glm::mat4& matrix = pose.model_space()[joint];
-        const glm::vec3 origin(matrix[3]);
-        const float length = std::min(0.35f * lengths_[joint], 0.06f * size_);
-        for (int axis = 0; axis < 3; ++axis) {
-            glm::vec4 colour(0.05f, 0.05f, 0.05f, 1.0f);
-            colour[axis] = 0.9f;
-            const glm::vec3 direction(matrix[axis]);
-            const float scale = glm::length(direction);
-            if (scale > 0.0f) list.line(origin, origin + direction * (length / scale), colour, 1.5f);
-        }
+    for (const std::uint32_t joint : ends_)
+        add_axes_of(pose, joint, std::min(0.35f * lengths_[joint], 0.06f * size_), 1.5f, list);
+}
+
+void Overlay::add_axes_of(const Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list) {
+    const glm::mat4& matrix = pose.model_space()[joint];
+    const glm::vec3 origin(matrix[3]);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec4 colour(0.05f, 0.05f, 0.05f, 1.0f);
+        colour[axis] = 0.9f;
+        const glm::vec3 direction(matrix[axis]);
+        const float scale = glm::length(direction);
+        if (scale > 0.0f) list.line(origin, origin + direction * (length / scale), colour, pixels);
     }
+}
+
+void Overlay::add_mark(const Pose& pose, std::uint32_t joint, OverlayList& list) const {
+    const glm::vec3 here = place(pose, joint);
+    for (const Bone& bone : bones_) {
+        if (bone.from != joint) continue;
+        const glm::vec3 to = place(pose, bone.to);
+        add_octahedron(here, to, 0.15f, std::min(0.12f * glm::length(to - here), 0.03f * size_), kMarkColour, list);
+    }
+    add_diamond(here, 0.016f * size_, kMarkColour, list);
+    add_axes_of(pose, joint, 0.1f * size_, 2.5f, list);
 }
 
 void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
@@ -250,11 +266,12 @@ glm::vec3 tip_of(const Chain& chain, const Pose& pose) {
     return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
-std::vector<TargetMark> target_marks(const Pose& pose) {
+std::vector<TargetMark> target_marks(const Pose& pose, std::span<const Chain* const> without) {
     std::vector<TargetMark> marks;
     for (const Chain& chain : pose.model().chains()) {
         const bool is_followed = chain.target != kNone && chain.record.influence > 0.0f;
-        if (is_followed) marks.push_back({place(pose, chain.target), tip_of(chain, pose), true});
+        if (is_followed && std::find(without.begin(), without.end(), &chain) == without.end())
+            marks.push_back({place(pose, chain.target), tip_of(chain, pose), true});
     }
     return marks;
 }

@@ -50,8 +50,10 @@ public:
     void add_axes(const Pose& pose, OverlayList& list) const;
     void add_constraints(const Pose& pose, OverlayList& list) const;
     void add_targets(std::span<const TargetMark> targets, OverlayList& list) const;
+    void add_mark(const Pose& pose, std::uint32_t joint, OverlayList& list) const;
 
 private:
+    static void add_axes_of(const Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list);
     void add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
                    OverlayList& list) const;
 
@@ -67,8 +69,9 @@ private:
     std::vector<LimitDrawing> limits_;            // as many
 };
 
-/// Where the chains' target joints are in a pose that is up to date; chains without one, or that are off, are left out.
-std::vector<TargetMark> target_marks(const Pose& pose);
+/// Where the chains' target joints are in a pose that is up to date; chains without one, that are off, or that stand in
+/// `without`, are left out.
+std::vector<TargetMark> target_marks(const Pose& pose, std::span<const Chain* const> without = {});
 
 /// Where a chain's tip is.
 glm::vec3 tip_of(const Chain& chain, const Pose& pose);

@@ -158,6 +158,32 @@ void Window::draw_time_panel() {
     ImGui::End();
 }
 
+void Window::draw_demo_help() {
+    const Demo& demo = *character_->demo;
+    const DemoState& state = demo.state();
+    const auto mark = [](bool is_on) { return is_on ? "on" : "off"; };
+    ImGui::TextUnformatted("Bendy Tentacle Demo");
+    ImGui::Text("B    bones: %s", mark(state.bones));
+    ImGui::Text("C    limits: %s", mark(draw_.constraints));
+    ImGui::Text("F    forward kinematics, by hand: %s", mark(state.forward));
+    if (state.joint == kNone) {
+        ImGui::TextUnformatted("Tab  bends: the whole tentacle");
+    } else {
+        const auto& links = demo.links();
+        const auto number = std::find(links.begin(), links.end(), state.joint) - links.begin();
+        const std::string name(character_->model->joints()[state.joint].name);
+        ImGui::Text("Tab  bends: joint %d of %zu, %s", static_cast<int>(number) + 1, links.size(), name.c_str());
+    }
+    ImGui::Text("I    inverse kinematics: %s", mark(state.inverse));
+    ImGui::Text("P    pause the animation: %s", mark(state.paused));
+    ImGui::Text("R    turntable: %s", mark(state.turntable));
+    ImGui::Text("T    wireframe: %s", mark(state.wireframe));
+    ImGui::TextUnformatted(state.inverse   ? "arrows, PgUp, PgDn    move the target"
+                           : state.forward ? "arrows bend, PgUp, PgDn twist"
+                                           : "arrows, PgUp, PgDn    after F or I");
+    ImGui::TextUnformatted("H    this help        Esc  quit");
+}
+
 void Window::draw_help() {
     ImGui::SetNextWindowPos({static_cast<float>(size_.x) - 10.0f, static_cast<float>(size_.y) - 10.0f},
                             ImGuiCond_Always, {1.0f, 1.0f});
@@ -165,20 +191,7 @@ void Window::draw_help() {
         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs;
     if (ImGui::Begin("help", nullptr, kFlags)) {
         if (is_demo()) {
-            const DemoState& state = character_->demo->state();
-            const auto mark = [](bool is_on) { return is_on ? "on" : "off"; };
-            ImGui::TextUnformatted("Bendy Tentacle Demo");
-            ImGui::Text("B    bones: %s", mark(state.bones));
-            ImGui::Text("C    limits: %s", mark(draw_.constraints));
-            ImGui::Text("F    forward kinematics, by hand: %s", mark(state.forward));
-            ImGui::Text("I    inverse kinematics: %s", mark(state.inverse));
-            ImGui::Text("P    pause the animation: %s", mark(state.paused));
-            ImGui::Text("R    turntable: %s", mark(state.turntable));
-            ImGui::Text("T    wireframe: %s", mark(state.wireframe));
-            ImGui::TextUnformatted(state.inverse   ? "arrows, PgUp, PgDn    move the target"
-                                   : state.forward ? "arrows bend, PgUp, PgDn twist"
-                                                   : "arrows, PgUp, PgDn    after F or I");
-            ImGui::TextUnformatted("H    this help        Esc  quit");
+            draw_demo_help();
         } else {
             ImGui::TextUnformatted(
                 "left button: orbit, or drag a target; right: pan; wheel: zoom; Home: fit\n"

@@ -37,18 +37,19 @@ std::vector<std::byte> encode_png(const Picture& picture) {
     return bytes;
 }
 
-Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t columns) {
+Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t columns, const Picture& empty) {
     const Picture& first = pictures.front();
     const auto rows = (static_cast<std::uint32_t>(pictures.size()) + columns - 1) / columns;
     Picture sheet{columns * first.width, rows * first.height, {}};
     sheet.pixels.resize(sheet.row_size() * sheet.height);
-    for (std::size_t k = 0; k < pictures.size(); ++k) {
+    for (std::size_t k = 0; k < std::size_t{rows} * columns; ++k) {
+        const Picture& picture = k < pictures.size() ? pictures[k] : empty;
         const std::size_t left = (k % columns) * first.row_size();
         const std::size_t top = (k / columns) * first.height;
         for (std::size_t y = 0; y < first.height; ++y) {
             const auto from = static_cast<std::ptrdiff_t>(y * first.row_size());
             const auto to = static_cast<std::ptrdiff_t>((top + y) * sheet.row_size() + left);
-            std::copy_n(pictures[k].pixels.begin() + from, first.row_size(), sheet.pixels.begin() + to);
+            std::copy_n(picture.pixels.begin() + from, first.row_size(), sheet.pixels.begin() + to);
         }
     }
     return sheet;

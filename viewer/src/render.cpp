@@ -9,7 +9,21 @@
 
 #include <bendy/runtime.h>
 
+#include <glm/vec2.hpp>
+
+#include <vector>
+
 namespace bendy::viewer {
+namespace {
+
+/// Round all that will be drawn.
+Box box_of(const Model& model, const RenderOptions& options) {
+    std::vector<glm::vec3> targets;
+    for (const DrawnTarget& target : options.targets) targets.push_back(target.position);
+    return bounding_box(model, options.cycle, options.adjust, targets);
+}
+
+}  // namespace
 
 /// In the order in which they are made: the context goes last.
 struct PictureMaker::Parts {
@@ -17,11 +31,31 @@ struct PictureMaker::Parts {
         : options(wanted),
           context(wanted.context),
           frame(wanted.width, wanted.height),
-          box(bounding_box(model, wanted.cycle)),
+          box(box_of(model, wanted)),
           renderer(model, box, wanted.folder, warn),
           pose(model) {
         camera.fit(box, wanted.camera, static_cast<float>(wanted.width) / static_cast<float>(wanted.height));
         renderer.set_level(wanted.lod);
+        if (has_surface(model)) return;
+        options.draw.bones = true;
+        if (model.joints().empty()) warn("there is nothing to draw: no surface and no joints");
+    }
+
+    [[nodiscard]] std::vector<TargetMark> marks() const {
+        std::vector<TargetMark> marks;
+        std::vector<const Chain*> shown;
+        for (const DrawnTarget& target : options.targets) {
+            marks.push_back({target.position, tip_of(*target.chain, pose), true});
+            shown.push_back(target.chain);
+        }
+        if (!options.draw.targets) return marks;
+        const std::vector<TargetMark> others = target_marks(pose, shown);
+        marks.insert(marks.end(), others.begin(), others.end());
+        return marks;
+    }
+
+    [[nodiscard]] glm::vec2 size() const {
+        return {static_cast<float>(options.width), static_cast<float>(options.height)};
     }
 
     RenderOptions options;
@@ -44,12 +78,25 @@ const std::string& PictureMaker::context() const {
 
 Picture PictureMaker::draw(float time) {
     Parts& p = *parts_;
-    if (p.options.cycle != nullptr) sample(p.options.cycle, time, p.pose);
+    sample(p.options.cycle, time, p.pose);  // null: the rest pose
+    if (p.options.adjust) p.options.adjust(p.pose);
     local_to_model(p.pose);
     p.frame.bind();
-    const glm::vec2 size(static_cast<float>(p.options.width), static_cast<float>(p.options.height));
-    p.renderer.draw(p.pose, p.camera, p.options.draw, target_marks(p.pose), size);
-    return p.frame.read(p.options.draw.background.a < 1.0f);
+    const std::vector<TargetMark> marks = p.marks();
+    DrawOptions shown = p.options.draw;
+    shown.targets = !marks.empty();
+    p.renderer.draw(p.pose, p.camera, shown, marks, p.size());
+    return p.frame.read(shown.background.a < 1.0f);
+}
+
+Picture PictureMaker::draw_nothing() {
+    Parts& p = *parts_;
+    p.frame.bind();
+    DrawOptions nothing;
+    nothing.surface = false;
+    nothing.background = p.options.draw.background;
+    p.renderer.draw(p.pose, p.camera, nothing, {}, p.size());
+    return p.frame.read(nothing.background.a < 1.0f);
 }
 
 }  // namespace bendy::viewer

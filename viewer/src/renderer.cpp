@@ -1,6 +1,10 @@
 #include "renderer.h"
 
+#include "lighting.h"
+#include "reflectance_table.h"
 #include "shaders.h"
+#include "shown_surface.h"
+#include "texture_units.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -15,21 +19,8 @@ namespace {
 
 enum WhichFaces : GLint { kBothFaces, kFrontFaces, kBackFaces };
 
-/// The material of a draw that has none: glTF's default is mirror-like metal, which shows little; this is plain grey.
-SurfaceRecord plain_surface() {
-    SurfaceRecord surface;
-    surface.base_colour = {0.6f, 0.6f, 0.6f, 1.0f};
-    surface.metallic = 0.0f;
-    surface.roughness = 0.6f;
-    return surface;
-}
-
-SurfaceRecord surface_of(const Model& model, const Draw& draw) {
-    return draw.material < model.materials().size() ? model.materials()[draw.material].surface : plain_surface();
-}
-
-bool is_blended(const Model& model, const Draw& draw) {
-    return static_cast<AlphaMode>(surface_of(model, draw).alpha_mode) == AlphaMode::blend;
+bool is_blended(const SurfaceRecord& surface) {
+    return static_cast<AlphaMode>(surface.alpha_mode) == AlphaMode::blend;
 }
 
 /// T * R * S, KHR_texture_transform.
@@ -40,15 +31,38 @@ glm::mat3 uv_matrix(const TextureUseRecord& use) {
             glm::vec3(use.offset[0], use.offset[1], 1.0f)};
 }
 
-void set_vector(GLint place, const glm::vec3& v) {
-    gl::Uniform3fv(place, 1, glm::value_ptr(v));
+struct MapUse {
+    const TextureUseRecord* record;
+    const char* sampler;
+    bool srgb;
+};
+
+constexpr std::uint32_t kLastSet = 3;  // of texture coordinates
+
+enum Map : std::size_t { kBaseColour, kMetallicRoughness, kNormal, kOcclusion, kEmissive };
+
+std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
+    return {{{&surface.base_colour_texture, "base_colour_map", true},
+             {&surface.metallic_roughness_texture, "metallic_roughness_map", false},
+             {&surface.normal_texture, "normal_map", false},
+             {&surface.occlusion_texture, "occlusion_map", false},
+             {&surface.emissive_texture, "emissive_map", true}}};
 }
 
-/// From over the camera's left shoulder.
-glm::vec3 key_light(const Camera& camera) {
-    const float yaw = camera.yaw() - 0.7f;
-    const float height = 0.85f;
-    return glm::normalize(glm::vec3(std::sin(yaw), height, std::cos(yaw)));
+/// 16 entries a side: as fine as three.js has it.
+void upload_reflectance(GLuint texture) {
+    constexpr GLsizei kSide = 16;
+    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
+    gl::BindTexture(GL_TEXTURE_2D, texture);
+    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl::TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl::TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+}
+
+void set_vector(GLint place, const glm::vec3& v) {
+    gl::Uniform3fv(place, 1, glm::value_ptr(v));
 }
 
 std::vector<glm::vec3> draw_centres(const Model& model) {
@@ -71,6 +85,7 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
 
 Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn)
     : model_(&model),
+      surfaces_(shown_surfaces(model)),
       level_(model),
       buffers_(model),
       textures_(model, folder, warn),
@@ -81,6 +96,7 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
       overlay_program_(kOverlayVertexShader, kOverlayShader),
       centres_(draw_centres(model)) {
     buffers_.set_level(level_);
+    load_textures(warn);
     gl::BindVertexArray(overlay_layout_.name());
     gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
@@ -93,11 +109,6 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
     floats(1, 3, offsetof(OverlayVertex, other));
     floats(2, 4, offsetof(OverlayVertex, colour));
     floats(3, 1, offsetof(OverlayVertex, side));
-    for (const Pool& pool : model.pools()) {
-        for (const StreamView& stream : pool.texture_coords) {
-            if (stream.set > 3) warn("texture coordinate sets after the fourth are not shown");
-        }
-    }
 }
 
 void Renderer::set_level(float share) {
@@ -125,10 +136,10 @@ void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options
 void Renderer::set_skin(const Program& program, const Camera& camera) const {
     program.use();
     gl::UniformMatrix4fv(program["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
-    gl::Uniform1i(program["palette"], SceneBuffers::kPaletteUnit);
-    gl::Uniform1i(program["influence_list"], SceneBuffers::kInfluenceUnit);
-    gl::Uniform1i(program["displacement_list"], SceneBuffers::kDisplacementUnit);
-    gl::Uniform1i(program["target_weights"], SceneBuffers::kWeightUnit);
+    gl::Uniform1i(program["palette"], kPaletteUnit);
+    gl::Uniform1i(program["influence_list"], kInfluenceUnit);
+    gl::Uniform1i(program["displacement_list"], kDisplacementUnit);
+    gl::Uniform1i(program["target_weights"], kWeightUnit);
 }
 
 void Renderer::draw_range(const Draw& draw) const {
@@ -140,32 +151,46 @@ void Renderer::draw_range(const Draw& draw) const {
                      GL_UNSIGNED_INT, place);
 }
 
-void Renderer::set_material(const Draw& draw) {
-    const SurfaceRecord surface = surface_of(*model_, draw);
-    struct Use {
-        const TextureUseRecord* record;
-        const char* sampler;
-        bool srgb;
-    };
-    const std::array<Use, 5> uses{{{&surface.base_colour_texture, "base_colour_map", true},
-                                   {&surface.metallic_roughness_texture, "metallic_roughness_map", false},
-                                   {&surface.normal_texture, "normal_map", false},
-                                   {&surface.occlusion_texture, "occlusion_map", false},
-                                   {&surface.emissive_texture, "emissive_map", true}}};
+const SurfaceRecord& Renderer::surface_of(const Draw& draw) const {
+    return surfaces_[std::min<std::size_t>(draw.material, surfaces_.size() - 1)];
+}
+
+/// All that any draw needs, before the first: nothing is uploaded between the calls that set a draw up.
+void Renderer::load_textures(const Warn& warn) {
+    bool is_beyond = false;
+    for (const Draw& draw : model_->draws()) {
+        for (const MapUse& use : maps_of(surface_of(draw))) {
+            textures_.load(use.record->texture, use.srgb);
+            is_beyond = is_beyond || (use.record->texture != kNone && use.record->coords > kLastSet);
+        }
+    }
+    if (is_beyond) warn("a texture uses a set of coordinates after the fourth: it is drawn with the fourth");
+    upload_reflectance(reflectance_.name());
+}
+
+void Renderer::set_material(const Draw& draw) const {
+    const SurfaceRecord& surface = surface_of(draw);
+    const std::array<MapUse, 5> uses = maps_of(surface);
     std::array<glm::mat3, 5> matrices{};
     std::array<GLint, 5> sets{};
+    std::array<bool, 5> is_shown{};
     for (std::size_t k = 0; k < uses.size(); ++k) {
-        const GLuint texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
-        gl::ActiveTexture(GL_TEXTURE0 + static_cast<GLuint>(k));
-        gl::BindTexture(GL_TEXTURE_2D, texture);
-        gl::Uniform1i(surface_[uses[k].sampler], static_cast<GLint>(k));
+        const auto unit = static_cast<GLuint>(kMaterialUnit + k);
+        gl::ActiveTexture(GL_TEXTURE0 + unit);
+        const auto texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
+        is_shown[k] = texture.has_value();
+        const bool is_checked = k == kBaseColour && uses[k].record->texture != kNone;
+        gl::BindTexture(GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
+        gl::Uniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
         matrices[k] = uv_matrix(*uses[k].record);
-        sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, 3u));
+        sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, kLastSet));
     }
     gl::UniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
     gl::Uniform1iv(surface_["uv_set"], 5, sets.data());
     gl::Uniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
-    gl::Uniform3fv(surface_["emissive"], 1, surface.emissive.data());
+    // Without its map a surface has no light of its own, and no bumps.
+    const bool is_dark = surface.emissive_texture.texture != kNone && !is_shown[kEmissive];
+    set_vector(surface_["emissive"], is_dark ? glm::vec3(0.0f) : glm::make_vec3(surface.emissive.data()));
     gl::Uniform1f(surface_["metallic"], surface.metallic);
     gl::Uniform1f(surface_["roughness"], surface.roughness);
     gl::Uniform1f(surface_["normal_scale"], surface.normal_scale);
@@ -174,14 +199,24 @@ void Renderer::set_material(const Draw& draw) {
     gl::Uniform1i(surface_["alpha_mode"], surface.alpha_mode);
     gl::Uniform1i(surface_["double_sided"], surface.double_sided);
     gl::Uniform1i(surface_["unlit"], surface.unlit);
-    gl::Uniform1i(surface_["has_normal_map"], surface.normal_texture.texture != kNone ? 1 : 0);
+    gl::Uniform1i(surface_["has_normal_map"], is_shown[kNormal] ? 1 : 0);
     gl::Uniform1i(surface_["has_faces"], draw.topology == Topology::triangles ? 1 : 0);
 }
 
-void Renderer::draw_surface(const Camera& camera) {
+void Renderer::draw_surface(const Camera& camera) const {
     set_skin(surface_, camera);
     set_vector(surface_["eye"], camera.eye());
-    set_vector(surface_["key_light"], key_light(camera));
+    const glm::mat3 to_view(camera.view());
+    gl::UniformMatrix3fv(surface_["to_view"], 1, GL_FALSE, glm::value_ptr(to_view));
+    const Lighting lighting = lighting_for(camera);
+    gl::Uniform3fv(surface_["light_direction"], 2, glm::value_ptr(lighting.directions[0]));
+    gl::Uniform2f(surface_["light_irradiance"], lighting.irradiance[0], lighting.irradiance[1]);
+    gl::Uniform1f(surface_["sky"], lighting.sky);
+    gl::Uniform1f(surface_["ground"], lighting.ground);
+    gl::Uniform1f(surface_["environment"], lighting.environment);
+    gl::ActiveTexture(GL_TEXTURE0 + kReflectanceUnit);
+    gl::BindTexture(GL_TEXTURE_2D, reflectance_.name());
+    gl::Uniform1i(surface_["reflectance"], kReflectanceUnit);
     gl::Uniform1i(surface_["which_faces"], kBothFaces);
     struct SeeThrough {
         float distance;
@@ -190,7 +225,7 @@ void Renderer::draw_surface(const Camera& camera) {
     std::vector<SeeThrough> later;
     const auto draws = level_.draws();
     for (std::size_t number = 0; number < draws.size(); ++number) {
-        if (is_blended(*model_, draws[number])) {
+        if (is_blended(surface_of(draws[number]))) {
             const glm::vec3 centre = number < centres_.size() ? centres_[number] : glm::vec3(0.0f);
             later.push_back({glm::length(centre - camera.eye()), number});
             continue;
@@ -214,7 +249,7 @@ void Renderer::draw_surface(const Camera& camera) {
     gl::Disable(GL_BLEND);
 }
 
-void Renderer::draw_wireframe(const Camera& camera) {
+void Renderer::draw_wireframe(const Camera& camera) const {
     constexpr std::array<float, 4> kWire{0.75f, 0.8f, 0.85f, 1.0f};
     set_skin(flat_, camera);
     gl::Uniform4fv(flat_["flat_colour"], 1, kWire.data());
@@ -257,6 +292,7 @@ void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOp
     if (options.axes) overlay_.add_axes(pose, list_);
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);
+    if (options.marked_joint != kNone) overlay_.add_mark(pose, options.marked_joint, list_);
     gl::Clear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
     overlay_program_.use();
     gl::UniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));

@@ -33,19 +33,24 @@ public:
     void draw_numbers(Pose& pose, const Camera& camera, bool behind_surface);
 
 private:
-    void draw_surface(const Camera& camera);
-    void draw_wireframe(const Camera& camera);
+    void draw_surface(const Camera& camera) const;
+    void draw_wireframe(const Camera& camera) const;
     void draw_range(const Draw& draw) const;
-    void set_material(const Draw& draw);
+    void load_textures(const Warn& warn);
+    void set_material(const Draw& draw) const;
     void draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
                       std::span<const TargetMark> targets, const glm::vec2& size);
     void draw_list(const std::vector<OverlayVertex>& list) const;
     void set_skin(const Program& program, const Camera& camera) const;
 
+    [[nodiscard]] const SurfaceRecord& surface_of(const Draw& draw) const;
+
     const Model* model_;
+    std::vector<SurfaceRecord> surfaces_;  // of the materials, and the default one
     Lod level_;
     SceneBuffers buffers_;
     TextureLoader textures_;
+    GlTexture reflectance_;
     Overlay overlay_;
     Program surface_;
     Program flat_;

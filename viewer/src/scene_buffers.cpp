@@ -1,5 +1,7 @@
 #include "scene_buffers.h"
 
+#include "texture_units.h"
+
 #include <bendy/viewer/viewer_error.h>
 
 #include <glm/mat4x4.hpp>
@@ -79,24 +81,17 @@ void add_influences(const Model& model, std::uint32_t number, std::uint32_t firs
     }
 }
 
-glm::vec3 vector_at(const std::optional<StreamView>& stream, std::uint32_t entry) {
-    if (!stream) return glm::vec3(0.0f);
-    return {stream->number(entry, 0), stream->number(entry, 1), stream->number(entry, 2)};
-}
-
-std::uint32_t touched(const Pool& pool, const TargetView& target) {
-    return target.vertices ? target.vertices->elements : pool.vertices;
+glm::vec3 vector_at(const TargetView& target, const std::optional<StreamView>& stream,
+                    const std::optional<StreamView>& rest, std::uint32_t entry) {
+    return stream && rest ? target.displacement(*stream, *rest, entry) : glm::vec3(0.0f);
 }
 
 /// Adds the targets' displacements, sorted by vertex: as many as the file has, whatever their number.
 void add_displacements(const Pool& pool, std::uint32_t first_target, std::span<GpuVertex> out,
                        std::vector<Displacement>& list) {
-    const auto vertex_of = [](const TargetView& target, std::uint32_t entry) {
-        return target.vertices ? target.vertices->index(entry, 0) : entry;
-    };
     for (const TargetView& target : pool.targets) {
-        for (std::uint32_t entry = 0; entry < touched(pool, target); ++entry)
-            ++out[vertex_of(target, entry)].displacements.y;
+        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry)
+            ++out[target.vertex(entry)].displacements.y;
     }
     auto next = static_cast<std::uint32_t>(list.size());
     for (GpuVertex& vertex : out) {
@@ -107,13 +102,15 @@ void add_displacements(const Pool& pool, std::uint32_t first_target, std::span<G
     list.resize(next);
     for (std::uint32_t t = 0; t < pool.targets.size(); ++t) {
         const TargetView& target = pool.targets[t];
-        for (std::uint32_t entry = 0; entry < touched(pool, target); ++entry) {
-            glm::uvec2& range = out[vertex_of(target, entry)].displacements;
+        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry) {
+            glm::uvec2& range = out[target.vertex(entry)].displacements;
             Displacement& displacement = list[range.x + range.y++];
             displacement.target = static_cast<float>(first_target + t);
-            displacement.position = vector_at(target.positions, entry);
-            if (pool.normals) displacement.normal = glm::vec4(vector_at(target.normals, entry), 0.0f);
-            if (pool.tangents) displacement.tangent = glm::vec4(vector_at(target.tangents, entry), 0.0f);
+            displacement.position = vector_at(target, target.positions, pool.positions, entry);
+            if (pool.normals)
+                displacement.normal = glm::vec4(vector_at(target, target.normals, pool.normals, entry), 0.0f);
+            if (pool.tangents)
+                displacement.tangent = glm::vec4(vector_at(target, target.tangents, pool.tangents, entry), 0.0f);
         }
     }
 }
@@ -163,6 +160,7 @@ void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
                    bytes == 0 ? kNothing.data() : data, usage);
+    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
     gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
     gl::TexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
 }

@@ -49,17 +49,12 @@ public:
     /// What changes from frame to frame: matrices and weights of inbetweening targets. Brings the pose up to date.
     void set_pose(Pose& pose);
     void set_level(const Lod& lod);
-    /// Binds vertices, indices, and the buffers to the texture units from kFirstBufferUnit on.
+    /// Binds vertices, indices, and the buffers to the texture units that texture_units.h names for them.
     void bind() const;
 
     /// Where a pool's indices begin in the bound index buffer.
     [[nodiscard]] std::uint32_t first_index(std::uint32_t pool) const { return first_index_[pool]; }
     [[nodiscard]] std::uint32_t vertices() const { return static_cast<std::uint32_t>(model_->vertex_count()); }
-
-    static constexpr GLuint kPaletteUnit = 8;
-    static constexpr GLuint kInfluenceUnit = 9;
-    static constexpr GLuint kDisplacementUnit = 10;
-    static constexpr GLuint kWeightUnit = 11;
 
 private:
     const Model* model_;

@@ -77,7 +77,13 @@ in vec4 vertex_colour;
 flat in float mirrored;
 
 uniform vec3 eye;
-uniform vec3 key_light;  // unit, towards it
+uniform mat3 to_view;
+uniform vec3 light_direction[2];  // unit, towards them
+uniform vec2 light_irradiance;
+uniform float sky;          // irradiance from above,
+uniform float ground;       // and from below
+uniform float environment;  // radiance from everywhere
+uniform sampler2D reflectance;  // by roughness and the cosine between normal and view
 uniform vec4 base_colour;
 uniform vec3 emissive;
 uniform float metallic;
@@ -102,6 +108,7 @@ uniform mat3 uv_matrix[5];
 out vec4 result;
 
 const float kPi = 3.14159265;
+const float kSmoothest = 0.045;  // roughness: a light with a direction shows nothing on a perfect mirror
 
 vec2 coords(int use) {
     int set = uv_set[use];
@@ -109,88 +116,94 @@ vec2 coords(int use) {
     return (uv_matrix[use] * vec3(uv, 1.0)).xy;
 }
 
-vec3 shading_normal(bool is_front) {
-    vec3 across = dFdx(world);
-    vec3 up = dFdy(world);
-    vec3 n = world_normal;
-    // Without normals: flat. The derivatives' cross product looks at the viewer.
-    if (dot(n, n) < 0.25) n = cross(across, up) * (is_front ? 1.0 : -1.0);
-    n = normalize(n);
-    if (has_normal_map) {
-        vec2 uv = coords(2);
-        vec3 m = texture(normal_map, uv).xyz * 2.0 - 1.0;
-        m.xy *= normal_scale;
-        vec3 t = world_tangent.xyz;
-        vec3 b;
-        if (dot(t, t) > 0.0) {
-            t = normalize(t - n * dot(n, t));
-            b = cross(n, t) * world_tangent.w;
-        } else {
-            // The tangents from the derivatives of the coordinates: Schueler, "Normal mapping without precomputed
-            // tangents", ShaderX 5. The map's green points up, the coordinates' v down.
-            vec2 du = dFdx(uv);
-            vec2 dv = dFdy(uv);
-            vec3 c1 = cross(up, n);
-            vec3 c2 = cross(n, across);
-            t = c1 * du.x + c2 * dv.x;
-            b = c1 * du.y + c2 * dv.y;
-            float longest = max(dot(t, t), dot(b, b));
-            float shrink = longest > 0.0 ? inversesqrt(longest) : 0.0;
-            t *= shrink;
-            b *= -shrink;
-        }
-        vec3 bent = t * m.x + b * m.y + n * m.z;
-        if (dot(bent, bent) > 0.0) n = normalize(bent);
+/// Towards the viewer's side; without normals: flat.
+vec3 smooth_normal(bool is_front) {
+    if (dot(world_normal, world_normal) < 0.25) return normalize(cross(dFdx(world), dFdy(world)));
+    return normalize(world_normal) * (is_front ? 1.0 : -1.0);
+}
+
+/// What the normal map makes of it. On back sides tangent and bitangent are turned round with the normal.
+vec3 bent_normal(vec3 n, bool is_front) {
+    if (!has_normal_map) return n;
+    float side = is_front ? 1.0 : -1.0;
+    vec2 uv = coords(2);
+    vec3 m = texture(normal_map, uv).xyz * 2.0 - 1.0;
+    m.xy *= normal_scale;
+    vec3 t = world_tangent.xyz;
+    vec3 b;
+    if (dot(t, t) > 0.0) {
+        t = normalize(t) * side;
+        b = cross(n, t) * (side * world_tangent.w);
+        b *= inversesqrt(max(dot(b, b), 1e-20));
+    } else {
+        // The tangents from the derivatives of the coordinates: Schueler, "Normal mapping without precomputed
+        // tangents", ShaderX 5. The map's green points up, the coordinates' v down.
+        vec2 du = dFdx(uv);
+        vec2 dv = dFdy(uv);
+        vec3 c1 = cross(dFdy(world), n);
+        vec3 c2 = cross(n, dFdx(world));
+        t = c1 * du.x + c2 * dv.x;
+        b = c1 * du.y + c2 * dv.y;
+        float longest = max(dot(t, t), dot(b, b));
+        float shrink = longest > 0.0 ? inversesqrt(longest) : 0.0;
+        t *= side * shrink;
+        b *= -side * shrink;
     }
-    return is_front ? n : -n;
+    vec3 bent = t * m.x + b * m.y + n * m.z;
+    return dot(bent, bent) > 0.0 ? normalize(bent) : n;
 }
 
-/// A sky, brighter above, with a soft window behind the key light; the rougher the surface, the softer.
-vec3 sky(vec3 direction, float rough) {
-    float height = direction.y;
-    float edge = mix(0.15, 1.0, rough);
-    vec3 colour = mix(vec3(0.20, 0.19, 0.18), vec3(0.62, 0.66, 0.72), smoothstep(-edge, edge, height));
-    float towards = max(dot(direction, key_light), 0.0);
-    return colour + vec3(0.5, 0.48, 0.44) * pow(towards, mix(24.0, 2.0, rough)) * mix(1.5, 0.3, rough);
+/// Schlick's, as Karis has it: "Real shading in Unreal Engine 4", 2013.
+vec3 fresnel(vec3 f0, float vh) {
+    float f = exp2((-5.55473 * vh - 6.98316) * vh);
+    return f0 * (1.0 - f) + f;
 }
 
+/// Once mirrored, and mirrored more often: Fdez-Aguera, "A multiple-scattering microfacet model for real-time image-based
+/// lighting", 2019. `even`: what a surface of this roughness mirrors of even light.
+void scattering(vec2 even, vec3 f0, out vec3 once, out vec3 often) {
+    once = f0 * even.x + even.y;
+    float rest = 1.0 - even.x - even.y;
+    vec3 average = f0 + (1.0 - f0) / 21.0;
+    often = once * average / (1.0 - rest * average) * rest;
+}
+
+/// glTF 2.0's appendix B: a dielectric over a diffuse base, mixed with a metal. The light that a rough surface mirrors
+/// several times is not lost, as in three.js (Turquin, "Practical multiple scattering compensation", 2019, for the lights
+/// with a direction), so that what other programs show of a glTF file is what is shown here.
 vec3 shade(vec3 albedo, float metal, float rough, vec3 n, vec3 v, float occlusion) {
-    vec3 f0 = mix(vec3(0.04), albedo, metal);
+    const vec3 kDielectric = vec3(0.04);
+    vec3 f0 = mix(kDielectric, albedo, metal);
     vec3 diffuse = albedo * (1.0 - metal);
-    float nv = max(dot(n, v), 1e-3);
-    vec3 h = normalize(key_light + v);
-    float nl = max(dot(n, key_light), 0.0);
-    float nh = max(dot(n, h), 0.0);
-    float vh = max(dot(v, h), 0.0);
-    float a = max(rough * rough, 2e-3);
-    float a2 = a * a;
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    float distribution = a2 / (kPi * d * d);
-    float visibility = 0.5 / max(nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2), 1e-5);
-    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
-    vec3 lit = nl * 2.2 * ((1.0 - fresnel) * diffuse / kPi * 1.6 + fresnel * distribution * visibility);
-    // The sky: Karis, "Physically based shading on mobile", 2014, for the share that is mirrored.
-    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a004 = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
-    vec2 share = vec2(-1.04, 1.04) * a004 + r.zw;
-    lit += occlusion * (diffuse * sky(n, 1.0) * 0.75 + (f0 * share.x + share.y) * sky(reflect(-v, n), rough));
-    return lit;
-}
-
-/// Bright colours run softly into white instead of being cut: Khronos' PBR neutral tone mapper, 2024.
-vec3 tone_mapped(vec3 colour) {
-    const float start = 0.8 - 0.04;
-    const float desaturation = 0.15;
-    float x = min(colour.r, min(colour.g, colour.b));
-    float offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
-    colour -= offset;
-    float peak = max(colour.r, max(colour.g, colour.b));
-    if (peak < start) return colour;
-    float d = 1.0 - start;
-    float new_peak = 1.0 - d * d / (peak + d - start);
-    colour *= new_peak / peak;
-    float g = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    return mix(colour, vec3(new_peak), g);
+    float nv = clamp(dot(n, v), 0.0, 1.0);
+    vec2 even = texture(reflectance, vec2(rough, nv)).xy;
+    vec3 compensation = 1.0 + f0 * (1.0 / (even.x + even.y) - 1.0);
+    float a2 = rough * rough * rough * rough;
+    vec3 lit = vec3(0.0);
+    for (int k = 0; k < 2; ++k) {
+        vec3 l = light_direction[k];
+        vec3 h = normalize(l + v);
+        float nl = clamp(dot(n, l), 0.0, 1.0);
+        float nh = clamp(dot(n, h), 0.0, 1.0);
+        float vh = clamp(dot(v, h), 0.0, 1.0);
+        float d = nh * nh * (a2 - 1.0) + 1.0;
+        float distribution = a2 / (kPi * d * d);
+        float visibility = 0.5 / max(nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl), 1e-6);
+        vec3 mirrored_share = fresnel(f0, vh) * distribution * visibility * compensation;
+        lit += nl * light_irradiance[k] * (mirrored_share + (1.0 - fresnel(kDielectric, vh)) * diffuse / kPi);
+    }
+    vec3 once;
+    vec3 often;
+    scattering(even, kDielectric, once, often);
+    vec3 base = diffuse * (1.0 - once - often);
+    vec3 metal_once;
+    vec3 metal_often;
+    scattering(even, albedo, metal_once, metal_often);
+    vec3 around = mix(once + often, metal_once + metal_often, metal);
+    float hemisphere = mix(ground, sky, 0.5 * n.y + 0.5);
+    // Lagarde and de Rousiers, "Moving Frostbite to physically based rendering", 2014: what is mirrored is occluded less.
+    float mirrored_occlusion = clamp(pow(nv + occlusion, exp2(-16.0 * rough - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
+    return lit + occlusion * base * (hemisphere / kPi + environment) + mirrored_occlusion * around * environment;
 }
 
 void main() {
@@ -201,17 +214,22 @@ void main() {
     vec4 base = base_colour * vertex_colour * texture(base_colour_map, coords(0));
     if (alpha_mode == 1 && base.a < alpha_cutoff) discard;
     float alpha = alpha_mode == 2 ? base.a : 1.0;
-    if (unlit || (!has_faces && dot(world_normal, world_normal) < 0.25)) {
+    if (unlit || !has_faces) {  // lines and points have no side that could be lit
         result = vec4(base.rgb, alpha);
         return;
     }
     vec2 metallic_roughness = texture(metallic_roughness_map, coords(1)).bg * vec2(metallic, roughness);
     float occlusion = 1.0 + occlusion_strength * (texture(occlusion_map, coords(3)).r - 1.0);
-    vec3 n = shading_normal(is_front);
-    vec3 v = normalize(eye - world);
-    vec3 lit = shade(base.rgb, clamp(metallic_roughness.x, 0.0, 1.0), clamp(metallic_roughness.y, 0.0, 1.0), n, v, occlusion);
+    vec3 n = smooth_normal(is_front);
+    // Where the normal changes within a pixel the surface is rougher than it says: highlights do not flicker.
+    vec3 seen = to_view * n;
+    vec3 change = max(abs(dFdx(seen)), abs(dFdy(seen)));
+    float rough = max(clamp(metallic_roughness.y, 0.0, 1.0), kSmoothest);
+    rough = min(rough + max(max(change.x, change.y), change.z), 1.0);
+    vec3 lit = shade(base.rgb, clamp(metallic_roughness.x, 0.0, 1.0), rough, bent_normal(n, is_front), normalize(eye - world),
+                     occlusion);
     lit += emissive * texture(emissive_map, coords(4)).rgb;
-    result = vec4(tone_mapped(lit), alpha);
+    result = vec4(lit, alpha);
 }
 )";
 

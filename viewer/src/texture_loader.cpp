@@ -1,6 +1,7 @@
 #include "texture_loader.h"
 
 #include "image_reader.h"
+#include "texture_units.h"
 
 #include <bendy/format/file.h>
 
@@ -19,7 +20,7 @@ namespace {
 constexpr std::uint64_t kMostTexels = 1u << 27u;
 
 void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {
-    gl::ActiveTexture(GL_TEXTURE0);
+    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
     gl::BindTexture(GL_TEXTURE_2D, texture);
     gl::PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl::TexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
@@ -97,28 +98,26 @@ TextureLoader::TextureLoader(const Model& model, std::filesystem::path folder, W
     set_sampler(coarse);
 }
 
-GLuint TextureLoader::texture(std::uint32_t number, bool srgb) {
-    if (number >= model_->textures().size()) return white_.name();
-    const auto found = names_.find({number, srgb});
-    if (found != names_.end()) return found->second;
-    const GLuint name = load(number, srgb);
-    names_[{number, srgb}] = name;
-    return name;
-}
-
-GLuint TextureLoader::load(std::uint32_t number, bool srgb) {
-    std::string problem = "has no image";
+void TextureLoader::load(std::uint32_t number, bool srgb) {
     const auto all = model_->textures();
+    if (number >= all.size()) return;
+    const auto [entry, is_new] = loaded_.try_emplace({number, srgb});
+    if (!is_new) return;
+    std::string problem = "has no image";
     for (const ImageView& image : all[number].images) {
         const ImageView& source = image.same ? all[image.same->texture].images[image.same->image] : image;
         GlTexture texture;
         if (!upload(number, source, srgb, texture, problem)) continue;
-        const GLuint name = texture.name();
-        loaded_.emplace(std::pair(number, srgb), std::move(texture));
-        return name;
+        entry->second = std::move(texture);
+        return;
     }
     warn_("texture " + std::to_string(number) + " cannot be shown: " + problem);
-    return check_.name();
+}
+
+std::optional<GLuint> TextureLoader::texture(std::uint32_t number, bool srgb) const {
+    const auto found = loaded_.find({number, srgb});
+    if (found == loaded_.end() || !found->second) return std::nullopt;
+    return found->second->name();
 }
 
 bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool srgb, GlTexture& texture,

@@ -8,22 +8,27 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace bendy::viewer {
 
-/// A model's textures in the graphics processor's memory, each loaded when it is first asked for.
+/// A model's textures in the graphics processor's memory.
 class TextureLoader {
 public:
     /// `folder`: where images that the file only names are looked for; nothing outside it is read. Empty: nowhere.
     TextureLoader(const Model& model, std::filesystem::path folder, Warn warn);
 
-    /// The texture of that number, as sRGB or as plain numbers. White for kNone; a grey check, and one warning, for one
-    /// that cannot be shown.
-    GLuint texture(std::uint32_t number, bool srgb);
+    /// Loads a texture, once, as sRGB or as plain numbers; warns of one that cannot be shown. Not while something is
+    /// drawn: what is uploaded is bound.
+    void load(std::uint32_t number, bool srgb);
+    /// A texture that was loaded so; nothing for any other number, and for one that cannot be shown.
+    [[nodiscard]] std::optional<GLuint> texture(std::uint32_t number, bool srgb) const;
+    [[nodiscard]] GLuint white() const { return white_.name(); }
+    /// In place of a colour that cannot be shown: a grey check.
+    [[nodiscard]] GLuint check() const { return check_.name(); }
 
 private:
-    GLuint load(std::uint32_t number, bool srgb);
     bool upload(std::uint32_t number, const ImageView& image, bool srgb, GlTexture& texture, std::string& problem);
 
     const Model* model_;
@@ -31,8 +36,7 @@ private:
     Warn warn_;
     GlTexture white_;
     GlTexture check_;
-    std::map<std::pair<std::uint32_t, bool>, GlTexture> loaded_;
-    std::map<std::pair<std::uint32_t, bool>, GLuint> names_;
+    std::map<std::pair<std::uint32_t, bool>, std::optional<GlTexture>> loaded_;  ///< nothing: cannot be shown
     std::uint64_t pixels_left_;
 };
 

@@ -37,7 +37,7 @@ std::optional<DemoKey> demo_key(int key) {
         int key;
         DemoKey meaning;
     };
-    constexpr std::array<Meaning, 14> kMeanings{{{GLFW_KEY_ESCAPE, DemoKey::quit},
+    constexpr std::array<Meaning, 15> kMeanings{{{GLFW_KEY_ESCAPE, DemoKey::quit},
                                                  {GLFW_KEY_B, DemoKey::bones},
                                                  {GLFW_KEY_F, DemoKey::forward},
                                                  {GLFW_KEY_I, DemoKey::inverse},
@@ -45,6 +45,7 @@ std::optional<DemoKey> demo_key(int key) {
                                                  {GLFW_KEY_R, DemoKey::turntable},
                                                  {GLFW_KEY_T, DemoKey::wireframe},
                                                  {GLFW_KEY_H, DemoKey::help},
+                                                 {GLFW_KEY_TAB, DemoKey::next_joint},
                                                  {GLFW_KEY_LEFT, DemoKey::left},
                                                  {GLFW_KEY_RIGHT, DemoKey::right},
                                                  {GLFW_KEY_UP, DemoKey::up},
@@ -134,7 +135,8 @@ void Window::show(const std::filesystem::path& file) {
                                     file.has_parent_path() ? file.parent_path() : ".", false, options_.warn);
     character_ = std::move(character);
     level_ = 1.0f;
-    draw_.wireframe = draw_.bones = turntable_ = false;
+    draw_.wireframe = turntable_ = false;
+    draw_.bones = !has_surface(*character_->model);  // else there is nothing to see
 }
 
 void Window::fit_camera() {
@@ -160,6 +162,22 @@ void Window::toggle_chains() {
     for (ChainControl& chain : chains) chain.is_on = !any;
 }
 
+/// The keys mean what is seen in the picture.
+void Window::show_demo_the_view() {
+    const glm::mat4 axes = glm::transpose(camera_.view());
+    character_->demo->look_along(glm::vec3(axes[0]), glm::vec3(axes[1]));
+}
+
+void Window::press_in_demo(int key) {
+    auto meaning = demo_key(key);
+    if (!meaning) return;
+    const bool has_shift = held_.contains(GLFW_KEY_LEFT_SHIFT) || held_.contains(GLFW_KEY_RIGHT_SHIFT);
+    if (meaning == DemoKey::next_joint && has_shift) meaning = DemoKey::previous_joint;
+    show_demo_the_view();
+    character_->demo->press(*meaning);
+    quits_ = character_->demo->state().quits;
+}
+
 void Window::on_key(int key, bool is_down) {
     if (has_panels_ && ImGui::GetIO().WantTextInput) return;
     if (!is_down) {
@@ -168,8 +186,7 @@ void Window::on_key(int key, bool is_down) {
     }
     held_.insert(key);
     if (is_demo()) {
-        if (const auto meaning = demo_key(key)) character_->demo->press(*meaning);
-        quits_ = character_->demo->state().quits;
+        press_in_demo(key);
     } else {
         Player& player = *character_->player;
         constexpr float kStep = 0.02f;  // of the cycle
@@ -271,6 +288,7 @@ void Window::step(double seconds) {
     const auto running = timer_.run(Stage::pose);
     if (is_demo()) {
         Demo& demo = *character_->demo;
+        show_demo_the_view();
         for (const int key : held_) {
             const auto meaning = demo_key(key);
             if (meaning && *meaning >= DemoKey::left) demo.hold(*meaning, seconds);
@@ -291,6 +309,7 @@ DrawOptions Window::draw_options() const {
         options.bones = character_->demo->state().bones;
         options.wireframe = character_->demo->state().wireframe;
         options.targets = character_->demo->state().inverse;
+        if (character_->demo->state().forward) options.marked_joint = character_->demo->state().joint;
     }
     return options;
 }

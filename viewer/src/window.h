@@ -21,8 +21,8 @@ struct GLFWwindow;
 namespace bendy::viewer {
 
 /// The window with its panels; see view.h. A script has one command a line, and after each the state is printed as a
-/// JSON object: `key NAME`, `hold NAME SECONDS`, `wait SECONDS`, `drag X Y X Y` (pixels, left button), `drop FILE`,
-/// `picture OUT.png`. Time is then the script's, not the clock's.
+/// JSON object: `key NAME` (or `key Shift+NAME`), `hold NAME SECONDS`, `wait SECONDS`, `drag X Y X Y` (pixels, left
+/// button), `drop FILE`, `picture OUT.png`. Time is then the script's, not the clock's.
 class Window {
 public:
     explicit Window(const ViewOptions& options);
@@ -57,6 +57,7 @@ private:
     void draw_chunk_panel();
     void draw_time_panel();
     void draw_help();
+    void draw_demo_help();
     void play_script();
     void run_command(const std::string& line);
     void save_picture();
@@ -66,6 +67,8 @@ private:
     [[nodiscard]] glm::vec2 to_place(const glm::vec2& pixels) const;
     [[nodiscard]] bool is_demo() const { return character_->demo != nullptr; }
     void toggle_chains();
+    void press_in_demo(int key);
+    void show_demo_the_view();
 
     const ViewOptions& options_;
     GLFWwindow* window_ = nullptr;

@@ -25,15 +25,16 @@ int key_named(const std::string& name) {
         const char* name;
         int key;
     };
-    constexpr std::array<Named, 9> kNamed{{{"Esc", GLFW_KEY_ESCAPE},
-                                           {"Left", GLFW_KEY_LEFT},
-                                           {"Right", GLFW_KEY_RIGHT},
-                                           {"Up", GLFW_KEY_UP},
-                                           {"Down", GLFW_KEY_DOWN},
-                                           {"PgUp", GLFW_KEY_PAGE_UP},
-                                           {"PgDn", GLFW_KEY_PAGE_DOWN},
-                                           {"Space", GLFW_KEY_SPACE},
-                                           {"Home", GLFW_KEY_HOME}}};
+    constexpr std::array<Named, 10> kNamed{{{"Esc", GLFW_KEY_ESCAPE},
+                                            {"Left", GLFW_KEY_LEFT},
+                                            {"Right", GLFW_KEY_RIGHT},
+                                            {"Up", GLFW_KEY_UP},
+                                            {"Down", GLFW_KEY_DOWN},
+                                            {"PgUp", GLFW_KEY_PAGE_UP},
+                                            {"PgDn", GLFW_KEY_PAGE_DOWN},
+                                            {"Space", GLFW_KEY_SPACE},
+                                            {"Tab", GLFW_KEY_TAB},
+                                            {"Home", GLFW_KEY_HOME}}};
     if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
     const auto found = std::find_if(kNamed.begin(), kNamed.end(), [&](const Named& each) { return name == each.name; });
     if (found == kNamed.end()) throw ViewerError("script: there is no key " + name);
@@ -98,6 +99,17 @@ void Window::print_state() {
         line.add("quits", state.quits);
         line.add("time", state.time);
         line.add("violation", demo.violation());
+        line.add_text("joint",
+                      json_text(state.joint == kNone ? std::string()
+                                                     : std::string(character_->model->joints()[state.joint].name)));
+        std::string links;
+        for (const std::uint32_t joint : demo.links()) {
+            JsonLine link;
+            link.add("position", glm::vec3(character_->pose().model_space()[joint][3]));
+            link.add("pixels", glm::vec3(to_pixels(glm::vec3(character_->pose().model_space()[joint][3])), 0.0f));
+            links += (links.empty() ? "" : ", ") + link.text();
+        }
+        line.add_text("links", '[' + links + ']');
     } else {
         line.add("help", help_);
         line.add("quits", quits_);
@@ -111,6 +123,7 @@ void Window::print_state() {
         target.add("on", mark.is_active);
         target.add("position", mark.position);
         target.add("tip", mark.tip.value_or(glm::vec3(0.0f)));
+        target.add("tip_pixels", glm::vec3(to_pixels(mark.tip.value_or(glm::vec3(0.0f))), 0.0f));
         target.add("pixels", glm::vec3(to_pixels(mark.position), 0.0f));
         targets += (targets.empty() ? "" : ", ") + target.text();
     }
@@ -152,8 +165,13 @@ void Window::run_command(const std::string& line) {
     };
     if (command == "key") {
         words >> name;
+        constexpr std::string_view kShift = "Shift+";
+        const bool has_shift = name.starts_with(kShift);
+        if (has_shift) name.erase(0, kShift.size());
+        if (has_shift) on_key(GLFW_KEY_LEFT_SHIFT, true);
         on_key(key_named(name), true);
         on_key(key_named(name), false);
+        if (has_shift) on_key(GLFW_KEY_LEFT_SHIFT, false);
     } else if (command == "hold") {
         double seconds = 0.0;
         words >> name >> seconds;

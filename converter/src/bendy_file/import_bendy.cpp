@@ -44,6 +44,7 @@ void import_joints(const SkeletonView& skeleton, Scene& scene) {
         joint.rest.shear = to_vec<3>(view.rest.shear);
         joint.extras = view.extras;
         joint.extensions = view.extensions;
+        joint.more = view.more;
     }
     for (const LimitView& limit : skeleton.limits) scene.joints[limit.joint].limits.push_back(limit.record);
 }
@@ -87,6 +88,7 @@ public:
         cycle.name = view.name;
         cycle.loop = view.loop;
         cycle.extras = view.extras;
+        cycle.more = view.more;
         std::uint64_t fixed = 0;
         for (const TrackView& track : view.tracks) {
             budget_.take(track.keys + std::uint64_t{track.values.size()}, sizeof(float), place);
@@ -100,19 +102,30 @@ public:
                                     std::move(times),
                                     {track.values.begin(), track.values.end()}});
         }
-        if (view.packed) unpack(*view.packed, place, cycle);
+        if (view.packed) unpack(view, place, cycle);
+        for (const PlayView& play : view.plays)
+            cycle.plays.push_back({play.pool, play.first, play.frames, play.closed});
+        if (!view.plays.empty()) {
+            cycle.frame_rate = view.frame_rate;
+            cycle.frame_start = view.start;
+        }
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
-        check_ends(view, cycle, place);
+        if (const CycleSpan stated{view.start, view.end}; stated != span_of(cycle)) cycle.stated_span = stated;
         import_markers(view, place, cycle);
         return cycle;
     }
 
 private:
-    void unpack(const PackedView& packed, const std::string& place, Cycle& cycle) {
+    void unpack(const CycleView& view, const std::string& place, Cycle& cycle) {
+        const PackedView& packed = *view.packed;
         std::uint64_t tracks = 0;
         for (const PackedList& list : packed.lists) tracks += list.count;
         budget_.take(tracks * packed.record.frames, 5 * sizeof(float), place);
         for (UnpackedTrack& track : unpack_cycle(packed, rests_)) {
+            // The last frame's time is rounded: it may lie after the clip's end by as much.
+            const std::size_t last = track.times.size() - 1;
+            if (last == 0 || track.times[last - 1] < view.end)
+                track.times[last] = std::min(track.times[last], view.end);
             cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
                                     std::move(track.times), std::move(track.values)});
         }
@@ -126,12 +139,6 @@ private:
             markers.push_back({{marker.seconds, std::string(marker.name)}, place});
         }
         set_markers(cycle, std::move(markers), {}, WrongMarkers::left_out, report_);
-    }
-
-    void check_ends(const CycleView& view, const Cycle& cycle, const std::string& place) {
-        const CycleSpan span = span_of(cycle);
-        if (view.start == span.start && view.end == span.end) return;
-        report_.warn("cycle that is longer than its keys is written as long as they are", place);
     }
 
     const ChunkTree& tree_;
@@ -191,6 +198,7 @@ void import_materials(const Document& document, Scene& scene) {
         material.emissive_texture = to_use(surface.emissive_texture);
         material.extensions = view.extensions;
         material.extras = view.extras;
+        material.more = view.more;
     }
 }
 
@@ -223,6 +231,7 @@ void import_textures(const ChunkTree& tree, const Document& document, Scene& sce
         Texture& texture = scene.textures.emplace_back();
         texture.name = view.name;
         texture.extras = view.extras;
+        texture.more = view.more;
         texture.mag_filter = static_cast<Filter>(view.sampler.mag_filter);
         texture.min_filter = static_cast<Filter>(view.sampler.min_filter);
         texture.wrap_s = static_cast<Wrap>(view.sampler.wrap_s);
@@ -262,6 +271,8 @@ Scene import(Bytes bytes, Report& report) {
     scene.name = object.name;
     scene.extras = object.extras;
     scene.extensions = document.extensions;
+    scene.more = object.more;
+    scene.source_more = document.more;
     read_source_facts(document.extras, scene, report);
     import_joints(object.skeleton, scene);
     import_chains(object, scene);

@@ -20,7 +20,8 @@ constexpr std::array kRead{
     FourCC("VECT"), FourCC("VINF"), FourCC("PALT"), FourCC("TARG"), FourCC("TINF"), FourCC("POSI"), FourCC("NORM"),
     FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"), FourCC("BONE"), FourCC("WGHT"), FourCC("USER"), FourCC("VALS"),
     FourCC("INDX"), FourCC("CYCL"), FourCC("CINF"), FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV"), FourCC("PACK"),
-    FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK")};
+    FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK"), FourCC("MORE"), FourCC("FRMS"),
+    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY")};
 
 /// Bytes that are read of a leaf which is one record; 0: of another kind.
 std::uint64_t record_size(FourCC id) {

@@ -41,6 +41,7 @@ public:
     Mesh import() {
         mesh_.name = pool_.name;
         mesh_.extras = pool_.extras;
+        mesh_.more = pool_.more;
         mesh_.joint = pool_.joint;
         read_streams();
         read_targets();
@@ -89,11 +90,41 @@ private:
         }
     }
 
+    static FrameGrid grid_of(std::span<const StreamBox> boxes) {
+        return {{boxes[0].minimum, boxes[1].minimum, boxes[2].minimum}, {boxes[0].step, boxes[1].step, boxes[2].step}};
+    }
+
+    /// What frames are written with is found again: a grid, and normals in a list.
+    void read_grid() {
+        const bool is_listed = pool_.normals && !pool_.normals->list.empty();
+        if (pool_.positions.boxes.size() != 3 || pool_.positions.type == ComponentType::u32) return;
+        if (is_listed || pool_.frames() > 1) mesh_.grid = grid_of(pool_.positions.boxes);
+    }
+
+    /// The places and normals of a frame, one a vertex.
+    std::vector<glm::vec3> read_shape(const TargetView& frame, const std::optional<StreamView>& stream) {
+        if (!stream) return {};
+        take(pool_.vertices, sizeof(glm::vec3));
+        std::vector<glm::vec3> shape(pool_.vertices);
+        for (std::uint32_t vertex = 0; vertex < pool_.vertices; ++vertex)
+            shape[vertex] = stream->vec3(frame.places->index(vertex, 0));
+        return shape;
+    }
+
     void read_targets() {
+        read_grid();
         for (const TargetView& view : pool_.targets) {
             Target target;
             target.name = view.name;
             target.rest_weight = view.rest_weight;
+            if (view.is_frame()) {
+                target.is_frame = true;
+                target.grid = grid_of(view.positions->boxes);
+                target.positions = read_shape(view, view.positions);
+                target.normals = read_shape(view, view.normals);
+                mesh_.targets.push_back(std::move(target));
+                continue;
+            }
             target.positions = read_displacements(view, view.positions);
             target.normals = read_displacements(view, view.normals);
             target.tangents = read_displacements(view, view.tangents);

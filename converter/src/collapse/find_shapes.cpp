@@ -1,5 +1,6 @@
 #include "collapse/find_shapes.h"
 
+#include "frame_shapes.h"
 #include "sample_poses.h"
 
 #include <glm/geometric.hpp>
@@ -89,12 +90,19 @@ std::vector<EvaluatedPose> choose_poses(const EvaluatedPose& rest, std::vector<E
     return chosen;
 }
 
-/// Weights by which the targets are shown in `groups` groups, every target in one.
+/// Weights by which the targets are shown in `groups` groups, every target in one; of frames, which are shapes of their
+/// own, some that are far apart.
 std::vector<std::vector<double>> group_targets(const Mesh& mesh, std::size_t most) {
     const std::size_t groups = std::min(mesh.targets.size(), most);
     std::vector<std::vector<double>> weights(groups, std::vector<double>(mesh.targets.size(), 0.0));
     for (std::size_t target = 0; target < mesh.targets.size() && groups != 0; ++target)
         weights[target % groups][target] = 1.0;
+    if (!has_frames(mesh)) return weights;
+    const std::size_t first = first_frame(mesh);
+    for (std::size_t group = 0; group < groups; ++group) {
+        std::fill(weights[group].begin() + static_cast<std::ptrdiff_t>(first), weights[group].end(), 0.0);
+        weights[group][first + group * (mesh.targets.size() - first) / groups] = 1.0;
+    }
     return weights;
 }
 

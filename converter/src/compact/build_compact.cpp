@@ -5,6 +5,7 @@
 #include "cycle_span.h"
 #include "error_place.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>

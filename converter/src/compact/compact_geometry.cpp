@@ -4,6 +4,7 @@
 #include "compact/largest_stretch.h"
 #include "compact/merge_vertices.h"
 #include "compact/quantise.h"
+#include "frame_shapes.h"
 #include "passes/narrow.h"
 #include "rest_record.h"
 #include "sample_poses.h"
@@ -287,6 +288,7 @@ struct Budget {
 };
 
 void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const SkinMatrices& matrices, double texels) {
+    const bool is_framed = has_frames(mesh) || mesh.grid;  // as small as it gets, and exact
     double left = budget.model;
     if (mesh.influences != 0) {
         sort_influences(mesh);
@@ -297,9 +299,9 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
         std::any_of(mesh.targets.begin(), mesh.targets.end(), [](const Target& t) { return !t.positions.empty(); });
     const double positions = left * (has_targets ? 0.5 : 1.0) / budget.stretch;
     const double shifts = left * 0.5 / budget.stretch / budget.targets;
-    if (!mesh.positions.empty())
+    if (!mesh.positions.empty() && !is_framed)
         compact.positions = quantise_boxed({&mesh.positions[0].x, mesh.positions.size() * 3}, 3, positions, true);
-    if (!mesh.normals.empty()) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
+    if (!mesh.normals.empty() && !is_framed) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
     if (!mesh.tangents.empty()) compact.tangents = quantise_tangents(mesh.tangents, kDirectionBits);
     take_back(compact.positions, mesh.positions);
     take_back(compact.normals, mesh.normals);
@@ -313,6 +315,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
     constexpr double kDirectionShift = 1.0 / 256.0;  // of a unit normal's displacement
     for (Target& target : mesh.targets) {
         CompactTarget& stored = compact.targets.emplace_back();
+        if (target.is_frame) continue;
         stored.positions = quantise_shifts(target.positions, shifts);
         stored.normals = quantise_shifts(target.normals, kDirectionShift);
         stored.tangents = quantise_shifts(target.tangents, kDirectionShift);
@@ -326,26 +329,6 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
 
 bool is_order_fixed(const Mesh& mesh) {
     return !mesh.collapse.empty();
-}
-
-double height_at_rest(const Scene& scene) {
-    EvaluatedPose rest;
-    evaluate_rest(scene, rest);
-    glm::dvec3 low(std::numeric_limits<double>::max());
-    glm::dvec3 high(std::numeric_limits<double>::lowest());
-    for (const Mesh& mesh : scene.meshes) {
-        for (const glm::dvec3& posed : evaluate_vertices(mesh, {}, rest.joints)) {
-            for (int c = 0; c < 3; ++c) {
-                low[c] = std::min(low[c], posed[c]);
-                high[c] = std::max(high[c], posed[c]);
-            }
-        }
-    }
-    if (!(low.x <= high.x)) return 0.0;
-    const glm::dvec3 size = high - low;
-    constexpr double kFlat = 1e-3;  // of the largest side: no height to speak of
-    const double largest = std::max({size.x, size.y, size.z});
-    return size.y > kFlat * largest ? size.y : largest;
 }
 
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress) {

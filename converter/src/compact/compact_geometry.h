@@ -39,7 +39,4 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
 /// True if something else has settled the order of a mesh's vertices: its sequence of collapses.
 bool is_order_fixed(const Mesh& mesh);
 
-/// Metres: the height of the character's skin at rest; the largest side of what is flat.
-double height_at_rest(const Scene& scene);
-
 }  // namespace bendy::converter

@@ -20,6 +20,7 @@ constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk
                             KindOfChunk{FourCC("TEXC"), "TEXC"},     KindOfChunk{FourCC("COLR"), "COLR"},
                             KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
                             KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
+                            KindOfChunk{FourCC("FRMS"), "frames"},   KindOfChunk{FourCC("NLST"), "NORM"},
                             KindOfChunk{FourCC("CYCL"), "cycles"},   KindOfChunk{FourCC("TEXT"), "textures"},
                             KindOfChunk{FourCC("HEAD"), "other"}};
 
@@ -41,7 +42,8 @@ std::vector<ByteCount> count_bytes(Bytes file) {
         const Chunk& chunk = (*tree)[number];
         const auto known =
             std::find_if(kKinds.begin(), kKinds.end(), [&](const KindOfChunk& k) { return k.id == chunk.id; });
-        const bool in_target = number != 0 && counts[kind_of[chunk.parent]].kind == "targets";
+        const std::string_view above = number == 0 ? std::string_view() : counts[kind_of[chunk.parent]].kind;
+        const bool in_target = above == "targets" || above == "frames";
         if (known != kKinds.end() && !in_target) {
             kind_of[number] = place[static_cast<std::size_t>(known - kKinds.begin())];
         } else if (number != 0) {

@@ -4,6 +4,7 @@
 #include "compact/measure.h"
 #include "compact/quantise_cycle.h"
 #include "compact/thin_grid.h"
+#include "cycle_span.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <set>
@@ -120,6 +122,13 @@ void pack_thinner(const Scene& scene, const Cycle& cycle, const GridTracks& trac
     }
 }
 
+/// The clip's span; a little longer where the first frame's time is rounded down.
+CycleSpan with_frames(CycleSpan span, Bytes payload) {
+    PackRecord record;
+    std::memcpy(&record, payload.data(), sizeof record);
+    return {std::min(span.start, record.start), span.end};
+}
+
 PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std::vector<glm::dvec3>>& probes,
                         double max_error, const Progress& progress) {
     constexpr double kPackedOnce = 0.5;  // of the work, about
@@ -139,6 +148,7 @@ PackedReport pack_cycle(const Scene& scene, Cycle& cycle, const std::vector<std:
     }
     if (!best || best->bytes.size() >= key_bytes(cycle, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
         return report;
+    cycle.stated_span = with_frames(span_of(cycle), best->bytes);  // tracks that stand still may not be written
     std::size_t number = 0;
     std::erase_if(cycle.tracks, [&](const Track&) { return is_replaced[number++]; });
     report.packed_bytes = best->bytes.size();

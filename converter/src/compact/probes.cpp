@@ -1,6 +1,8 @@
 #include "compact/probes.h"
 
 #include "evaluate.h"
+#include "frame_shapes.h"
+#include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -13,8 +15,6 @@
 
 namespace bendy::converter {
 namespace {
-
-constexpr double kShell = 0.03;  // of the character's height
 
 /// The farthest points of a set along 13 directions, both ways.
 class Extremes {
@@ -65,8 +65,9 @@ void for_each_place(const Mesh& mesh, std::size_t vertex, Visit visit) {
     const glm::dvec3 at(mesh.positions[vertex]);
     visit(at);
     for (const Target& target : mesh.targets) {
-        if (!target.positions.empty() && target.positions[vertex] != glm::vec3(0.0f))
-            visit(at + glm::dvec3(target.positions[vertex]));
+        if (target.positions.empty()) continue;
+        const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
+        if (shift != glm::dvec3(0.0)) visit(at + shift);
     }
 }
 
@@ -118,7 +119,7 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
         low = std::min(low, rest[j].origin.y);
         high = std::max(high, rest[j].origin.y);
     }
-    const double shell = kShell * std::max({high - low, found.skin_high - found.skin_low, 0.0});
+    const double shell = kJointReach * std::max({high - low, found.skin_high - found.skin_low, height_at_rest(scene)});
     std::vector<std::vector<glm::dvec3>> probes(rest.size());
     for (std::size_t j = 0; j < rest.size(); ++j) {
         if (!found.has_shell[j]) continue;

@@ -2,7 +2,6 @@
 
 #include "collapse/find_shapes.h"
 #include "compact/affine.h"
-#include "compact/compact_geometry.h"
 #include "compare/looks.h"
 #include "compare/match_names.h"
 #include "compare/match_polygons.h"
@@ -10,6 +9,7 @@
 #include "error_place.h"
 #include "evaluate.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -57,7 +57,8 @@ Mesh gather(const Mesh& mesh, std::span<const MatchedPolygons::Corner> corners,
     gathered.joint = mesh.joint;
     gathered.influences = mesh.influences;
     gathered.palette = mesh.palette;
-    for (const Target& target : mesh.targets) gathered.targets.push_back({{}, target.rest_weight, {}, {}, {}});
+    for (const Target& target : mesh.targets)
+        gathered.targets.push_back({{}, target.rest_weight, {}, {}, {}, target.is_frame, target.grid});
     for (const MatchedPolygons::Corner& corner : corners) {
         const std::uint32_t from = corner.*vertex;
         gathered.positions.push_back(mesh.positions[from]);
@@ -194,14 +195,14 @@ private:
             cycle_numbers_.push_back(number);
             Cycle& here = a_cycles_.emplace_back(a);
             Cycle& there = b_cycles_.emplace_back(b);
-            keep_tracks(here, [&](Track& track) {
-                const auto kept = std::find(numbers_.begin(), numbers_.end(), track.target);
-                track.target = static_cast<std::uint32_t>(kept - numbers_.begin());
+            keep_tracks(here, [&](std::uint32_t& mesh) {
+                const auto kept = std::find(numbers_.begin(), numbers_.end(), mesh);
+                mesh = static_cast<std::uint32_t>(kept - numbers_.begin());
                 return kept != numbers_.end();
             });
-            keep_tracks(there, [&](Track& track) {
-                const auto kept = std::find(numbers_.begin(), numbers_.end(), meshes_.a_of[track.target]);
-                track.target = static_cast<std::uint32_t>(kept - numbers_.begin());
+            keep_tracks(there, [&](std::uint32_t& mesh) {
+                const auto kept = std::find(numbers_.begin(), numbers_.end(), meshes_.a_of[mesh]);
+                mesh = static_cast<std::uint32_t>(kept - numbers_.begin());
                 return kept != numbers_.end();
             });
             for (Track& track : there.tracks) {
@@ -213,7 +214,9 @@ private:
     /// Drops weights of meshes that are not compared. \param is_kept  renumbers, too
     template <class IsKept>
     static void keep_tracks(Cycle& cycle, IsKept is_kept) {
-        std::erase_if(cycle.tracks, [&](Track& track) { return track.path == TrackPath::weights && !is_kept(track); });
+        std::erase_if(cycle.tracks,
+                      [&](Track& track) { return track.path == TrackPath::weights && !is_kept(track.target); });
+        std::erase_if(cycle.plays, [&](Play& play) { return !is_kept(play.mesh); });
     }
 
     void compare_frames(const Cycle& a, const Cycle& b, const std::string& place) {

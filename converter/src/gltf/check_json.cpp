@@ -400,16 +400,19 @@ void check_asset(const Json& root) {
     }
 }
 
-void check_required_extensions(const Json& root) {
+void check_required_extensions(const Json& root, bool with_instances) {
     const Json* required = find(root, "extensionsRequired");
     if (required == nullptr) return;
     if (!required->is_array()) fail("extensionsRequired", "it must be an array, not " + shown(*required));
     for (std::size_t i = 0; i < required->size(); ++i) {
         const Json& name = (*required)[i];
         if (!name.is_string()) fail(at("extensionsRequired", i), "it must be a string, not " + shown(name));
+        const bool is_instancing = name == kInstancing;
+        if (is_instancing && with_instances) continue;
         if (!is_known_extension(name.get_ref<const std::string&>())) {
-            fail(at("extensionsRequired", i),
-                 "the file requires extension " + shown(name) + ", which is not supported");
+            fail(at("extensionsRequired", i), "the file requires extension " + shown(name) +
+                                                  ", which is not supported" +
+                                                  (is_instancing ? " unless instances are made (--instances)" : ""));
         }
     }
 }
@@ -432,7 +435,7 @@ void check_channels(const Json& root) {
 
 }  // namespace
 
-Json parse_json(std::string_view text, Report& report) {
+Json parse_json(std::string_view text, bool with_instances, Report& report) {
     const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
     if (first != std::string_view::npos && text[first] != '{' && text[first] != '[') {
         fail({}, "not a glTF file: it starts with neither 'glTF' (GLB) nor a JSON object");
@@ -440,7 +443,7 @@ Json parse_json(std::string_view text, Report& report) {
     Json root = parse_json_text<Json>(text, report);
     if (!root.is_object()) fail({}, "the JSON root must be an object, not " + shown(root));
     check_asset(root);
-    check_required_extensions(root);
+    check_required_extensions(root, with_instances);
     Checker checker(root);
     for (const Rule& rule : kRules) checker.check(rule);
     check_channels(root);

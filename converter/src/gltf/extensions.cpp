@@ -67,7 +67,8 @@ struct Occurrence {
 };
 
 /// Finds the `extensions` objects of a file. Materials are left to material.cpp, the root and nodes to
-/// keep_extensions.cpp, extras are the author's own, and what stands inside an extension goes with it.
+/// keep_extensions.cpp, cameras are kept whole, extras are the author's own, and what stands inside an extension goes
+/// with it.
 class Finder {
 public:
     // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
@@ -82,7 +83,7 @@ public:
                 if (member.key() == "extensions") {
                     count(member.value(), place);
                 } else if (member.value().is_structured() && member.key() != "extras" &&
-                           !(place.empty() && member.key() == "materials")) {
+                           !(place.empty() && (member.key() == "materials" || member.key() == "cameras"))) {
                     search(member.value(), place.empty() ? key(member.key()) : place + '.' + key(member.key()));
                 }
             }

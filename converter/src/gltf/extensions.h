@@ -8,6 +8,9 @@
 
 namespace bendy::converter::gltf {
 
+/// A node draws its mesh several times: numbers that are kept, or joints (GltfOptions::instances).
+inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
 /// Whether a file that requires this extension can be imported: it is decoded, or it cannot change shape or motion.
 bool is_known_extension(std::string_view name);
 

@@ -9,6 +9,7 @@
 #include "failure.h"
 #include "image.h"
 #include "keep_extensions.h"
+#include "keep_members.h"
 #include "material.h"
 #include "mesh.h"
 #include "skeleton.h"
@@ -23,29 +24,9 @@ namespace bendy::converter {
 namespace gltf {
 namespace {
 
-/// Counts objects of the file that have no counterpart in the Scene.
-void report_left_out(const Json& root, const Skeleton& skeleton, Report& report) {
-    std::uint64_t cameras = 0;
-    std::string first_camera;
-    for (const std::uint32_t node : skeleton.node_of_joint) {
-        if (!root["nodes"][node].contains("camera")) continue;
-        if (cameras++ == 0) first_camera = at("nodes", node) + ".camera";
-    }
-    if (cameras > 0) report.warn("camera left out", first_camera, cameras);
-
-    for (const char* kind : {"accessors", "bufferViews", "buffers", "cameras", "images", "samplers", "skins"}) {
-        const Json& array = array_of(root, kind);
-        for (std::size_t i = 0; i < array.size(); ++i) {
-            if (array[i].contains("extras")) {
-                report.warn(std::string("extras of ") + kind + " left out", at(kind, i) + ".extras");
-            }
-        }
-    }
-}
-
 Scene import(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
     const Container container = open_container(read_file(file, {}));
-    const Json root = parse_json(container.json, report);
+    const Json root = parse_json(container.json, options.instances, report);
     Budget budget;
     budget.add_source(container.bytes.size());
     Buffers buffers(root, container, file, budget, report);
@@ -54,13 +35,14 @@ Scene import(const std::filesystem::path& file, const GltfOptions& options, Repo
 
     Scene scene;
     report_extensions(root, report);
-    const Skeleton skeleton = import_skeleton(document, options.scene, scene);
-    report_left_out(root, skeleton, report);
+    const Skeleton skeleton = import_skeleton(document, options, scene);
+    report_left_out(document, skeleton);
     keep_extensions(document, skeleton, scene);
     import_images(document, options.embed_images, scene);
     import_materials(document, scene);
     const MeshesOfNode meshes = import_meshes(document, skeleton, scene);
     import_animations(document, skeleton, meshes, scene);
+    keep_members(document, skeleton, scene);
     scene.source_extras = extras_text(root);
     scene.asset = root["asset"].dump();
     return scene;

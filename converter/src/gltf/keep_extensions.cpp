@@ -2,6 +2,7 @@
 
 #include "extensions.h"
 #include "failure.h"
+#include "instancing.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,10 @@ constexpr std::array kNodeReferences{
 /// What to say of an extension that is kept; empty for one that is interpreted in full.
 std::string kept_message(const std::string& name) {
     if (name == "AGI_articulations") return {};
+    if (name == kInstancing) {
+        return "instances are kept as numbers, the mesh is drawn once; the option to make instances draws all: " +
+               quote(name);
+    }
     if (name == "VRMC_vrm") return "extension kept as JSON, only its humanoid is interpreted: " + quote(name);
     if (name == "VRM") {
         return "extension kept as JSON, only its humanoid is interpreted, mesh numbers in it are the source's: " +
@@ -120,34 +125,64 @@ private:
     std::string place_;
 };
 
-/// The extensions of the root or of a node as JSON text, or empty.
-std::string keep(const Json& object, const std::string& place, Renumberer& renumberer, Report& report) {
-    const Json* extensions = find(object, "extensions");
-    if (extensions == nullptr) return {};
-    const std::string here = place.empty() ? "extensions" : place + ".extensions";
-    if (!extensions->is_object()) {
-        report.warn("extensions are no object, left out", here);
-        return {};
+class Keeper {
+public:
+    Keeper(const Document& document, const Skeleton& skeleton)
+        : document_(document), renumberer_(skeleton, document.report) {}
+
+    /// The extensions of the root or of a node as JSON text, or empty.
+    /// \param are_instances_made  the node's instances are joints already
+    std::string keep(const Json& object, const std::string& place, bool are_instances_made) {
+        const Json* extensions = find(object, "extensions");
+        if (extensions == nullptr) return {};
+        const std::string here = place.empty() ? "extensions" : place + ".extensions";
+        if (!extensions->is_object()) {
+            document_.report.warn("extensions are no object, left out", here);
+            return {};
+        }
+        Json kept = *extensions;
+        if (are_instances_made) kept.erase(std::string(kInstancing));
+        for (auto extension = kept.begin(); extension != kept.end();) {
+            const std::string at_extension = here + '.' + key(extension.key());
+            if (extension.key() == kInstancing && !place.empty() && !keep_instances(*extension, at_extension)) {
+                extension = kept.erase(extension);
+                continue;
+            }
+            if (const std::string message = kept_message(extension.key()); !message.empty())
+                document_.report.warn(message, at_extension);
+            renumberer_.renumber(extension.key(), extension.value(), at_extension);
+            ++extension;
+        }
+        return kept.empty() ? std::string() : kept.dump();
     }
-    Json kept = *extensions;
-    for (auto extension = kept.begin(); extension != kept.end(); ++extension) {
-        const std::string at_extension = here + '.' + key(extension.key());
-        if (const std::string message = kept_message(extension.key()); !message.empty())
-            report.warn(message, at_extension);
-        renumberer.renumber(extension.key(), extension.value(), at_extension);
+
+private:
+    /// False, which is said, if the instances are faulty.
+    bool keep_instances(Json& extension, const std::string& place) {
+        try {
+            inline_instances(document_, extension, place);
+            return true;
+        } catch (const Failure& failure) {
+            document_.report.warn("instances left out, they cannot be read (" + failure.error.message + ')',
+                                  failure.error.place);
+            return false;
+        }
     }
-    return kept.empty() ? std::string() : kept.dump();
-}
+
+    const Document& document_;
+    Renumberer renumberer_;
+};
 
 }  // namespace
 
 void keep_extensions(const Document& document, const Skeleton& skeleton, Scene& scene) {
-    Renumberer renumberer(skeleton, document.report);
-    scene.extensions = keep(document.json, {}, renumberer, document.report);
+    Keeper keeper(document, skeleton);
+    scene.extensions = keeper.keep(document.json, {}, false);
     for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (skeleton.instance_of_joint[joint] != kNone) continue;
         const std::uint32_t node = skeleton.node_of_joint[joint];
         scene.joints[joint].extensions =
-            keep(document.json["nodes"][node], at("nodes", node), renumberer, document.report);
+            keeper.keep(document.json["nodes"][node], at("nodes", node), skeleton.has_instances[node]);
     }
 }
 

@@ -21,10 +21,8 @@ TextureUse read_texture_use(const Document& document, const Json* json, const st
     const Json* extensions = find(*json, "extensions");
     if (extensions == nullptr || !extensions->is_object()) return use;
     for (auto extension = extensions->begin(); extension != extensions->end(); ++extension) {
-        if (extension.key() != "KHR_texture_transform") {
-            document.report.warn("extension of a texture use left out: " + quote(extension.key()),
-                                 place + ".extensions");
-        }
+        if (extension.key() != "KHR_texture_transform")
+            document.report.warn("kept as JSON, not interpreted: " + key(extension.key()), place + ".extensions");
     }
     const Json* transform = find(*extensions, "KHR_texture_transform");
     if (transform == nullptr) return use;

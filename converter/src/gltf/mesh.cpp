@@ -3,6 +3,7 @@
 #include "accessor.h"
 #include "draco.h"
 #include "failure.h"
+#include "further_members.h"
 #include "influences.h"
 #include "primitive.h"
 
@@ -141,7 +142,6 @@ private:
             document_.report.warn("primitive without POSITION left out", place);
             return;
         }
-        if (json.contains("extras")) document_.report.warn("extras of a primitive left out", place + ".extras");
         const Placed& placed = place_vertices(primitive, json, place);
         Part part = read_part(document_, primitive, json, placed.count, placed.draco_indices, place);
         for (std::uint32_t& index : part.indices) index += static_cast<std::uint32_t>(placed.first_vertex);
@@ -187,6 +187,7 @@ private:
     void finish(Mesh& mesh) const {
         mesh.name = source_.name;
         mesh.extras = extras_text(json_);
+        if (const Json more = further_members(json_, Element::mesh); !more.empty()) mesh.more = more.dump();
         trim_influences(mesh);
         document_.budget.take(target_count_, sizeof(Target), place_);
         mesh.targets.resize(target_count_);
@@ -211,8 +212,9 @@ private:
 
 std::uint64_t byte_size(const Mesh& mesh) {
     const auto bytes = [](const auto& values) { return std::uint64_t{values.size()} * sizeof(values[0]); };
-    std::uint64_t size = sizeof(Mesh) + mesh.name.size() + mesh.extras.size() + bytes(mesh.positions) +
-                         bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) + bytes(mesh.weights);
+    std::uint64_t size = sizeof(Mesh) + mesh.name.size() + mesh.extras.size() + mesh.more.size() +
+                         bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) +
+                         bytes(mesh.weights);
     for (const auto* kind : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
         for (const Stream& stream : *kind) size += sizeof(Stream) + bytes(stream.values);
     }
@@ -258,7 +260,11 @@ private:
     void for_each_mesh_node(const Visit& visit) const {
         for (std::uint32_t joint = 0; joint < skeleton_.node_of_joint.size(); ++joint) {
             const std::uint32_t node = skeleton_.node_of_joint[joint];
-            if (skeleton_.is_drawn[joint] && document_.model.nodes[node].mesh >= 0) visit(node, joint);
+            // Its instances draw it in the node's place.
+            const bool is_drawn_by_others =
+                skeleton_.has_instances[node] && skeleton_.instance_of_joint[joint] == kNone;
+            if (skeleton_.is_drawn[joint] && document_.model.nodes[node].mesh >= 0 && !is_drawn_by_others)
+                visit(node, joint);
         }
     }
 

@@ -1,6 +1,9 @@
 #include "skeleton.h"
 
 #include "failure.h"
+#include "further_members.h"
+#include "instancing.h"
+#include "losses.h"
 #include "transform.h"
 
 #include <bendy/edit/names.h>
@@ -69,10 +72,20 @@ std::optional<std::size_t> choose_scene(const Document& document, const std::opt
     return document.model.defaultScene >= 0 ? static_cast<std::size_t>(document.model.defaultScene) : 0;
 }
 
+void report_other_scenes(const Document& document, const std::optional<std::size_t>& chosen) {
+    Losses losses;
+    const Json& scenes = array_of(document.json, "scenes");
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (i != chosen) losses.add("scenes that were not chosen", call(scenes[i], "scenes", i), at("scenes", i));
+    }
+    losses.report(document.report);
+}
+
 class Builder {
 public:
-    Builder(const Document& document, Scene& scene)
+    Builder(const Document& document, bool with_instances, Scene& scene)
         : document_(document),
+          with_instances_(with_instances),
           nodes_(document.model.nodes),
           parents_(find_parents(nodes_)),
           scene_(scene),
@@ -88,11 +101,17 @@ public:
         include_skins();
         Skeleton skeleton;
         skeleton.joint_of_node.assign(nodes_.size(), kNone);
+        skeleton.has_instances.resize(nodes_.size());
         // Trees in the order in which the scene names them, then those that only hold joints of skins.
         for (const std::uint32_t root : tops_) add_tree(root, skeleton);
         mark_skins(skeleton);
-        const auto left_out = static_cast<std::uint64_t>(nodes_.size() - skeleton.node_of_joint.size());
-        if (left_out > 0) document_.report.warn("node outside the chosen scene left out", "nodes", left_out);
+        Losses losses;
+        for (std::size_t node = 0; node < nodes_.size(); ++node) {
+            if (skeleton.joint_of_node[node] == kNone)
+                losses.add("nodes outside the chosen scene", call(document_.json["nodes"][node], "nodes", node),
+                           at("nodes", node));
+        }
+        losses.report(document_.report);
         return skeleton;
     }
 
@@ -143,13 +162,31 @@ private:
             skeleton.joint_of_node[node] = static_cast<std::uint32_t>(scene_.joints.size());
             skeleton.node_of_joint.push_back(node);
             skeleton.is_drawn.push_back(drawn_[node]);
+            skeleton.instance_of_joint.push_back(kNone);
             scene_.joints.push_back(make_joint(node, skeleton));
+            if (with_instances_ && drawn_[node]) add_instances(node, skeleton);
             const auto& children = nodes_[node].children;
             for (std::size_t c = children.size(); c-- > 0;) {  // the first child ends up on top
                 const auto child = static_cast<std::uint32_t>(children[c]);
                 if (included_[child]) pending.push_back(child);
             }
         }
+    }
+
+    void add_instances(std::uint32_t node, Skeleton& skeleton) {
+        const std::vector<Transform> instances = read_instances(document_, node);
+        const std::uint32_t parent = skeleton.joint_of_node[node];
+        const std::string& name = nodes_[node].name;
+        for (std::uint32_t i = 0; i < instances.size(); ++i) {
+            skeleton.node_of_joint.push_back(node);
+            skeleton.is_drawn.push_back(true);
+            skeleton.instance_of_joint.push_back(i);
+            Joint& joint = scene_.joints.emplace_back();
+            joint.name = at(name.empty() ? "instance" : name, i);
+            joint.parent = parent;
+            joint.rest = instances[i];
+        }
+        skeleton.has_instances[node] = !instances.empty();
     }
 
     void mark_skins(const Skeleton& skeleton) {
@@ -203,6 +240,7 @@ private:
     }
 
     const Document& document_;
+    bool with_instances_;
     const Nodes& nodes_;
     std::vector<std::uint32_t> parents_;
     Scene& scene_;
@@ -214,14 +252,17 @@ private:
 
 }  // namespace
 
-Skeleton import_skeleton(const Document& document, const std::optional<std::string>& scene_option, Scene& scene) {
-    const auto chosen = choose_scene(document, scene_option);
-    Builder builder(document, scene);
+Skeleton import_skeleton(const Document& document, const GltfOptions& options, Scene& scene) {
+    const auto chosen = choose_scene(document, options.scene);
+    report_other_scenes(document, chosen);
+    Builder builder(document, options.instances, scene);
     std::vector<std::uint32_t> roots;
     if (chosen) {
         for (const int node : document.model.scenes[*chosen].nodes) roots.push_back(static_cast<std::uint32_t>(node));
         scene.name = document.model.scenes[*chosen].name;
-        scene.extras = extras_text(document.json["scenes"][*chosen]);
+        const Json& json = document.json["scenes"][*chosen];
+        scene.extras = extras_text(json);
+        if (const Json more = further_members(json, Element::scene); !more.empty()) scene.more = more.dump();
     } else {
         std::vector<bool> is_child(document.model.nodes.size());
         for (const auto& node : document.model.nodes) {

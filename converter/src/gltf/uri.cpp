@@ -17,25 +17,6 @@ std::optional<unsigned> hex_digit(char c) {
     return std::nullopt;
 }
 
-/// Nothing if a `%` is not followed by two hexadecimal digits.
-std::optional<std::string> percent_decode(std::string_view text) {
-    std::string decoded;
-    decoded.reserve(text.size());
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '%') {
-            decoded += text[i];
-            continue;
-        }
-        if (text.size() - i < 3) return std::nullopt;
-        const auto high = hex_digit(text[i + 1]);
-        const auto low = hex_digit(text[i + 2]);
-        if (!high || !low) return std::nullopt;
-        decoded += static_cast<char>(*high * 16 + *low);
-        i += 2;
-    }
-    return decoded;
-}
-
 constexpr std::array<std::uint8_t, 256> make_base64_table() {
     std::array<std::uint8_t, 256> table{};
     for (auto& entry : table) entry = 255;
@@ -78,6 +59,24 @@ bool ends_with_base64(std::string_view header) {
 }
 
 }  // namespace
+
+std::optional<std::string> percent_decode(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        if (text.size() - i < 3) return std::nullopt;
+        const auto high = hex_digit(text[i + 1]);
+        const auto low = hex_digit(text[i + 2]);
+        if (!high || !low) return std::nullopt;
+        decoded += static_cast<char>(*high * 16 + *low);
+        i += 2;
+    }
+    return decoded;
+}
 
 bool is_data_uri(std::string_view uri) {
     return uri.substr(0, 5) == "data:";

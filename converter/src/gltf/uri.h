@@ -2,11 +2,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bendy::converter::gltf {
+
+/// Nothing if a `%` is not followed by two hexadecimal digits.
+std::optional<std::string> percent_decode(std::string_view text);
 
 bool is_data_uri(std::string_view uri);
 

@@ -1,7 +1,10 @@
 #include "gltf_out/animation.h"
 
 #include "cycle_span.h"
+#include "error_place.h"
 #include "failure.h"
+#include "frame_shapes.h"
+#include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 
 #include <algorithm>
@@ -73,6 +76,7 @@ private:
         Json animation = Json::object();
         if (!cycle.name.empty()) animation["name"] = cycle.name;
         add_extras(animation, cycle.extras, place, report_);
+        add_members(animation, read_members(cycle.more, place, report_), gltf::Element::animation, place, report_);
         if (cycle.loop) mark_as_loop(animation, place);
         const float start = span_of(cycle).start;
         shift_ = start < 0.0f ? -start : 0.0f;
@@ -83,7 +87,38 @@ private:
             check_rotations(cycle.tracks[t], place + "." + at("tracks", t));
             add_channel(cycle.tracks[t], animation, place);
         }
+        std::vector<Track> frames;  // they are looked at again until the cycle is written
+        frames.reserve(cycle.plays.size());
+        for (const Play& play : cycle.plays)
+            add_channel(frames.emplace_back(weights_track(scene_, cycle, play)), animation, place);
+        if (const CycleSpan span = span_of(cycle); span != span_of_keys(cycle)) hold(cycle, span, animation, place);
         return animation;
+    }
+
+    /// glTF's animations are as long as their keys: one more channel, of a property that no track moves, keeps a longer
+    /// clip's length.
+    void hold(const Cycle& cycle, const CycleSpan& span, Json& animation, const std::string& place) {
+        const auto is_free = [&](std::uint32_t joint) {
+            return scene_.joints[joint].rest.shear == glm::vec3(0.0f) &&
+                   std::none_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const Track& track) {
+                       return track.path == TrackPath::translation && track.target == joint;
+                   });
+        };
+        std::uint32_t joint = 0;
+        while (joint < scene_.joints.size() && !is_free(joint)) ++joint;
+        if (joint == scene_.joints.size()) {
+            report_.warn("clip that is longer than its keys is written as long as they are", place);
+            return;
+        }
+        Track still{TrackPath::translation, Interpolation::linear, joint, 3, {span.start}, {}};
+        if (span.end > span.start) still.times.push_back(span.end);
+        const glm::vec3& at_rest = scene_.joints[joint].rest.translation;
+        for (std::size_t key = 0; key < still.times.size(); ++key)
+            still.values.insert(still.values.end(), {at_rest.x, at_rest.y, at_rest.z});
+        add_channel(still, animation, place);
+        report_.warn("clip that is longer than its keys: a channel that holds joint " +
+                         quoted_name(scene_.joints[joint].name, joint) + " where it rests keeps its length",
+                     place);
     }
 
     /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, and zeros are

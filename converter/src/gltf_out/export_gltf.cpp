@@ -4,10 +4,13 @@
 #include "gltf/uri.h"
 #include "gltf_out/animation.h"
 #include "gltf_out/buffer.h"
+#include "gltf_out/instancing.h"
 #include "gltf_out/material.h"
+#include "gltf_out/members.h"
 #include "gltf_out/mesh.h"
 #include "gltf_out/skeleton.h"
 #include "passes/keep_level.h"
+#include "passes/move_links.h"
 #include "rig/rig_in_extras.h"
 #include "without_throwing.h"
 
@@ -22,7 +25,9 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter {
 namespace {
@@ -70,6 +75,27 @@ void add_rig(Json& scene, const ObjectView& object, Report& report) {
     extras[kRigInExtras] = parse_json_text<Json>(write_rig(object, false), report);
 }
 
+/// What each joint's node has beside what the Scene holds.
+std::vector<Json> read_node_members(const Scene& scene, Report& report) {
+    std::vector<Json> members;
+    members.reserve(scene.joints.size());
+    for (std::size_t i = 0; i < scene.joints.size(); ++i)
+        members.push_back(gltf_out::read_members(scene.joints[i].more, at("joints", i), report));
+    return members;
+}
+
+void add_node_members(const std::vector<Json>& members, Json& root, Json& nodes, Report& report) {
+    std::unordered_map<std::string, std::size_t> cameras;  // by their text
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (const auto camera = members[i].find("camera"); camera != members[i].end() && camera->is_object()) {
+            const auto [known, is_new] = cameras.try_emplace(camera->dump(), cameras.size());
+            if (is_new) root["cameras"].push_back(*camera);
+            nodes[i]["camera"] = known->second;
+        }
+        gltf_out::add_members(nodes[i], members[i], gltf::Element::node, at("joints", i), report);
+    }
+}
+
 /// glTF has no empty lists.
 void add_list(Json& root, const char* member, Json list) {
     if (!list.empty()) root[member] = std::move(list);
@@ -81,6 +107,8 @@ Json write_scene(const Scene& scene, const ObjectView& object, Json roots, Repor
     if (!scene.name.empty()) written["name"] = scene.name;
     gltf_out::add_extras(written, scene.extras, "scene", report);
     add_rig(written, object, report);
+    gltf_out::add_members(written, gltf_out::read_members(scene.more, "HEAD/OBJE/MORE", report), gltf::Element::scene,
+                          "scene", report);
     return written;
 }
 
@@ -90,7 +118,10 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     Buffer buffer;
     Json nodes = gltf_out::export_nodes(scene, report);
     Json roots = gltf_out::root_nodes(scene);
-    gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, nodes, roots, buffer, report);
+    const std::vector<Json> node_members = read_node_members(scene, report);
+    gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, node_members, nodes, roots, buffer, report);
+    gltf_out::export_instances(nodes, buffer, report);
+    add_node_members(node_members, root, nodes, report);
     add_list(root, "animations", gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report));
     gltf_out::export_materials(scene, root, buffer, report);
     add_list(root, "meshes", std::move(meshes.meshes));
@@ -100,6 +131,8 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     if (!scene.levels.empty()) report.warn("levels of detail left out: glTF has no place for them");
     gltf_out::add_extras(root, scene.source_extras, "HEAD/EXTR", report);
     gltf_out::add_extensions(root, scene.extensions, "HEAD/EXTN", report);
+    gltf_out::add_members(root, gltf_out::read_members(scene.source_more, "HEAD/MORE", report), gltf::Element::root,
+                          "HEAD/MORE", report);
     std::set<std::string> used;
     gather_extensions(root, used);
     if (!used.empty()) root["extensionsUsed"] = used;
@@ -114,9 +147,10 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
 }
 
 GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
-                       const ExportOptions& options) {
+                       const ExportOptions& options, const std::filesystem::path& bendy_file) {
     Result<Scene, ImportError> scene = import_bendy(bytes, report);
     if (!scene) throw Failure{scene.error()};
+    if (!bendy_file.empty() && !options.output.empty()) move_links(*scene, bendy_file, options.output, report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     // Read again for the rig, which is written from the records.
     Result<ChunkTree> tree = read_chunk_tree(bytes);
@@ -144,7 +178,7 @@ void append_chunk(std::vector<std::byte>& bytes, std::uint32_t type, Bytes data,
 Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
                                            const ExportOptions& options) {
     return without_throwing<GltfAsset>(
-        [&]() -> Result<GltfAsset, ImportError> { return export_bytes(bytes, buffer_file, report, options); });
+        [&]() -> Result<GltfAsset, ImportError> { return export_bytes(bytes, buffer_file, report, options, {}); });
 }
 
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
@@ -152,7 +186,9 @@ Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_fi
                                            const ExportOptions& options) {
     const Result<MappedFile> mapped = MappedFile::open(bendy_file);
     if (!mapped) return ImportError{{}, describe(mapped.error())};
-    return export_gltf(mapped->bytes(), buffer_file, report, options);
+    return without_throwing<GltfAsset>([&]() -> Result<GltfAsset, ImportError> {
+        return export_bytes(mapped->bytes(), buffer_file, report, options, bendy_file);
+    });
 }
 
 Result<std::vector<std::byte>, ImportError> make_glb(const GltfAsset& asset) {

@@ -1,6 +1,7 @@
 #include "gltf_out/material.h"
 
 #include "failure.h"
+#include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace bendy::converter::gltf_out {
@@ -76,6 +78,7 @@ Json write_material(const Material& material, const std::string& place, Report& 
     add_extras(written, material.extras, place, report);
     add_extensions(written, material.extensions, place, report);
     if (material.unlit) written["extensions"]["KHR_materials_unlit"] = Json::object();
+    add_members(written, read_members(material.more, place, report), gltf::Element::material, place, report);
     return written;
 }
 
@@ -142,10 +145,24 @@ private:
         Json written = Json::object();
         if (!texture.name.empty()) written["name"] = texture.name;
         for (const std::uint32_t image : texture.images) add_image(written, image, index);
-        if (Json sampler = write_sampler(texture); !sampler.empty()) written["sampler"] = sampler_number(sampler);
+        const std::string place = at("textures", index);
+        const Json more = read_members(texture.more, place, report_);
+        Json sampler = write_sampler(texture);
+        if (const auto said = more.find("sampler"); said != more.end())
+            add_members(sampler, *said, gltf::Element::sampler, place + ".sampler", report_);
+        if (!sampler.empty()) written["sampler"] = sampler_number(sampler);
+        if (const auto said = more.find("source"); said != more.end() && said->is_array())
+            add_to_images(texture, *said, place);
         if (written.contains("extensions") && !written.contains("source")) required_of(written["extensions"]);
-        add_extras(written, texture.extras, at("textures", index), report_);
+        add_extras(written, texture.extras, place, report_);
+        add_members(written, more, gltf::Element::texture, place, report_);
         return written;
+    }
+
+    /// What a texture says of its images, in their order.
+    void add_to_images(const Texture& texture, const Json& said, const std::string& place) {
+        for (std::size_t i = 0; i < std::min(texture.images.size(), said.size()); ++i)
+            add_members(root_["images"][texture.images[i]], said[i], gltf::Element::image, place + ".source", report_);
     }
 
     void add_image(Json& texture, std::uint32_t image, std::size_t index) {
@@ -160,12 +177,9 @@ private:
     }
 
     std::size_t sampler_number(const Json& sampler) {
-        Json& samplers = root_["samplers"];
-        for (std::size_t i = 0; i < samplers.size(); ++i) {
-            if (samplers[i] == sampler) return i;
-        }
-        samplers.push_back(sampler);
-        return samplers.size() - 1;
+        const auto [known, is_new] = samplers_.try_emplace(sampler.dump(), samplers_.size());
+        if (is_new) root_["samplers"].push_back(sampler);
+        return known->second;
     }
 
     /// A texture that has no other image cannot be shown without its extension.
@@ -180,6 +194,7 @@ private:
     Json& root_;
     Buffer& buffer_;
     Report& report_;
+    std::unordered_map<std::string, std::size_t> samplers_;  ///< by their text
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "gltf_out/mesh.h"
 
 #include "failure.h"
+#include "frame_shapes.h"
+#include "gltf_out/members.h"
 #include "gltf_out/skeleton.h"
 #include "gltf_out/unit_vectors.h"
 
@@ -36,12 +38,22 @@ bool has_primitives(const Mesh& mesh) {
            std::any_of(mesh.parts.begin(), mesh.parts.end(), [](const Part& part) { return !part.indices.empty(); });
 }
 
-/// Orders palettes by what is in them.
-struct PaletteLess {
-    bool operator()(const Palette* a, const Palette* b) const {
-        if (a->joints != b->joints) return a->joints < b->joints;
-        const std::size_t size = a->inverse_bind.size() * sizeof(glm::mat4);
-        return size != 0 && std::memcmp(a->inverse_bind.data(), b->inverse_bind.data(), size) < 0;
+/// What is a skin in glTF: the palette, and what its node says of the skin (null: nothing).
+struct SkinKey {
+    const Palette* palette;
+    const Json* members;
+};
+
+/// Orders skins by what is in them.
+struct SkinLess {
+    bool operator()(const SkinKey& a, const SkinKey& b) const {
+        if (a.palette->joints != b.palette->joints) return a.palette->joints < b.palette->joints;
+        const std::size_t size = a.palette->inverse_bind.size() * sizeof(glm::mat4);
+        const int order =
+            size == 0 ? 0 : std::memcmp(a.palette->inverse_bind.data(), b.palette->inverse_bind.data(), size);
+        if (order != 0) return order < 0;
+        if (a.members == b.members || b.members == nullptr) return false;
+        return a.members == nullptr || *a.members < *b.members;
     }
 };
 
@@ -51,11 +63,12 @@ struct Slot {
     std::uint32_t skin = kNone;  ///< kNone: rigid
     std::string name;
     std::string extras;
+    std::string more;
     std::vector<std::pair<std::string, float>> targets;  ///< name, rest weight
 
     friend bool operator<(const Slot& a, const Slot& b) {
-        return std::tie(a.joint, a.skin, a.name, a.extras, a.targets) <
-               std::tie(b.joint, b.skin, b.name, b.extras, b.targets);
+        return std::tie(a.joint, a.skin, a.name, a.extras, a.more, a.targets) <
+               std::tie(b.joint, b.skin, b.name, b.extras, b.more, b.targets);
     }
 };
 
@@ -68,8 +81,10 @@ struct Drawn {
 
 class Exporter {
 public:
-    Exporter(const Scene& scene, Json& nodes, Json& roots, Buffer& buffer, Report& report)
+    Exporter(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots, Buffer& buffer,
+             Report& report)
         : scene_(scene),
+          node_members_(node_members),
           nodes_(nodes),
           roots_(roots),
           buffer_(buffer),
@@ -92,7 +107,8 @@ public:
 private:
     void place(std::uint32_t number) {
         const Mesh& mesh = scene_.meshes[number];
-        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh.palette, number), mesh.name, mesh.extras, {}};
+        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh, number), mesh.name, mesh.extras, mesh.more,
+                  {}};
         for (const Target& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
         const std::uint32_t skin = slot.skin;
         const auto [known, is_new] = slots_.try_emplace(std::move(slot), drawn_.size());
@@ -121,6 +137,7 @@ private:
         if (!first.name.empty()) mesh["name"] = first.name;
         const std::string place = at("meshes", drawn.meshes.front());
         add_extras(mesh, first.extras, place, report_);
+        add_members(mesh, read_members(first.more, place, report_), gltf::Element::mesh, place, report_);
         name_targets(mesh, first, place);
         const auto is_set = [](const Target& target) { return target.rest_weight != 0.0f; };
         if (std::any_of(first.targets.begin(), first.targets.end(), is_set)) {
@@ -254,17 +271,28 @@ private:
             // A target must displace something; what is all zero takes no bytes.
             const bool is_empty = target.positions.empty() && target.normals.empty() && target.tangents.empty();
             if (is_empty) written["POSITION"] = buffer_.add_displacements(floats_of(zeros));
-            if (!target.positions.empty()) written["POSITION"] = buffer_.add_displacements(floats_of(target.positions));
-            if (!target.normals.empty()) written["NORMAL"] = buffer_.add_displacements(floats_of(target.normals));
+            const std::vector<glm::vec3> positions = shifts_of(target, target.positions, mesh.positions);
+            const std::vector<glm::vec3> normals = shifts_of(target, target.normals, mesh.normals);
+            if (!positions.empty()) written["POSITION"] = buffer_.add_displacements(floats_of(positions));
+            if (!normals.empty()) written["NORMAL"] = buffer_.add_displacements(floats_of(normals));
             if (!target.tangents.empty()) written["TANGENT"] = buffer_.add_displacements(floats_of(target.tangents));
             targets.push_back(std::move(written));
         }
         return targets;
     }
 
-    std::uint32_t skin_of(const Palette& palette, std::uint32_t mesh) {
+    /// What the node that carries a mesh says of its skin, or null.
+    [[nodiscard]] const Json* members_of_skin(const Mesh& mesh) const {
+        if (mesh.joint == kNone) return nullptr;
+        const auto skin = node_members_[mesh.joint].find("skin");
+        return skin != node_members_[mesh.joint].end() && skin->is_object() ? &*skin : nullptr;
+    }
+
+    std::uint32_t skin_of(const Mesh& source, std::uint32_t mesh) {
+        const Palette& palette = source.palette;
+        const Json* members = members_of_skin(source);
         const auto number = static_cast<std::uint32_t>(out_.skins.size());
-        const auto [known, is_new] = skins_.try_emplace(&palette, number);
+        const auto [known, is_new] = skins_.try_emplace({&palette, members}, number);
         if (!is_new) return known->second;
         if (palette.joints.size() > kMostJoints)
             fail(at("meshes", mesh), "glTF cannot bind vertices to more than 65,536 joints");
@@ -272,11 +300,14 @@ private:
         skin["inverseBindMatrices"] =
             buffer_.add_floats({glm::value_ptr(palette.inverse_bind.front()), palette.inverse_bind.size() * 16}, 16,
                                Buffer::Use::data, false);
+        if (members != nullptr)
+            add_members(skin, *members, gltf::Element::skin, at("joints", source.joint) + ".skin", report_);
         out_.skins.push_back(std::move(skin));
         return number;
     }
 
     const Scene& scene_;
+    std::span<const Json> node_members_;  ///< by joint
     Json& nodes_;
     Json& roots_;
     Buffer& buffer_;
@@ -285,13 +316,14 @@ private:
     std::map<Slot, std::size_t> slots_;  ///< into drawn_
     std::vector<Drawn> drawn_;
     std::vector<bool> is_taken_;  ///< by joint: its node draws something
-    std::map<const Palette*, std::uint32_t, PaletteLess> skins_;
+    std::map<SkinKey, std::uint32_t, SkinLess> skins_;
 };
 
 }  // namespace
 
-ExportedMeshes export_meshes(const Scene& scene, Json& nodes, Json& roots, Buffer& buffer, Report& report) {
-    return Exporter(scene, nodes, roots, buffer, report).run();
+ExportedMeshes export_meshes(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots,
+                             Buffer& buffer, Report& report) {
+    return Exporter(scene, node_members, nodes, roots, buffer, report).run();
 }
 
 }  // namespace bendy::converter::gltf_out

@@ -17,7 +17,7 @@ namespace bendy::converter::gltf_out {
 namespace {
 
 /// Extensions that say accessors or images by number: others have these numbers now.
-constexpr std::array kWithSourceNumbers{"EXT_mesh_gpu_instancing", "EXT_lights_image_based"};
+constexpr std::array kWithSourceNumbers{"EXT_lights_image_based"};
 
 template <class Vector>
 std::span<const float> floats_of(const Vector& vector) {

@@ -1,32 +1,17 @@
 #include "anatomy.h"
 
-#include <bendy/format/constraint.h>
+#include <bendy/format/trig.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <optional>
-#include <string>
 
 namespace bendy::converter {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegree = trig::kPi / 180.0;
 constexpr double kStrange = 10.0;  // degrees outside: this is no human's joint, or it has another rest pose
-
-/// Degrees.
-struct Range {
-    double low = 0.0;
-    double high = 0.0;
-};
-
-/// Ranges of a left joint about the axes of its frame: X along the bone, Z as said, Y = Z x X.
-struct Ranges {
-    Range x, y, z;
-};
 
 // From the AAOS tables as Norkin & White, Measurement of Joint Motion, appendix A, give them, if nothing else is said.
 //   shoulder: flexion 180, extension 60, abduction 180, rotation 70 inward, 90 outward; adduction 50 (AMA Guides).
@@ -50,7 +35,7 @@ constexpr Ranges kUpperLeg{{-45, 45}, {-120, 30}, {-30, 45}};
 constexpr Range kKnee{0, 135};
 constexpr Ranges kShin{{-30, 30}, {-10, 10}, kKnee};      // Z the hinge
 constexpr Ranges kFoot{{-35, 15}, {-20, 50}, {-20, 10}};  // Z up: + outward
-constexpr Range kToes{-80, 30};
+constexpr Ranges kToes{{-10, 10}, {-10, 10}, {-80, 30}};  // Z to the left: + down
 constexpr Ranges kNeck{{-60, 60}, {-45, 45}, {-45, 45}};  // Y to the right: - bends forward
 constexpr Ranges kSpine{{-45, 45}, {-80, 25}, {-35, 35}};
 
@@ -71,66 +56,72 @@ Ranges divided(const Ranges& ranges, std::size_t by) {
     return {divided(ranges.x, n), divided(ranges.y, n), divided(ranges.z, n)};
 }
 
-/// Moves the range's zero to where the rest pose is; false if the rest pose is far outside.
-bool move_zero(Range& range, double rest) {
-    range = {range.low - rest, range.high - rest};
-    if (range.low > kStrange || range.high < -kStrange) return false;
-    range.low = std::min(range.low, 0.0);
-    range.high = std::max(range.high, 0.0);
-    return true;
-}
-
 /// The rotation by the shortest way, as axis times angle in degrees.
 glm::dvec3 swing_between(glm::dvec3 from, glm::dvec3 to) {
     const glm::dvec3 axis = glm::cross(from, to);
     const double sine = glm::length(axis);
     if (sine < 1e-9) return glm::dvec3(0.0);
-    return axis * (std::atan2(sine, glm::dot(from, to)) / kDegree / sine);
+    return axis * (trig::atan2(sine, glm::dot(from, to)) / kDegree / sine);
 }
 
-class Proposer {
+class Anatomist {
 public:
-    Proposer(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, const Stance& stance,
-             Report& report)
-        : scene_(scene), rest_(rest), found_(found), bones_(found.bones), stance_(stance), report_(report) {}
+    Anatomist(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, const Stance& stance)
+        : scene_(scene), rest_(rest), found_(found), bones_(found.bones), stance_(stance) {}
 
-    std::vector<ProposedLimit> propose() {
-        propose_trunk();
-        propose_limbs(false);
-        propose_limbs(true);
-        return std::move(limits_);
+    std::vector<JointAnatomy> find() {
+        find_trunk();
+        find_limbs(false);
+        find_limbs(true);
+        return std::move(joints_);
     }
 
 private:
     [[nodiscard]] static HumanBone of_side(HumanBone left, bool right) { return right ? mirrored(left) : left; }
-
-    void propose_limbs(bool right) {
-        const std::uint32_t shoulder = bones_[of_side(HumanBone::left_shoulder, right)];
-        const std::uint32_t upper_arm = bones_[of_side(HumanBone::left_upper_arm, right)];
-        const std::uint32_t lower_arm = bones_[of_side(HumanBone::left_lower_arm, right)];
-        const std::uint32_t hand = bones_[of_side(HumanBone::left_hand, right)];
-        const std::uint32_t thumb = bones_[of_side(HumanBone::left_thumb, right)];
-        const std::uint32_t upper_leg = bones_[of_side(HumanBone::left_upper_leg, right)];
-        const std::uint32_t lower_leg = bones_[of_side(HumanBone::left_lower_leg, right)];
-        const std::uint32_t foot = bones_[of_side(HumanBone::left_foot, right)];
-        const std::uint32_t toes = bones_[of_side(HumanBone::left_toes, right)];
-        const glm::dvec3 outward = right ? -stance_.left : stance_.left;
-
-        propose_swing(shoulder, along(shoulder, upper_arm), stance_.forward, of_side(kShoulder, right));
-        propose_swing(upper_arm, along(upper_arm, lower_arm), stance_.forward, of_side(kUpperArm, right), outward);
-        propose_bend(upper_arm, lower_arm, end_of(hand, right ? 1 : 0), stance_.forward, kForearm);
-        if (!found_.has_split_hands) {
-            const auto to_thumb = along(hand, thumb);
-            propose_swing(hand, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward, of_side(kHand, right));
-        }
-        propose_swing(upper_leg, along(upper_leg, lower_leg), stance_.forward, of_side(kUpperLeg, right), -stance_.up);
-        propose_bend(upper_leg, lower_leg, end_of(foot, right ? 3 : 2), -stance_.forward, kShin);
-        const auto to_toes = along(foot, toes);
-        propose_swing(foot, to_toes ? *to_toes : stance_.forward, stance_.up, of_side(kFoot, right));
-        propose_hinge(toes, stance_.left, kToes);
+    [[nodiscard]] static Ranges of_side(const Ranges& left, bool right) { return right ? reflected(left) : left; }
+    [[nodiscard]] static Ranges bend_of_side(const Ranges& left, bool right) {
+        return right ? Ranges{reflected(left.x), reflected(left.y), left.z} : left;
     }
 
-    void propose_trunk() {
+    void find_limbs(bool right) {
+        const auto joint = [&](HumanBone left) { return bones_[of_side(left, right)]; };
+        const std::uint32_t shoulder = joint(HumanBone::left_shoulder);
+        const std::uint32_t upper_arm = joint(HumanBone::left_upper_arm);
+        const std::uint32_t lower_arm = joint(HumanBone::left_lower_arm);
+        const std::uint32_t hand = joint(HumanBone::left_hand);
+        const std::uint32_t upper_leg = joint(HumanBone::left_upper_leg);
+        const std::uint32_t lower_leg = joint(HumanBone::left_lower_leg);
+        const std::uint32_t foot = joint(HumanBone::left_foot);
+        const std::uint32_t toes = joint(HumanBone::left_toes);
+        const glm::dvec3 outward = right ? -stance_.left : stance_.left;
+        is_right_ = right;
+
+        add_swing(shoulder, HumanJoint::collarbone, along(shoulder, upper_arm), stance_.forward,
+                  of_side(kShoulder, right));
+        add_swing(upper_arm, HumanJoint::shoulder, along(upper_arm, lower_arm), stance_.forward,
+                  of_side(kUpperArm, right), outward);
+        add_bend(upper_arm, lower_arm, HumanJoint::elbow,
+                 end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm), stance_.forward,
+                 bend_of_side(kForearm, right));
+        if (!found_.has_split_hands) {
+            const auto to_thumb = along(hand, joint(HumanBone::left_thumb));
+            add_swing(hand, HumanJoint::wrist, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward,
+                      of_side(kHand, right));
+        }
+        add_swing(upper_leg, HumanJoint::hip, along(upper_leg, lower_leg), stance_.forward, of_side(kUpperLeg, right),
+                  -stance_.up);
+        add_bend(upper_leg, lower_leg, HumanJoint::knee,
+                 end_of(found_, rest_, right ? Limb::right_leg : Limb::left_leg), -stance_.forward,
+                 bend_of_side(kShin, right));
+        const auto to_toes = along(foot, toes);
+        add_swing(foot, HumanJoint::ankle, to_toes ? *to_toes : stance_.forward, stance_.up, of_side(kFoot, right));
+        add(toes, HumanJoint::toes,
+            glm::dmat3(stance_.forward, glm::cross(stance_.left, stance_.forward), stance_.left),
+            bend_of_side(kToes, right), {});
+    }
+
+    void find_trunk() {
+        is_right_ = false;
         const std::uint32_t spine = bones_[HumanBone::spine];
         const std::uint32_t neck = bones_[HumanBone::neck];
         const std::uint32_t head = bones_[HumanBone::head];
@@ -139,51 +130,45 @@ private:
         if (spine != kNone) {
             std::vector<std::uint32_t> path = path_of(scene_, spine, first_of_neck);
             if (!path.empty()) path.pop_back();
-            propose_column(path, first_of_neck, divided(kSpine, path.size()));
+            add_column(path, first_of_neck, HumanJoint::spine, divided(kSpine, path.size()));
         }
         const std::vector<std::uint32_t> path = path_of(scene_, first_of_neck, head);
-        propose_column(path, kNone, divided(kNeck, path.size()));
+        add_column(path, kNone, HumanJoint::neck, divided(kNeck, path.size()));
     }
 
     /// Joints above one another; `next` follows the last one.
-    void propose_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, const Ranges& ranges) {
+    void add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, HumanJoint part,
+                    const Ranges& ranges) {
         for (std::size_t i = 0; i < joints.size(); ++i) {
             const auto direction = along(joints[i], i + 1 < joints.size() ? joints[i + 1] : next);
-            propose_swing(joints[i], direction ? *direction : stance_.up, stance_.forward, ranges);
+            add_swing(joints[i], part, direction ? *direction : stance_.up, stance_.forward, ranges);
+            if (joints.size() > 1 && !joints_.empty() && joints_.back().joint == joints[i])
+                joints_.back().number = static_cast<std::uint8_t>(std::min<std::size_t>(i + 1, 255));
         }
     }
-
-    [[nodiscard]] static Ranges of_side(const Ranges& left, bool right) { return right ? reflected(left) : left; }
 
     [[nodiscard]] std::optional<glm::dvec3> along(std::uint32_t from, std::uint32_t to) const {
         return from == kNone || to == kNone ? std::nullopt : rest_.direction(from, to);
     }
 
-    /// The joint where the limb ends, below it or loose.
-    [[nodiscard]] std::uint32_t end_of(std::uint32_t joint, std::size_t limb) const {
-        return joint != kNone ? joint : found_.loose_ends[limb];
-    }
-
-    /// A swing-twist limit with X along the bone and Z as near `z` as may be. Where a `neutral` direction is given the
-    /// ranges are about the bone pointing there, and are moved to the rest pose.
-    void propose_swing(std::uint32_t joint, std::optional<glm::dvec3> x, glm::dvec3 z, Ranges ranges,
-                       std::optional<glm::dvec3> neutral = std::nullopt) {
+    /// Swing and twist with X along the bone and Z as near `z` as may be. Where a `neutral` direction is given the
+    /// ranges are about the bone pointing there.
+    void add_swing(std::uint32_t joint, HumanJoint part, std::optional<glm::dvec3> x, glm::dvec3 z,
+                   const Ranges& ranges, std::optional<glm::dvec3> neutral = std::nullopt) {
         if (joint == kNone || !x) return;
         const std::optional<glm::dvec3> across = unit_across(z, *x);
         if (!across) return;
-        const glm::dvec3 y = glm::cross(*across, *x);
-        if (neutral) {
-            const glm::dvec3 swing = swing_between(*neutral, *x);
-            if (!move_zero(ranges.y, glm::dot(swing, y)) || !move_zero(ranges.z, glm::dot(swing, *across)))
-                return warn_of_strange_rest(joint);
-        }
-        add(joint, LimitModel::swing_twist_ellipse, glm::dmat3(*x, y, *across), ranges);
+        const glm::dmat3 axes(*x, glm::cross(*across, *x), *across);
+        const glm::dvec3 swing = neutral ? swing_between(*neutral, *x) : glm::dvec3(0.0);
+        add(joint, part, axes, ranges, {0.0, glm::dot(swing, axes[1]), glm::dot(swing, axes[2])});
     }
 
-    /// The hinge between two bones of a limb. At rest it is bent by some angle already: the range's zero moves there.
-    void propose_bend(std::uint32_t upper, std::uint32_t lower, std::uint32_t end, glm::dvec3 towards, Ranges ranges) {
+    /// The bend between two bones of a limb. At rest it is bent by some angle already.
+    void add_bend(std::uint32_t upper, std::uint32_t lower, HumanJoint part, std::optional<glm::dvec3> end,
+                  glm::dvec3 towards, const Ranges& ranges) {
+        if (lower == kNone || !end) return;
         const auto first = along(upper, lower);
-        const auto second = along(lower, end);
+        const auto second = unit(*end - rest_.position(lower));
         if (!first || !second) return;
         const auto side = unit_across(towards, *first);
         if (!side) return;
@@ -192,52 +177,21 @@ private:
         const double angle = glm::length(bend);
         // A limb that is clearly bent shows its axis. One that is bent elsewhere, or by that much to the wrong side, is
         // no human's.
-        if (angle > kStrange) {
-            const glm::dvec3 shown = bend / angle;
-            if (glm::dot(shown, axis) < 0.5) return warn_of_strange_rest(lower);
-            axis = shown;
-        }
-        if (!move_zero(ranges.z, glm::dot(bend, axis))) return warn_of_strange_rest(lower);
-        propose_hinge(lower, axis, ranges.z);
+        const bool is_elsewhere = angle > kStrange && glm::dot(bend / angle, axis) < 0.5;
+        if (angle > kStrange && !is_elsewhere) axis = bend / angle;
         const auto z = unit_across(axis, *second);
-        if (!z || limits_.empty() || limits_.back().joint != lower) return;
+        if (!z) return;
         const glm::dmat3 axes(*second, glm::cross(*z, *second), *z);
-        limits_.back().looser = make_limit(lower, LimitModel::swing_twist_ellipse, axes, ranges);
+        add(lower, part, axes, ranges, glm::transpose(axes) * bend);
+        if (!joints_.empty() && joints_.back().joint == lower && is_elsewhere) joints_.back().is_strange = true;
     }
 
-    void propose_hinge(std::uint32_t joint, glm::dvec3 axis, Range range) {
-        if (joint == kNone) return;
-        const glm::dvec3 other = std::abs(glm::dot(axis, stance_.up)) < 0.7 ? stance_.up : stance_.forward;
-        const std::optional<glm::dvec3> y = unit_across(other, axis);
-        if (y) add(joint, LimitModel::hinge, glm::dmat3(axis, *y, glm::cross(axis, *y)), {range, {}, {}});
-    }
-
-    void add(std::uint32_t joint, LimitModel model, const glm::dmat3& axes, const Ranges& ranges) {
-        if (const auto limit = make_limit(joint, model, axes, ranges)) limits_.push_back({joint, *limit});
-    }
-
-    /// \param axes X, Y, Z of the limit's frame in model space
-    [[nodiscard]] std::optional<LimitRecord> make_limit(std::uint32_t joint, LimitModel model, const glm::dmat3& axes,
-                                                        const Ranges& ranges) const {
-        const std::optional<glm::dquat> orientation = rest_.orientation(joint);
-        if (!orientation) return std::nullopt;
-        const glm::dquat frame = glm::normalize(glm::conjugate(*orientation) * rotation_of_axes(axes));
-        LimitRecord limit;
-        limit.model = static_cast<std::uint8_t>(model);
-        limit.flags = kProposed;
-        limit.frame = {static_cast<float>(frame.x), static_cast<float>(frame.y), static_cast<float>(frame.z),
-                       static_cast<float>(frame.w)};
-        const std::array<Range, 3> of_axis{ranges.x, ranges.y, ranges.z};
-        for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
-            limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * kDegree);
-            limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * kDegree);
-        }
-        return limit;
-    }
-
-    void warn_of_strange_rest(std::uint32_t joint) {
-        report_.warn("auto-rig: the rest pose is outside what a human can do, no limit proposed for this joint",
-                     scene_.joints[joint].name);
+    void add(std::uint32_t joint, HumanJoint part, const glm::dmat3& axes, const Ranges& ranges,
+             const glm::dvec3& rest) {
+        if (joint == kNone || !rest_.turning_axes(joint)) return;
+        const bool is_strange =
+            outside(ranges.z, rest.z) > kStrange || (!bends(part) && outside(ranges.y, rest.y) > kStrange);
+        joints_.push_back({joint, part, is_right_, 0, axes, ranges, rest, is_strange});
     }
 
     const Scene& scene_;
@@ -245,15 +199,26 @@ private:
     const NamedHumanoid& found_;
     const Humanoid& bones_;
     const Stance& stance_;
-    Report& report_;
-    std::vector<ProposedLimit> limits_;
+    bool is_right_ = false;
+    std::vector<JointAnatomy> joints_;
 };
 
 }  // namespace
 
-std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
-                                          const Stance& stance, Report& report) {
-    return Proposer(scene, rest, found, stance, report).propose();
+std::vector<JointAnatomy> find_anatomy(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
+                                       const Stance& stance) {
+    return Anatomist(scene, rest, found, stance).find();
+}
+
+Ranges ranges_from_rest(const Ranges& human, const glm::dvec3& rest) {
+    const auto moved = [](const Range& range, double zero) {
+        return Range{std::min(range.low - zero, 0.0), std::max(range.high - zero, 0.0)};
+    };
+    return {moved(human.x, rest.x), moved(human.y, rest.y), moved(human.z, rest.z)};
+}
+
+double outside(const Range& range, double rest) {
+    return std::max({range.low - rest, rest - range.high, 0.0});
 }
 
 }  // namespace bendy::converter

@@ -4,8 +4,10 @@
 #include "limb_chains.h"
 #include "rest_frames.h"
 
-#include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -13,19 +15,59 @@
 
 namespace bendy::converter {
 
-struct ProposedLimit {
-    std::uint32_t joint = 0;
-    LimitRecord limit;
-    /// Of an elbow or knee: the hinge with the little that such a joint turns about other axes, where rigs have no
-    /// joint for it.
-    std::optional<LimitRecord> looser = std::nullopt;
-    bool is_widened = false;  ///< by fit_to_clips
+/// Degrees.
+struct Range {
+    double low = 0.0;
+    double high = 0.0;
 };
 
-/// Limits of a human's joints, turned to this character's rest pose; flagged kProposed. Hinges for elbows, knees and
-/// toes, swing and twist for the others; spec/rig.md has the ranges. The rest pose is inside. Where the rest pose lies
-/// more than 10 degrees outside what a human can do there is no limit, and a warning.
-std::vector<ProposedLimit> propose_limits(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
-                                          const Stance& stance, Report& report);
+/// About the axes of a limit's frame.
+struct Ranges {
+    Range x, y, z;
+};
+
+/// Which joint of a human's it is: what the proposals call it.
+enum class HumanJoint : std::uint8_t {
+    collarbone,
+    shoulder,
+    elbow,
+    wrist,
+    hip,
+    knee,
+    ankle,
+    toes,
+    spine,
+    neck,
+};
+
+constexpr bool bends(HumanJoint joint) {
+    return joint == HumanJoint::elbow || joint == HumanJoint::knee || joint == HumanJoint::toes;
+}
+
+/// What a human could do with a joint, at this character's joint, as it rests.
+struct JointAnatomy {
+    std::uint32_t joint = kNone;
+    HumanJoint part = HumanJoint::spine;
+    bool is_right = false;
+    std::uint8_t number = 0;  ///< of the joints that share the part, from below; 0: it is one
+    /// X, Y, Z of the limit's frame in model space at rest. Elbows, knees and toes: X along the bone that turns, Z the
+    /// axis of the bend. The others: X along the bone. The right side's frame is the left one's mirrored: a right joint
+    /// does the same as a left one with the signs of X and Y changed where it bends, of X and Z elsewhere.
+    glm::dmat3 axes{1.0};
+    Ranges human;             ///< about the neutral pose, in the left joint's signs turned to this side's
+    glm::dvec3 rest{0.0};     ///< the rest pose: its angles away from the neutral one; of a bend a rotation vector
+    bool is_strange = false;  ///< the rest pose is more than 10 degrees outside what a human can do
+};
+
+/// A human's joints at this character: hinges for elbows, knees and toes, swing and twist for the others; spec/rig.md
+/// has the ranges.
+std::vector<JointAnatomy> find_anatomy(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
+                                       const Stance& stance);
+
+/// The ranges away from the rest pose, which is inside.
+Ranges ranges_from_rest(const Ranges& human, const glm::dvec3& rest);
+
+/// Degrees that the rest pose is outside.
+double outside(const Range& range, double rest);
 
 }  // namespace bendy::converter

@@ -1,9 +1,13 @@
 #include "auto_rig.h"
 
 #include "anatomy.h"
+#include "bound_joints.h"
+#include "clip_rotations.h"
+#include "find_by_shape.h"
 #include "find_humanoid.h"
 #include "fit_to_clips.h"
 #include "limb_chains.h"
+#include "proposal_lines.h"
 #include "rest_frames.h"
 #include "vrm.h"
 
@@ -11,13 +15,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <initializer_list>
-#include <numbers>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,14 +27,65 @@ namespace {
 
 using Bone = HumanBone;
 
-NamedHumanoid find(const Scene& scene, const RestFrames& rest) {
+/// Takes from the shape what the names do not tell: limbs of which one side or both are missing, hips, spine and head.
+void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& clips, const std::vector<bool>& chosen,
+              NamedHumanoid& found) {
+    Humanoid& bones = found.bones;
+    const auto has_pair = [&](Limb left, Limb right) {
+        return bones.has(bones_of(left).lower) && bones.has(bones_of(right).lower);
+    };
+    const bool has_arms = has_pair(Limb::left_arm, Limb::right_arm);
+    const bool has_legs = has_pair(Limb::left_leg, Limb::right_leg);
+    if (!has_arms || !has_legs) {
+        if (const std::optional<ShapedHumanoid> shaped = find_by_shape(scene, rest, clips, chosen)) {
+            found.is_by_shape = true;
+            found.contradicts_names = shaped->contradicts_names;
+            const auto take = [&](Bone first, Bone last, std::size_t loose) {
+                for (auto left = static_cast<std::size_t>(first); left <= static_cast<std::size_t>(last); ++left) {
+                    for (const Bone bone : {static_cast<Bone>(left), mirrored(static_cast<Bone>(left))})
+                        bones[bone] = shaped->bones[bone];
+                }
+                for (const std::size_t side : {0u, 1u}) {
+                    found.loose_ends[loose + side] = kNone;
+                    found.mesh_ends[loose + side].reset();
+                }
+            };
+            if (!has_arms) take(Bone::left_shoulder, Bone::left_thumb, 0);
+            if (!has_legs) take(Bone::left_upper_leg, Bone::left_toes, 2);
+            for (const Bone bone : {Bone::hips, Bone::spine, Bone::neck, Bone::head}) {
+                if (!has_arms && !has_legs && !bones.has(Bone::head)) bones[bone] = shaped->bones[bone];
+            }
+        }
+    }
+    find_mesh_ends(scene, rest, found);
+    find_trunk_by_shape(scene, rest, chosen, bones);
+}
+
+NamedHumanoid find(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
     Report said_before;  // when the extension's own chains were made
     if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, said_before)) {
         NamedHumanoid found;
         found.bones = vrm->bones;
         return found;
     }
-    return find_humanoid(scene, rest);
+    const auto find_among = [&](const std::vector<bool>& chosen) {
+        NamedHumanoid found = find_humanoid(scene, rest, chosen);
+        complete(scene, rest, clips, chosen, found);
+        return found;
+    };
+    const auto has_all = [](const Humanoid& bones) {
+        return bones.has(Bone::left_lower_arm) && bones.has(Bone::right_lower_arm) && bones.has(Bone::left_lower_leg) &&
+               bones.has(Bone::right_lower_leg);
+    };
+    NamedHumanoid found = find_among(find_bound_joints(scene));
+    if (has_all(found.bones)) return found;
+    // A file may bring a part of its character's meshes only.
+    std::vector<bool> all(scene.joints.size(), true);
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.joint != kNone && mesh.influences > 0) all[mesh.joint] = false;  // a place for a mesh, no bone
+    }
+    NamedHumanoid among_all = find_among(all);
+    return has_all(among_all.bones) ? among_all : found;
 }
 
 /// How a character stands.
@@ -84,15 +136,12 @@ private:
 
     [[nodiscard]] std::optional<glm::dvec3> up_from_legs() const {
         glm::dvec3 sum(0.0);
-        for (const auto& [upper, lower, end, loose] :
-             {std::tuple(Bone::left_upper_leg, Bone::left_lower_leg, Bone::left_foot, 2),
-              std::tuple(Bone::right_upper_leg, Bone::right_lower_leg, Bone::right_foot, 3)}) {
-            if (!found_.bones.has(upper)) continue;
-            std::uint32_t foot = found_.bones[end];
-            if (foot == kNone) foot = found_.loose_ends[static_cast<std::size_t>(loose)];
-            if (foot == kNone) foot = found_.bones[lower];
-            if (foot == kNone) continue;
-            if (const auto up = rest_.direction(foot, found_.bones[upper])) sum += *up;
+        for (const Limb leg : {Limb::left_leg, Limb::right_leg}) {
+            const LimbBones bones = bones_of(leg);
+            if (!found_.bones.has(bones.upper) || !found_.bones.has(bones.lower)) continue;
+            const std::optional<glm::dvec3> end = end_of(found_, rest_, leg);
+            const glm::dvec3 foot = end ? *end : rest_.position(found_.bones[bones.lower]);
+            if (const auto up = unit(rest_.position(found_.bones[bones.upper]) - foot)) sum += *up;
         }
         return unit(sum);
     }
@@ -110,37 +159,34 @@ private:
     const NamedHumanoid& found_;
 };
 
-/// Chains for limbs whose hand or foot is moved by a rig of its own: their tip is where that one rests, it their
-/// target.
-std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found) {
-    struct Limb {
-        const char* name;
-        Bone upper, lower;
-    };
-    constexpr std::array<Limb, 4> kLimbs{Limb{"LeftArm", Bone::left_upper_arm, Bone::left_lower_arm},
-                                         Limb{"RightArm", Bone::right_upper_arm, Bone::right_lower_arm},
-                                         Limb{"LeftLeg", Bone::left_upper_leg, Bone::left_lower_leg},
-                                         Limb{"RightLeg", Bone::right_upper_leg, Bone::right_lower_leg}};
+constexpr std::array<const char*, kLimbs> kChainNames{"LeftArm", "RightArm", "LeftLeg", "RightLeg"};
+
+/// Chains for limbs that have no joint at their end: where a hand or foot is moved by a rig of its own, the tip is
+/// where that one rests, and it the target; else the tip is where the mesh ends.
+std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
+                                     const Stance& stance) {
     std::vector<Chain> chains;
-    for (std::size_t i = 0; i < kLimbs.size(); ++i) {
-        const std::uint32_t end = found.loose_ends[i];
-        const std::uint32_t upper = found.bones[kLimbs[i].upper];
-        const std::uint32_t lower = found.bones[kLimbs[i].lower];
-        if (end == kNone || upper == kNone || lower == kNone) continue;
-        const double thigh = glm::distance(rest.position(upper), rest.position(lower));
-        const double shin = glm::distance(rest.position(lower), rest.position(end));
-        if (!(shin > 0.3 * thigh) || !(shin < 3.0 * thigh)) continue;  // this is no end of that limb
-        const auto tip = rest.point_in_space_of(lower, rest.position(end));
-        const auto bend = bend_of(rest, upper, lower, rest.position(end));
+    for (std::size_t i = 0; i < kLimbs; ++i) {
+        const LimbBones bones = bones_of(static_cast<Limb>(i));
+        const std::optional<glm::dvec3> end = end_of(found, rest, static_cast<Limb>(i));
+        if (found.bones.has(bones.end) || !found.bones.has(bones.upper) || !found.bones.has(bones.lower) || !end)
+            continue;
+        const std::uint32_t upper = found.bones[bones.upper];
+        const std::uint32_t lower = found.bones[bones.lower];
+        const auto tip = rest.point_in_space_of(lower, *end);
         if (!tip) continue;
         Chain chain;
-        chain.name = kLimbs[i].name;
+        chain.name = kChainNames[i];
         chain.record.start = upper;
         chain.record.effector = lower;
-        chain.record.target = end;
+        if (found.loose_ends[i] != kNone && *end == rest.position(found.loose_ends[i]))
+            chain.record.target = found.loose_ends[i];
         chain.record.solver = static_cast<std::uint8_t>(Solver::two_bone);
         chain.record.flags = kProposed;
         chain.record.tip_offset = {static_cast<float>(tip->x), static_cast<float>(tip->y), static_cast<float>(tip->z)};
+        std::optional<glm::dvec3> bend = bend_of(rest, upper, lower, *end);
+        const auto along = unit(*end - rest.position(upper));
+        if (!bend && along) bend = unit_across(i < 2 ? -stance.forward : stance.forward, *along);
         if (const auto pole = bend ? rest.to_space_of(scene.joints[upper].parent, *bend) : std::nullopt) {
             chain.record.pole_vector = {static_cast<float>(pole->x), static_cast<float>(pole->y),
                                         static_cast<float>(pole->z)};
@@ -153,78 +199,112 @@ std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest,
     return chains;
 }
 
-// --- what is listed
-
-std::string name_of(const Scene& scene, std::uint32_t joint) {
-    const std::string& name = scene.joints[joint].name;
-    return name.empty() ? '#' + std::to_string(joint) : name;
-}
-
-std::string degrees(float radians) {
-    return std::to_string(std::lround(static_cast<double>(radians) * 180.0 / std::numbers::pi));
-}
-
-std::string range_of(const LimitRecord& limit, std::size_t axis) {
-    return degrees(limit.rotation_min[axis]) + " to " + degrees(limit.rotation_max[axis]);
-}
-
-std::string line_of(const Scene& scene, const Chain& chain) {
-    constexpr std::array<const char*, kSolvers> kNames{"any",    "pull", "two_bone",     "ccd",
-                                                       "fabrik", "aim",  "least_squares"};
-    constexpr std::size_t kShown = 12;
-    std::vector<bool> is_passive(scene.joints.size());
-    for (const Chain::Weight& weight : chain.weights) is_passive[weight.joint] = weight.weight == 0.0f;
-    std::vector<std::uint32_t> joints = path_of(scene, chain.record.start, chain.record.effector);
-    joints.erase(std::remove_if(joints.begin(), joints.end(), [&](std::uint32_t joint) { return is_passive[joint]; }),
-                 joints.end());
-    std::string line = "chain " + chain.name + ": ";
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        if (i > 0) line += " > ";
-        if (joints.size() > kShown && i == kShown - 1) {
-            line += "... > ";
-            i = joints.size() - 1;
+/// Which way the limbs' middle joints point.
+class Bends {
+public:
+    Bends(const Scene& scene, const RestFrames& rest, const ClipRotations& clips, const NamedHumanoid& found,
+          const Stance& stance)
+        : scene_(scene), rest_(rest) {
+        for (std::size_t limb = 0; limb < kLimbs; ++limb) bends_[limb] = measure(clips, found, limb);
+        for (const std::size_t left : {0u, 2u}) {
+            // Both sides alike: the mean of one and the other's mirror image, where they say much the same.
+            std::optional<ProposedBend>& a = bends_[left];
+            std::optional<ProposedBend>& b = bends_[left + 1];
+            const auto mirror = [&](const glm::dvec3& v) { return v - 2.0 * glm::dot(v, stance.left) * stance.left; };
+            if (a && !b) b = ProposedBend{mirror(a->way), a->clips};
+            if (b && !a) a = ProposedBend{mirror(b->way), b->clips};
+            if (!a || !b || glm::dot(mirror(a->way), b->way) < 0.5) continue;
+            const auto mean = unit(a->way + mirror(b->way));
+            if (!mean) continue;
+            a->way = *mean;
+            b->way = mirror(*mean);
         }
-        line += name_of(scene, joints[i]);
     }
-    if (chain.record.target != kNone) line += " to " + name_of(scene, chain.record.target);
-    return line + ", " + kNames[chain.record.solver];
-}
 
-std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
-    const LimitRecord& limit = proposed.limit;
-    std::string line = name_of(scene, proposed.joint);
-    if (limit.model == static_cast<std::uint8_t>(LimitModel::hinge)) {
-        line += ": hinge " + range_of(limit, 0) + " degrees";
-    } else {
-        line += ": swing_twist_ellipse, twist " + range_of(limit, 0) + ", swing " + range_of(limit, 1) + " and " +
-                range_of(limit, 2) + " degrees";
+    /// Sets the pole to where the clips take the middle joint, where they do.
+    void turn_pole(Chain& chain) const {
+        const std::optional<ProposedBend> bend = of(chain);
+        if (!bend || bend->clips == 0) return;
+        const auto pole = rest_.to_space_of(scene_.joints[chain.record.start].parent, bend->way);
+        if (!pole) return;
+        chain.record.pole_vector = {static_cast<float>(pole->x), static_cast<float>(pole->y),
+                                    static_cast<float>(pole->z)};
     }
-    return proposed.is_widened ? line + ", widened to its clips" : line;
-}
+
+    /// Of a limb's chain; nothing of others.
+    [[nodiscard]] std::optional<ProposedBend> of(const Chain& chain) const {
+        const auto* const name = std::find(kChainNames.begin(), kChainNames.end(), chain.name);
+        if (name == kChainNames.end()) return std::nullopt;
+        const auto& bend = bends_[static_cast<std::size_t>(name - kChainNames.begin())];
+        if (bend) return bend;
+        const auto& pole = chain.record.pole_vector;
+        const std::uint32_t parent = scene_.joints[chain.record.start].parent;
+        const glm::dvec3 way(pole[0], pole[1], pole[2]);
+        if (way == glm::dvec3(0.0)) return std::nullopt;
+        return ProposedBend{parent == kNone ? way : rest_.turn(parent) * way, 0};
+    }
+
+private:
+    [[nodiscard]] std::optional<ProposedBend> measure(const ClipRotations& clips, const NamedHumanoid& found,
+                                                      std::size_t limb) const {
+        constexpr double kClearly = 0.4;  // of the clips' agreement
+        const LimbBones bones = bones_of(static_cast<Limb>(limb));
+        if (!found.bones.has(bones.upper) || !found.bones.has(bones.lower)) return std::nullopt;
+        ClipRotations::Limb two_bones{found.bones[bones.upper], found.bones[bones.lower], found.bones[bones.end]};
+        if (two_bones.end == kNone) {
+            const auto end = end_of(found, rest_, static_cast<Limb>(limb));
+            const auto tip = end ? rest_.point_in_space_of(two_bones.middle, *end) : std::nullopt;
+            if (!tip) return std::nullopt;
+            two_bones.end = two_bones.middle;
+            two_bones.tip = *tip;
+        }
+        const std::optional<ClipRotations::Bend> bend = clips.bend_of(two_bones);
+        const std::uint32_t parent = scene_.joints[two_bones.start].parent;
+        if (!bend || bend->agreement < kClearly) return std::nullopt;
+        return ProposedBend{parent == kNone ? bend->direction : rest_.turn(parent) * bend->direction, bend->clips};
+    }
+
+    const Scene& scene_;
+    const RestFrames& rest_;
+    std::array<std::optional<ProposedBend>, kLimbs> bends_;
+};
 
 }  // namespace
 
 void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     const RestFrames rest(scene);
-    const NamedHumanoid found = find(scene, rest);
+    const ClipRotations clips(scene);
+    const NamedHumanoid found = find(scene, rest, clips);
     const std::optional<Posture> posture = Measurer(rest, found).measure();
-    if (!posture) return report.warn("auto-rig: no joints with the names of a human's limbs, nothing proposed");
-    if (!Measurer(rest, found).has_feet_forward(posture->stance))
+    if (!posture) {
+        return report.warn(
+            "auto-rig: neither the joints' names nor the skeleton's shape say where a human's limbs are, nothing "
+            "proposed");
+    }
+    const Stance& stance = posture->stance;
+    if (!Measurer(rest, found).has_feet_forward(stance))
         return report.warn("auto-rig: the feet point backward from what left and right say, nothing proposed");
 
+    if (found.contradicts_names) {
+        report.warn(
+            "auto-rig: left and right in the joints' names contradict the way that feet and knees point, left and "
+            "right "
+            "below are the character's own");
+    }
     Report unheard;  // of limbs that are not there
-    std::vector<Chain> chains = make_limb_chains(scene, rest, found.bones, posture->stance, kProposed, {}, unheard);
-    for (Chain& chain : make_loose_chains(scene, rest, found)) chains.push_back(std::move(chain));
+    std::vector<Chain> chains = make_limb_chains(scene, rest, found.bones, stance, kProposed, {}, unheard);
+    for (Chain& chain : make_loose_chains(scene, rest, found, stance)) chains.push_back(std::move(chain));
+    const Bends bends(scene, rest, clips, found, stance);
+    for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
-        report.propose(line_of(scene, scene.chains[chain]));
+        report.propose(line_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
 
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
-    std::vector<ProposedLimit> limits = propose_limits(scene, rest, found, posture->stance, report);
-    fit_to_clips(scene, limits, report);
-    for (const ProposedLimit& proposed : limits) {
-        Joint& joint = scene.joints[proposed.joint];
-        if (!joint.limits.empty() || (!claimed.empty() && claimed[proposed.joint])) continue;
+    const std::vector<JointAnatomy> anatomy = find_anatomy(scene, rest, found, stance);
+    for (const ProposedLimit& proposed : fit_to_clips(scene, rest, clips, anatomy, stance.left, report)) {
+        Joint& joint = scene.joints[proposed.anatomy.joint];
+        if (!joint.limits.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
         joint.limits.push_back(proposed.limit);
         report.propose(line_of(scene, proposed));
     }

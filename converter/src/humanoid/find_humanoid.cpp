@@ -1,7 +1,10 @@
 #include "find_humanoid.h"
 
 #include "bone_names.h"
-#include "limb_chains.h"
+#include "bound_joints.h"
+#include "mesh_end.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,24 +16,6 @@
 namespace bendy::converter {
 namespace {
 
-/// Joints that meshes are bound to, with their ancestors; all if there are none.
-std::vector<bool> find_bound(const Scene& scene) {
-    std::vector<bool> bound(scene.joints.size());
-    bool has_any = false;
-    for (const Mesh& mesh : scene.meshes) {
-        for (const std::uint32_t joint : mesh.palette.joints) bound[joint] = has_any = true;
-    }
-    if (!has_any) {
-        bound.assign(bound.size(), true);
-        return bound;
-    }
-    for (std::size_t joint = bound.size(); joint-- > 0;) {
-        const std::uint32_t parent = scene.joints[joint].parent;
-        if (bound[joint] && parent != kNone) bound[parent] = true;
-    }
-    return bound;
-}
-
 struct Candidate {
     std::uint32_t joint = kNone;
     std::uint32_t order = 0;  ///< the least is the best: sure names first, then those near the root
@@ -38,12 +23,11 @@ struct Candidate {
 
 class Finder {
 public:
-    Finder(const Scene& scene, const RestFrames& rest) : scene_(scene), rest_(rest), bound_(find_bound(scene)) {
+    Finder(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen)
+        : scene_(scene), rest_(rest), children_(list_children(scene, chosen)) {
         names_.resize(scene.joints.size());
-        children_.resize(scene.joints.size());
         for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
-            if (!bound_[joint]) continue;
-            if (scene.joints[joint].parent != kNone) children_[scene.joints[joint].parent].push_back(joint);
+            if (!chosen[joint]) continue;
             names_[joint] = read_bone_name(scene.joints[joint].name);
             if (!names_[joint]) continue;
             constexpr std::uint32_t kPerRank = 1u << 24;
@@ -113,8 +97,17 @@ private:
         if (end != kNone) return end;
         found_.loose_ends[loose] = pick(part, side);
         if (found_.loose_ends[loose] != kNone) return kNone;
-        const std::vector<std::uint32_t>& children = children_[lower];
-        return children.size() == 1 ? children.front() : kNone;
+        // Else what is farthest from it: of several, as fingers, one.
+        std::uint32_t farthest = kNone;
+        double most = 0.0;
+        for (const std::uint32_t child : children_[lower]) {
+            const double distance = glm::distance(rest_.position(lower), rest_.position(child));
+            if (!(distance > most)) continue;
+            most = distance;
+            farthest = child;
+        }
+        if (farthest != kNone && children_[lower].size() > 2 && part == BodyPart::hand) found_.has_split_hands = true;
+        return farthest;
     }
 
     void find_arm(BodySide side) {
@@ -236,17 +229,38 @@ private:
 
     const Scene& scene_;
     const RestFrames& rest_;
-    std::vector<bool> bound_;
     std::vector<std::optional<BoneName>> names_;
-    std::vector<std::vector<std::uint32_t>> children_;         ///< those that are bound
+    std::vector<std::vector<std::uint32_t>> children_;         ///< those that are chosen
     std::array<std::array<Candidates, 3>, kBodyParts> lists_;  ///< by part and side
     NamedHumanoid found_;
 };
 
 }  // namespace
 
-NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest) {
-    return Finder(scene, rest).find();
+std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& rest, Limb limb) {
+    const LimbBones bones = bones_of(limb);
+    const auto number = static_cast<std::size_t>(limb);
+    if (found.bones.has(bones.end)) return rest.position(found.bones[bones.end]);
+    const std::uint32_t loose = found.loose_ends[number];
+    if (loose == kNone || !found.bones.has(bones.upper) || !found.bones.has(bones.lower))
+        return found.mesh_ends[number];
+    const glm::dvec3 middle = rest.position(found.bones[bones.lower]);
+    const double upper = glm::distance(rest.position(found.bones[bones.upper]), middle);
+    const double lower = glm::distance(middle, rest.position(loose));
+    const bool is_its_end = lower > 0.3 * upper && lower < 3.0 * upper;
+    return is_its_end ? std::optional(rest.position(loose)) : found.mesh_ends[number];
+}
+
+void find_mesh_ends(const Scene& scene, const RestFrames& rest, NamedHumanoid& found) {
+    for (std::size_t limb = 0; limb < kLimbs; ++limb) {
+        const LimbBones bones = bones_of(static_cast<Limb>(limb));
+        if (!found.bones.has(bones.lower) || end_of(found, rest, static_cast<Limb>(limb))) continue;
+        found.mesh_ends[limb] = find_mesh_end(scene, rest, found.bones[bones.lower]);
+    }
+}
+
+NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen) {
+    return Finder(scene, rest, chosen).find();
 }
 
 }  // namespace bendy::converter

@@ -5,24 +5,56 @@
 
 #include <bendy/converter/scene.h>
 
+#include <glm/vec3.hpp>
+
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace bendy::converter {
 
-/// A humanoid found by its joints' names.
+/// The limbs that two bones make, by their place in arrays.
+enum class Limb : std::uint8_t { left_arm, right_arm, left_leg, right_leg };
+inline constexpr std::size_t kLimbs = 4;
+
+/// A humanoid found in a skeleton.
 struct NamedHumanoid {
     Humanoid bones;
-    /// Hands and feet that are not below their limb, as those that an IK rig moves: left and right hand, left and right
-    /// foot; kNone where the limb has its end or none is found.
-    std::array<std::uint32_t, 4> loose_ends{kNone, kNone, kNone, kNone};
+    /// Hands and feet that are not below their limb, as those that an IK rig moves; kNone where the limb has its end or
+    /// none is found.
+    std::array<std::uint32_t, kLimbs> loose_ends{kNone, kNone, kNone, kNone};
+    /// Where the mesh of a limb ends that has no joint there, in model space.
+    std::array<std::optional<glm::dvec3>, kLimbs> mesh_ends{};
     /// The hand's joint is one of several that spread from the forearm: no wrist turns them all.
     bool has_split_hands = false;
+    bool is_by_shape = false;        ///< its limbs, or some of them, were found by the skeleton's shape
+    bool contradicts_names = false;  ///< left and right are the other way round than the names say
 };
 
-/// Looks for limbs, spine and head by name among the joints that meshes are bound to and those above them; among all
-/// where no mesh is bound. A limb's bones lie below one another, other joints may be between. Of several fitting joints
-/// the one nearest the root counts.
-NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest);
+/// The upper, lower and last bone of a limb.
+struct LimbBones {
+    HumanBone upper, lower, end;
+};
+constexpr LimbBones bones_of(Limb limb) {
+    constexpr std::array<LimbBones, kLimbs> kBones{
+        LimbBones{HumanBone::left_upper_arm, HumanBone::left_lower_arm, HumanBone::left_hand},
+        LimbBones{HumanBone::right_upper_arm, HumanBone::right_lower_arm, HumanBone::right_hand},
+        LimbBones{HumanBone::left_upper_leg, HumanBone::left_lower_leg, HumanBone::left_foot},
+        LimbBones{HumanBone::right_upper_leg, HumanBone::right_lower_leg, HumanBone::right_foot}};
+    return kBones[static_cast<std::size_t>(limb)];
+}
+
+/// Where a limb ends at rest, in model space: at its last joint, at one that is moved by itself, or with its mesh.
+std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& rest, Limb limb);
+
+/// Fills in what has no joint at a limb's end.
+void find_mesh_ends(const Scene& scene, const RestFrames& rest, NamedHumanoid& found);
+
+/// Looks for limbs, spine and head by name. A limb's bones lie below one another, other joints may be between. Of
+/// several fitting joints the one nearest the root counts.
+/// \param chosen  by joint: only these are looked at
+NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen);
 
 }  // namespace bendy::converter

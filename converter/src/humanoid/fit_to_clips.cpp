@@ -1,5 +1,11 @@
 #include "fit_to_clips.h"
 
+#include "principal_axis.h"
+
+#include <bendy/format/constraint.h>
+#include <bendy/format/trig.h>
+
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 
@@ -7,171 +13,556 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 namespace bendy::converter {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMostGrowth = 30.0 * kDegree;
-constexpr double kMostWobble = 5.0 * kDegree;  // of a hinge, about axes that are not its own
+constexpr double kDegree = trig::kPi / 180.0;
+constexpr double kStill = 5.0;    // degrees: clips that turn a joint by less show no axis
+constexpr double kWobble = 1.0;   // degrees: a hinge may leave its axis by this much
+constexpr double kMargin = 0.25;  // degrees beyond the clips
+constexpr double kAlike = 10.0;   // degrees between a side and the other one's mirror image
 
-glm::dquat to_quaternion(const float* xyzw) {
-    return glm::normalize(glm::dquat(xyzw[3], xyzw[0], xyzw[1], xyzw[2]));
-}
+using Rotations = std::vector<glm::dquat>;
 
-/// R = swing * twist, as spec/constraints.md has it: twist in radians in (-pi, pi], the swing vector's length the sine
-/// of half its angle.
+/// R = swing * twist about X, as spec/constraints.md has it.
 struct SwingTwist {
-    double twist = 0.0;
-    glm::dvec2 swing{0.0};
+    double twist = 0.0;     ///< degrees, -180 to 180
+    glm::dvec2 swing{0.0};  ///< Y and Z: the sine of half its angle
+    double cosine = 1.0;    ///< of half its angle
 };
 
-SwingTwist decompose(const LimitRecord& limit, const Joint& joint, const float* key) {
-    const glm::dquat frame = to_quaternion(limit.frame.data());
-    const glm::dquat rest = to_quaternion(&joint.rest.rotation[0]);
-    glm::dquat r = glm::conjugate(frame) * glm::conjugate(rest) * to_quaternion(key) * frame;
-    if (r.w < 0.0) r = -r;
-    SwingTwist result;
-    const double length = std::hypot(r.w, r.x);
-    if (length < 1e-12) {
-        result.swing = {r.y, r.z};
-        return result;
-    }
+SwingTwist decompose(const glm::dquat& r) {
+    const double length = std::sqrt(r.w * r.w + r.x * r.x);
+    if (length < 1e-12) return {0.0, {r.y, r.z}, 0.0};
     const double cosine = r.w / length;
     const double sine = r.x / length;
-    result.twist = 2.0 * std::atan2(sine, cosine);
-    result.swing = {cosine * r.y - sine * r.z, sine * r.y + cosine * r.z};
-    return result;
+    double twist = 2.0 * trig::atan2(sine, cosine) / kDegree;
+    if (twist > 180.0) twist -= 360.0;
+    if (twist < -180.0) twist += 360.0;
+    return {twist, {cosine * r.y - sine * r.z, sine * r.y + cosine * r.z}, length};
 }
 
-double angle_of(double half_sine) {
-    return 2.0 * std::asin(std::min(half_sine, 1.0));
+double half_sine_of(double degrees) {
+    return trig::sin_cos(0.5 * std::clamp(degrees, 0.0, 180.0) * kDegree).sin;
 }
 
-double half_sine_of(double angle) {
-    return std::sin(0.5 * std::min(angle, std::numbers::pi));
+double degrees_of(double half_sine) {
+    const double sine = std::min(half_sine, 1.0);
+    return 2.0 * trig::atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))) / kDegree;
 }
 
-/// Of what the keys of one joint need.
-class Fit {
+/// The angle of a rotation about an axis that is nearly its own; degrees.
+double angle_about(const glm::dquat& r, const glm::dvec3& axis) {
+    return 2.0 * trig::atan2(glm::dot({r.x, r.y, r.z}, axis), r.w) / kDegree;
+}
+
+double largest_angle(const Rotations& rotations) {
+    double most = 0.0;
+    for (const glm::dquat& r : rotations) most = std::max(most, degrees_of(glm::length(glm::dvec3(r.x, r.y, r.z))));
+    return most;
+}
+
+/// How far the rotations are from turning about the axis alone, at most; degrees.
+double wobble_about(const Rotations& rotations, const glm::dvec3& axis) {
+    double most = 0.0;
+    for (const glm::dquat& r : rotations) {
+        const double along = glm::dot({r.x, r.y, r.z}, axis);
+        const double turn = std::sqrt(r.w * r.w + along * along);
+        most = std::max(most, degrees_of(std::sqrt(std::max(0.0, (1.0 - turn) * (1.0 + turn)))));
+    }
+    return most;
+}
+
+/// The axis about which the rotations turn most.
+glm::dvec3 fit_axis(const Rotations& rotations) {
+    glm::dmat3 sum(0.0);
+    for (const glm::dquat& r : rotations) {
+        const glm::dvec3 v(r.x, r.y, r.z);
+        sum += glm::outerProduct(v, v);
+    }
+    return principal_axis(sum);
+}
+
+/// The same for their swings alone: at right angles to X.
+glm::dvec3 fit_swing_axis(const Rotations& rotations) {
+    glm::dmat3 sum(0.0);
+    for (const glm::dquat& r : rotations) {
+        const SwingTwist parts = decompose(r);
+        const glm::dvec3 v(0.0, parts.swing.x, parts.swing.y);
+        sum += glm::outerProduct(v, v);
+    }
+    const glm::dvec3 axis = principal_axis(sum);
+    return std::abs(axis.x) < 0.5 ? axis : glm::dvec3(0.0, 0.0, 1.0);
+}
+
+Range united(const Range& a, const Range& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+Range shifted(const Range& range, double by) {
+    return {range.low + by, range.high + by};
+}
+
+Range mirrored(const Range& range) {
+    return {-range.high, -range.low};
+}
+
+/// One joint, told as if it were a left one.
+struct Member {
+    const JointAnatomy* anatomy = nullptr;
+    glm::dvec3 rest{0.0};
+    Ranges human;
+    Rotations rotations;  ///< R in the frame of the anatomy's axes
+    std::uint32_t clips = 0;
+
+    [[nodiscard]] bool bends() const { return converter::bends(anatomy->part); }
+    /// A vector of the frame, from one side's signs to the other's: mirroring it twice is leaving it.
+    [[nodiscard]] glm::dvec3 to_side(const glm::dvec3& v) const {
+        if (!anatomy->is_right) return v;
+        return bends() ? glm::dvec3(-v.x, -v.y, v.z) : glm::dvec3(-v.x, v.y, -v.z);
+    }
+    [[nodiscard]] Ranges to_side(const Ranges& r) const {
+        if (!anatomy->is_right) return r;
+        return bends() ? Ranges{mirrored(r.x), mirrored(r.y), r.z} : Ranges{mirrored(r.x), r.y, mirrored(r.z)};
+    }
+};
+
+/// What a joint bends about, and how far.
+struct BendFit {
+    bool moves = false;  ///< the clips turn it by 5 degrees or more
+    bool is_hinge = true;
+    bool is_fitted = false;  ///< the axis is the clips', not the anatomy's
+    glm::dvec3 axis{0.0, 0.0, 1.0};
+    Range bend;  ///< away from the rest pose
+    Range x, y;  ///< twist, and sideways; of what is no hinge
+};
+
+/// Turns the axis so that the bend is positive as a human's is, unless the clips bend the joint to the other side.
+glm::dvec3 with_sign(glm::dvec3 axis, const Rotations& rotations, const glm::dvec3& rest) {
+    constexpr double kClearly = 45.0;  // degrees
+    if (axis.z < 0.0) axis = -axis;
+    Range bend{0.0, 0.0};
+    for (const glm::dquat& r : rotations) {
+        const double angle = angle_about(r, axis) + glm::dot(rest, axis);
+        bend = united(bend, {angle, angle});
+    }
+    const bool is_sideways = axis.z < 0.5;
+    const bool is_back = -bend.low > (is_sideways ? bend.high : std::max(kClearly, 3.0 * bend.high));
+    return is_back ? -axis : axis;
+}
+
+/// \param axis   of the bend; at right angles to X if this is no hinge
+BendFit measure_bend(BendFit fit, const Rotations& rotations) {
+    const glm::dvec3 y = glm::cross(fit.axis, {1.0, 0.0, 0.0});
+    for (const glm::dquat& r : rotations) {
+        double angle = angle_about(r, fit.axis);
+        if (!fit.is_hinge) {
+            const SwingTwist parts = decompose(r);
+            const glm::dvec3 swing(0.0, parts.swing.x, parts.swing.y);
+            angle = 2.0 * trig::atan2(glm::dot(swing, fit.axis), parts.cosine) / kDegree;
+            const double sideways = 2.0 * trig::atan2(glm::dot(swing, y), parts.cosine) / kDegree;
+            fit.x = united(fit.x, {parts.twist, parts.twist});
+            fit.y = united(fit.y, {sideways, sideways});
+        }
+        fit.bend = united(fit.bend, {angle, angle});
+    }
+    return fit;
+}
+
+BendFit fit_hinge(const Rotations& rotations, const glm::dvec3& rest) {
+    BendFit fit;
+    fit.moves = largest_angle(rotations) >= kStill;
+    if (fit.moves) {
+        const glm::dvec3 axis = fit_axis(rotations);
+        fit.is_fitted = std::abs(axis.x) < 0.7;
+        if (fit.is_fitted) fit.axis = with_sign(axis, rotations, rest);
+    }
+    fit.is_hinge = wobble_about(rotations, fit.axis) <= kWobble;
+    return measure_bend(fit, rotations);
+}
+
+BendFit fit_swing(const Rotations& rotations, const glm::dvec3& rest) {
+    BendFit fit;
+    fit.is_hinge = false;
+    fit.moves = largest_angle(rotations) >= kStill;
+    double most = 0.0;
+    for (const glm::dquat& r : rotations) most = std::max(most, degrees_of(glm::length(decompose(r).swing)));
+    if (most >= 2.0 * kStill) {
+        fit.axis = with_sign(fit_swing_axis(rotations), rotations, rest);
+        fit.is_fitted = true;
+    }
+    return measure_bend(fit, rotations);
+}
+
+/// The ellipse of a swing: sines of half the angles, of Y and Z, below and above 0.
+class Ellipse {
 public:
-    explicit Fit(const LimitRecord& limit) : limit_(limit) {
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            sides_[axis][0] = half_sine_of(-static_cast<double>(limit.rotation_min[axis + 1]));
-            sides_[axis][1] = half_sine_of(static_cast<double>(limit.rotation_max[axis + 1]));
+    Ellipse(const Range& y, const Range& z)
+        : sides_{{{half_sine_of(-y.low), half_sine_of(y.high)}, {half_sine_of(-z.low), half_sine_of(z.high)}}} {}
+
+    /// Widens it until it holds them all: first each side reaches as far as they do, then the quarters bulge.
+    void embrace(const Rotations& rotations) {
+        for (const glm::dquat& r : rotations) {
+            const glm::dvec2 swing = decompose(r).swing;
+            for (int axis = 0; axis < 2; ++axis) {
+                double& side = this->side(axis, swing);
+                side = std::min(1.0, std::max(side, std::abs(swing[axis])));
+            }
+        }
+        for (int round = 0; round < 3; ++round) {
+            std::array<std::array<double, 2>, 2> factors{{{1.0, 1.0}, {1.0, 1.0}}};
+            for (const glm::dquat& r : rotations) {
+                const glm::dvec2 swing = decompose(r).swing;
+                const double size = std::sqrt(square(swing));
+                if (!(size > 1.0)) continue;
+                for (int axis = 0; axis < 2; ++axis) {
+                    double& factor = factors[static_cast<std::size_t>(axis)][swing[axis] > 0.0 ? 1 : 0];
+                    factor = std::max(factor, size);
+                }
+            }
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                for (const std::size_t end : {0u, 1u})
+                    sides_[axis][end] = std::min(1.0, sides_[axis][end] * factors[axis][end]);
+            }
+        }
+        // A side that reaches half a turn grows no more: then the other one goes there too.
+        for (const glm::dquat& r : rotations) {
+            const glm::dvec2 swing = decompose(r).swing;
+            if (!(square(swing) > 1.0 + 1e-9)) continue;
+            for (int axis = 0; axis < 2; ++axis) side(axis, swing) = 1.0;
         }
     }
 
-    [[nodiscard]] bool is_hinge() const { return limit_.model == static_cast<std::uint8_t>(LimitModel::hinge); }
-
-    /// First for all keys: each side reaches as far as they do.
-    void reach(const SwingTwist& key) {
-        low_ = std::min(low_, key.twist);
-        high_ = std::max(high_, key.twist);
-        wobble_ = std::max(wobble_, angle_of(std::hypot(key.swing.x, key.swing.y)));
-        if (is_hinge()) return;
-        for (int axis = 0; axis < 2; ++axis) {
-            double& side = sides_[static_cast<std::size_t>(axis)][key.swing[axis] > 0.0 ? 1 : 0];
-            side = std::max(side, std::abs(key.swing[axis]));
-        }
+    [[nodiscard]] Range range(std::size_t axis) const {
+        return {-degrees_of(sides_[axis][0]), degrees_of(sides_[axis][1])};
     }
+    [[nodiscard]] bool holds(const glm::dvec2& swing) { return square(swing) <= 1.0; }
 
-    /// Then for all keys again: the ellipse holds them.
-    void embrace(const SwingTwist& key) {
+private:
+    double& side(int axis, const glm::dvec2& swing) {
+        return sides_[static_cast<std::size_t>(axis)][swing[axis] > 0.0 ? 1 : 0];
+    }
+    double square(const glm::dvec2& swing) {
         double sum = 0.0;
         for (int axis = 0; axis < 2; ++axis) {
-            if (std::abs(key.swing[axis]) < 1e-9) continue;
-            const double part = key.swing[axis] / sides_[static_cast<std::size_t>(axis)][key.swing[axis] > 0.0 ? 1 : 0];
+            if (std::abs(swing[axis]) < 1e-9) continue;
+            const double part = swing[axis] / side(axis, swing);
             sum += part * part;
         }
-        if (!(sum > 1.0)) return;
-        for (int axis = 0; axis < 2; ++axis) {
-            double& factor = factors_[static_cast<std::size_t>(axis)][key.swing[axis] > 0.0 ? 1 : 0];
-            factor = std::max(factor, std::sqrt(sum));
+        return sum;
+    }
+
+    std::array<std::array<double, 2>, 2> sides_;
+};
+
+/// The pyramid of a swing: angles about Y and Z, each in its range.
+class Pyramid {
+public:
+    Pyramid(const Range& y, const Range& z) : ranges_{y, z} {}
+
+    void embrace(const Rotations& rotations) {
+        for (const glm::dquat& r : rotations) {
+            const SwingTwist parts = decompose(r);
+            for (int axis = 0; axis < 2; ++axis) {
+                const double angle = angle_of(parts.swing[axis], parts.cosine);
+                Range& range = ranges_[static_cast<std::size_t>(axis)];
+                if (angle < range.low) range.low = angle - kMargin;
+                if (angle > range.high) range.high = angle + kMargin;
+            }
         }
     }
 
-    [[nodiscard]] double wobble() const { return wobble_; }
-
-    /// The limit with whole degrees where it grew, and how far it grew, in radians.
-    [[nodiscard]] std::pair<LimitRecord, double> widened() const {
-        LimitRecord limit = limit_;
-        double growth = grow(limit.rotation_min[0], -low_, -1.0);
-        growth = std::max(growth, grow(limit.rotation_max[0], high_, 1.0));
-        for (std::size_t axis = 0; axis < 2 && !is_hinge(); ++axis) {
-            const double low = angle_of(sides_[axis][0] * factors_[axis][0]);
-            const double high = angle_of(sides_[axis][1] * factors_[axis][1]);
-            growth = std::max(growth, grow(limit.rotation_min[axis + 1], low, -1.0));
-            growth = std::max(growth, grow(limit.rotation_max[axis + 1], high, 1.0));
+    [[nodiscard]] Range range(std::size_t axis) const { return ranges_[axis]; }
+    [[nodiscard]] bool holds(const glm::dvec2& swing) const {
+        const double cosine = std::sqrt(std::max(0.0, 1.0 - glm::dot(swing, swing)));
+        for (int axis = 0; axis < 2; ++axis) {
+            const Range& range = ranges_[static_cast<std::size_t>(axis)];
+            const double angle = angle_of(swing[axis], cosine);
+            if (angle < range.low || angle > range.high) return false;
         }
-        return {limit, growth};
+        return true;
     }
 
 private:
-    /// Moves an end of a range out to `reach`, both counted in the direction of `sign`; by how much.
-    static double grow(float& end, double reach, double sign) {
-        const double before = sign * static_cast<double>(end);
-        if (!(reach > before + 1e-4)) return 0.0;
-        end = static_cast<float>(sign * std::ceil(reach / kDegree) * kDegree);
-        return reach - before;
-    }
+    static double angle_of(double sine, double cosine) { return 2.0 * trig::atan2(sine, cosine) / kDegree; }
 
-    LimitRecord limit_;
-    double low_ = 0.0;
-    double high_ = 0.0;
-    double wobble_ = 0.0;
-    std::array<std::array<double, 2>, 2> sides_{};  ///< Y and Z, below and above 0: half axes of the ellipse
-    std::array<std::array<double, 2>, 2> factors_{{{1.0, 1.0}, {1.0, 1.0}}};
+    std::array<Range, 2> ranges_;
 };
 
-/// The cycles' rotation tracks by joint.
-std::vector<std::vector<const Track*>> sort_tracks(const Scene& scene) {
-    std::vector<std::vector<const Track*>> by_joint(scene.joints.size());
-    for (const Cycle& cycle : scene.cycles) {
-        for (const Track& track : cycle.tracks) {
-            if (track.path == TrackPath::rotation) by_joint[track.target].push_back(&track);
+/// How much of the sphere of directions a shape allows: swing vectors are its equal-area map.
+template <class Shape>
+int count_directions(Shape& shape) {
+    constexpr int kSteps = 32;
+    int count = 0;
+    for (int y = -kSteps; y <= kSteps; ++y) {
+        for (int z = -kSteps; z <= kSteps; ++z) {
+            const glm::dvec2 swing(static_cast<double>(y) / kSteps, static_cast<double>(z) / kSteps);
+            count += glm::dot(swing, swing) <= 1.0 && shape.holds(swing) ? 1 : 0;
         }
     }
-    return by_joint;
+    return count;
 }
 
-Fit fit(const LimitRecord& limit, const Joint& joint, const std::vector<const Track*>& tracks) {
-    Fit result(limit);
-    const auto visit = [&](auto&& use) {
-        for (const Track* track : tracks) {
-            const bool is_cubic = track->interpolation == Interpolation::cubic;
-            const std::size_t step = is_cubic ? 12 : 4;
-            for (std::size_t at = is_cubic ? 4 : 0; at + 4 <= track->values.size(); at += step)
-                use(decompose(limit, joint, &track->values[at]));
+/// The joints of both sides that are one another's counterparts, or a single one.
+class Group {
+public:
+    Group(const Scene& scene, const RestFrames& rest, const glm::dvec3& left)
+        : scene_(scene), rest_(rest), left_(left) {}
+
+    void add(const JointAnatomy& anatomy, const ClipRotations& clips) {
+        Member member;
+        member.anatomy = &anatomy;
+        member.rest = member.to_side(anatomy.rest);
+        member.human = member.to_side(anatomy.human);
+        const glm::dquat frame = frame_of(anatomy.joint, anatomy.axes);
+        ClipRotations::OfJoint turns = clips.of(anatomy.joint);
+        member.clips = turns.clips;
+        member.rotations = std::move(turns.rotations);
+        for (glm::dquat& r : member.rotations) {
+            r = glm::conjugate(frame) * r * frame;
+            const glm::dvec3 v = member.to_side(glm::dvec3(r.x, r.y, r.z));
+            r = glm::dquat(r.w, v);
         }
-    };
-    visit([&](const SwingTwist& key) { result.reach(key); });
-    if (!result.is_hinge()) visit([&](const SwingTwist& key) { result.embrace(key); });
-    return result;
-}
+        members_.push_back(std::move(member));
+    }
+
+    [[nodiscard]] std::vector<ProposedLimit> fit(Report& report) {
+        pool();
+        bool moves = false;
+        for (const Member& member : members_) moves = moves || largest_angle(member.rotations) >= kStill;
+        std::vector<ProposedLimit> limits;
+        for (const Member& member : members_) {
+            if (member.anatomy->is_strange && !moves) {
+                report.warn(
+                    "auto-rig: the rest pose is outside what a human can do and no clip moves the joint, no limit "
+                    "proposed for it",
+                    scene_.joints[member.anatomy->joint].name);
+                continue;
+            }
+            ProposedLimit proposed;
+            proposed.anatomy = *member.anatomy;
+            if (moves) proposed.clips = clips_;
+            limits.push_back(proposed);
+        }
+        if (limits.empty()) return limits;
+        if (members_.front().bends()) {
+            fit_bends(limits);
+        } else {
+            fit_swings(limits);
+        }
+        return limits;
+    }
+
+private:
+    [[nodiscard]] glm::dquat frame_of(std::uint32_t joint, const glm::dmat3& axes) const {
+        return glm::normalize(glm::conjugate(*rest_.turning_axes(joint)) * rotation_of_axes(axes));
+    }
+
+    [[nodiscard]] const Member& member_of(const ProposedLimit& limit) const {
+        return *std::find_if(members_.begin(), members_.end(),
+                             [&](const Member& member) { return member.anatomy->joint == limit.anatomy.joint; });
+    }
+
+    /// Whether both sides rest as each other's mirror images.
+    [[nodiscard]] bool are_alike() const {
+        const double least = trig::sin_cos((90.0 - kAlike) * kDegree).sin;  // cosine
+        const JointAnatomy& a = *members_[0].anatomy;
+        const JointAnatomy& b = *members_[1].anatomy;
+        const auto mirror = [&](const glm::dvec3& v) { return v - 2.0 * glm::dot(v, left_) * left_; };
+        const glm::dvec3 z = mirror(a.axes[2]) * (members_[0].bends() ? -1.0 : 1.0);
+        return glm::dot(mirror(a.axes[0]), b.axes[0]) > least && glm::dot(z, b.axes[2]) > least &&
+               glm::length(members_[0].rest - members_[1].rest) < kAlike;
+    }
+
+    void pool() {
+        for (const Member& member : members_) clips_ = std::max(clips_, member.clips);
+        is_pooled_ = members_.size() == 1 || are_alike();
+        if (!is_pooled_) return;
+        for (const Member& member : members_) {
+            pooled_.insert(pooled_.end(), member.rotations.begin(), member.rotations.end());
+            pooled_rest_ += member.rest / static_cast<double>(members_.size());
+        }
+    }
+
+    // --- elbows, knees, toes
+
+    [[nodiscard]] std::vector<BendFit> fit_each(BendFit (*fit_one)(const Rotations&, const glm::dvec3&)) const {
+        std::vector<BendFit> fits;
+        for (const Member& member : members_) fits.push_back(fit_one(member.rotations, member.rest));
+        if (fits.size() == 2) {  // one that does not move learns from the other
+            for (const std::size_t still : {0u, 1u}) {
+                const BendFit& other = fits[1 - still];
+                if (fits[still].is_fitted || !other.is_fitted || fits[still].moves) continue;
+                BendFit learned;
+                learned.is_hinge = other.is_hinge && wobble_about(members_[still].rotations, other.axis) <= kWobble;
+                learned.is_fitted = true;
+                learned.axis = other.axis;
+                fits[still] = measure_bend(learned, members_[still].rotations);
+            }
+        }
+        return fits;
+    }
+
+    [[nodiscard]] std::vector<BendFit> choose_fits() const {
+        const auto are_hinges = [](const std::vector<BendFit>& fits) {
+            return std::all_of(fits.begin(), fits.end(), [](const BendFit& fit) { return fit.is_hinge; });
+        };
+        if (is_pooled_) {
+            const std::vector<BendFit> same(members_.size(), fit_hinge(pooled_, pooled_rest_));
+            if (are_hinges(same)) return same;
+        }
+        std::vector<BendFit> own = fit_each(fit_hinge);
+        if (are_hinges(own)) return own;
+        if (is_pooled_) return std::vector<BendFit>(members_.size(), fit_swing(pooled_, pooled_rest_));
+        return fit_each(fit_swing);
+    }
+
+    void fit_bends(std::vector<ProposedLimit>& limits) {
+        const std::vector<BendFit> fits = choose_fits();
+        // Of both sides together, away from the straight limb.
+        Range bend = members_.front().human.z;
+        Range twist = members_.front().human.x;
+        Range sideways = members_.front().human.y;
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            const Range moved = shifted(fits[i].bend, glm::dot(members_[i].rest, fits[i].axis));
+            if (members_[i].clips > 0) bend = united(bend, with_margin(moved, bend));
+            twist = united(twist, with_margin(fits[i].x, twist));
+            sideways = united(sideways, with_margin(fits[i].y, sideways));
+        }
+        for (ProposedLimit& limit : limits) {
+            const Member& member = member_of(limit);
+            const BendFit& fit = fits[static_cast<std::size_t>(&member - members_.data())];
+            const glm::dvec3 axis = member.to_side(fit.axis);
+            limit.axis = glm::normalize(limit.anatomy.axes * axis);
+            limit.is_axis_fitted = fit.is_fitted;
+            limit.axis_off = degrees_of(0.5 * glm::length(limit.axis - limit.anatomy.axes[2]));
+            const double rest_bend = glm::dot(member.rest, fit.axis);
+            Range range = shifted(bend, -rest_bend);
+            const Range human = ranges_from_rest(member.human, {0.0, 0.0, rest_bend}).z;
+            limit.growth = std::max({human.low - range.low, range.high - human.high, 0.0});
+            range = whole({std::min(range.low, 0.0), std::max(range.high, 0.0)}, human);
+            if (fit.is_hinge) {
+                const glm::dvec3 along = limit.anatomy.axes[0];
+                const auto z = unit_across(along, limit.axis);
+                const glm::dmat3 axes(limit.axis, glm::cross(*z, limit.axis), *z);
+                set(limit, LimitModel::hinge, axes, {range, {}, {}});
+                continue;
+            }
+            const glm::dmat3 axes(limit.anatomy.axes[0], glm::cross(limit.axis, limit.anatomy.axes[0]), limit.axis);
+            const Ranges side = member.to_side(Ranges{twist, sideways, {}});
+            set(limit, LimitModel::swing_twist_pyramid, axes,
+                {whole(side.x, {}), whole(side.y, {}), {std::max(range.low, -179.0), std::min(range.high, 179.0)}});
+            // A straight limb bends to where it bends most readily.
+            limit.limit.preferred[2] = static_cast<float>(std::clamp(30.0, range.low, range.high) * kDegree);
+        }
+    }
+
+    // --- all others
+
+    void fit_swings(std::vector<ProposedLimit>& limits) {
+        // An ellipse, as a human's joints have it, unless the clips make it allow much more than a pyramid would.
+        std::vector<Ellipse> ellipses;
+        std::vector<Pyramid> pyramids;
+        int of_ellipses = 0;
+        int of_pyramids = 0;
+        Range twist = members_.front().human.x;
+        for (const Member& member : members_) {
+            const Rotations& rotations = is_pooled_ ? pooled_ : member.rotations;
+            const Ranges ranges = ranges_from_rest(member.human, member.rest);
+            ellipses.emplace_back(ranges.y, ranges.z).embrace(rotations);
+            pyramids.emplace_back(ranges.y, ranges.z).embrace(rotations);
+            of_ellipses += count_directions(ellipses.back());
+            of_pyramids += count_directions(pyramids.back());
+            for (const glm::dquat& r : rotations) {
+                const double angle = decompose(r).twist;
+                twist = united(twist, with_margin({angle, angle}, twist));
+            }
+        }
+        const bool is_pyramid = 10 * of_pyramids < 9 * of_ellipses;
+        std::array<Range, 2> swing{members_.front().human.y, members_.front().human.z};
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            for (const std::size_t axis : {0u, 1u}) {
+                const Range range = is_pyramid ? pyramids[i].range(axis) : ellipses[i].range(axis);
+                const glm::dvec3& rest_pose = members_[i].rest;
+                swing[axis] = united(swing[axis], shifted(range, axis == 0 ? rest_pose.y : rest_pose.z));
+            }
+        }
+        const LimitModel model = is_pyramid ? LimitModel::swing_twist_pyramid : LimitModel::swing_twist_ellipse;
+        for (ProposedLimit& limit : limits) {
+            const Member& member = member_of(limit);
+            const Ranges human = ranges_from_rest(member.human, member.rest);
+            Ranges ranges{twist, shifted(swing[0], -member.rest.y), shifted(swing[1], -member.rest.z)};
+            ranges.x = whole(ranges.x, human.x);
+            ranges.y = whole(ranges.y, human.y);
+            ranges.z = whole(ranges.z, human.z);
+            for (const auto& [now, before] :
+                 {std::pair(ranges.x, human.x), std::pair(ranges.y, human.y), std::pair(ranges.z, human.z)})
+                limit.growth = std::max({limit.growth, before.low - now.low, now.high - before.high});
+            set(limit, model, limit.anatomy.axes, member.to_side(ranges));
+        }
+    }
+
+    // --- records
+
+    [[nodiscard]] static Range with_margin(const Range& moved, const Range& human) {
+        return {moved.low < human.low ? moved.low - kMargin : moved.low,
+                moved.high > human.high ? moved.high + kMargin : moved.high};
+    }
+
+    /// Ends that have moved go out to whole degrees.
+    [[nodiscard]] static Range whole(const Range& range, const Range& before) {
+        constexpr double kSame = 1e-6;
+        return {range.low < before.low - kSame ? std::max(std::floor(range.low), -180.0) : before.low,
+                range.high > before.high + kSame ? std::min(std::ceil(range.high), 180.0) : before.high};
+    }
+
+    void set(ProposedLimit& proposed, LimitModel model, const glm::dmat3& axes, const Ranges& ranges) const {
+        const glm::dquat frame = frame_of(proposed.anatomy.joint, axes);
+        LimitRecord& limit = proposed.limit;
+        limit.model = static_cast<std::uint8_t>(model);
+        limit.flags = kProposed;
+        limit.frame = to_record(frame);
+        const std::array<Range, 3> of_axis{ranges.x, ranges.y, ranges.z};
+        for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
+            limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * kDegree);
+            limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * kDegree);
+        }
+    }
+
+    const Scene& scene_;
+    const RestFrames& rest_;
+    glm::dvec3 left_;
+    std::vector<Member> members_;
+    std::uint32_t clips_ = 0;
+    bool is_pooled_ = true;
+    Rotations pooled_;
+    glm::dvec3 pooled_rest_{0.0};
+};
 
 }  // namespace
 
-void fit_to_clips(const Scene& scene, std::vector<ProposedLimit>& limits, Report& report) {
-    const std::vector<std::vector<const Track*>> tracks = sort_tracks(scene);
-    std::vector<ProposedLimit> kept;
-    for (ProposedLimit& proposed : limits) {
-        const Joint& joint = scene.joints[proposed.joint];
-        Fit fitted = fit(proposed.limit, joint, tracks[proposed.joint]);
-        const bool wobbles = fitted.is_hinge() && fitted.wobble() > kMostWobble;
-        if (wobbles && proposed.looser) fitted = fit(*proposed.looser, joint, tracks[proposed.joint]);
-        const auto [limit, growth] = fitted.widened();
-        if (growth > kMostGrowth || (wobbles && !proposed.looser)) {
-            report.warn(
-                "auto-rig: the character's own clips go far beyond a human's limits, none proposed for this joint",
-                joint.name);
-            continue;
+std::vector<ProposedLimit> fit_to_clips(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                                        const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left,
+                                        Report& report) {
+    std::vector<ProposedLimit> limits;
+    std::vector<bool> is_done(anatomy.size());
+    for (std::size_t i = 0; i < anatomy.size(); ++i) {
+        if (is_done[i]) continue;
+        Group group(scene, rest, left);
+        for (std::size_t j = i; j < anatomy.size(); ++j) {
+            const bool is_counterpart = anatomy[j].part == anatomy[i].part && anatomy[j].number == anatomy[i].number &&
+                                        anatomy[j].is_right != anatomy[i].is_right;
+            if (j != i && !is_counterpart) continue;
+            group.add(anatomy[j], clips);
+            is_done[j] = true;
+            if (j != i) break;
         }
-        kept.push_back({proposed.joint, limit, std::nullopt, growth > 0.0});
+        for (ProposedLimit& limit : group.fit(report)) limits.push_back(std::move(limit));
     }
-    limits = std::move(kept);
+    return limits;
 }
 
 }  // namespace bendy::converter

@@ -1,5 +1,7 @@
 #include "frame_cycles.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -37,6 +39,29 @@ std::string name_of(const FrameName& first) {
     return std::string(first.letters) + std::string(kept);
 }
 
+/// What Quake II's players do in several ways, each way with frames of its own.
+struct StandardClip {
+    std::string_view name;
+    std::size_t first;
+    std::size_t count;
+};
+constexpr std::size_t kStandardFrames = 198;
+constexpr std::array<StandardClip, 6> kSeveralWays{
+    {{"pain1", 54, 4}, {"pain2", 58, 4}, {"pain3", 62, 4}, {"death1", 178, 6}, {"death2", 184, 6}, {"death3", 190, 8}}};
+
+/// Cuts a run where its ways begin, if it has the standard's frames.
+void add_ways(const FrameRun& run, std::vector<FrameRun>& runs) {
+    std::vector<FrameRun> ways;
+    std::size_t next = run.first;
+    for (const auto& [name, first, count] : kSeveralWays) {
+        if (first != next || name.substr(0, name.size() - 1) != run.name) continue;
+        ways.push_back({std::string(name), first, count});
+        next += count;
+    }
+    if (next != run.first + run.count) ways = {run};
+    runs.insert(runs.end(), ways.begin(), ways.end());
+}
+
 }  // namespace
 
 std::vector<FrameRun> find_runs(std::span<const std::string> names) {
@@ -50,7 +75,21 @@ std::vector<FrameRun> find_runs(std::span<const std::string> names) {
         ++runs.back().count;
         before = name;
     }
-    return runs;
+    if (names.size() != kStandardFrames) return runs;
+    std::vector<FrameRun> ways;
+    for (const FrameRun& run : runs) add_ways(run, ways);
+    return ways;
+}
+
+bool is_repeated(std::string_view name) {
+    constexpr std::array<std::string_view, 11> kOnce{"attack", "attak", "pain",  "jump",  "flip", "salute",
+                                                     "taunt",  "wave",  "point", "death", "deth"};
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::string_view deed = lower;
+    if (deed.starts_with("cr")) deed.remove_prefix(2);  // crouched
+    return std::none_of(kOnce.begin(), kOnce.end(), [&](std::string_view once) { return deed.starts_with(once); });
 }
 
 }  // namespace bendy::converter::md2

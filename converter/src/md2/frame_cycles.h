@@ -1,10 +1,9 @@
 #pragma once
 
-#include <bendy/converter/scene.h>
-
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bendy::converter::md2 {
@@ -18,6 +17,12 @@ struct FrameRun {
 
 /// Splits frames into runs by their names: letters and a number that grows by one. Of three digits and more the last
 /// two count the frames, and the others belong to the name: pain101, pain102 are `pain1`, stand001, stand002 `stand`.
+/// Of a model with the frames that Quake II's players have, pains and deaths that are numbered on (death1 to death20)
+/// are told apart by where each begins there.
 std::vector<FrameRun> find_runs(std::span<const std::string> names);
+
+/// Whether a clip of that name goes on from its last frame to its first: all do but what Quake II's players do once,
+/// such as `attack`, `crpain` and `death2`.
+bool is_repeated(std::string_view name);
 
 }  // namespace bendy::converter::md2

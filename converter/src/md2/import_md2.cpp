@@ -6,11 +6,14 @@
 #include "gltf/container.h"
 #include "gltf/uri.h"
 #include "header.h"
+#include "quake_normals.h"
 #include "without_throwing.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -21,9 +24,13 @@ namespace {
 constexpr float kMetresPerUnit = 1.0f / 32.0f;  ///< a soldier is 56 units high
 constexpr float kFrameRate = 10.0f;             ///< frames a second
 
-/// Quake's X is the front, Y the left, Z up; here Z is the front, X the left, Y up. Metres.
+/// Quake's X is the front, Y the left, Z up; here Z is the front, X the left, Y up.
+glm::vec3 to_our_axes(const glm::vec3& v) {
+    return {v.y, v.z, v.x};
+}
+
 glm::vec3 to_metres(const glm::vec3& units) {
-    return glm::vec3(units.y, units.z, units.x) * kMetresPerUnit;
+    return to_our_axes(units) * kMetresPerUnit;
 }
 
 using Places = std::vector<glm::vec3>;
@@ -43,15 +50,18 @@ public:
         mesh.parts.emplace_back();
         read_skins(mesh.parts.front());
         read_triangles(mesh);
-        // Places, normals, and what a cycle says of every target at each of its frames.
         budget_.take(std::uint64_t{header_.frames} * vertices_.size(), 2 * sizeof(glm::vec3), place_of(40));
-        budget_.take(std::uint64_t{header_.frames} * header_.frames, sizeof(float), place_of(40));
+        for (const glm::vec3& normal : quake_normals()) table_.push_back(to_our_axes(normal));
+        has_normals_ = find_out_about_normals();
         std::vector<std::string> names;
         for (std::uint32_t frame = 0; frame < header_.frames; ++frame) names.push_back(read_frame(frame, mesh));
         scene_.meshes.push_back(std::move(mesh));
         if (header_.frames > 1) add_cycles(names);
         report_.warn("units are taken as 1/32 of a metre");
-        report_.warn("normals are computed from the polygons: the file has numbers of a table only");
+        if (!has_normals_)
+            report_.warn("normals are computed from the polygons: the file gives all vertices the same one");
+        if (wrong_normals_ != 0)
+            report_.warn("number of a normal is past the table's 162, it points up", {}, wrong_normals_);
         return std::move(scene_);
     }
 
@@ -115,11 +125,13 @@ private:
         return static_cast<float>(static_cast<std::int16_t>(read_integer(file_, at, 2)));
     }
 
+    /// The first one is the mesh, the others are its frames.
     /// \return its name
     std::string read_frame(std::uint32_t frame, Mesh& mesh) {
         const std::size_t at = header_.frames_at + std::size_t{frame} * header_.frame_size;
-        Places places = read_places(at);
-        const Places normals = find_normals(places);
+        const FrameGrid grid = read_grid(at);
+        const Places places = read_places(at, grid);
+        const Places normals = has_normals_ ? read_normals(at) : find_normals(places);
         Places moved;
         Places turned;
         for (const std::uint32_t vertex : vertices_) {
@@ -128,20 +140,22 @@ private:
         }
         std::string name = read_name(file_, at + 24, 16);
         if (frame == 0) {
+            mesh.grid = grid;
             mesh.positions = std::move(moved);
             mesh.normals = std::move(turned);
             return name;
         }
-        for (std::size_t i = 0; i < vertices_.size(); ++i) {
-            moved[i] -= mesh.positions[i];
-            turned[i] -= mesh.normals[i];
-        }
-        mesh.targets.push_back({name, 0.0f, std::move(moved), std::move(turned), {}});
+        Target& target = mesh.targets.emplace_back();
+        target.name = name;
+        target.is_frame = true;
+        target.grid = grid;
+        target.positions = std::move(moved);
+        target.normals = std::move(turned);
         return name;
     }
 
-    /// Of every vertex of the file.
-    [[nodiscard]] Places read_places(std::size_t at) const {
+    /// What a frame's bytes count, in metres.
+    [[nodiscard]] FrameGrid read_grid(std::size_t at) const {
         glm::vec3 scale;
         glm::vec3 origin;
         for (int axis = 0; axis < 3; ++axis) {
@@ -150,20 +164,53 @@ private:
             const double furthest = std::abs(double{scale[axis]}) * 255.0 + std::abs(double{origin[axis]});
             if (furthest > 1e18) fail(place_of(at), "the frame's scale or origin is implausibly large");
         }
+        return {to_metres(origin), to_metres(scale)};
+    }
+
+    /// Of every vertex of the file.
+    [[nodiscard]] Places read_places(std::size_t at, const FrameGrid& grid) const {
         Places places(header_.vertices);
         for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
-            glm::vec3 units;
+            glm::vec3 steps;
             for (int axis = 0; axis < 3; ++axis) {
                 const std::size_t byte = at + kFrameHeadSize + vertex * kVertexSize + static_cast<std::size_t>(axis);
-                units[axis] = static_cast<float>(read_integer(file_, byte, 1)) * scale[axis] + origin[axis];
+                steps[axis] = static_cast<float>(read_integer(file_, byte, 1));
             }
-            places[vertex] = to_metres(units);
+            const glm::vec3 moved = grid.step * to_our_axes(steps);
+            places[vertex] = grid.minimum + moved;
         }
         return places;
     }
 
-    /// The mean of the polygons around each vertex, each by its area. What has no polygon, or only thin ones, points
-    /// up.
+    [[nodiscard]] std::size_t normal_at(std::uint32_t frame, std::size_t vertex) const {
+        return header_.frames_at + std::size_t{frame} * header_.frame_size + kFrameHeadSize + vertex * kVertexSize + 3;
+    }
+
+    /// Whether the file's numbers of normals mean anything: some exporters write the same one everywhere.
+    [[nodiscard]] bool find_out_about_normals() const {
+        const std::byte first = header_.vertices == 0 ? std::byte{0} : file_[normal_at(0, 0)];
+        for (std::uint32_t frame = 0; frame < header_.frames; ++frame) {
+            for (std::size_t vertex = 0; vertex < header_.vertices; ++vertex) {
+                if (file_[normal_at(frame, vertex)] != first) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Of every vertex of the file, from the table.
+    [[nodiscard]] Places read_normals(std::size_t at) {
+        Places normals(header_.vertices);
+        for (std::size_t vertex = 0; vertex < normals.size(); ++vertex) {
+            const std::size_t byte = at + kFrameHeadSize + vertex * kVertexSize + 3;
+            const std::uint32_t number = read_integer(file_, byte, 1);
+            if (number >= kNormals) ++wrong_normals_;
+            normals[vertex] = number < kNormals ? table_[number] : glm::vec3(0.0f, 1.0f, 0.0f);
+        }
+        return normals;
+    }
+
+    /// The mean of the polygons around each vertex, each by its area, and of the table's directions the nearest one.
+    /// What has no polygon, or only thin ones, points up.
     [[nodiscard]] Places find_normals(const Places& places) const {
         std::vector<glm::dvec3> sums(places.size(), glm::dvec3(0.0));
         for (std::size_t i = 0; i < corners_.size(); i += 3) {
@@ -175,28 +222,26 @@ private:
         Places normals;
         normals.reserve(sums.size());
         for (const glm::dvec3& sum : sums) {
-            const double length = glm::length(sum);
-            normals.push_back(length > 0.0 ? glm::vec3(sum / length) : glm::vec3(0.0f, 1.0f, 0.0f));
+            const auto is_farther = [&](const glm::vec3& x, const glm::vec3& y) {
+                return glm::dot(glm::dvec3(x), sum) < glm::dot(glm::dvec3(y), sum);
+            };
+            normals.push_back(glm::length(sum) > 0.0 ? *std::max_element(table_.begin(), table_.end(), is_farther)
+                                                     : glm::vec3(0.0f, 1.0f, 0.0f));
         }
         return normals;
     }
 
-    /// In a frame of a cycle its own target has all the weight; the first frame has none.
     void add_cycles(const std::vector<std::string>& names) {
         for (const FrameRun& run : find_runs(names)) {
             Cycle cycle;
             cycle.name = run.name;
-            Track track;
-            track.path = TrackPath::weights;
-            track.target = 0;
-            track.components = header_.frames - 1;
-            track.values.assign(run.count * track.components, 0.0f);
-            for (std::size_t key = 0; key < run.count; ++key) {
-                track.times.push_back(static_cast<float>(key) / kFrameRate);
-                const std::size_t frame = run.first + key;
-                if (frame > 0) track.values[key * track.components + frame - 1] = 1.0f;
-            }
-            cycle.tracks.push_back(std::move(track));
+            cycle.loop = is_repeated(run.name);
+            cycle.frame_rate = kFrameRate;
+            Play play;
+            play.first = static_cast<std::uint32_t>(run.first);
+            play.frames = static_cast<std::uint32_t>(run.count);
+            play.closed = cycle.loop;
+            cycle.plays.push_back(play);
             scene_.cycles.push_back(std::move(cycle));
         }
     }
@@ -209,6 +254,9 @@ private:
     Scene scene_;
     std::vector<std::uint32_t> vertices_;  ///< the file's vertex of each of the mesh's
     std::vector<std::uint32_t> corners_;   ///< three vertices of the file for each triangle, in our order
+    Places table_;                         ///< of normals, in our axes
+    bool has_normals_ = true;              ///< of the table, in the file
+    std::uint64_t wrong_normals_ = 0;      ///< numbers that are not in the table
 };
 
 }  // namespace

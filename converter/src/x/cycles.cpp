@@ -56,7 +56,12 @@ private:
             report_.warn("animation of no frame left out", animation.place);
             return;
         }
-        const std::uint32_t joint = frames_.find(animation.frame, "Animation", animation.place);
+        const std::uint32_t joint = frames_.find(animation.frame);
+        if (joint == kNone) {
+            report_.warn("animation left out: its frame " + quote(animation.frame) + " does not exist",
+                         animation.place);
+            return;
+        }
         const auto add_kind = [&](std::size_t kind, TrackPath path, std::uint32_t components) {
             const Keys& keys = animation.keys[kind];
             if (keys.times.empty()) return;

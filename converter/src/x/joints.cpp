@@ -39,7 +39,8 @@ JointKey key_of(std::uint32_t joint) {
 
 RigChain to_rig(const IkChain& source, const FrameIndex& frames) {
     const auto find = [&](const std::string& identifier) {
-        return identifier.empty() ? std::string() : key_of(frames.find(identifier, "BendyIkChain", source.place)).name;
+        return identifier.empty() ? std::string()
+                                  : key_of(frames.expect(identifier, "BendyIkChain", source.place)).name;
     };
     RigChain chain;
     chain.name = source.name;
@@ -52,7 +53,7 @@ RigChain to_rig(const IkChain& source, const FrameIndex& frames) {
     chain.pole = find(source.pole);
     chain.record = source.record;
     for (const auto& [identifier, weight] : source.weights)
-        chain.weights.emplace_back(key_of(frames.find(identifier, "BendyIkChain", source.place)), weight);
+        chain.weights.emplace_back(key_of(frames.expect(identifier, "BendyIkChain", source.place)), weight);
     chain.extras = source.extras;
     return chain;
 }
@@ -77,11 +78,15 @@ FrameIndex::FrameIndex(const XFile& file) {
     for (std::uint32_t i = 0; i < file.frames.size(); ++i) joint_of_.try_emplace(file.frames[i].identifier, i);
 }
 
-std::uint32_t FrameIndex::find(std::string_view identifier, const char* what, const std::string& place) const {
+std::uint32_t FrameIndex::find(std::string_view identifier) const {
     const auto found = joint_of_.find(identifier);
-    if (found == joint_of_.end() || identifier.empty())
-        fail(place, std::string(what) + " names a frame " + quote(identifier) + ", which is not there");
-    return found->second;
+    return found == joint_of_.end() || identifier.empty() ? kNone : found->second;
+}
+
+std::uint32_t FrameIndex::expect(std::string_view identifier, const char* what, const std::string& place) const {
+    const std::uint32_t joint = find(identifier);
+    if (joint == kNone) fail(place, std::string(what) + " names a frame " + quote(identifier) + " that does not exist");
+    return joint;
 }
 
 void import_joints(const XFile& file, Scene& scene, Report& report) {

@@ -16,8 +16,10 @@ namespace bendy::converter::x {
 class FrameIndex {
 public:
     explicit FrameIndex(const XFile& file);
-    /// Of several frames with one identifier the first. Fails at `place` if there is none. \param what  looks for it
-    [[nodiscard]] std::uint32_t find(std::string_view identifier, const char* what, const std::string& place) const;
+    /// Of several frames with one identifier the first; kNone if there is none.
+    [[nodiscard]] std::uint32_t find(std::string_view identifier) const;
+    /// The same; fails at `place` if there is none. \param what  looks for it
+    [[nodiscard]] std::uint32_t expect(std::string_view identifier, const char* what, const std::string& place) const;
 
 private:
     std::unordered_map<std::string_view, std::uint32_t> joint_of_;

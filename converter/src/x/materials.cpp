@@ -1,5 +1,6 @@
 #include "materials.h"
 
+#include "display_colour.h"
 #include "encoded_text.h"
 #include "failure.h"
 #include "gltf/container.h"
@@ -34,14 +35,17 @@ public:
     void import(const Material& source) {
         converter::Material material;
         material.name = source.name;
-        material.base_colour = source.colour;
+        material.base_colour = to_light(source.colour);
         material.metallic = 0.0f;
         material.roughness = roughness_of(source.power);
-        material.emissive = source.emissive;
+        material.emissive = to_light(source.emissive);
         if (source.colour.w < 1.0f) material.alpha_mode = AlphaMode::blend;
-        if (source.specular != glm::vec3(0.0f) && source.specular != glm::vec3(kDielectric))
+        if (source.specular != glm::vec3(0.0f) && source.specular != glm::vec3(to_display(kDielectric)))
             report_.warn("specular colour of a material left out, its power is kept as roughness", source.place);
         if (!source.texture.empty()) material.base_colour_texture.texture = texture_of(source);
+        // Direct3D multiplies all light with the texture, the surface's own too.
+        if (source.emissive != glm::vec3(0.0f))
+            material.emissive_texture.texture = material.base_colour_texture.texture;
         scene_.materials.push_back(std::move(material));
     }
 

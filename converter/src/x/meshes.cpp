@@ -1,5 +1,6 @@
 #include "meshes.h"
 
+#include "display_colour.h"
 #include "failure.h"
 #include "gltf/influences.h"
 #include "mirror.h"
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter::x {
 namespace {
@@ -86,7 +88,11 @@ public:
             mesh.positions.push_back(mirrored(source.positions[position]));
         for (const std::uint32_t normal : vertices.normals) mesh.normals.push_back(mirrored(source.normals[normal]));
         if (!source.coords.empty()) mesh.texture_coords.push_back(stream_of(source.coords, vertices));
-        if (!source.colours.empty()) mesh.colours.push_back(stream_of(source.colours, vertices));
+        if (!source.colours.empty()) {
+            std::vector<glm::vec4> colours(source.colours);
+            for (glm::vec4& colour : colours) colour = to_light(colour);
+            mesh.colours.push_back(stream_of(colours, vertices));
+        }
         add_influences(source, vertices, mesh);
         if (mesh.joint == kNone && mesh.influences == 0) mesh.joint = add_joint(source);
         scene_.meshes.push_back(std::move(mesh));
@@ -96,8 +102,9 @@ private:
     [[nodiscard]] std::uint32_t material_of(const MaterialSlot& slot) const {
         if (slot.material != kNone) return slot.material;
         const auto found = material_of_.find(slot.identifier);
-        if (found == material_of_.end()) fail(slot.place, "there is no material " + quote(slot.identifier));
-        return found->second;
+        if (found != material_of_.end()) return found->second;
+        report_.warn("faces are left without a material: " + quote(slot.identifier) + " does not exist", slot.place);
+        return kNone;
     }
 
     /// Triangles by material. A face's first corner stays the first; the others go the other way round, as the mirror
@@ -122,11 +129,25 @@ private:
         return parts;
     }
 
-    void add_influences(const Mesh& source, const Vertices& vertices, converter::Mesh& mesh) {
-        if (source.skins.empty()) return;
-        std::vector<std::uint32_t> used(source.positions.size());  // weights of each position
+    /// Those of frames that exist.
+    [[nodiscard]] std::vector<const Skin*> find_skins(const Mesh& source) const {
+        std::vector<const Skin*> skins;
         for (const Skin& skin : source.skins) {
-            for (const std::uint32_t position : skin.vertices) ++used[position];
+            if (frames_.find(skin.frame) != kNone) {
+                skins.push_back(&skin);
+            } else {
+                report_.warn("SkinWeights left out: their frame " + quote(skin.frame) + " does not exist", skin.place);
+            }
+        }
+        return skins;
+    }
+
+    void add_influences(const Mesh& source, const Vertices& vertices, converter::Mesh& mesh) {
+        std::vector<std::uint32_t> used(source.positions.size());  // weights of each position
+        const std::vector<const Skin*> skins = find_skins(source);
+        if (skins.empty()) return;
+        for (const Skin* skin : skins) {
+            for (const std::uint32_t position : skin->vertices) ++used[position];
         }
         const std::size_t most = std::max<std::size_t>(1, *std::max_element(used.begin(), used.end()));
         if (most > kMaxInfluences)
@@ -137,9 +158,9 @@ private:
         all.bones.resize(source.positions.size() * most);
         all.weights.resize(all.bones.size());
         std::fill(used.begin(), used.end(), 0);
-        for (std::uint32_t bone = 0; bone < source.skins.size(); ++bone) {
-            const Skin& skin = source.skins[bone];
-            mesh.palette.joints.push_back(frames_.find(skin.frame, "SkinWeights", skin.place));
+        for (std::uint32_t bone = 0; bone < skins.size(); ++bone) {
+            const Skin& skin = *skins[bone];
+            mesh.palette.joints.push_back(frames_.find(skin.frame));
             mesh.palette.inverse_bind.push_back(to_floats(mirrored(skin.offset), skin.place));
             for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
                 const std::size_t place = skin.vertices[i] * most + used[skin.vertices[i]]++;

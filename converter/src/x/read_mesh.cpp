@@ -1,6 +1,7 @@
 #include "read_mesh.h"
 
 #include "encoded_text.h"
+#include "vertex_declaration.h"
 
 #include <utility>
 
@@ -48,6 +49,8 @@ private:
             read_colours();
         } else if (type == "MeshMaterialList") {
             read_materials();
+        } else if (type == "DeclData") {
+            read_declared();
         } else if (type == "SkinWeights") {
             read_skin();
         } else if (type == "BendyName") {
@@ -105,6 +108,19 @@ private:
             for (int component = 0; component < 4; ++component) colour[component] = in_.number();
         }
         in_.end_of("MeshVertexColors");
+    }
+
+    /// DeclData: what Direct3D 9 exporters write in place of the three above, as the bytes of a vertex buffer.
+    void read_declared() {
+        DeclaredStreams streams = read_vertex_declaration(in_, mesh_.positions.size());
+        if (!streams.normals.empty() && !is_second(!mesh_.normals.empty(), "normals")) {
+            mesh_.normals = std::move(streams.normals);
+            mesh_.normal_corners = mesh_.corners;
+        }
+        if (!streams.coords.empty() && !is_second(!mesh_.coords.empty(), "texture coordinates"))
+            mesh_.coords = std::move(streams.coords);
+        if (!streams.colours.empty() && !is_second(!mesh_.colours.empty(), "vertex colours"))
+            mesh_.colours = std::move(streams.colours);
     }
 
     void read_materials() {

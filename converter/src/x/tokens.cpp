@@ -22,12 +22,8 @@ std::unique_ptr<Tokens> open_tokens(std::string_view file) {
     if (file.size() < kHeaderSize) fail({}, "the X-file's header is truncated: 16 bytes are due");
     const std::string_view variant = file.substr(8, 4);
     const std::string_view float_size = file.substr(12, 4);
-    if (variant == "tzip" || variant == "bzip") {
-        fail({}, "the X-file is compressed (" + std::string(variant) +
-                     "), which is not read: save it as text (txt) or as plain binary (bin)");
-    }
     if (variant != "txt " && variant != "bin ")
-        fail({}, "the X-file is of an unknown variant " + quote(variant) + ": txt and bin are read");
+        fail({}, "the X-file is of an unknown variant " + quote(variant) + ": txt, bin, tzip and bzip are read");
     if (float_size != "0032" && float_size != "0064")
         fail({}, "the X-file's floats have an unknown size " + quote(float_size) + ": 0032 and 0064 are read");
     if (variant == "txt ") return std::make_unique<TextTokens>(file, kHeaderSize);

@@ -40,7 +40,7 @@ public:
 };
 
 /// Checks the 16 bytes at the start (`xof 0303txt 0032`) and gives the tokens after them, of text or of binary files.
-/// Fails on other files, and on compressed ones (`tzip`, `bzip`). \param file  must outlive the tokens
+/// Fails on other files; compressed ones (`tzip`, `bzip`) are decompressed before. \param file  must outlive the tokens
 std::unique_ptr<Tokens> open_tokens(std::string_view file);
 
 }  // namespace bendy::converter::x

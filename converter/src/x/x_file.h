@@ -106,7 +106,7 @@ struct XFile {
     std::vector<AnimationSet> sets;
     std::vector<Constraint> constraints;
     std::vector<IkChain> chains;
-    double ticks_per_second = 4800.0;
+    double ticks_per_second = 0.0;                                 ///< 0: the file does not say
     std::vector<std::pair<std::string, std::string>> cycle_names;  ///< of sets: identifier, name
 };
 

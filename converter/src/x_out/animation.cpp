@@ -51,7 +51,7 @@ private:
     void write(const Cycle& cycle, const std::string& identifier, const std::string& place) {
         shift_ = shift_of(cycle);
         std::map<std::uint32_t, TracksOfJoint> joints;
-        std::uint64_t weights = 0;
+        std::uint64_t weights = cycle.plays.size();
         for (const Track& track : cycle.tracks) {
             if (track.path == TrackPath::weights) {
                 ++weights;
@@ -68,8 +68,11 @@ private:
             report_.warn("a cycle that moves no joint is left out", place);
             return;
         }
+        if (span_of(cycle) != span_of_keys(cycle))
+            report_.warn("clip that is longer than its keys is written as long as they are", place);
         if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
-        if (!cycle.extras.empty()) report_.warn("extras of a cycle left out: X-files have no place for it", place);
+        if (!cycle.extras.empty() || !cycle.more.empty())
+            report_.warn("extras of a cycle left out: X-files have no place for it", place);
         rounded_ = 0;
         text_.open("AnimationSet", identifier);
         for (const auto& [joint, tracks] : joints) write_joint(joint, tracks, cycle, place);

@@ -54,7 +54,7 @@ void write_frames(const Scene& scene, const Names& names, Text& text, Report& re
         write_name(names.joints[number], joint.name, text);
         write_constraints(joint, text);
         for (const std::uint32_t mesh : meshes_of[number]) write_mesh(scene, mesh, names, text, report);
-        if (!joint.extras.empty() || !joint.extensions.empty())
+        if (!joint.extras.empty() || !joint.extensions.empty() || !joint.more.empty())
             report.warn("extras or extensions of a joint left out: X-files have no place for it", at("joints", number));
     }
     for (; !open.empty(); open.pop_back()) text.close();

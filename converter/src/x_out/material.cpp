@@ -1,18 +1,34 @@
 #include "material.h"
 
 #include "failure.h"
+#include "gltf/image.h"
+#include "x/display_colour.h"
 #include "x/encoded_text.h"
 #include "x/materials.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
 namespace bendy::converter::x_out {
 namespace {
 
-std::string ending_of(const std::string& media_type) {
+/// TGA files have no sign of their own at their beginning: a header that can be one of theirs.
+bool may_be_tga(std::span<const std::byte> bytes) {
+    constexpr std::size_t kHeader = 18;
+    if (bytes.size() <= kHeader) return false;
+    const auto at = [&](std::size_t place) { return std::to_integer<unsigned>(bytes[place]); };
+    const unsigned kind = at(2) & ~8u;  // 8: in runs
+    const unsigned depth = at(16);
+    return at(1) <= 1 && kind >= 1 && kind <= 3 && (at(1) == 1) == (kind == 1) && at(12) + at(13) > 0 &&
+           at(14) + at(15) > 0 && (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
+}
+
+std::string ending_of(const Image& image) {
+    const std::string media_type = image.media_type.empty() ? gltf::media_type_of(image.bytes) : image.media_type;
     constexpr std::array<std::pair<const char*, const char*>, 8> kEndings{{{"image/png", ".png"},
                                                                            {"image/jpeg", ".jpg"},
                                                                            {"image/ktx2", ".ktx2"},
@@ -23,7 +39,8 @@ std::string ending_of(const std::string& media_type) {
                                                                            {"image/vnd-ms.dds", ".dds"}}};
     const auto* const found =
         std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& ending) { return media_type == ending.first; });
-    return found == kEndings.end() ? ".bin" : found->second;
+    if (found != kEndings.end()) return found->second;
+    return may_be_tga(image.bytes) ? ".tga" : ".bin";
 }
 
 /// Strings of X-files have no escapes, and a backslash means different things to different readers.
@@ -44,6 +61,11 @@ bool is_transformed(const TextureUse& use) {
     return use.offset != usual.offset || use.rotation != usual.rotation || use.scale != usual.scale;
 }
 
+bool is_same(const TextureUse& a, const TextureUse& b) {
+    return a.texture == b.texture && a.coords == b.coords && a.offset == b.offset && a.rotation == b.rotation &&
+           a.scale == b.scale;
+}
+
 class Exporter {
 public:
     Exporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
@@ -53,15 +75,15 @@ public:
     void write(const Material& material, const std::string& identifier, const std::string& place) {
         report_losses(material, place);
         text_.open("Material", identifier);
-        line(material.base_colour);
+        line(x::to_display(material.base_colour));
         text_.begin_line();
         text_.add(x::power_of(material.roughness)).add(";");
         text_.end_line();
         glm::vec3 specular(0.0f);
         for (int i = 0; i < 3; ++i)
             specular[i] = x::kDielectric + material.metallic * (material.base_colour[i] - x::kDielectric);
-        line(material.roughness < 1.0f ? specular : glm::vec3(0.0f));
-        line(material.emissive);
+        line(material.roughness < 1.0f ? x::to_display(specular) : glm::vec3(0.0f));
+        line(x::to_display(material.emissive));
         if (material.base_colour_texture.texture != kNone) write_texture(material.base_colour_texture.texture, place);
         write_name(identifier, material.name, text_);
         text_.close();
@@ -81,6 +103,8 @@ private:
         if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat ||
             texture.mag_filter != Filter::unspecified || texture.min_filter != Filter::unspecified)
             report_.warn("how a texture is sampled is left out", place);
+        if (!texture.extras.empty() || !texture.more.empty())
+            report_.warn("extras of a texture left out: X-files have no place for it", place);
         if (texture.images.empty()) return;
         text_.open("TextureFilename");
         text_.line('"' + file_of(texture.images.front()) + "\";");
@@ -90,7 +114,7 @@ private:
     std::string file_of(std::uint32_t number) {
         const Image& image = scene_.images[number];
         if (image.bytes.empty()) return decode_uri(image.uri);
-        std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image.media_type);
+        std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image);
         if (is_written_.insert(number).second) images_.push_back({name, image.bytes});
         return name;
     }
@@ -106,15 +130,18 @@ private:
         lose(material.metallic_roughness_texture.texture != kNone, "metallic-roughness texture");
         lose(material.normal_texture.texture != kNone, "normal texture");
         lose(material.occlusion_texture.texture != kNone, "occlusion texture");
-        lose(material.emissive_texture.texture != kNone, "emissive texture");
         const TextureUse& colour = material.base_colour_texture;
+        const TextureUse& glow = material.emissive_texture;
+        lose(glow.texture != kNone && !is_same(glow, colour), "emissive texture");
+        lose(glow.texture == kNone && colour.texture != kNone && material.emissive != glm::vec3(0.0f),
+             "that the texture has no part in a material's own light");
         lose(colour.texture != kNone && colour.coords != 0, "the choice of a further set of texture coordinates");
         lose(colour.texture != kNone && is_transformed(colour), "texture transform");
         lose(material.alpha_mode == AlphaMode::mask, "alpha mask");
         lose(material.double_sided, "that a material has two sides");
         lose(material.unlit, "that a material is unlit");
         lose(!material.extensions.empty(), "extensions of a material");
-        lose(!material.extras.empty(), "extras of a material");
+        lose(!material.extras.empty() || !material.more.empty(), "extras of a material");
     }
 
     const Scene& scene_;

@@ -1,6 +1,7 @@
 #include "mesh.h"
 
 #include "failure.h"
+#include "x/display_colour.h"
 #include "x/mirror.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -120,7 +121,10 @@ private:
             for (std::uint32_t k = 0; k < stream->components; ++k)
                 colour[static_cast<int>(k)] = stream->values[i * stream->components + k];
             text_.begin_line();
-            text_.add(std::uint64_t{i}).add(";").add_vector(colour).add(i + 1 < mesh_.positions.size() ? ";," : ";;");
+            text_.add(std::uint64_t{i})
+                .add(";")
+                .add_vector(x::to_display(colour))
+                .add(i + 1 < mesh_.positions.size() ? ";," : ";;");
             text_.end_line();
         }
         text_.close();
@@ -257,7 +261,7 @@ private:
         lose(further(mesh_.texture_coords), "further set of texture coordinates");
         lose(further(mesh_.colours), "further set of vertex colours");
         lose(mesh_.attributes.size(), "an author's attribute");
-        lose(mesh_.extras.empty() ? 0 : 1, "extras of a mesh");
+        lose(mesh_.extras.empty() && mesh_.more.empty() ? 0 : 1, "extras of a mesh");
     }
 
     const Mesh& mesh_;

@@ -1,14 +1,93 @@
 #include "compact/build_compact.h"
 
+#include "converter/posed_scene.h"
+#include "cycle_span.h"
+#include "evaluate.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/converter/import_gltf.h>
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 
 namespace bendy::converter {
 namespace {
+
+using test::Numbers;
+
+/// As a library of clips is: joints and clips of linear tracks, not a vertex.
+Scene skeleton_with_clips(std::uint32_t seed) {
+    Numbers numbers(seed);
+    Scene scene = test::random_scene(seed);
+    scene.meshes.clear();
+    for (Cycle& cycle : scene.cycles) {
+        cycle.tracks.clear();
+        for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+            for (const TrackPath path : {TrackPath::translation, TrackPath::rotation, TrackPath::scale})
+                cycle.tracks.push_back(test::random_track(numbers, path, Interpolation::linear, joint));
+        }
+    }
+    return scene;
+}
+
+Scene lone_joint_that_turns() {
+    Scene scene;
+    scene.joints.resize(1);
+    Cycle turn;
+    turn.tracks = {{TrackPath::rotation,
+                    Interpolation::linear,
+                    0,
+                    4,
+                    {0.0f, 0.5f, 1.0f},
+                    {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0.6f, 0, 0, 0.8f}}};
+    scene.cycles = {turn};
+    return scene;
+}
+
+/// A snake: all joints at one height.
+Scene flat_chain() {
+    Scene scene;
+    scene.joints.resize(6);
+    Cycle bend;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (joint > 0) {
+            scene.joints[joint].parent = joint - 1;
+            scene.joints[joint].rest.translation = {0.25f, 0.0f, 0.0f};
+        }
+        bend.tracks.push_back(
+            {TrackPath::rotation, Interpolation::linear, joint, 4, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0.28f, 0, 0.96f}});
+    }
+    scene.cycles = {bend};
+    return scene;
+}
+
+/// The farthest that a joint's origin, or a point 1 % of `size` from it on an axis, is from where the other scene has
+/// it.
+double farthest(const Scene& a, const Scene& b, double size) {
+    double worst = 0.0;
+    EvaluatedPose here;
+    EvaluatedPose there;
+    for (std::size_t cycle = 0; cycle < a.cycles.size(); ++cycle) {
+        const CycleSpan span = span_of(a.cycles[cycle]);
+        for (int k = 0; k <= 100; ++k) {
+            evaluate(a, a.cycles[cycle], span.at(k / 100.0), here);
+            evaluate(b, b.cycles[cycle], span.at(k / 100.0), there);
+            for (std::size_t joint = 0; joint < a.joints.size(); ++joint) {
+                for (const glm::dvec4& point : {glm::dvec4(0, 0, 0, 1), glm::dvec4(0.01 * size, 0, 0, 1),
+                                                glm::dvec4(0, 0.01 * size, 0, 1), glm::dvec4(0, 0, 0.01 * size, 1)}) {
+                    worst = std::max(worst, glm::length((here.joints[joint] - there.joints[joint]) * point));
+                }
+            }
+        }
+    }
+    return worst;
+}
 
 TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
     Report unheard;
@@ -22,6 +101,71 @@ TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
         EXPECT_LE(report.compact->measured_error, report.compact->max_error);
         EXPECT_DOUBLE_EQ(report.compact->max_error, share * report.compact->height);
         EXPECT_TRUE(validate(bytes).empty());
+    }
+}
+
+TEST(BuildCompact, WithoutASkinTheJointsMotionIsBounded) {
+    std::vector<Scene> scenes{lone_joint_that_turns(), flat_chain()};
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) scenes.push_back(skeleton_with_clips(seed));
+    for (std::size_t number = 0; number < scenes.size(); ++number) {
+        SCOPED_TRACE(number);
+        for (const double share : {5e-5, 1e-2}) {
+            Report report;
+            const auto bytes = build_compact(scenes[number], {share, true}, "test", report, {});
+            ASSERT_TRUE(report.compact);
+            EXPECT_GT(report.compact->max_error, 0.0);
+            EXPECT_LE(report.compact->measured_error, report.compact->max_error);
+            const auto decoded = import_bendy(bytes, report);
+            ASSERT_TRUE(decoded);
+            EXPECT_LE(farthest(scenes[number], *decoded, report.compact->height), report.compact->max_error);
+            EXPECT_LT(bytes.size(), build_chunks(scenes[number], "test", report).size());
+        }
+    }
+}
+
+/// A clip that rests for its whole length, one that stands still elsewhere, and one whose longest track stands still.
+Scene clips_with_still_tracks() {
+    Scene scene = flat_chain();
+    const auto still = [&](std::vector<float> times, const glm::vec3& at) {
+        Track track{TrackPath::translation, Interpolation::linear, 1, 3, std::move(times), {}};
+        for (std::size_t key = 0; key < track.times.size(); ++key) test::put(track.values, at);
+        return track;
+    };
+    const glm::vec3 rest = scene.joints[1].rest.translation;
+    Cycle resting;
+    resting.tracks = {still({0.0f, 2.5f}, rest)};
+    Cycle elsewhere;
+    elsewhere.tracks = {still({0.25f, 0.5f, 2.1f}, rest + glm::vec3(0.0f, 0.1f, 0.0f))};
+    Cycle longer = scene.cycles.front();
+    longer.tracks.push_back(still({-0.3f, 2.7f}, rest));
+    scene.cycles.insert(scene.cycles.end(), {resting, elsewhere, longer});
+    return scene;
+}
+
+TEST(BuildCompact, ClipsKeepTheirLength) {
+    Scene with_skin = clips_with_still_tracks();
+    with_skin.meshes.resize(1);
+    with_skin.meshes[0].joint = 5;
+    with_skin.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    with_skin.meshes[0].parts = {{Topology::triangles, kNone, {0, 1, 2}}};
+    for (const Scene& scene : {clips_with_still_tracks(), with_skin}) {
+        Report report;
+        const auto compact = build_compact(scene, {1e-4, true}, "test", report, {});
+        ASSERT_TRUE(report.compact);
+        EXPECT_TRUE(validate(compact).empty());
+        const auto decoded = import_bendy(compact, report);
+        ASSERT_TRUE(decoded);
+        const auto again = import_bendy(build_chunks(*decoded, "test", report), report);
+        ASSERT_TRUE(again);
+        for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
+            SCOPED_TRACE(cycle);
+            const CycleSpan span = span_of(scene.cycles[cycle]);
+            for (const Scene* read : {&*decoded, &*again}) {
+                EXPECT_EQ(span_of(read->cycles[cycle]).start, span.start);
+                EXPECT_EQ(span_of(read->cycles[cycle]).end, span.end);
+            }
+        }
+        EXPECT_TRUE(report.warnings().empty());
     }
 }
 

@@ -50,7 +50,7 @@ TEST(GltfExtensions, ExtrasAreKeptOrCounted) {
     EXPECT_EQ(import->joints[0].extras, R"({"a":[1,2],"b":1})");
     EXPECT_EQ(import->meshes[0].extras, R"("text")");
     EXPECT_EQ(import->asset, R"({"copyright":"me","version":"2.0"})");
-    EXPECT_EQ(import.warned("extras of a primitive"), 1u);
+    EXPECT_EQ(import.warned("extras of primitives left out: meshes[0].primitives[0].extras"), 1u);
     EXPECT_EQ(import.warned("extras of accessors"), 1u);
 }
 

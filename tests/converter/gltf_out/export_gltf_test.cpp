@@ -160,6 +160,38 @@ TEST(ExportGltf, TimesThatAreMovedStillAscend) {
               (std::vector<float>{0.0f, 2.0f, std::nextafter(2.0f, 3.0f)}));
 }
 
+TEST(ExportGltf, AClipLongerThanItsKeysIsHeldForItsWholeLength) {
+    Scene scene = triangle();
+    Cycle moving;
+    moving.tracks = {{TrackPath::translation, Interpolation::linear, 0, 3, {0.5f, 1.0f}, {0, 0, 0, 1, 0, 0}}};
+    moving.stated_span = CycleSpan{0.25f, 3.0f};
+    Cycle still;
+    still.stated_span = CycleSpan{0.0f, 2.5f};
+    Joint child;
+    child.name = "child";
+    child.parent = 0;
+    child.rest.translation = {0.0f, 2.0f, 0.0f};
+    scene.joints.push_back(child);
+    scene.cycles = {moving, still};
+    const Exported exported = export_scene(scene);
+    EXPECT_TRUE(exported.warns("longer than its keys"));
+    const Scene again = import_again(exported.asset);
+    ASSERT_EQ(again.cycles.size(), 2u);
+    for (std::size_t cycle = 0; cycle < 2; ++cycle) {
+        float first = 1e9f;
+        float last = -1e9f;
+        for (const Track& track : again.cycles[cycle].tracks) {
+            first = std::min(first, track.times.front());
+            last = std::max(last, track.times.back());
+        }
+        EXPECT_EQ(first, scene.cycles[cycle].stated_span->start);
+        EXPECT_EQ(last, scene.cycles[cycle].stated_span->end);
+    }
+    ASSERT_EQ(again.cycles[0].tracks.size(), 2u);
+    EXPECT_EQ(again.cycles[0].tracks[1].target, 1u);
+    EXPECT_EQ(again.cycles[0].tracks[1].values, (std::vector<float>{0, 2, 0, 0, 2, 0}));
+}
+
 TEST(ExportGltf, ThatACycleRepeatsIsSaidInItsExtras) {
     Scene scene = triangle();
     Cycle cycle;

@@ -1,10 +1,13 @@
 #include "md2/frame_cycles.h"
+#include "md2/quake_normals.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import_bendy.h>
 #include <bendy/converter/import_md2.h>
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <bit>
@@ -101,17 +104,79 @@ TEST(ImportMd2, FramesBecomeTargetsAndCycles) {
     EXPECT_EQ(mesh.targets[0].name, "stand02");
     EXPECT_EQ(mesh.targets[2].name, "run1");
     for (std::size_t target = 0; target < 3; ++target) {
-        for (const glm::vec3& moved : mesh.targets[target].positions)
-            EXPECT_EQ(moved, glm::vec3(0.0f, static_cast<float>(target + 1) / 32.0f, 0.0f)) << "Z up is Y up here";
+        EXPECT_TRUE(mesh.targets[target].is_frame);
+        for (std::size_t v = 0; v < 4; ++v) {
+            EXPECT_EQ(mesh.targets[target].positions[v],
+                      mesh.positions[v] + glm::vec3(0.0f, static_cast<float>(target + 1) / 32.0f, 0.0f))
+                << "Z up is Y up here";
+        }
     }
     ASSERT_EQ(scene.cycles.size(), 2u);
     EXPECT_EQ(scene.cycles[0].name, "stand");
-    const Track& track = scene.cycles[0].tracks.at(0);
-    EXPECT_EQ(track.path, TrackPath::weights);
-    EXPECT_EQ(track.times, (std::vector<float>{0.0f, 0.1f, 0.2f}));
-    EXPECT_EQ(track.values, (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}));
+    EXPECT_TRUE(scene.cycles[0].loop);
+    EXPECT_TRUE(scene.cycles[0].tracks.empty());
+    EXPECT_EQ(scene.cycles[0].frame_rate, 10.0f);
+    const Play& stand = scene.cycles[0].plays.at(0);
+    EXPECT_EQ(stand.first, 0u);
+    EXPECT_EQ(stand.frames, 3u);
+    EXPECT_TRUE(stand.closed);
     EXPECT_EQ(scene.cycles[1].name, "run");
-    EXPECT_EQ(scene.cycles[1].tracks.at(0).values, (std::vector<float>{0, 0, 1}));
+    EXPECT_EQ(scene.cycles[1].plays.at(0).first, 3u);
+}
+
+TEST(ImportMd2, WhatIsStoredComesBackToTheBit) {
+    Report report;
+    const Scene scene = import_good({"stand01", "stand02", "stand03", "death101"}, report);
+    const std::vector<std::byte> bytes = build_chunks(scene, "test", report);
+    const auto again = import_bendy(bytes, report);
+    ASSERT_TRUE(again);
+    const Mesh& here = scene.meshes[0];
+    const Mesh& there = again->meshes.at(0);
+    EXPECT_EQ(here.positions, there.positions);
+    EXPECT_EQ(here.normals, there.normals);
+    ASSERT_EQ(there.targets.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(here.targets[k].positions, there.targets[k].positions) << k;
+        EXPECT_EQ(here.targets[k].normals, there.targets[k].normals) << k;
+        EXPECT_EQ(here.targets[k].name, there.targets[k].name) << k;
+    }
+    EXPECT_FALSE(again->cycles.at(1).plays.at(0).closed) << "one dies once";
+    EXPECT_EQ(build_chunks(*again, "test", report), bytes);
+}
+
+TEST(ImportMd2, TheTableOfNormals) {
+    const std::vector<glm::vec3> normals = md2::quake_normals();
+    ASSERT_EQ(normals.size(), md2::kNormals);
+    // Some of those that Quake II's sources list, to their six digits.
+    const std::vector<std::pair<std::size_t, glm::vec3>> known{{0, {-0.525731f, 0.0f, 0.850651f}},
+                                                               {1, {-0.442863f, 0.238856f, 0.864188f}},
+                                                               {2, {-0.295242f, 0.0f, 0.955423f}},
+                                                               {5, {0.0f, 0.0f, 1.0f}},
+                                                               {9, {0.0f, 0.525731f, 0.850651f}},
+                                                               {32, {0.0f, 1.0f, 0.0f}},
+                                                               {52, {1.0f, 0.0f, 0.0f}},
+                                                               {84, {0.0f, 0.0f, -1.0f}},
+                                                               {100, {0.716567f, -0.681718f, -0.147621f}},
+                                                               {104, {0.0f, -1.0f, 0.0f}},
+                                                               {126, {-0.681718f, -0.147621f, 0.716567f}},
+                                                               {143, {-1.0f, 0.0f, 0.0f}},
+                                                               {150, {-0.864188f, -0.442863f, -0.238856f}},
+                                                               {161, {-0.688191f, -0.587785f, -0.425325f}}};
+    for (const auto& [number, normal] : known) EXPECT_LT(glm::distance(normals[number], normal), 1e-6f) << number;
+}
+
+TEST(ImportMd2, NormalsAreTheFiles) {
+    std::vector<std::byte> bytes = Model({"stand01", "stand02"}).bytes();
+    const std::size_t first = 172 + 40 + 3;  // the normal of the first frame's first vertex
+    bytes.at(first) = std::byte{52};
+    bytes.at(first + 4) = std::byte{200};
+    Report report;
+    const auto scene = import_md2(bytes, "man", report);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->meshes[0].normals[0], glm::vec3(0, 0, 1)) << "Quake's X is the front, +Z";
+    EXPECT_EQ(scene->meshes[0].targets[0].normals[0], glm::vec3(0, 1, 0)) << "its Z is up";
+    ASSERT_EQ(report.warnings().size(), 2u);
+    EXPECT_EQ(report.warnings()[1].message, "number of a normal is past the table's 162, it points up");
 }
 
 TEST(ImportMd2, AxesWindingCoordinatesAndNormals) {
@@ -150,6 +215,31 @@ TEST(ImportMd2, CyclesFollowTheFramesNames) {
     EXPECT_EQ(runs({"walk099", "walk100", "walk101"}), "walk:0+3 ");
     EXPECT_EQ(runs({"flip", "flip", "1", "2"}), "flip:0+1 flip:1+1 :2+2 ");
     EXPECT_EQ(runs({"a99999999999999999999999", "a1"}), "a999999999999999999999:0+1 a:1+1 ");
+}
+
+TEST(ImportMd2, DeathsOfPlayersAreToldApartByTheirFrames) {
+    const auto players = [](std::size_t more) {
+        std::vector<std::string> names;
+        for (const auto& [letters, count] :
+             {std::pair("stand", 54), {"pain", 12}, {"jump", 112}, {"death", 20}, {"more", static_cast<int>(more)}}) {
+            for (int k = 1; k <= count; ++k) names.push_back(letters + std::to_string(k));
+        }
+        std::string text;
+        for (const md2::FrameRun& run : md2::find_runs(names))
+            text += run.name + ':' + std::to_string(run.first) + '+' + std::to_string(run.count) + ' ';
+        return text;
+    };
+    EXPECT_EQ(players(0),
+              "stand:0+54 pain1:54+4 pain2:58+4 pain3:62+4 jump:66+112 death1:178+6 death2:184+6 death3:190+8 ");
+    EXPECT_EQ(players(1), "stand:0+54 pain:54+12 jump:66+112 death:178+20 more:198+1 ") << "another kind of model";
+}
+
+TEST(ImportMd2, WhatIsDoneOnceDoesNotRepeat) {
+    for (const char* once : {"attack", "pain2", "jump", "flip", "salute", "taunt", "wave", "point", "crattak", "crpain",
+                             "crdeth", "death1", "Death3", "deathfall"})
+        EXPECT_FALSE(md2::is_repeated(once)) << once;
+    for (const char* again : {"stand", "run", "crstnd", "crwalk", "glide", "walk", "", "cr"})
+        EXPECT_TRUE(md2::is_repeated(again)) << again;
 }
 
 TEST(ImportMd2, FaultsNameTheByte) {

@@ -3,7 +3,9 @@
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -24,7 +26,7 @@ struct Read {
 
 Read read(const std::string& file) {
     Read read;
-    auto scene = import_x(file, "nowhere/file.x", false, read.report);
+    auto scene = import_x(file, "nowhere/file.x", {.embed_images = false}, read.report);
     if (scene) {
         read.scene = *std::move(scene);
     } else {
@@ -109,7 +111,7 @@ TEST(ImportX, CornersWithOtherNormalsBecomeVerticesOfTheirOwn) {
     EXPECT_EQ(mesh.normals[3], glm::vec3(0, 1, 0));
     EXPECT_EQ(mesh.positions[4], mesh.positions[2]);  // position 2 with each normal
     EXPECT_EQ(mesh.texture_coords[0].values, (std::vector<float>{0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1}));
-    EXPECT_EQ(mesh.colours[0].values[4 * 2 + 1], 0.25f);
+    EXPECT_FLOAT_EQ(mesh.colours[0].values[4 * 2 + 1], 0.050876088f);  // sRGB 0.25
     EXPECT_EQ(mesh.colours[0].values[4 * 1 + 1], 1.0f) << "a vertex of which nothing is said is white";
     EXPECT_EQ(mesh.joint, 0u) << "a mesh outside of all frames gets a joint";
     EXPECT_EQ(file.scene.joints.size(), 1u);
@@ -138,7 +140,11 @@ TEST(ImportX, MaterialsByReferenceAndInPlace) {
     EXPECT_EQ(file.scene.materials[0].name, "Red");
     const Material& green = file.scene.materials[1];
     EXPECT_EQ(green.base_colour, glm::vec4(0, 1, 0, 0.5f));
-    EXPECT_EQ(green.emissive, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(green.emissive.x, 0.010022825f);  // sRGB 0.1, 0.2, 0.3
+    EXPECT_FLOAT_EQ(green.emissive.y, 0.033104767f);
+    EXPECT_FLOAT_EQ(green.emissive.z, 0.073238956f);
+    EXPECT_EQ(green.emissive_texture.texture, 0u) << "Direct3D multiplies a surface's own light with its texture";
+    EXPECT_EQ(file.scene.materials[0].emissive_texture.texture, kNone);
     EXPECT_EQ(green.alpha_mode, AlphaMode::blend);
     EXPECT_FLOAT_EQ(green.roughness, 0.5f);  // 2 / 0.5^4 - 2 = 30
     EXPECT_EQ(file.scene.meshes[0].parts[0].material, 1u);
@@ -220,12 +226,8 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
               "line 2, column 26: index 1 is out of range: there are 1 vertices");
     EXPECT_EQ(fault_of(kSquare + "MeshNormals { 1; 0;0;1;; 2; 3;0,0,0;; } }"),
               "line 5, column 26: 2 faces of normals, but 1 are due");
-    EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 1; 1; 0; { None } } }"),
-              "line 5, column 29: there is no material 'None'");
     EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 2; 1; 0; } }"),
               "line 5, column 29: the list that begins at line 5, column 1 has 0 materials, but says 2");
-    EXPECT_EQ(fault_of(kSquare + R"(SkinWeights { "Gone"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } })"),
-              "line 5, column 1: SkinWeights names a frame 'Gone', which is not there");
     EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"),
               "line 2, column 43: there are no keys of type 7");
     EXPECT_EQ(
@@ -239,13 +241,169 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
 TEST(ImportX, OtherVariantsAreRefusedByName) {
     EXPECT_EQ(read("<xml>").fault, ": this is no X-file: it does not begin with 'xof ', but with '<xml'");
     EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: 16 bytes are due");
-    EXPECT_EQ(read("xof 0303tzip0032abc").fault,
-              ": the X-file is compressed (tzip), which is not read: save it as text (txt) or as plain binary (bin)");
-    EXPECT_EQ(read("xof 0303bzip0032abc").fault,
-              ": the X-file is compressed (bzip), which is not read: save it as text (txt) or as plain binary (bin)");
     EXPECT_EQ(read("xof 0303txt 0016abc").fault,
               ": the X-file's floats have an unknown size '0016': 0032 and 0064 are read");
-    EXPECT_EQ(read("xof 0303foo 0032abc").fault, ": the X-file is of an unknown variant 'foo ': txt and bin are read");
+    EXPECT_EQ(read("xof 0303foo 0032abc").fault,
+              ": the X-file is of an unknown variant 'foo ': txt, bin, tzip and bzip are read");
+}
+
+/// As MSZIP: blocks that each know what the one before has, behind the whole file's size.
+std::string compressed(const std::string& file, const std::string& variant, std::size_t block_size = 32'768) {
+    std::string packed = file.substr(0, 8) + variant + file.substr(12, 4);
+    const auto put = [&](std::size_t number, int bytes) {
+        for (int i = 0; i < bytes; ++i) packed += static_cast<char>(number >> (8 * i) & 255u);
+    };
+    put(file.size(), 4);
+    for (std::size_t at = 16; at < file.size(); at += block_size) {
+        std::string block = file.substr(at, block_size);
+        std::string before = file.substr(16, at - 16);
+        before.erase(0, before.size() - std::min<std::size_t>(before.size(), 32'768));
+        z_stream stream{};
+        deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
+        deflateSetDictionary(&stream, reinterpret_cast<Bytef*>(before.data()), static_cast<uInt>(before.size()));
+        std::string out(block.size() + 1000, '\0');
+        stream.next_in = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_in = static_cast<uInt>(block.size());
+        stream.next_out = reinterpret_cast<Bytef*>(out.data());
+        stream.avail_out = static_cast<uInt>(out.size());
+        EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+        out.resize(out.size() - stream.avail_out);
+        deflateEnd(&stream);
+        put(block.size(), 2);
+        put(out.size() + 2, 2);
+        packed += "CK" + out;
+    }
+    return packed;
+}
+
+std::string long_file() {
+    std::string file = "xof 0303txt 0032\n";
+    for (int i = 0; i < 4000; ++i)
+        file += "Frame Joint" + std::to_string(i * 7919 % 4001) + " { " + std::string(i % 3 == 0 ? "Frame { } " : "") +
+                "}\n";
+    return file;
+}
+
+TEST(ImportX, CompressedFilesAreThePlainOnes) {
+    const std::string file = long_file();
+    ASSERT_GT(file.size(), 3u * 32'768);
+    const Read plain = read_good(file);
+    for (const std::size_t block_size : {32'768u, 10'000u}) {
+        const Read packed = read_good(compressed(file, "tzip", block_size));
+        ASSERT_EQ(packed.scene.joints.size(), plain.scene.joints.size());
+        for (std::size_t joint = 0; joint < plain.scene.joints.size(); ++joint)
+            ASSERT_EQ(packed.scene.joints[joint].name, plain.scene.joints[joint].name);
+    }
+}
+
+TEST(ImportX, DamagedCompressedFilesAreRefusedWithTheirPlace) {
+    const std::string file = compressed(kHeader + "Frame A { }", "tzip");
+    EXPECT_EQ(read(file).fault, "");
+    for (std::size_t size = 16; size < file.size(); ++size)
+        EXPECT_TRUE(read(file.substr(0, size)).fault.starts_with("byte ")) << size;
+    for (std::size_t at = 20; at < file.size(); ++at) {
+        for (unsigned bit = 0; bit < 8; ++bit) {
+            std::string damaged = file;
+            damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+            read(damaged);  // neither a crash nor a sanitizer's report
+        }
+    }
+    EXPECT_EQ(read("xof 0303tzip0032abc").fault, "byte 16: expected the size of the data, found the end of the file");
+    std::string broken = file;
+    broken[24] = 'X';
+    EXPECT_EQ(read(broken).fault, "byte 20: expected a compressed block that begins with CK");
+    // What it says is much more than it holds.
+    std::string greedy = file;
+    greedy.replace(16, 4, "\xff\xff\xff\xff");
+    EXPECT_NE(read(greedy).fault.find("expected a compressed block, found the end of the file"), std::string::npos);
+}
+
+std::string word(float number) {
+    return std::to_string(std::bit_cast<std::uint32_t>(number)) + ", ";
+}
+
+/// Normals, coordinates and colours of four vertices, as Direct3D 9 exporters write them.
+std::string declared(const std::string& more_elements = "", const std::string& more_words = "", int elements = 3) {
+    std::string data;
+    for (int vertex = 0; vertex < 4; ++vertex) {
+        data += word(0) + word(0.6f) + word(-0.8f) + word(0.25f * static_cast<float>(vertex)) + word(1.5f);
+        data += std::to_string(0x80ff4000u) + ", " + more_words;
+    }
+    data.resize(data.size() - 2);
+    const int words = 4 * (6 + static_cast<int>(std::count(more_words.begin(), more_words.end(), ',')));
+    return "DeclData { " + std::to_string(elements) + "; 2;0;3;0;, 1;0;5;0;, 4;0;10;0;" + more_elements + "; " +
+           std::to_string(words) + "; " + data + ";; }";
+}
+
+TEST(ImportX, DeclDataHoldsNormalsCoordinatesAndColours) {
+    const Read file = read_good(kHeader + kSquare + declared() + " }");
+    ASSERT_EQ(file.scene.meshes.size(), 1u);
+    const Mesh& mesh = file.scene.meshes[0];
+    ASSERT_EQ(mesh.normals.size(), 4u);
+    EXPECT_EQ(mesh.normals[2], glm::vec3(0.0f, 0.6f, 0.8f));
+    ASSERT_EQ(mesh.texture_coords.size(), 1u);
+    EXPECT_EQ(mesh.texture_coords[0].values, (std::vector<float>{0, 1.5f, 0.25f, 1.5f, 0.5f, 1.5f, 0.75f, 1.5f}));
+    ASSERT_EQ(mesh.colours.size(), 1u);
+    EXPECT_FLOAT_EQ(mesh.colours[0].values[3], 128.0f / 255.0f);
+    EXPECT_FLOAT_EQ(mesh.colours[0].values[1], 64.0f / 255.0f);
+    EXPECT_EQ(mesh.colours[0].values[2], 0.0f);
+    EXPECT_TRUE(file.report.warnings().empty());
+}
+
+TEST(ImportX, WhatElseADeclDataHasIsNamed) {
+    const Read file = read_good(kHeader + kSquare + declared(", 2;0;6;0;", word(1) + word(0) + word(0), 4) + " }");
+    EXPECT_EQ(file.scene.meshes.at(0).normals.size(), 4u);
+    EXPECT_EQ(warnings_of(file),
+              (std::vector<std::string>{"line 5, column 1: tangents of a DeclData left out (usage 6, set 0)"}));
+    const Read twice = read_good(kHeader + kSquare + declared(", 2;0;3;0;", word(1) + word(0) + word(0), 4) + " }");
+    EXPECT_EQ(twice.scene.meshes.at(0).normals.at(0), glm::vec3(0.0f, 0.6f, 0.8f));
+    EXPECT_EQ(twice.report.warnings().size(), 1u);
+}
+
+TEST(ImportX, ADeclDataOfAnotherSizeIsRefused) {
+    EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 2;0;3;0;; 3; 0,0,0;; } }"),
+              "line 5, column 25: expected 3 words for each of 4 vertices, found 3");
+    EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 99;0;3;0;; 3; 0,0,0;; } }"),
+              "line 5, column 15: there is no vertex element of type 99");
+    EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 2;0;3;0;; 12; 2143289344,0,0,0,0,0,0,0,0,0,0,0;; } }"),
+              "line 5, column 59: a number of a vertex is not finite");
+}
+
+const std::string kWalk = R"(Frame A { } AnimationSet Walk { Animation { { A }
+ AnimationKey { 2; 2; 0;3;0,0,0;;, 48;3;1,2,3;;; } } })";
+
+TEST(ImportX, AMissingRateIsNamedAndCanBeSet) {
+    const Read assumed = read_good(kHeader + kWalk);
+    EXPECT_EQ(assumed.scene.cycles.at(0).tracks.at(0).times.at(1), 0.01f);
+    EXPECT_EQ(warnings_of(assumed),
+              (std::vector<std::string>{
+                  ": AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the "
+                  "last key is at 0.01 s; --ticks-per-second sets another rate"}));
+    for (const std::string& rate : {"", "AnimTicksPerSecond { 4800; }\n"}) {
+        Report report;
+        const auto set = import_x(kHeader + rate + kWalk, "walk.x", {.ticks_per_second = 24.0}, report);
+        ASSERT_TRUE(set);
+        EXPECT_EQ(set->cycles.at(0).tracks.at(0).times.at(1), 2.0f);
+        EXPECT_TRUE(report.warnings().empty());
+    }
+    EXPECT_TRUE(read_good(kHeader + "AnimTicksPerSecond { 4800; }" + kWalk).report.warnings().empty());
+    EXPECT_TRUE(read_good(kHeader + kSquare + "}").report.warnings().empty());
+}
+
+TEST(ImportX, WhatNamesNothingIsLeftOutAndNamed) {
+    const Read file = read_good(kHeader + "Frame Here { }\n" + kSquare + R"(
+MeshMaterialList { 1; 1; 0; { None } }
+SkinWeights { "Gone"; 1; 0; 1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; }
+SkinWeights { "Here"; 4; 0,1,2,3; 1,1,1,1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; } }
+AnimTicksPerSecond { 10; }
+AnimationSet { Animation { { Away } AnimationKey { 2; 1; 5;3;0,0,0;;; } } })");
+    ASSERT_EQ(file.scene.meshes.size(), 1u);
+    EXPECT_EQ(file.scene.meshes[0].palette.joints, (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(file.scene.meshes[0].parts.at(0).material, kNone);
+    EXPECT_EQ(warnings_of(file),
+              (std::vector<std::string>{"line 11, column 16: animation left out: its frame 'Away' does not exist",
+                                        "line 7, column 29: faces are left without a material: 'None' does not exist",
+                                        "line 8, column 1: SkinWeights left out: their frame 'Gone' does not exist"}));
 }
 
 /// Writes the binary variant's tokens.

@@ -15,7 +15,13 @@
 namespace bendy::converter {
 
 struct ConvertOptions {
+    /// The file that the result is meant for: links to images are relative to its folder. Empty: beside the source.
+    std::filesystem::path output;
     GltfOptions gltf;  ///< for glTF sources, embed_images for X-files too; a scene chosen in others is an error
+    /// For X-files, see XOptions; 0: as the file says. An error for other sources.
+    double ticks_per_second = 0.0;
+    /// Clips that move different properties become one, see docs/convert.md.
+    bool merge_clips = false;
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.

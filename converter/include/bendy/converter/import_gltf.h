@@ -16,6 +16,9 @@ struct GltfOptions {
     std::optional<std::string> scene;
     /// false: images that the source keeps in files of their own stay there and are referred to by URI.
     bool embed_images = true;
+    /// Make a joint, with meshes of its own, of every instance of EXT_mesh_gpu_instancing. Else their numbers are kept
+    /// as data, and a node draws its mesh once.
+    bool instances = false;
 };
 
 /// Reads a .gltf or .glb file (told apart by content) with the files that it refers to, checks all of it, and fills a

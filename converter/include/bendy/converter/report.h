@@ -41,6 +41,10 @@ public:
     void propose(std::string line) { proposals_.push_back(std::move(line)); }
     [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
 
+    /// Notes what the user may want to do another time: one line, with the option that does it.
+    void suggest(std::string line) { suggestions_.push_back(std::move(line)); }
+    [[nodiscard]] const std::vector<std::string>& suggestions() const { return suggestions_; }
+
     /// Notes that a file is about to be read; once for each.
     void add_source(const std::filesystem::path& file);
     [[nodiscard]] const std::vector<SourceFile>& sources() const { return sources_; }
@@ -51,6 +55,7 @@ public:
 private:
     std::vector<Warning> warnings_;
     std::vector<std::string> proposals_;
+    std::vector<std::string> suggestions_;
     std::vector<SourceFile> sources_;
     std::set<std::filesystem::path> known_sources_;
     std::unordered_map<std::string, std::size_t> place_of_;  // message: index into warnings_

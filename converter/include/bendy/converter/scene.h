@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Joint {
     std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
     std::string extras;               ///< JSON text or empty
     std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
+    std::string more;                 ///< JSON object: see Scene::more
     bool in_skin = false;             ///< a skin of the source names it, used or not; not written
 };
 
@@ -68,13 +70,25 @@ struct Stream {
     std::vector<float> values;     ///< vertex count * components
 };
 
-/// An inbetweening (morph) target: displacements per vertex; an empty vector means: this stream is not displaced.
+/// Positions on a grid: each is minimum + step * a whole number, 0 to 65535, axis by axis, in floats and rounded after
+/// each operation.
+struct FrameGrid {
+    glm::vec3 minimum{0.0f};
+    glm::vec3 step{0.0f};
+};
+
+/// A morph target: displacements per vertex; an empty vector means: this stream is not displaced.
 struct Target {
     std::string name;
     float rest_weight = 0.0f;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;  ///< xyz only, the handedness stays
+    /// A shape of the whole mesh that is stored as it is (FRMS): `positions`, which lie on `grid`, and `normals` are
+    /// the vertices' own, no displacements. The rest weight is 0; there are no tangents; all frames have normals or
+    /// none.
+    bool is_frame = false;
+    FrameGrid grid = {};
 };
 
 /// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind
@@ -98,7 +112,10 @@ struct Mesh {
     std::vector<std::uint32_t> bones;    ///< vertex count * influences, into the palette
     std::vector<float> weights;          ///< as many; sum 1 per vertex, never negative
     Palette palette;
-    std::vector<Target> targets;
+    std::vector<Target> targets;  ///< frames come last
+    /// Where `positions` lie on one: they are stored so, and the normals by number in a list, which the frames share.
+    /// It holds 256: frames should have no more different ones, those past it become the nearest.
+    std::optional<FrameGrid> grid;
     std::vector<Part> parts;
     /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
     /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
@@ -106,6 +123,7 @@ struct Mesh {
     std::vector<std::uint8_t> joined;  ///< as many: 1 where a vertex goes together with the one before it
     std::uint32_t base = 0;            ///< the first so many never collapse
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more
 };
 
 /// How far the meshes' collapse sequences go for an error.
@@ -129,6 +147,24 @@ struct Marker {
     std::string name;      ///< UTF-8, may be empty or doubled
 };
 
+/// When a clip begins and ends, seconds on its time line.
+struct CycleSpan {
+    float start = 0.0f;
+    float end = 0.0f;
+
+    /// At a share of the way, 0 to 1; seconds.
+    [[nodiscard]] double at(double share) const { return start + share * (double{end} - start); }
+    friend bool operator==(const CycleSpan&, const CycleSpan&) = default;
+};
+
+/// Frames of a mesh, one after another. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
+struct Play {
+    std::uint32_t mesh = 0;
+    std::uint32_t first = 0;
+    std::uint32_t frames = 1;  ///< 1 or more; frame k of them is at Cycle::frame_start + k / Cycle::frame_rate
+    bool closed = false;       ///< the first frame follows on the last one
+};
+
 struct Cycle {
     std::string name;
     bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
@@ -136,6 +172,13 @@ struct Cycle {
     std::string extras;
     std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
     std::vector<Marker> markers = {};    ///< times ascend, and may be equal
+    std::string more = {};               ///< JSON object: see Scene::more
+    /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
+    /// the last key. Never shorter than the keys.
+    std::optional<CycleSpan> stated_span = {};
+    std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
+    float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
+    float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
@@ -155,6 +198,7 @@ struct Texture {
     Wrap wrap_s = Wrap::repeat;
     Wrap wrap_t = Wrap::repeat;
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more; what it says of the images, the first texture with each says
 };
 
 /// A use of a texture by a material, with KHR_texture_transform (rotation in radians, counter-clockwise).
@@ -181,6 +225,7 @@ struct Material {
     TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     std::string extensions;  ///< JSON object with the extensions that have no field here, verbatim; or empty
     std::string extras;
+    std::string more;  ///< JSON object: see Scene::more
 };
 
 struct Scene {
@@ -197,6 +242,10 @@ struct Scene {
     std::string source_extras;  ///< of the source's root
     std::string extensions;     ///< JSON object: the source's root extensions that are kept as they came; or empty
     std::string asset;          ///< JSON object: who made the source, copyright, generator, with its extras
+    /// JSON object, or empty: what else the source says of its scene, in the shape of glTF's object. A member that is
+    /// an index in glTF is an object here, with what is said of the element that it names (spec/chunks/MORE.md).
+    std::string more;
+    std::string source_more;  ///< the same of the source's root
 };
 
 }  // namespace bendy::converter

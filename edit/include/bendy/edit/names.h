@@ -26,8 +26,8 @@ std::string_view nearest_name(std::span<const std::string_view> names, std::stri
 /// `; did you mean "Walk"?`, if a name is like `wanted`; else nothing.
 std::string did_you_mean(std::span<const std::string_view> names, std::string_view wanted);
 
-/// What to say where `wanted` is none of the names: `there is no clip "Wlak"; did you mean "Walk"?`, and which names there
-/// are where they are few, or none is like it. Names are as they are in the file: not fit for a terminal.
+/// What to say where `wanted` is none of the names: `there is no clip "Wlak"; did you mean "Walk"?`, and which names
+/// there are where they are few, or none is like it. Names are as they are in the file: not fit for a terminal.
 std::string no_such_name(std::string_view kind, std::string_view wanted, std::span<const std::string_view> names);
 
 /// `"a", "b", "c" and 3 more`; a thing without a name is its number, `#3`.

@@ -23,7 +23,7 @@ enum class Part : std::uint8_t {
     tangents,    ///< TANG, of targets too
     colours,     ///< COLR
     attributes,  ///< USER
-    extras,      ///< EXTR
+    extras,      ///< EXTR and MORE
     extensions,  ///< EXTN
     unknown      ///< chunks that this version has no page for; by name: with this id
 };

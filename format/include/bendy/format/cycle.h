@@ -29,17 +29,28 @@ struct TrackView {
     std::span<const float> values;
 };
 
+/// Frames of a pool, one after another: frame k has all the weight at start + k / frame_rate, between two frames they
+/// share it.
+struct PlayView {
+    std::uint32_t pool = 0;
+    std::uint32_t first = 0;   ///< among PoolView::frames(): first + frames are no more than these
+    std::uint32_t frames = 0;  ///< 1 or more
+    bool closed = false;       ///< the first frame follows on the last one
+};
+
 struct CycleView {
     std::uint32_t chunk = 0;
     std::string_view name;
     float start = 0.0f;       ///< seconds
     float end = 0.0f;         ///< seconds
-    float frame_rate = 0.0f;  ///< of fixed frames, per second
+    float frame_rate = 0.0f;  ///< of `plays` and of tracks with fixed frames, per second
     bool loop = false;
     bool has_info = false;  ///< CINF could be read
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
+    std::vector<PlayView> plays;       ///< fixed frames
     std::string_view extras;
+    std::string_view more;        ///< JSON object, or empty
     std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
 };
 

@@ -25,6 +25,7 @@ struct ObjectView {
     std::optional<CollapseView> collapse;  ///< LODD
     std::vector<CycleView> cycles;
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 };
 
 /// A whole file as typed views into its bytes.
@@ -37,6 +38,7 @@ struct Document {
     std::vector<ObjectView> objects;
     std::string_view extras;
     std::string_view extensions;  ///< JSON
+    std::string_view more;        ///< JSON object, or empty
 };
 
 /// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety

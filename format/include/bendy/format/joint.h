@@ -38,6 +38,7 @@ struct JointView {
     RestRecord rest;
     std::string_view extras;
     std::string_view extensions;  ///< JSON
+    std::string_view more;        ///< JSON object, or empty
 };
 
 /// The joints of an OBJE in pre-order, which is joint order, with what belongs to them, ordered by joint; the polygon

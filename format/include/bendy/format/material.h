@@ -18,6 +18,7 @@ struct MaterialView {
     SurfaceRecord surface;
     std::string_view extensions;  ///< JSON object, or empty
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 };
 
 /// One encoding of a texture's image: embedded bytes, or a URI, or the image of another texture.
@@ -35,6 +36,7 @@ struct TextureView {
     SamplerRecord sampler;
     std::vector<ImageView> images;  ///< in order of preference
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 };
 
 /// Reads a MATE chunk; texture numbers are held against `textures`.

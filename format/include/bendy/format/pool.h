@@ -36,6 +36,8 @@ struct StreamView {
     std::span<const StreamBox> boxes = {};
     /// The first two components are a direction on the octahedron, see decode_octahedral.
     bool is_octahedral = false;
+    /// What the integers are numbers of, for listed normals; every one is a number of it. Else empty.
+    std::span<const glm::vec3> list = {};
 
     /// One number: normalised integers become [0, 1] or, signed, [-1, 1], as glTF reads them; boxed ones minimum + step
     /// * integer, rounded after each operation; others keep their value.
@@ -72,13 +74,28 @@ struct PaletteView {
     [[nodiscard]] std::span<const glm::mat4> inverse_bind() const { return is_derived ? derived : stored; }
 };
 
-/// TARG: an inbetweening target. A stream that is absent is not displaced.
+/// TARG: a morph target, or a frame of FRMS, which is one too: a shape of the whole pool that is stored as it is. A
+/// stream that is absent is not displaced.
 struct TargetView {
-    std::uint32_t chunk = 0;
+    std::uint32_t chunk = 0;  ///< TARG or FRMS
     std::string_view name;
     float rest_weight = 0.0f;
     std::optional<StreamView> vertices;  ///< the touched vertices, ascending; absent: all of the pool, in order
     std::optional<StreamView> positions, normals, tangents;  ///< displacements: vec3, one per touched vertex
+    /// Of a frame, the element of each of the pool's vertices in `positions` and `normals`, which are no displacements:
+    /// they hold the positions and normals themselves. Absent: this is no frame.
+    std::optional<StreamView> places;
+
+    [[nodiscard]] bool is_frame() const { return places.has_value(); }
+    /// How many vertices of a pool with so many the target touches, and which the k-th of them is.
+    [[nodiscard]] std::uint32_t touched(std::uint32_t pool_vertices) const {
+        return vertices ? vertices->elements : pool_vertices;
+    }
+    [[nodiscard]] std::uint32_t vertex(std::uint32_t k) const { return vertices ? vertices->index(k, 0) : k; }
+    /// By how much full weight displaces the k-th vertex. `stream`: of the target; `rest`: the pool's of the same kind.
+    [[nodiscard]] glm::vec3 displacement(const StreamView& stream, const StreamView& rest, std::uint32_t k) const {
+        return is_frame() ? stream.vec3(places->index(k, 0)) - rest.vec3(k) : stream.vec3(k);
+    }
 };
 
 /// USER: an attribute of the author's.
@@ -100,11 +117,15 @@ struct PoolView {
     std::vector<AttributeView> attributes;
     std::optional<StreamView> bones, weights;  ///< both or neither; a pool without is rigid
     PaletteView palette;
-    std::vector<TargetView> targets;
+    std::vector<TargetView> targets;    ///< those of TARG, then the frames of FRMS
+    std::uint32_t first_frame = 0;      ///< where in `targets` the frames begin
     std::optional<StreamView> indices;  ///< u16 or u32 x 1
     std::string_view extras;
+    std::string_view more;  ///< JSON object, or empty
 
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
+    /// Shapes that a cycle can play: frame 0 is the pool's own streams, frame k target first_frame + k - 1.
+    [[nodiscard]] std::uint32_t frames() const { return static_cast<std::uint32_t>(targets.size()) - first_frame + 1; }
 };
 
 /// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on:

@@ -47,7 +47,7 @@ const RecordLayout* find_layout(std::string_view record);
 /// The record at the start of the chunk's payload, or of which the payload is an array; nothing if it has none.
 const RecordLayout* layout_of(FourCC chunk);
 
-/// The payload is text: NAME, EXTR, EXTN, LINK.
+/// The payload is text: NAME, EXTR, EXTN, MORE, LINK.
 bool is_text(FourCC chunk);
 
 /// The payload is a StreamRecord and its numbers.

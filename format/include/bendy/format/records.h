@@ -190,6 +190,14 @@ struct PackRecord {
     std::array<std::uint8_t, 2> reserved{};
 };
 
+struct PlayRecord {
+    std::uint32_t pool = 0;
+    std::uint32_t first = 0;
+    std::uint32_t frames = 0;
+    std::uint8_t closed = 0;
+    std::array<std::uint8_t, 3> reserved{};
+};
+
 struct TrackRecord {
     std::uint32_t target = 0;
     std::uint8_t path = 0;
@@ -237,8 +245,8 @@ struct ImageRecord {
 
 enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
 inline constexpr unsigned kComponentTypes = 6;
-enum class Numbers : std::uint8_t { plain, normalised, boxed };
-inline constexpr unsigned kNumbers = 3;
+enum class Numbers : std::uint8_t { plain, normalised, boxed, listed };
+inline constexpr unsigned kNumbers = 4;
 enum class Topology : std::uint8_t { triangles, lines, points };
 inline constexpr unsigned kTopologies = 3;
 enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };

@@ -26,7 +26,7 @@ struct ReachTarget {
 /// Whatever is left at its default is taken from the chain, and where that says nothing, from the solver.
 struct ReachOptions {
     Solver solver = Solver::any;
-    std::uint32_t iterations = 0;  ///< at most
+    std::uint32_t iterations = 0;  ///< at most; of least squares: for each beginning
     float tolerance = 0.0f;   ///< metres, default 0.0001 of the chain's length; radians, of that number, for rotation
     float influence = 1.0f;   ///< 0 to 1: how much of the solution is mixed into the pose
     float softness = 0.0f;    ///< 0 to 1: two-bone: the share of its length over which the chain slows near full reach
@@ -38,17 +38,20 @@ struct ReachOptions {
 };
 
 enum class ReachStatus : std::uint8_t {
-    reached,       ///< within the tolerance
+    reached,       ///< the tip is at the target, within the tolerance
     out_of_reach,  ///< farther than the chain is long: it points at the target
-    not_reached,   ///< stopped at the nearest that was found
+    not_reached,   ///< stopped at the nearest that was found; of aim: the tip does not point at the target
+    aimed,         ///< of aim alone: the tip's Z axis points at the target within the tolerance, however far it is
     refused        ///< no chain, or numbers that are not finite: the pose is as it was
 };
 
 /// Of the whole solution, also where the influence mixes in less.
 struct ReachResult {
     ReachStatus status = ReachStatus::refused;
-    float distance = 0.0f;  ///< metres left between tip and target
-    float angle = 0.0f;     ///< radians left between the tip's orientation and the target's, if one was asked for
+    float distance = 0.0f;  ///< metres between tip and target; aim leaves it about as it is
+    /// Radians left: between the tip's orientation and the target's, 0 if the target has none; of aim: between the
+    /// tip's Z axis and the line to the target.
+    float angle = 0.0f;
     std::uint32_t iterations = 0;  ///< that were made
 };
 
@@ -57,13 +60,15 @@ struct ReachResult {
 /// nothing. The same numbers give the same pose on every machine with the plain kernel (kernels.h); others find the
 /// joint matrices that it begins with to their own last digit.
 ///     pull           Anderson's and Elias' force; one step a call, so it takes frames to arrive
-///     two_bone       closed form; of a longer chain, start and middle joint turn; where constraints keep it from the
-///                    target, least squares goes on
+///     two_bone       closed form; of a longer chain, start and middle joint turn
 ///     ccd            cyclic coordinate descent, from the tip up
-///     fabrik         forward and backward reaching, the limits in the forward pass
+///     fabrik         forward and backward reaching, both passes inside the constraints
 ///     aim            turns the tip's Z axis towards the target, by a share from each joint: looking at it
 ///     least_squares  damped least squares, with restarts: the most reliable
-/// Solver::any: two_bone for chains of two bones, else least_squares.
+/// Where two_bone, ccd or fabrik stops short of a target that is no farther than the chain is long, least_squares goes
+/// on from there; iterations and restarts hold for it too. Solver::any: two_bone for chains of two bones, else
+/// least_squares. A mirrored chain and target come out mirrored, if the chain is bent, has a pole, or its constraints
+/// let it turn farther to one side.
 ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options = {});
 
 /// Runs every chain that follows a target joint, in the order of their priority, with the chains' own influence.

@@ -17,4 +17,14 @@ bool sample(const Cycle* cycle, float seconds, Pose& pose);
 /// components.
 void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value);
 
+/// Two frames of a pool, numbered as PoolView::frames() has them, and what the second one weighs.
+struct FrameMix {
+    std::uint32_t left = 0, right = 0;
+    float fraction = 0.0f;  ///< [0, 1)
+};
+
+/// The frames between which fixed frames are at `seconds`, held to their first and last; closed ones go on from the
+/// last frame to the first, and are there again at the end.
+FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds);
+
 }  // namespace bendy

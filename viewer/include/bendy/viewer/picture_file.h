@@ -32,7 +32,7 @@ public:
 std::unique_ptr<AnimationFile> make_gif(std::uint32_t width, std::uint32_t height);
 std::unique_ptr<AnimationFile> make_webp(std::uint32_t width, std::uint32_t height);
 
-/// Pictures of one size as one, in rows of `columns`.
-Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t columns);
+/// Pictures of one size as one, in rows of `columns`. `empty`, of the same size, fills the last row.
+Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t columns, const Picture& empty);
 
 }  // namespace bendy::viewer

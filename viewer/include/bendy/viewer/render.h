@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bendy/runtime/model.h>
+#include <bendy/runtime/pose.h>
 #include <bendy/viewer/picture.h>
 
 #include <glm/vec3.hpp>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 // Pictures of a character, without a display.
 namespace bendy::viewer {
@@ -30,6 +32,7 @@ struct DrawOptions {
     bool axes = false;  ///< the joints' axes: X red, Y green, Z blue
     bool constraints = false;
     bool targets = false;                              ///< what the IK chains are to reach
+    std::uint32_t marked_joint = kNone;                ///< drawn so that it stands out, with its axes
     glm::vec4 background{0.086f, 0.1f, 0.122f, 1.0f};  ///< linear; alpha 0: transparent
 };
 
@@ -37,6 +40,12 @@ struct CameraOptions {
     float yaw = 0.6f;       ///< radians about Y; 0 looks along -Z, at the front of a character that faces +Z
     float pitch = 0.2f;     ///< radians, over the horizon
     float distance = 1.0f;  ///< 1: the character fills the picture
+};
+
+/// A point that an IK chain was to reach: drawn, with a line from the chain's tip, and always in the picture.
+struct DrawnTarget {
+    const Chain* chain = nullptr;  ///< of the model
+    glm::vec3 position{0.0f};      ///< metres, model space
 };
 
 struct RenderOptions {
@@ -48,11 +57,15 @@ struct RenderOptions {
     DrawOptions draw;
     ContextKind context = ContextKind::any;
     std::filesystem::path folder;  ///< of images that the file only names
+    /// Changes every pose after the cycle: limits, IK. May be empty.
+    std::function<void(Pose&)> adjust;
+    std::vector<DrawnTarget> targets;
 };
 
 inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 
-/// Draws one character; the camera is fitted to the whole cycle and stays. The model must outlive it.
+/// Draws one character, or the skeleton of one without a surface; the camera is fitted to the whole cycle and stays.
+/// The model must outlive it.
 class PictureMaker {
 public:
     /// Throws ViewerError if there is no OpenGL 3.3 or too little memory.
@@ -65,6 +78,8 @@ public:
 
     /// The character at a time of the cycle, seconds.
     Picture draw(float time);
+    /// The background alone.
+    Picture draw_nothing();
     /// Which OpenGL draws.
     [[nodiscard]] const std::string& context() const;
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <bendy/converter/report.h>
+#include <bendy/format/file.h>
+#include <bendy/format/result.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+// Files that commands read: what they are, and what to do about those that are something else.
+namespace bendy::cli {
+
+/// Maps a file of any kind. Fails if it cannot be read.
+MappedFile open_file(const std::filesystem::path& file);
+
+/// Maps a file that is to be a bendy file. Fails, with the command that makes one of it, if it is known to be something
+/// else; what is not known at all goes through.
+MappedFile open_bendy_file(const std::filesystem::path& file);
+
+/// What is wrong with a file that could not be opened.
+std::string why_not_opened(const std::filesystem::path& file, const Error& error);
+/// What a file is, and the command that makes a bendy file of it; empty if it is one or is not known.
+std::string why_not_bendy(const std::filesystem::path& file, Bytes bytes);
+
+/// The bytes of a bendy file, mapped, or made from a file of another kind.
+class CharacterFile {
+public:
+    explicit CharacterFile(MappedFile mapped) : mapped_(std::move(mapped)) {}
+    explicit CharacterFile(std::vector<std::byte> converted) : converted_(std::move(converted)) {}
+
+    [[nodiscard]] Bytes bytes() const { return converted_.empty() ? mapped_.bytes() : Bytes(converted_); }
+
+private:
+    MappedFile mapped_;
+    std::vector<std::byte> converted_;
+};
+
+/// Maps a bendy file, or converts what `convert` reads. What is wrong comes as an error.
+Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
+                                                             converter::Report& report);
+/// The same; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
+CharacterFile open_character(const std::filesystem::path& file);
+
+}  // namespace bendy::cli

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+// Frames among a mesh's targets hold shapes; whoever wants displacements takes them from here.
+namespace bendy::converter {
+
+/// Where among the mesh's targets its frames begin.
+inline std::uint32_t first_frame(const Mesh& mesh) {
+    const auto frame =
+        std::find_if(mesh.targets.begin(), mesh.targets.end(), [](const Target& t) { return t.is_frame; });
+    return static_cast<std::uint32_t>(frame - mesh.targets.begin());
+}
+
+inline bool has_frames(const Mesh& mesh) {
+    return !mesh.targets.empty() && mesh.targets.back().is_frame;
+}
+
+/// What full weight of the target adds to a vertex. `stream`: of the target, not empty; `own`: the mesh's of that kind.
+template <class Vector>
+glm::dvec3 shift_of(const Target& target, const std::vector<glm::vec3>& stream, const std::vector<Vector>& own,
+                    std::size_t vertex) {
+    const glm::dvec3 there(stream[vertex]);
+    return target.is_frame ? there - glm::dvec3(own[vertex]) : there;
+}
+
+/// All of them, as floats; none if the target or the mesh has no such stream.
+inline std::vector<glm::vec3> shifts_of(const Target& target, const std::vector<glm::vec3>& stream,
+                                        const std::vector<glm::vec3>& own) {
+    if (!target.is_frame) return stream;
+    std::vector<glm::vec3> shifts;
+    if (own.empty()) return shifts;
+    shifts.reserve(stream.size());
+    for (std::size_t vertex = 0; vertex < stream.size(); ++vertex)
+        shifts.emplace_back(shift_of(target, stream, own, vertex));
+    return shifts;
+}
+
+/// Seconds from the first frame to where the last one ends.
+inline double length_of(const Cycle& cycle, const Play& play) {
+    return (play.frames - 1.0 + (play.closed ? 1.0 : 0.0)) / cycle.frame_rate;
+}
+
+/// Two frames, numbered as Play::first is, and what the second one weighs.
+struct FramePair {
+    std::uint32_t left = 0, right = 0;
+    double fraction = 0.0;
+};
+
+inline FramePair frames_at(const Cycle& cycle, const Play& play, double seconds) {
+    const double at = (seconds - cycle.frame_start) * cycle.frame_rate;
+    const std::uint32_t last = play.closed ? play.frames : play.frames - 1;  // in frames from the first
+    const double held = std::clamp(at, 0.0, static_cast<double>(last));
+    const auto left = static_cast<std::uint32_t>(held);
+    const auto number = [&](std::uint32_t frame) { return play.first + frame % play.frames; };
+    return {number(left), number(std::min(left + 1, last)), held - left};
+}
+
+/// The same as timed keys: one for each frame, and for closed ones another of the first at the end.
+Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play);
+
+}  // namespace bendy::converter

@@ -1,0 +1,190 @@
+#include "further_members.h"
+
+#include "failure.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter::gltf {
+namespace {
+
+struct Shape;
+
+/// A member that is an object in an object.
+struct Inner {
+    std::string_view member;
+    const Shape* shape;
+};
+
+/// Which members an object has by the specification. `extras` and `name` stand in `known` where the Scene holds them,
+/// `extensions` where others say what becomes of them.
+struct Shape {
+    std::string_view known;  ///< names, separated by spaces
+    std::span<const Inner> inner = {};
+    bool is_open = false;  ///< members that are not named here are somebody else's: extensions without a shape
+};
+
+constexpr Shape kPlain{""};
+
+constexpr Shape kTextureTransform{"offset rotation scale texCoord"};
+constexpr std::array kUseExtensionsInner{Inner{"KHR_texture_transform", &kTextureTransform}};
+constexpr Shape kUseExtensions{"", kUseExtensionsInner};
+constexpr std::array kUseInner{Inner{"extensions", &kUseExtensions}};
+constexpr Shape kUse{"index texCoord", kUseInner};
+constexpr Shape kNormalUse{"index texCoord scale", kUseInner};
+constexpr Shape kOcclusionUse{"index texCoord strength", kUseInner};
+constexpr std::array kPbrInner{Inner{"baseColorTexture", &kUse}, Inner{"metallicRoughnessTexture", &kUse}};
+constexpr Shape kPbr{"baseColorFactor metallicFactor roughnessFactor", kPbrInner};
+constexpr std::array kMaterialExtensionsInner{Inner{"KHR_materials_unlit", &kPlain}};
+constexpr Shape kMaterialExtensions{"", kMaterialExtensionsInner, true};
+constexpr std::array kMaterialInner{
+    Inner{"extensions", &kMaterialExtensions}, Inner{"pbrMetallicRoughness", &kPbr},
+    Inner{"normalTexture", &kNormalUse},       Inner{"occlusionTexture", &kOcclusionUse},
+    Inner{"emissiveTexture", &kUse},
+};
+constexpr Shape kMaterial{"name extras emissiveFactor alphaMode alphaCutoff doubleSided", kMaterialInner};
+
+constexpr Shape kTextureSource{"source"};
+constexpr std::array kTextureExtensionsInner{
+    Inner{"KHR_texture_basisu", &kTextureSource},
+    Inner{"EXT_texture_avif", &kTextureSource},
+    Inner{"EXT_texture_webp", &kTextureSource},
+};
+constexpr Shape kTextureExtensions{"", kTextureExtensionsInner, true};
+constexpr std::array kTextureInner{Inner{"extensions", &kTextureExtensions}};
+constexpr Shape kTexture{"name extras source sampler", kTextureInner};
+
+constexpr Shape kDraco{"bufferView attributes"};
+constexpr std::array kPrimitiveExtensionsInner{Inner{"KHR_draco_mesh_compression", &kDraco}};
+constexpr Shape kPrimitiveExtensions{"", kPrimitiveExtensionsInner, true};
+constexpr std::array kPrimitiveInner{Inner{"extensions", &kPrimitiveExtensions}};
+constexpr Shape kPrimitive{"attributes indices material mode targets", kPrimitiveInner};
+
+constexpr Shape kChannelTarget{"node path extensions"};
+constexpr std::array kChannelInner{Inner{"target", &kChannelTarget}};
+constexpr Shape kChannel{"sampler extensions", kChannelInner};
+
+constexpr Shape kSparseIndices{"bufferView byteOffset componentType extensions"};
+constexpr Shape kSparseValues{"bufferView byteOffset extensions"};
+constexpr std::array kSparseInner{Inner{"indices", &kSparseIndices}, Inner{"values", &kSparseValues}};
+constexpr Shape kSparse{"count extensions", kSparseInner};
+constexpr std::array kAccessorInner{Inner{"sparse", &kSparse}};
+constexpr Shape kAccessor{"bufferView byteOffset componentType normalized count type max min extensions",
+                          kAccessorInner};
+
+constexpr Shape kMeshopt{"buffer byteOffset byteLength byteStride count mode filter"};
+constexpr std::array kViewExtensionsInner{Inner{"EXT_meshopt_compression", &kMeshopt},
+                                          Inner{"KHR_meshopt_compression", &kMeshopt}};
+constexpr Shape kViewExtensions{"", kViewExtensionsInner, true};
+constexpr std::array kViewInner{Inner{"extensions", &kViewExtensions}};
+constexpr Shape kView{"buffer byteOffset byteLength byteStride target", kViewInner};
+
+constexpr Shape kFallback{"fallback"};
+constexpr std::array kBufferExtensionsInner{Inner{"EXT_meshopt_compression", &kFallback},
+                                            Inner{"KHR_meshopt_compression", &kFallback}};
+constexpr Shape kBufferExtensions{"", kBufferExtensionsInner, true};
+constexpr std::array kBufferInner{Inner{"extensions", &kBufferExtensions}};
+constexpr Shape kBuffer{"uri byteLength", kBufferInner};
+
+constexpr Shape kPerspective{"aspectRatio yfov zfar znear extensions"};
+constexpr Shape kOrthographic{"xmag ymag zfar znear extensions"};
+constexpr std::array kCameraInner{Inner{"perspective", &kPerspective}, Inner{"orthographic", &kOrthographic}};
+constexpr Shape kCamera{"type extensions", kCameraInner};
+
+constexpr Shape kRoot{
+    "accessors animations asset buffers bufferViews cameras extensions extensionsRequired extensionsUsed extras images "
+    "materials meshes nodes samplers scene scenes skins textures"};
+constexpr Shape kScene{"name extras extensions nodes"};
+constexpr Shape kNode{"name extras extensions camera children matrix mesh rotation scale skin translation weights"};
+constexpr Shape kImage{"uri mimeType bufferView extensions"};
+constexpr Shape kSampler{"magFilter minFilter wrapS wrapT extensions"};
+constexpr Shape kSkin{"inverseBindMatrices joints skeleton extensions"};
+constexpr Shape kMesh{"name extras extensions primitives weights"};
+constexpr Shape kAnimation{"name extras extensions channels samplers"};
+constexpr Shape kAnimationSampler{"input interpolation output extensions"};
+
+/// In the order of Element.
+constexpr std::array kShapes{&kRoot,     &kScene,  &kNode,  &kMaterial,  &kTexture,   &kImage,   &kSampler,
+                             &kSkin,     &kCamera, &kMesh,  &kPrimitive, &kAnimation, &kChannel, &kAnimationSampler,
+                             &kAccessor, &kView,   &kBuffer};
+static_assert(kShapes.size() == static_cast<std::size_t>(Element::buffer) + 1);
+
+const Shape& shape_of(Element element) {
+    return *kShapes[static_cast<std::size_t>(element)];
+}
+
+bool is_known(const Shape& shape, std::string_view member) {
+    for (std::string_view names = shape.known; !names.empty();) {
+        const std::size_t end = std::min(names.find(' '), names.size());
+        if (names.substr(0, end) == member) return true;
+        names.remove_prefix(std::min(end + 1, names.size()));
+    }
+    return false;
+}
+
+const Shape* inner_shape(const Shape& shape, std::string_view member) {
+    for (const Inner& inner : shape.inner) {
+        if (inner.member == member) return inner.shape;
+    }
+    return nullptr;
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the shapes
+Json collect(const Json& object, const Shape& shape) {
+    Json further = Json::object();
+    if (!object.is_object()) return further;
+    for (auto member = object.begin(); member != object.end(); ++member) {
+        const Shape* inner = inner_shape(shape, member.key());
+        if (inner != nullptr && member->is_object()) {
+            if (Json deeper = collect(*member, *inner); !deeper.empty()) further[member.key()] = std::move(deeper);
+        } else if (inner == nullptr && !shape.is_open && !is_known(shape, member.key())) {
+            further[member.key()] = *member;
+        }
+    }
+    return further;
+}
+
+}  // namespace
+
+Json further_members(const Json& object, Element element) {
+    return collect(object, shape_of(element));
+}
+
+void lose_members(const Json& object, Element element, std::string_view nouns, const std::string& place,
+                  Losses& losses) {
+    struct Open {
+        Json further;
+        const Shape* shape;
+        std::string place;
+    };
+    std::vector<Open> pending;
+    pending.push_back({further_members(object, element), &shape_of(element), place});
+    const std::string of = " of " + std::string(nouns);
+    while (!pending.empty()) {
+        const Open open = std::move(pending.back());
+        pending.pop_back();
+        for (auto member = open.further.begin(); member != open.further.end(); ++member) {
+            const std::string here = open.place + '.' + key(member.key());
+            if (const Shape* inner = inner_shape(*open.shape, member.key()); inner != nullptr) {
+                pending.push_back({*member, inner, here});
+            } else if (member.key() == "extras") {
+                losses.add("extras" + of, here, here);
+            } else if (member.key() == "name" && member->is_string() && open.place == place) {
+                losses.add("names" + of, quote(member->get_ref<const std::string&>()), here);
+            } else {
+                losses.add("members that glTF does not define" + of, here, here);
+            }
+        }
+    }
+}
+
+std::string call(const Json& element, std::string_view array, std::size_t index) {
+    const Json* name = find(element, "name");
+    const bool is_named = name != nullptr && name->is_string() && !name->get_ref<const std::string&>().empty();
+    return is_named ? quote(name->get_ref<const std::string&>()) : at(array, index);
+}
+
+}  // namespace bendy::converter::gltf

@@ -1,0 +1,149 @@
+#include "clip_rotations.h"
+
+#include "cycle_span.h"
+#include "evaluate.h"
+#include "rest_frames.h"
+
+#include <bendy/format/trig.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy::converter {
+namespace {
+
+constexpr double kDegree = trig::kPi / 180.0;
+
+std::optional<glm::dquat> to_unit(const double* xyzw) {
+    const glm::dquat q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    const double length = glm::length(q);
+    if (!std::isfinite(length) || !(length > 1e-6)) return std::nullopt;
+    return q / length;
+}
+
+/// Radians, the short way.
+double angle_between(const glm::dquat& a, const glm::dquat& b) {
+    const glm::dquat d = glm::conjugate(a) * b;
+    return 2.0 * trig::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
+}
+
+glm::dquat rest_rotation(const Joint& joint) {
+    const glm::vec4& r = joint.rest.rotation;
+    return glm::normalize(glm::dquat(r.w, r.x, r.y, r.z));
+}
+
+/// The track's rotation at a time; nothing where it is none.
+std::optional<glm::dquat> rotation_at(const Track& track, double seconds, std::vector<double>& numbers) {
+    evaluate_track(track, seconds, numbers);
+    return to_unit(numbers.data());
+}
+
+}  // namespace
+
+ClipRotations::ClipRotations(const Scene& scene) : scene_(scene), tracks_(scene.joints.size()) {
+    for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
+        for (const Track& track : scene.cycles[cycle].tracks) {
+            if (track.path == TrackPath::rotation) tracks_[track.target].push_back({cycle, &track});
+        }
+    }
+}
+
+ClipRotations::OfJoint ClipRotations::of(std::uint32_t joint) const {
+    constexpr double kApart = 5.0 * kDegree;
+    OfJoint result;
+    const glm::dquat from_rest = glm::conjugate(rest_rotation(scene_.joints[joint]));
+    std::vector<double> numbers;
+    const auto add = [&](const glm::dquat& q) {
+        const glm::dquat away = from_rest * q;
+        result.rotations.push_back(away.w < 0.0 ? -away : away);
+    };
+    for (const auto& [cycle, track] : tracks_[joint]) {
+        ++result.clips;
+        std::optional<glm::dquat> last;
+        double last_time = 0.0;
+        for (const float time : track->times) {
+            const std::optional<glm::dquat> q = rotation_at(*track, time, numbers);
+            if (!q) continue;
+            if (last && track->interpolation != Interpolation::step) {
+                // A spline may leave the arc between its keys.
+                const int least = track->interpolation == Interpolation::cubic ? 4 : 1;
+                const int parts = std::max(least, static_cast<int>(std::ceil(angle_between(*last, *q) / kApart)));
+                for (int part = 1; part < parts; ++part) {
+                    const double between = last_time + (time - last_time) * part / parts;
+                    if (const auto there = rotation_at(*track, between, numbers)) add(*there);
+                }
+            }
+            add(*q);
+            last = q;
+            last_time = time;
+        }
+    }
+    return result;
+}
+
+std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) const {
+    constexpr std::size_t kMostTimes = 4096;  // of all clips together
+    std::vector<std::uint32_t> path;          // from the end up to the start
+    for (std::uint32_t joint = limb.end; joint != kNone && joint >= limb.start; joint = scene_.joints[joint].parent)
+        path.push_back(joint);
+    if (path.empty() || path.back() != limb.start) return std::nullopt;
+    std::reverse(path.begin(), path.end());
+
+    std::vector<std::vector<const Track*>> by_cycle(scene_.cycles.size());  // as many as the path has joints, or none
+    std::size_t moving = 0;
+    for (std::size_t link = 0; link < path.size(); ++link) {
+        for (const auto& [cycle, track] : tracks_[path[link]]) {
+            if (by_cycle[cycle].empty()) {
+                by_cycle[cycle].resize(path.size());
+                ++moving;
+            }
+            by_cycle[cycle][link] = track;
+        }
+    }
+    if (moving == 0) return std::nullopt;
+    const std::size_t times = std::clamp<std::size_t>(kMostTimes / moving, 4, 48);
+
+    Bend result;
+    glm::dvec3 sum(0.0);
+    double weight = 0.0;
+    double most = 0.0;
+    std::vector<double> numbers;
+    for (std::size_t cycle = 0; cycle < by_cycle.size(); ++cycle) {
+        if (by_cycle[cycle].empty()) continue;
+        ++result.clips;
+        const CycleSpan span = span_of(scene_.cycles[cycle]);
+        for (std::size_t time = 0; time < times; ++time) {
+            const double seconds = span.at(static_cast<double>(time) / static_cast<double>(times - 1));
+            glm::dquat turn(1.0, 0.0, 0.0, 0.0);
+            glm::dvec3 place(0.0);
+            glm::dvec3 middle(0.0);
+            for (std::size_t link = 0; link < path.size(); ++link) {
+                const Joint& joint = scene_.joints[path[link]];
+                if (link > 0) place += turn * glm::dvec3(joint.rest.translation);
+                if (path[link] == limb.middle) middle = place;
+                const Track* track = by_cycle[cycle][link];
+                const std::optional<glm::dquat> q =
+                    track != nullptr ? rotation_at(*track, seconds, numbers) : std::optional(rest_rotation(joint));
+                if (q) turn = turn * *q;
+            }
+            const glm::dvec3 tip = place + turn * limb.tip;
+            const auto upper = unit(middle);
+            const auto lower = unit(tip - middle);
+            const auto along = unit(tip);
+            if (!upper || !lower || !along) continue;
+            const double sine = glm::length(glm::cross(*upper, *lower));
+            most = std::max(most, trig::atan2(sine, glm::dot(*upper, *lower)));
+            if (const auto aside = unit_across(*upper, *along)) sum += sine * *aside;
+            weight += sine;
+        }
+    }
+    const auto direction = unit(sum);
+    if (!direction || most < 10.0 * kDegree) return std::nullopt;
+    result.direction = *direction;
+    result.agreement = glm::length(sum) / weight;
+    return result;
+}
+
+}  // namespace bendy::converter

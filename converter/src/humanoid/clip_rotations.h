@@ -1,0 +1,56 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bendy::converter {
+
+/// How a scene's clips turn its joints.
+class ClipRotations {
+public:
+    /// The scene must outlive this.
+    explicit ClipRotations(const Scene& scene);
+
+    /// What the clips do to one joint.
+    struct OfJoint {
+        std::vector<glm::dquat> rotations;  ///< conj(rest) * q: unit, w >= 0
+        std::uint32_t clips = 0;            ///< that have a rotation track for it
+    };
+    /// Every key, and between keys that are more than 5 degrees apart as many more as bring neighbours so near.
+    [[nodiscard]] OfJoint of(std::uint32_t joint) const;
+
+    /// Two bones with a joint in the middle: `start`, `middle` below it, and a tip fixed to `end`, which is `middle`
+    /// or below it.
+    struct Limb {
+        std::uint32_t start = kNone;
+        std::uint32_t middle = kNone;
+        std::uint32_t end = kNone;
+        glm::dvec3 tip{0.0};  ///< in the space of `end`
+    };
+    /// To which side of the line from start to tip the clips take the middle joint.
+    struct Bend {
+        glm::dvec3 direction{0.0};  ///< unit, in the space of start's parent: the mean, weighted by how bent it is
+        double agreement = 0.0;     ///< 0 to 1: how one-sided they are
+        std::uint32_t clips = 0;    ///< that move the limb
+    };
+    /// Nothing where no clip moves the limb, or none bends it by more than 10 degrees.
+    [[nodiscard]] std::optional<Bend> bend_of(const Limb& limb) const;
+
+private:
+    struct Placed {
+        std::size_t cycle = 0;
+        const Track* track = nullptr;
+    };
+
+    const Scene& scene_;
+    std::vector<std::vector<Placed>> tracks_;  ///< rotation tracks, by joint, in the cycles' order
+};
+
+}  // namespace bendy::converter

@@ -1,0 +1,101 @@
+#include "passes/merge_clips.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+using Property = std::pair<TrackPath, std::uint32_t>;
+
+Property property_of(const Track& track) {
+    return {track.path, track.target};
+}
+
+/// What both names begin with, without a half word at its end: "walk_hip", "walk_hand" -> "walk".
+std::string_view common_start(std::string_view a, std::string_view b) {
+    constexpr std::string_view kBetweenWords = "_-.:| ";
+    const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    if (differ.first == a.end() && differ.second == b.end()) return a;
+    std::string_view start = a.substr(0, static_cast<std::size_t>(differ.first - a.begin()));
+    const auto ends_word = [&](std::string_view name) {
+        return name.size() == start.size() || kBetweenWords.find(name[start.size()]) != std::string_view::npos;
+    };
+    if (!ends_word(a) || !ends_word(b)) {
+        const std::size_t last = start.find_last_of(kBetweenWords);
+        start = start.substr(0, last == std::string_view::npos ? 0 : last);
+    }
+    while (!start.empty() && kBetweenWords.find(start.back()) != std::string_view::npos) start.remove_suffix(1);
+    return start;
+}
+
+/// A clip that others are being merged into.
+struct Merged {
+    Cycle clip;
+    std::string start;  // of all names
+};
+
+void merge(Cycle&& clip, Merged& into, Report& report) {
+    into.start = common_start(into.start, clip.name);
+    into.clip.loop = into.clip.loop && clip.loop;
+    std::move(clip.tracks.begin(), clip.tracks.end(), std::back_inserter(into.clip.tracks));
+    std::move(clip.markers.begin(), clip.markers.end(), std::back_inserter(into.clip.markers));
+    if (!clip.extras.empty() && clip.extras != into.clip.extras)
+        report.warn("extras of a merged clip left out, those of the first are kept", "clip \"" + clip.name + '"');
+}
+
+}  // namespace
+
+std::uint32_t merge_clips(Scene& scene, Report& report) {
+    std::vector<Merged> merged;
+    std::map<Property, std::size_t> next;  // the first merged clip that a property is still free in, and after it
+    for (Cycle& clip : scene.cycles) {
+        std::size_t number = 0;
+        for (const Track& track : clip.tracks) number = std::max(number, next[property_of(track)]);
+        for (const Track& track : clip.tracks) next[property_of(track)] = number + 1;
+        if (number < merged.size()) {
+            merge(std::move(clip), merged[number], report);
+            continue;
+        }
+        Merged& begun = merged.emplace_back();
+        begun.start = clip.name;
+        begun.clip = std::move(clip);
+    }
+    scene.cycles.clear();
+    for (Merged& one : merged) {
+        if (!one.start.empty()) one.clip.name = one.start;
+        std::stable_sort(one.clip.markers.begin(), one.clip.markers.end(),
+                         [](const Marker& a, const Marker& b) { return a.seconds < b.seconds; });
+        scene.cycles.push_back(std::move(one.clip));
+    }
+    return static_cast<std::uint32_t>(scene.cycles.size());
+}
+
+bool is_spread_motion(const Scene& scene) {
+    constexpr std::size_t kFewest = 3;
+    if (scene.cycles.size() < kFewest) return false;
+    std::set<Property> properties;
+    std::size_t single = 0;
+    for (const Cycle& clip : scene.cycles) {
+        if (clip.tracks.empty()) return false;
+        for (const Track& track : clip.tracks) {
+            if (!properties.insert(property_of(track)).second) return false;
+        }
+        const Track& first = clip.tracks.front();
+        const bool is_single = std::all_of(clip.tracks.begin(), clip.tracks.end(), [&](const Track& track) {
+            const bool is_same_kind = (track.path == TrackPath::weights) == (first.path == TrackPath::weights);
+            return is_same_kind && track.target == first.target;
+        });
+        single += is_single ? 1 : 0;
+    }
+    return 2 * single > scene.cycles.size();
+}
+
+}  // namespace bendy::converter

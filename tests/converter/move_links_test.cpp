@@ -1,0 +1,104 @@
+#include "passes/move_links.h"
+
+#include "temporary_folder.h"
+
+#include <bendy/converter/linked_file.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace bendy::converter {
+namespace {
+
+class MoveLinks : public testing::Test {
+protected:
+    void make(const std::filesystem::path& name) const {
+        std::filesystem::create_directories((folder_.path() / name).parent_path());
+        std::ofstream(folder_.path() / name) << "image";
+    }
+
+    /// What becomes of a link of `from` in `to`.
+    std::string moved(const std::string& uri, const std::string& from, const std::string& to) {
+        Scene scene;
+        scene.images.emplace_back().uri = uri;
+        report_ = Report();
+        move_links(scene, folder_.path() / from, folder_.path() / to, report_);
+        return scene.images[0].uri;
+    }
+
+    [[nodiscard]] bool warned(const std::string& words) const {
+        const auto& warnings = report_.warnings();
+        return std::any_of(warnings.begin(), warnings.end(),
+                           [&](const Warning& warning) { return warning.message.find(words) != std::string::npos; });
+    }
+
+    test::TemporaryFolder folder_;
+    Report report_;
+};
+
+TEST_F(MoveLinks, AreRelativeToTheOutputsFolder) {
+    make("lk/axe.jpg");
+    EXPECT_EQ(moved("axe.jpg", "lk/a.x", "a.bendy"), "lk/axe.jpg");
+    EXPECT_TRUE(report_.warnings().empty());
+    EXPECT_EQ(moved("axe.jpg", "lk/a.x", "out/deep/a.bendy"), "../../lk/axe.jpg");
+    EXPECT_TRUE(warned("leads out of the output's folder"));
+    EXPECT_EQ(moved("../lk/axe.jpg", "other/a.gltf", "lk/a.bendy"), "axe.jpg");
+}
+
+TEST_F(MoveLinks, AreEncoded) {
+    make("a b/\xc3\xa9 100%.png");
+    EXPECT_EQ(moved("\xc3\xa9%20100%25.png", "a b/m.gltf", "m.bendy"), "a%20b/%C3%A9%20100%25.png");
+    EXPECT_TRUE(report_.warnings().empty());
+}
+
+TEST_F(MoveLinks, InOneFolderStayAsTheyAre) {
+    make("a b.png");
+    EXPECT_EQ(moved("./a b.png", "m.gltf", "m.bendy"), "./a b.png");
+    EXPECT_EQ(moved("gone.png", "m.gltf", "m.bendy"), "gone.png");
+    EXPECT_TRUE(warned("linked image does not exist: 'gone.png'"));
+}
+
+TEST_F(MoveLinks, OfOtherKindsStayAsTheyAre) {
+    for (const char* uri : {"https://example.org/a.png", "http://example.org/a.png", "/nowhere/at/all.png",
+                            "file:///nowhere/at/all.png"}) {
+        EXPECT_EQ(moved(uri, "lk/a.x", "a.bendy"), uri);
+        EXPECT_EQ(warned("does not exist"), std::string_view(uri).find("nowhere") != std::string_view::npos) << uri;
+    }
+}
+
+TEST_F(MoveLinks, FollowASymbolicLinkToTheFolder) {
+    make("real/deep/here/x");
+    make("lk/axe.jpg");
+    std::error_code problem;
+    std::filesystem::create_directory_symlink(folder_.path() / "real/deep/here", folder_.path() / "short", problem);
+    if (problem) GTEST_SKIP() << "no symbolic links here";
+    EXPECT_EQ(moved("axe.jpg", "lk/a.x", "short/a.bendy"), "../../../lk/axe.jpg");
+}
+
+TEST_F(MoveLinks, EmbeddedImagesHaveNone) {
+    Scene scene;
+    scene.images.emplace_back().bytes.resize(4);
+    scene.images.emplace_back();
+    Report report;
+    move_links(scene, "a/b", "c/d", report);
+    EXPECT_EQ(scene.images[0].uri, "");
+    EXPECT_EQ(scene.images[1].uri, "");
+    EXPECT_TRUE(report.warnings().empty());
+}
+
+TEST(LinkedFile, IsWhatTheUriMeans) {
+    const std::filesystem::path file = std::filesystem::path("models") / "fox.bendy";
+    EXPECT_EQ(linked_file("a%20b.png", file), std::filesystem::path("models") / "a b.png");
+    EXPECT_EQ(linked_file("/tmp/a%20b.png", file), std::filesystem::path("/tmp/a b.png"));
+    EXPECT_EQ(linked_file("file:///tmp/a.png", file), std::filesystem::path("/tmp/a.png"));
+    EXPECT_EQ(linked_file("file:///C:/a.png", file), std::filesystem::path("C:/a.png"));
+    EXPECT_EQ(linked_file("data:image/png;base64,AAAA", file), std::nullopt);
+    EXPECT_EQ(linked_file("https://example.org/a.png", file), std::nullopt);
+    EXPECT_EQ(linked_file("", file), std::nullopt);
+}
+
+}  // namespace
+}  // namespace bendy::converter
