@@ -35,19 +35,19 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
     std::uint64_t before = 0;
     std::uint64_t after = 0;
     const auto print_line = [&out](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
-        out << "  " << std::left << std::setw(10) << kind << std::right << std::setw(14) << grouped(exact)
+        out << "  " << std::left << std::setw(19) << kind << std::right << std::setw(14) << grouped(exact)
             << std::setw(14) << grouped(compact) << '\n';
     };
-    out << "  bytes              exact       compact\n";
+    out << "  bytes                       exact       compact\n";
     for (std::size_t k = 0; k < report.compact.size(); ++k) {
         before += report.exact[k].bytes;
         after += report.compact[k].bytes;
         if (report.exact[k].bytes + report.compact[k].bytes != 0)
-            print_line(report.compact[k].kind, report.exact[k].bytes, report.compact[k].bytes);
+            print_line(kind_in_words(report.compact[k].kind), report.exact[k].bytes, report.compact[k].bytes);
     }
     print_line("total", before, after);
     constexpr double kMillimetres = 1e3;
-    out << std::setprecision(3) << "  error      at most " << report.max_error * kMillimetres << " mm; worst met "
+    out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres << " mm; worst met "
         << report.measured_error * kMillimetres << " mm";
     if (!report.place.empty()) out << ": " << printable(report.place);
     out << '\n';

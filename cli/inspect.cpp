@@ -207,7 +207,20 @@ void run_html(const InspectArguments& arguments) {
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
+/// Nothing of a file with faults, which has chunks to show, but no character to sum up.
+std::optional<Summary> summarize_file(const InspectArguments& arguments, const ChunkTree& tree, Bytes bytes) {
+    const auto& chunks = tree.chunks();
+    const bool is_empty =
+        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
+    if (is_empty) return summarize_empty(bytes);
+    const Result<Model> model = Model::from_memory(bytes);
+    if (model) return summarize(*model, bytes);
+    if (arguments.summary) fail(arguments.file, model.error(), bytes);
+    return std::nullopt;
+}
+
 void run(const InspectArguments& arguments) {
+    require_folder_of(arguments.html);
     if (!arguments.html.empty()) {
         run_html(arguments);
         return;
@@ -222,12 +235,9 @@ void run(const InspectArguments& arguments) {
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
     }
 
-    // A file with faults may have chunks to show, but no character to sum up.
     std::optional<Summary> summary;
     if (root == 0 && !arguments.hex) {
-        const Result<Model> model = Model::from_memory(file.bytes());
-        if (model) summary = summarize(*model, file.bytes());
-        if (!model && arguments.summary) fail(arguments.file, model.error(), file.bytes());
+        summary = summarize_file(arguments, *tree, file.bytes());
     }
     if (arguments.json) {
         print_json(arguments, *tree, root, summary);

@@ -204,7 +204,7 @@ class CommandLine(Case):
             self.misused(command)
 
     def test_one_file_too_many_is_named(self):
-        for command in ("convert", "inspect", "pose", "rig", "bench"):
+        for command in ("inspect", "pose", "rig", "bench"):
             self.assertIn("second.bendy", self.misused(command, self.convert(), "second.bendy"))
 
     def test_what_a_user_typed_cannot_forge_lines(self):
@@ -215,6 +215,8 @@ class CommandLine(Case):
         (self.folder / "folder").mkdir()
         for command in ("convert", "inspect", "pose", "rig", "bench"):
             for name in ("missing", "empty", "folder", "empty/below", "missing/below"):
+                if (command, name) == ("convert", "folder"):
+                    continue  # it has nothing to convert
                 line = self.failed(command, name, file=name)
                 self.assertGreater(len(line), len(f"bendy: error: {name}: "))
         self.assertEqual(self.files(), ["empty", "folder"])
