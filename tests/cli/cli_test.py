@@ -372,6 +372,24 @@ class Convert(Case):
         self.done("validate", "legs.bendy")
         self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
 
+    def test_a_foot_beside_its_leg_comes_along(self):
+        nodes = [{"name": "Root", "children": [1, 6, 7]}, {"name": "Hips", "translation": [0, 1, 0], "children": [2, 4]}]
+        for name, x in (("Left", 0.1), ("Right", -0.1)):
+            at = len(nodes)
+            nodes += [{"name": f"{name}UpLeg", "translation": [x, 0, 0], "children": [at + 1]},
+                      {"name": f"{name}Leg", "translation": [0, -0.45, 0.02]}]
+        nodes += [{"name": f"{name}Foot", "translation": [x, 0.1, 0]} for name, x in (("Left", 0.1), ("Right", -0.1))]
+        (self.folder / "robot.gltf").write_text(json.dumps(
+            {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
+        self.assertEqual(self.bendy("convert", "robot.gltf", "--auto-rig").returncode, 0)
+        result = self.bendy("pose", "robot.bendy", "--reach", "LeftLeg=0.15,0.3,0.2", "-o", "robot.json")
+        self.assertEqual(result.returncode, 0)
+        joints = {joint["name"]: joint["world"][12:15]
+                  for joint in json.loads((self.folder / "robot.json").read_text())["joints"]}
+        for found, expected in ((joints["LeftFoot"], [0.15, 0.3, 0.2]), (joints["RightFoot"], [-0.1, 0.1, 0])):
+            for number, wanted in zip(found, expected):
+                self.assertAlmostEqual(number, wanted, delta=1e-3)
+
     def test_names_are_escaped_in_the_summary(self):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
         self.assertIn("slide\\x09now", text)
