@@ -57,7 +57,6 @@ std::pair<edit::Named, std::string> split_rename(const std::string& text) {
 
 /// {"old": "new", ...}
 edit::Rename read_table(const std::filesystem::path& path) {
-    require_folder_of(arguments.output);
     const MappedFile file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;
@@ -174,6 +173,7 @@ void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t 
 }
 
 void run(const Arguments& arguments, const std::vector<Step>& steps) {
+    require_folder_of(arguments.output);
     MappedFile file = open_bendy_file(arguments.input);
     const std::uint64_t size_before = file.bytes().size();
     Buffer bytes;
