@@ -5,6 +5,7 @@
 #include "inspect_html.h"
 #include "inspect_json.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 #include "summary.h"
