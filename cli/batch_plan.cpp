@@ -1,12 +1,12 @@
 #include "batch_plan.h"
 
-#include "colour.h"
+#include "batch_record.h"
+#include "output.h"
 #include "problem.h"
 
 #include <bendy/converter/readable_files.h>
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <set>
 #include <system_error>
@@ -38,13 +38,22 @@ public:
     }
 
     BatchPlan finish() {
-        for (const auto& [output, file] : files_) {
-            if (sources_.contains(output)) clash(file.output, "is an input as well as an output");
+        std::set<fs::path> folders;
+        for (const auto& [key, file] : files_) {
+            if (const std::string problem = outputs_.claim(file.output, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({file.input, file.output, problem});
+            folders.insert(file.folder);
             plan_.files.push_back(file);
         }
-        if (clashes_ != 0) throw Failed{};
+        for (const fs::path& folder : folders) {
+            const fs::path record = BatchRecord::file_in(folder);
+            if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({{}, record, problem});
+        }
         return std::move(plan_);
     }
+
+    void reads(const fs::path& file) { outputs_.reads(file); }
 
 private:
     void add_folder(const fs::path& folder) {
@@ -57,7 +66,7 @@ private:
                 add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
         }
         if (error) {
-            plan_.unread.push_back(folder.string() + ": cannot be read to its end: " + error.message());
+            plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
         } else if (files_.size() == before) {
             warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
         }
@@ -68,29 +77,25 @@ private:
         const fs::path output = folder / place;
         const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
         if (!is_new && plain(earlier->second.input) != plain(input)) {
-            clash(output, "both " + printable(earlier->second.input.string()) + " and " + printable(input.string()) +
-                              " would be written there");
+            plan_.clashes.push_back({input, output,
+                                     "both " + printable(earlier->second.input.string()) + " and " +
+                                         printable(input.string()) + " would be written there"});
         }
-        sources_.insert(plain(input));
-    }
-
-    void clash(const fs::path& output, const std::string& what) {
-        std::cerr << error_label() << printable(output.string()) << ": " << what << '\n';
-        ++clashes_;
+        outputs_.reads(input);
     }
 
     fs::path folder_;
     std::map<fs::path, BatchFile> files_;  // by output, plain
-    std::set<fs::path> sources_;           // all inputs, plain
-    std::size_t clashes_ = 0;
+    Outputs outputs_;
     BatchPlan plan_;
 };
 
 }  // namespace
 
-BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder) {
+BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& rig) {
     Planner planner(folder);
     for (const fs::path& input : inputs) planner.add(input);
+    if (!rig.empty()) planner.reads(rig);
     return planner.finish();
 }
 

@@ -36,12 +36,20 @@ FileStamp as_stamp(const json& numbers) {
 
 }  // namespace
 
-BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(folder / ".bendy_batch.json") {
+BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(file_in(folder)) {
     try {
         read();
     } catch (const json::exception&) {
         entries_.clear();  // damaged, or of another version: all is made again
     }
+}
+
+std::filesystem::path BatchRecord::file_in(const std::filesystem::path& folder) {
+    return folder / ".bendy_batch.json";
+}
+
+bool BatchRecord::knows(const BatchFile& file) const {
+    return entries_.contains(file.place.generic_string());
 }
 
 void BatchRecord::read() {

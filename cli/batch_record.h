@@ -18,6 +18,11 @@ class BatchRecord {
 public:
     explicit BatchRecord(const std::filesystem::path& folder);
 
+    /// Where the record of a folder is.
+    static std::filesystem::path file_in(const std::filesystem::path& folder);
+
+    /// Whether the output is one that a batch has written here, whatever became of it since.
+    [[nodiscard]] bool knows(const BatchFile& file) const;
     [[nodiscard]] bool is_up_to_date(const BatchFile& file, const std::string& recipe) const;
     /// To be called when the output stands where it should.
     void note(const BatchFile& file, const std::string& recipe, const std::vector<converter::SourceFile>& sources);

@@ -6,7 +6,6 @@
 #include "side_by_side.h"
 #include "stages.h"
 
-#include <bendy/format/file.h>
 #include <bendy/runtime.h>
 #include <bendy/runtime/kernels.h>
 
@@ -94,7 +93,7 @@ std::string padded(std::string text, std::size_t width) {
 
 void print_page(const BenchArguments& arguments, const Model& model, const Cycle* cycle,
                 const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
-    std::cout << printable(arguments.file.filename().string()) << ": " << grouped(model.joints().size()) << " joints, "
+    std::cout << shown_name(arguments.file.filename()) << ": " << grouped(model.joints().size()) << " joints, "
               << grouped(model.vertex_count()) << " vertices, " << grouped(model.target_count()) << " targets";
     if (cycle != nullptr) std::cout << "; cycle \"" << printable(cycle->name) << '"';
     std::cout << "\none thread; median of " << arguments.rounds << " turns (and the shortest)\n\n"
@@ -135,14 +134,18 @@ void print_json(const BenchArguments& arguments, const Model& model, const Cycle
 }
 
 void run(const BenchArguments& arguments) {
-    const MappedFile file = open_bendy_file(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
     const Cycle* cycle = model->cycles().empty() ? nullptr : model->cycles().data();
     if (!arguments.clip.empty()) cycle = &find_cycle(arguments.clip, arguments.file, *model);
 
     const std::vector<Kernel> kernels = chosen_kernels(arguments);
-    const Stages stages(arguments.file, *model, cycle);
+    const auto open = [&](const OpenOptions& options) {
+        return is_dash(arguments.file) ? Model::from_memory(file.bytes(), options)
+                                       : Model::open(arguments.file, options);
+    };
+    const Stages stages(open, *model, cycle);
     std::vector<Row> rows;
     {
         ProgressBar bar("measuring");

@@ -9,7 +9,7 @@ namespace bendy::cli {
 /// What the user typed behind the program's name, in UTF-8.
 std::vector<std::string> command_line(int argc, const char* const* argv);
 
-/// Makes standard output take bytes as they are, and a console show UTF-8.
+/// Makes standard input and output take bytes as they are, and a console show UTF-8.
 void prepare_console();
 
 enum class Stream { output, error };

@@ -46,6 +46,7 @@ std::vector<std::string> command_line(int argc, const char* const* argv) {
 }
 
 void prepare_console() {
+    ::_setmode(::_fileno(stdin), _O_BINARY);
     ::_setmode(::_fileno(stdout), _O_BINARY);
     ::SetConsoleOutputCP(CP_UTF8);
 }

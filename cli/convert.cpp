@@ -2,25 +2,27 @@
 #include "console.h"
 #include "convert_arguments.h"
 #include "convert_batch.h"
+#include "convert_input.h"
+#include "convert_report.h"
 #include "depfile.h"
 #include "import_problem.h"
+#include "input_bytes.h"
 #include "live_progress.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
 #include "summary.h"
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/converter/readable_files.h>
-#include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,65 +31,110 @@ namespace bendy::cli {
 namespace {
 
 /// Bytes by kind before and after, and the worst error.
-void print_compact(const converter::CompactReport& report) {
+void print_compact(const converter::CompactReport& report, std::ostream& out) {
     std::uint64_t before = 0;
     std::uint64_t after = 0;
-    const auto print_line = [](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
-        std::cout << "  " << std::left << std::setw(10) << kind << std::right << std::setw(14) << grouped(exact)
-                  << std::setw(14) << grouped(compact) << '\n';
+    const auto print_line = [&out](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
+        out << "  " << std::left << std::setw(19) << kind << std::right << std::setw(14) << grouped(exact)
+            << std::setw(14) << grouped(compact) << '\n';
     };
-    std::cout << "  bytes              exact       compact\n";
+    out << "  bytes                       exact       compact\n";
     for (std::size_t k = 0; k < report.compact.size(); ++k) {
         before += report.exact[k].bytes;
         after += report.compact[k].bytes;
         if (report.exact[k].bytes + report.compact[k].bytes != 0)
-            print_line(report.compact[k].kind, report.exact[k].bytes, report.compact[k].bytes);
+            print_line(kind_in_words(report.compact[k].kind), report.exact[k].bytes, report.compact[k].bytes);
     }
     print_line("total", before, after);
     constexpr double kMillimetres = 1e3;
-    std::cout << std::setprecision(3) << "  error      at most " << report.max_error * kMillimetres << " mm; worst met "
-              << report.measured_error * kMillimetres << " mm";
-    if (!report.place.empty()) std::cout << ": " << printable(report.place);
-    std::cout << '\n';
+    out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres << " mm; worst met "
+        << report.measured_error * kMillimetres << " mm";
+    if (!report.place.empty()) out << ": " << printable(report.place);
+    out << '\n';
 }
 
 auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,
                            converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
-    LiveProgress progress("converting " + printable(input.filename().string()), !arguments.quiet);
-    options.output = arguments.output;
+    LiveProgress progress("converting " + shown_name(input.filename()), !arguments.quiet);
+    options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
     options.progress = [&](double share) { progress.set(share); };
-    return converter::convert(input, options, report);
+    return convert_input(input, options, report);
 }
 
 void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_bytes_by_kind) {
     const Result<Model> model = Model::from_memory(bytes);
-    if (!model) fail(arguments.output, model.error(), bytes);
-    std::cout << summary_as_text(summarize(*model, bytes), arguments.output.string(), columns_of(Stream::output),
-                                 with_bytes_by_kind);
+    if (!model) fail(output_name(arguments.output), model.error(), bytes);
+    const Stream stream = is_dash(arguments.output) ? Stream::error : Stream::output;
+    summary_stream(arguments.output) << summary_as_text(summarize(*model, bytes), output_name(arguments.output),
+                                                        columns_of(stream), with_bytes_by_kind);
 }
 
-void write_depfile(const ConvertArguments& arguments, const converter::Report& report) {
+void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {
     const std::string text = depfile_text(arguments.output, report.sources());
-    if (text.empty()) fail(arguments.depfile, "cannot hold a file name with a line break");
-    if (const auto written = write_file(arguments.depfile, std::as_bytes(std::span(text))); !written)
-        fail(arguments.depfile, bendy::describe(written.error()));
+    if (text.empty()) fail(output_name(arguments.depfile), "cannot hold a file name with a line break");
+    outputs.write(arguments.depfile, text);
 }
 
-void convert_file(const ConvertArguments& arguments) {
+/// \returns the bytes that it has written
+std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, NamedBy named, converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    Outputs outputs(arguments.force);
+    outputs.reads(input);
+    if (!arguments.rig.empty()) outputs.reads(arguments.rig);
+    outputs.writes(arguments.output, named, Content::binary);
+    check_suffix({"convert", "--output", {".bendy"}}, input, arguments.output);
+    if (!arguments.depfile.empty()) outputs.writes(arguments.depfile, NamedBy::user, Content::text);
+    auto bytes = convert_with_progress(arguments, options_of(arguments), report);
+    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
+    for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
+    outputs.write(arguments.output, *bytes);
+    if (!arguments.depfile.empty()) write_depfile(arguments, report, outputs);
+    return *std::move(bytes);
+}
+
+void convert_file(const ConvertArguments& arguments, NamedBy named) {
     const std::filesystem::path& input = arguments.inputs.front();
     converter::Report report;
-    const auto bytes = convert_with_progress(arguments, options_of(arguments), report);
-    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(input, arguments.output, ignored)) fail(arguments.output, "is the input itself");
-    if (const auto written = write_file(arguments.output, *bytes); !written)
-        fail(arguments.output, bendy::describe(written.error()));
-    if (!arguments.depfile.empty()) write_depfile(arguments, report);
+    if (arguments.json) {
+        try {
+            const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
+            print_report(converted_report(input, arguments.output, report, bytes));
+        } catch (const Failed& failed) {
+            print_report(failed_report(input, arguments.output, report, failed.file, failed.what));
+            throw;
+        }
+        return;
+    }
+    const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
     print_warnings(input, report);
     print_proposals(report);
-    if (!arguments.quiet) print_summary(arguments, *bytes, !report.compact);
-    if (!arguments.quiet && report.compact) print_compact(*report.compact);
+    if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
+    if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
+}
+
+/// What one run can do with standard input and output, and with names.
+void check_names(const ConvertArguments& arguments, bool is_batch) {
+    const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);
+    if (is_batch && (has_dash || is_dash(arguments.rig)))
+        throw CLI::ValidationError("-", "standard input goes alone, and not into a folder");
+    if (is_batch && is_dash(arguments.output))
+        throw CLI::ValidationError("--output", "several files cannot go to standard output: give a folder");
+    const bool takes_output = is_dash(arguments.output) || is_dash(arguments.depfile);
+    if (arguments.json && takes_output)
+        throw CLI::ValidationError("--json", "goes to standard output, and so does a file: give that a name");
+    if (!arguments.depfile.empty() && is_dash(arguments.output))
+        throw CLI::ValidationError("--depfile", "goes with an output that has a name");
+    if (const auto format = format_named_by(arguments.depfile); !format.empty())
+        throw CLI::ValidationError("--depfile", printable(arguments.depfile.string()) + " would be " +
+                                                    std::string(format) + ", not a rule for Make");
+    std::error_code ignored;
+    if (const auto format = format_named_by(arguments.output);
+        is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {
+        const std::string name = printable(arguments.output.string());
+        throw CLI::ValidationError("--output", "several files go to a folder, and " + name + " would be " +
+                                                   std::string(format) + "; " + name + "/ is a folder");
+    }
 }
 
 void run(ConvertArguments arguments) {
@@ -96,14 +143,16 @@ void run(ConvertArguments arguments) {
     const bool has_folder =
         std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
                     [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
+    const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
                           (!arguments.output.empty() && (!arguments.output.has_filename() ||
                                                          std::filesystem::is_directory(arguments.output, ignored)));
     if (!is_batch) require_folder_of(arguments.output);
     require_folder_of(arguments.depfile);
     if (arguments.output.empty() && !is_batch)
-        arguments.output = std::filesystem::path(input).replace_extension(".bendy");
-    if (!is_batch) return convert_file(arguments);
+        arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
+    check_names(arguments, is_batch);
+    if (!is_batch) return convert_file(arguments, named);
     if (!arguments.depfile.empty())
         throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
     convert_batch(arguments);
@@ -131,7 +180,10 @@ void add_convert(CLI::App& program) {
                      "of several inputs, how many at a time; one for each processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
-                      "of several inputs, all; else only what has changed since it was converted to the same place");
+                      "replace outputs that bendy did not write, unless -o names the one file; and of several inputs, "
+                      "convert all, not only what has changed since it was converted to the same place");
+    command->add_flag("--json", arguments->json,
+                      "print a JSON object for each input, on a line of its own, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
                         "of one input: write which files were read, as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,

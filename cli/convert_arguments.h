@@ -29,6 +29,7 @@ struct ConvertArguments {
     bool sort_vertices = false;
     unsigned jobs = 0;  ///< files at a time; 0: one for each processor
     bool force = false;
+    bool json = false;
     bool quiet = false;
 };
 

@@ -3,12 +3,15 @@
 #include "batch_plan.h"
 #include "batch_record.h"
 #include "colour.h"
+#include "convert_report.h"
+#include "file_identity.h"
 #include "import_problem.h"
 #include "interrupt.h"
 #include "live_progress.h"
 #include "problem.h"
 #include "progress_bar.h"
 #include "warnings.h"
+#include "written_by_bendy.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -44,6 +47,12 @@ struct Totals {
     std::uint64_t bytes_out = 0;  ///< of the same
 };
 
+void print_problem(const ConvertArguments& arguments, const BatchProblem& problem) {
+    const std::filesystem::path& file = problem.output.empty() ? problem.input : problem.output;
+    std::cerr << error_label() << printable(file.string()) << ": " << problem.what << '\n';
+    if (arguments.json) print_report(failed_report(problem.input, problem.output, {}, file, problem.what));
+}
+
 struct Failure {
     std::filesystem::path file;
     std::string what;
@@ -55,6 +64,7 @@ struct Outcome {
     std::uint64_t size = 0;  ///< of the output
     std::chrono::duration<double> time{0.0};
     std::optional<Failure> failure;
+    nlohmann::ordered_json json;  ///< with --json, of a conversion that went well
 };
 
 /// What of a file is done: from any thread. Outside of Batch's lock, so that reports of progress cost next to nothing.
@@ -70,10 +80,8 @@ public:
 
     void run() {
         const Interrupt interrupt;
-        for (const std::string& what : plan_.unread) {
-            std::cerr << error_label() << printable(what) << '\n';
-            ++totals_.failed;
-        }
+        for (const BatchProblem& problem : plan_.unread) print_problem(arguments_, problem);
+        totals_.failed += plan_.unread.size();
         skip_what_is_up_to_date();
         show_bar();
         const std::size_t wanted = arguments_.jobs != 0 ? arguments_.jobs : std::thread::hardware_concurrency();
@@ -82,7 +90,7 @@ public:
         for (std::thread& worker : workers_) worker.join();
         write_record();
         bar_.clear();
-        if (!arguments_.quiet) print_table();
+        if (!arguments_.quiet && !arguments_.json) print_table();
         if (totals_.failed != 0) throw Failed{};
     }
 
@@ -91,6 +99,7 @@ private:
         for (const BatchFile& file : plan_.files) {
             if (!arguments_.force && record_of(file).is_up_to_date(file, recipe_)) {
                 ++totals_.up_to_date;
+                if (arguments_.json) print_report(up_to_date_report(file.input, file.output));
             } else {
                 to_do_.push_back(&file);
             }
@@ -137,8 +146,18 @@ private:
         }
     }
 
+    /// An output that is there, and neither this program nor a batch to the same place has written.
+    [[nodiscard]] bool is_foreign(const BatchFile& file) {
+        std::error_code ignored;
+        if (arguments_.force || !std::filesystem::exists(file.output, ignored)) return false;
+        if (was_written_by_bendy(file.output)) return false;
+        const std::lock_guard lock(state_);
+        return !record_of(file).knows(file);
+    }
+
     std::optional<Failure> convert(std::size_t number, Outcome& outcome) {
         const BatchFile& file = *to_do_[number];
+        if (is_foreign(file)) return Failure{file.output, "is there, and bendy did not write it: --force replaces it"};
         converter::ConvertOptions options = options_of(arguments_);
         options.output = file.output;
         options.progress = [&share = shares_[number]](double done) {
@@ -147,12 +166,16 @@ private:
         const auto bytes = converter::convert(file.input, options, outcome.report);
         if (!bytes) return Failure{file_of(bytes.error(), file.input), describe(bytes.error())};
         outcome.size = bytes->size();
+        if (arguments_.json) outcome.json = converted_report(file.input, file.output, outcome.report, *bytes);
         const std::shared_lock writing(writing_);
         std::error_code problem;
         if (file.output.has_parent_path()) std::filesystem::create_directories(file.output.parent_path(), problem);
         if (problem) return Failure{file.output.parent_path(), "cannot be made: " + problem.message()};
-        if (std::filesystem::equivalent(file.input, file.output, problem))
-            return Failure{file.output, "is the input itself"};
+        const auto identity = identity_of(file.output);
+        for (const converter::SourceFile& source : outcome.report.sources()) {
+            if (identity && identity_of(source.file) == identity)
+                return Failure{file.output, "is an input as well as an output"};
+        }
         const auto written = write_file(file.output, *bytes);
         if (!written) return Failure{file.output, bendy::describe(written.error())};
         return std::nullopt;
@@ -183,14 +206,26 @@ private:
         show_bar();
     }
 
+    static void print_failure(const BatchFile& file, const Failure& failure) {
+        std::cerr << error_label() << printable(failure.file.string()) << ": " << failure.what;
+        if (failure.file != file.input) std::cerr << " (for " << printable(file.input.string()) << ')';
+        std::cerr << '\n';
+    }
+
     void print(const BatchFile& file, const Outcome& outcome) const {
+        if (arguments_.json) {
+            if (outcome.failure) print_failure(file, *outcome.failure);
+            print_report(outcome.failure ? failed_report(file.input, file.output, outcome.report, outcome.failure->file,
+                                                         outcome.failure->what)
+                                         : outcome.json);
+            std::cout.flush();
+            return;
+        }
         print_warnings(file.input, outcome.report);
         for (const std::string& line : outcome.report.proposals())
             std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
         if (outcome.failure) {
-            std::cerr << error_label() << printable(outcome.failure->file.string()) << ": " << outcome.failure->what;
-            if (outcome.failure->file != file.input) std::cerr << " (for " << printable(file.input.string()) << ')';
-            std::cerr << '\n';
+            print_failure(file, *outcome.failure);
         } else if (!arguments_.quiet) {
             std::ostringstream line;
             line << printable(file.input.string()) << " -> " << printable(file.output.string()) << "  "
@@ -302,7 +337,9 @@ private:
 }  // namespace
 
 void convert_batch(const ConvertArguments& arguments) {
-    BatchPlan plan = plan_batch(arguments.inputs, arguments.output);
+    BatchPlan plan = plan_batch(arguments.inputs, arguments.output, arguments.rig);
+    for (const BatchProblem& clash : plan.clashes) print_problem(arguments, clash);
+    if (!plan.clashes.empty()) throw Failed{};
     std::error_code problem;
     if (!arguments.output.empty()) std::filesystem::create_directories(arguments.output, problem);
     if (problem) fail(arguments.output, "cannot be made: " + problem.message());

@@ -7,7 +7,6 @@
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 
 #include <array>
@@ -171,7 +170,7 @@ Json to_json(const Arguments& arguments, const ReadFile& a, const ReadFile& b, c
 }
 
 /// A damaged file is refused before anything is compared: its sums would say nothing.
-std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFile& file) {
+std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
     const Faults faults = validate(file.bytes());
     if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
     return read_file(file.bytes());
@@ -179,7 +178,7 @@ std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const MappedFi
 
 bool are_same(const Arguments& arguments) {
     if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
-    std::array<MappedFile, 2> files;
+    std::array<InputBytes, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
     for (std::size_t i = 0; i < 2; ++i) {
         files[i] = open_bendy_file(arguments.files[i]);
@@ -205,7 +204,7 @@ void run(const Arguments& arguments) {
     } catch (const Failed&) {
         throw Failed{kTrouble};
     } catch (const TooMuchToCompare&) {
-        std::cerr << error_label() << printable(arguments.files[0].string())
+        std::cerr << error_label() << shown_name(arguments.files[0])
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {

@@ -9,7 +9,6 @@
 #include <bendy/converter/compare_characters.h>
 #include <bendy/converter/import_bendy.h>
 #include <bendy/converter/write_rig.h>
-#include <bendy/format/file.h>
 
 #include <iomanip>
 #include <iostream>
@@ -31,7 +30,7 @@ struct Character {
 };
 
 Character read_character(const std::filesystem::path& path) {
-    const MappedFile file = open_bendy_file(path);
+    const InputBytes file = open_bendy_file(path);
     converter::Report report;
     auto scene = converter::import_bendy(file.bytes(), report);
     if (!scene) fail(path, printable(scene.error().message));

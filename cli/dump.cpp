@@ -1,14 +1,14 @@
 #include "commands.h"
 #include "input_file.h"
 #include "late_progress.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
-#include "text_output.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/twin/dump.h>
 
 #include <memory>
@@ -18,14 +18,18 @@ namespace {
 
 struct DumpArguments {
     std::filesystem::path file;
-    std::filesystem::path output;
+    std::filesystem::path output = "-";
     bool decode = false;
     bool ignore_sums = false;
 };
 
 void run(const DumpArguments& arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::text);
+    check_suffix({"dump", "--output", {".json", ".txt"}}, arguments.file, arguments.output);
     require_folder_of(arguments.output);
-    const MappedFile file = open_bendy_file(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
@@ -42,7 +46,7 @@ void run(const DumpArguments& arguments) {
     options.decode = arguments.decode;
     LateProgress progress("dumping");
     const std::string text = twin::dump(*tree, options, progress.callback());
-    write_text(arguments.output, text);
+    outputs.write(arguments.output, text);
 }
 
 }  // namespace

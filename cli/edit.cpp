@@ -1,7 +1,9 @@
 #include "commands.h"
 #include "import_problem.h"
 #include "input_file.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
 
 #include <bendy/edit/extract.h>
@@ -10,7 +12,6 @@
 #include <bendy/edit/rename.h>
 #include <bendy/edit/strip.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,7 @@ struct Arguments {
     std::vector<std::string> strips, renames, joint_renames, extracts;
     std::vector<std::filesystem::path> joint_tables, merges;
     std::string same_name = "error";
+    bool in_place = false;
     bool quiet = false;
 };
 
@@ -57,7 +59,7 @@ std::pair<edit::Named, std::string> split_rename(const std::string& text) {
 
 /// {"old": "new", ...}
 edit::Rename read_table(const std::filesystem::path& path) {
-    const MappedFile file = open_file(path);
+    const InputBytes file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;
     const auto table = nlohmann::ordered_json::parse(as_text(file.bytes()), nullptr, false);
@@ -71,9 +73,10 @@ edit::Rename read_table(const std::filesystem::path& path) {
 }
 
 /// A bendy file, or one of another kind made one.
-Buffer read_other(const std::filesystem::path& path) {
+Buffer read_other(const std::filesystem::path& path, Outputs& outputs) {
     converter::Report unheard;
     const auto file = read_character(path, unheard);
+    for (const converter::SourceFile& source : unheard.sources()) outputs.reads(source.file);
     if (!file) fail(file_of(file.error(), path), describe(file.error()));
     return {file->bytes().begin(), file->bytes().end()};
 }
@@ -86,7 +89,8 @@ edit::SameName same_name_of(const std::string& word) {
 /// The steps in the order in which the command line has them.
 class Steps {
 public:
-    explicit Steps(const Arguments& arguments) : arguments_(arguments) {}
+    /// \param outputs  learns what the steps read
+    Steps(const Arguments& arguments, Outputs& outputs) : arguments_(arguments), outputs_(outputs) {}
 
     void add(const std::string& option) {
         const std::size_t number = seen_[option]++;
@@ -126,6 +130,7 @@ private:
 
     void add_table(const std::filesystem::path& path) {
         close_rename();
+        outputs_.reads(path);
         steps_.emplace_back([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
     }
 
@@ -139,8 +144,9 @@ private:
     void add_merge(const std::filesystem::path& path) {
         close_rename();
         const edit::SameName same_name = same_name_of(arguments_.same_name);
-        steps_.emplace_back([path, same_name](Bytes file, edit::Log& log) -> edit::Edited {
-            const Buffer other = read_other(path);
+        outputs_.reads(path);
+        steps_.emplace_back([path, same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
+            const Buffer other = read_other(path, outputs);
             const auto first = log.warnings.size();
             auto merged = edit::merge_cycles(file, other, same_name, log);
             for (std::size_t k = first; k < log.warnings.size(); ++k)
@@ -158,23 +164,29 @@ private:
     }
 
     const Arguments& arguments_;
+    Outputs& outputs_;
     std::map<std::string, std::size_t> seen_;
     edit::Rename rename_;
     std::vector<Step> steps_;
 };
 
 void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t after) {
-    std::cout << printable(arguments.output.string()) << ": " << grouped(after) << " bytes";
+    std::ostream& out = summary_stream(arguments.output);
+    out << printable(output_name(arguments.output)) << ": " << grouped(after) << " bytes";
     if (after != before) {
-        std::cout << ", " << grouped(after < before ? before - after : after - before)
-                  << (after < before ? " less" : " more");
+        out << ", " << grouped(after < before ? before - after : after - before)
+            << (after < before ? " less" : " more");
     }
-    std::cout << '\n';
+    out << '\n';
 }
 
-void run(const Arguments& arguments, const std::vector<Step>& steps) {
+/// \param outputs  knows what is read besides the file itself
+void run(const Arguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
+    if (!arguments.in_place) outputs.reads(arguments.input);
+    outputs.writes(arguments.output, NamedBy::user, Content::binary);
+    check_suffix({"edit", "--output", {".bendy"}}, arguments.input, arguments.output);
     require_folder_of(arguments.output);
-    MappedFile file = open_bendy_file(arguments.input);
+    InputBytes file = open_bendy_file(arguments.input);
     const std::uint64_t size_before = file.bytes().size();
     Buffer bytes;
     edit::Log log;
@@ -183,13 +195,12 @@ void run(const Arguments& arguments, const std::vector<Step>& steps) {
         if (!edited) fail(arguments.input, printable(edited.error().message));
         bytes = *std::move(edited);
     }
-    file = MappedFile();  // the output may be the input, and Windows replaces no mapped file
-    if (const auto written = write_file(arguments.output, bytes); !written)
-        fail(arguments.output, describe(written.error()));
+    file = InputBytes();  // the output may be the input, and Windows replaces no mapped file
+    outputs.write(arguments.output, bytes);
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
     if (arguments.quiet) return;
     print_size(arguments, size_before, bytes.size());
-    for (const std::string& line : log.done) std::cout << "  " << printable(line) << '\n';
+    for (const std::string& line : log.done) summary_stream(arguments.output) << "  " << printable(line) << '\n';
 }
 
 }  // namespace
@@ -198,7 +209,8 @@ void add_edit(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
     command->add_option("FILE", arguments->input, "a bendy file")->required();
-    command->add_option("-o,--output", arguments->output, "where to write, always needed; may be FILE itself");
+    command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");
+    command->add_flag("-i,--in-place", arguments->in_place, "replace FILE by the result, instead of --output");
     const auto add = [&](const char* name, auto& values, const std::string& help) {
         command->add_option(name, values, help)->allow_extra_args(false);
     };
@@ -227,13 +239,18 @@ void add_edit(CLI::App& program) {
         "follow one another happen at once. What is not touched keeps its bytes, unknown chunks too.\n"
         "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename cycle:mixamo.com=Run");
     command->callback([arguments, command] {
-        if (arguments->output.empty()) throw CLI::ValidationError("--output", "says where to write, and is needed");
-        Steps steps(*arguments);
+        if (arguments->output.empty() == !arguments->in_place)
+            throw CLI::ValidationError("--output", "or --in-place, one of the two, says where to write");
+        if (arguments->in_place) arguments->output = arguments->input;
+        if (arguments->in_place && is_dash(arguments->input))
+            throw CLI::ValidationError("--in-place", "goes with a file, not with standard input: -o - writes on");
+        Outputs outputs;
+        Steps steps(*arguments, outputs);
         for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
         const auto taken = steps.take();
         if (taken.empty())
             throw CLI::ValidationError("edit", "there is nothing to do: --strip, --rename-joint, --merge, --extract");
-        run(*arguments, taken);
+        run(*arguments, taken, outputs);
     });
 }
 

@@ -1,14 +1,15 @@
 #include "commands.h"
 #include "input_file.h"
 #include "level_of_detail.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
 #include "warnings.h"
 
 #include <bendy/converter/export_gltf.h>
 #include <bendy/converter/export_x.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime/model.h>
 
 #include <cstdint>
@@ -25,75 +26,80 @@ struct ExportArguments {
     std::filesystem::path output;
     std::string format;
     float lod = 1.0f;
+    bool force = false;
     bool quiet = false;
 };
-
-void write(const std::filesystem::path& file, Bytes bytes) {
-    if (const auto written = write_file(file, bytes); !written) fail(file, describe(written.error()));
-}
 
 /// What the output's name says, if nothing else does.
 std::string format_of(const ExportArguments& arguments) {
     if (!arguments.format.empty()) return arguments.format;
-    const std::string extension = arguments.output.extension().string();
-    if (extension == ".x" || extension == ".X") return "x";
-    return extension == ".gltf" ? "gltf" : "glb";
+    const std::string suffix = suffix_of(arguments.output);
+    return suffix == ".x" || suffix == ".gltf" ? suffix.substr(1) : "glb";
 }
 
-void refuse_input(const std::filesystem::path& input, const std::filesystem::path& output) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(input, output, ignored))
-        fail(input, "the output would be the input: give another name with -o");
+/// The output's name fits what it will be.
+void check_output(const ExportArguments& arguments, const std::string& format) {
+    const bool has_meaning = !arguments.format.empty() || !arguments.output.has_extension();
+    check_format({"export", "--output", {".glb", ".gltf", ".x"}, has_meaning}, arguments.format, arguments.file,
+                 arguments.output);
+    if (format != "glb" && is_dash(arguments.output))
+        throw CLI::ValidationError("--output", format + " may need files beside it: only glb goes to standard output");
 }
 
 /// Where it goes, and the level of detail.
-converter::ExportOptions options_of(const ExportArguments& arguments) {
+converter::ExportOptions options_of(const ExportArguments& arguments, Bytes file) {
     converter::ExportOptions options;
-    options.output = arguments.output;
+    options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
     if (!(arguments.lod < 1.0f)) return options;
-    const MappedFile file = open_bendy_file(arguments.file);
-    const Result<Model> model = Model::from_memory(file.bytes());
-    if (!model) fail(arguments.file, model.error(), file.bytes());
+    const Result<Model> model = Model::from_memory(file);
+    if (!model) fail(arguments.file, model.error(), file);
     const Lod lod = level_of(arguments.file, *model, arguments.lod);
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
     return options;
 }
 
 /// \return bytes that were written
-std::uint64_t export_gltf(const ExportArguments& arguments, bool is_glb, converter::Report& report) {
+std::uint64_t export_gltf(const ExportArguments& arguments, Bytes file, bool is_glb, Outputs& outputs,
+                          converter::Report& report) {
     std::filesystem::path buffer_file;
-    if (!is_glb) {
-        buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
-        refuse_input(arguments.file, buffer_file);
-    }
-    const auto asset = converter::export_gltf(arguments.file, buffer_file.filename(), report, options_of(arguments));
+    if (!is_glb) buffer_file = std::filesystem::path(arguments.output).replace_extension("bin");
+    const converter::ExportOptions options = options_of(arguments, file);
+    const auto asset = is_dash(arguments.file)
+                           ? converter::export_gltf(file, buffer_file.filename(), report, options)
+                           : converter::export_gltf(arguments.file, buffer_file.filename(), report, options);
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     if (is_glb) {
         const auto glb = converter::make_glb(*asset);
-        if (!glb) fail(arguments.output, glb.error().message);
-        write(arguments.output, *glb);
+        if (!glb) fail(output_name(arguments.output), glb.error().message);
+        outputs.write(arguments.output, *glb);
         return glb->size();
     }
-    if (!asset->buffer.empty()) write(buffer_file, asset->buffer);
-    write(arguments.output, std::as_bytes(std::span(asset->json)));
+    if (!asset->buffer.empty()) {
+        outputs.writes_beside(buffer_file, arguments.output);
+        outputs.write(buffer_file, asset->buffer);
+    }
+    outputs.write(arguments.output, asset->json);
     return asset->json.size() + asset->buffer.size();
 }
 
 /// \return bytes that were written
-std::uint64_t export_x(const ExportArguments& arguments, converter::Report& report) {
-    const auto asset =
-        converter::export_x(arguments.file, arguments.output.stem().string(), report, options_of(arguments));
+std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& outputs, converter::Report& report) {
+    const converter::ExportOptions options = options_of(arguments, file);
+    const std::string stem = arguments.output.stem().string();
+    const auto asset = is_dash(arguments.file) ? converter::export_x(file, stem, report, options)
+                                               : converter::export_x(arguments.file, stem, report, options);
     print_warnings(arguments.file, report);
     if (!asset) fail(arguments.file, printable(asset.error().message));
     std::uint64_t size = asset->text.size();
+    const std::filesystem::path folder = arguments.output.parent_path();
+    for (const converter::XAsset::File& image : asset->images)
+        outputs.writes_beside(folder / image.name, arguments.output);
     for (const converter::XAsset::File& image : asset->images) {
-        const std::filesystem::path file = arguments.output.parent_path() / image.name;
-        refuse_input(arguments.file, file);
-        write(file, image.bytes);
+        outputs.write(folder / image.name, image.bytes);
         size += image.bytes.size();
     }
-    write(arguments.output, std::as_bytes(std::span(asset->text)));
+    outputs.write(arguments.output, asset->text);
     if (!arguments.quiet && !asset->images.empty()) {
         std::cout << "images beside it:";
         for (const converter::XAsset::File& image : asset->images) std::cout << ' ' << printable(image.name);
@@ -105,16 +111,23 @@ std::uint64_t export_x(const ExportArguments& arguments, converter::Report& repo
 void run(ExportArguments arguments) {
     require_folder_of(arguments.output);
     const std::string format = format_of(arguments);
+    const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     if (arguments.output.empty()) {
         arguments.output = arguments.file;
-        arguments.output.replace_extension(format);
+        if (!is_dash(arguments.file)) arguments.output.replace_extension(format);
     }
-    static_cast<void>(open_bendy_file(arguments.file));  // what is wrong with it comes first
-    refuse_input(arguments.file, arguments.output);
+    Outputs outputs(arguments.force);
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, named, format == "glb" ? Content::binary : Content::text);
+    check_output(arguments, format);
+    const InputBytes file = open_bendy_file(arguments.file);
     converter::Report report;
-    const std::uint64_t size =
-        format == "x" ? export_x(arguments, report) : export_gltf(arguments, format == "glb", report);
-    if (!arguments.quiet) std::cout << printable(arguments.output.string()) << ": " << grouped(size) << " bytes\n";
+    const std::uint64_t size = format == "x" ? export_x(arguments, file.bytes(), outputs, report)
+                                             : export_gltf(arguments, file.bytes(), format == "glb", outputs, report);
+    if (!arguments.quiet) {
+        summary_stream(arguments.output) << printable(output_name(arguments.output)) << ": " << grouped(size)
+                                         << " bytes\n";
+    }
 }
 
 }  // namespace
@@ -124,6 +137,9 @@ void add_export(CLI::App& program) {
     CLI::App* command = program.add_subcommand("export", "Write a bendy file as glTF 2.0, or as a DirectX X-file");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .glb if not given");
+    command->add_flag("--force", arguments->force,
+                      "replace files that bendy did not write where -o does not name them: the default output, and "
+                      "what goes beside one");
     command
         ->add_option(
             "--format", arguments->format,

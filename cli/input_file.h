@@ -1,7 +1,9 @@
 #pragma once
 
+#include "input_bytes.h"
+#include "output.h"
+
 #include <bendy/converter/report.h>
-#include <bendy/format/file.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
@@ -12,12 +14,12 @@
 // Files that commands read: what they are, and what to do about those that are something else.
 namespace bendy::cli {
 
-/// Maps a file of any kind. Fails if it cannot be read.
-MappedFile open_file(const std::filesystem::path& file);
+/// Maps a file of any kind, or reads standard input; as all functions here. Fails if it cannot be read.
+InputBytes open_file(const std::filesystem::path& file);
 
 /// Maps a file that is to be a bendy file. Fails, with the command that makes one of it, if it is known to be something
 /// else; what is not known at all goes through.
-MappedFile open_bendy_file(const std::filesystem::path& file);
+InputBytes open_bendy_file(const std::filesystem::path& file);
 
 /// What is wrong with a file that could not be opened.
 std::string why_not_opened(const std::filesystem::path& file, const Error& error);
@@ -27,13 +29,13 @@ std::string why_not_bendy(const std::filesystem::path& file, Bytes bytes);
 /// The bytes of a bendy file, mapped, or made from a file of another kind.
 class CharacterFile {
 public:
-    explicit CharacterFile(MappedFile mapped) : mapped_(std::move(mapped)) {}
+    explicit CharacterFile(InputBytes mapped) : mapped_(std::move(mapped)) {}
     explicit CharacterFile(std::vector<std::byte> converted) : converted_(std::move(converted)) {}
 
     [[nodiscard]] Bytes bytes() const { return converted_.empty() ? mapped_.bytes() : Bytes(converted_); }
 
 private:
-    MappedFile mapped_;
+    InputBytes mapped_;
     std::vector<std::byte> converted_;
 };
 
@@ -41,6 +43,7 @@ private:
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
                                                              converter::Report& report);
 /// The same; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
-CharacterFile open_character(const std::filesystem::path& file);
+/// \param outputs  learns what was read
+CharacterFile open_character(const std::filesystem::path& file, Outputs& outputs);
 
 }  // namespace bendy::cli

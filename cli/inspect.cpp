@@ -4,6 +4,8 @@
 #include "input_file.h"
 #include "inspect_html.h"
 #include "inspect_json.h"
+#include "output.h"
+#include "output_suffix.h"
 #include "problem.h"
 #include "summary.h"
 #include "terminal_text.h"
@@ -12,7 +14,6 @@
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime/model.h>
 
 #include <algorithm>
@@ -170,23 +171,26 @@ void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Byt
 }
 
 /// \returns its size, bytes
-std::size_t write_page(const InspectArguments& arguments, const InspectedFile& file) {
+std::size_t write_page(const InspectArguments& arguments, const Outputs& outputs, const InspectedFile& file) {
     const std::string page = inspect_page(file);
-    if (const auto written = write_file(arguments.html, as_byte_span(page)); !written)
-        fail(arguments.html, describe(written.error()));
+    outputs.write(arguments.html, page);
     return page.size();
 }
 
 /// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
 void run_html(const InspectArguments& arguments) {
-    const MappedFile mapped = open_bendy_file(arguments.file);
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.html, NamedBy::user, Content::text);
+    check_suffix({"inspect", "--html", {".html", ".htm", ".xhtml"}}, arguments.file, arguments.html);
+    const InputBytes input = open_bendy_file(arguments.file);
     InspectedFile file;
-    file.name = arguments.file.filename().string();
-    file.bytes = mapped.bytes();
+    file.name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    file.bytes = input.bytes();
     Result<ChunkTree> tree = read_chunk_tree(file.bytes);
     if (!tree) {
         file.faults.add(tree.error());
-        write_page(arguments, file);
+        write_page(arguments, outputs, file);
         fail(arguments.file, tree.error(), file.bytes);
     }
     check_sums(*tree, file.faults);
@@ -196,18 +200,32 @@ void run_html(const InspectArguments& arguments) {
     check_values(*tree, file.document, file.faults);
     file.pictures = draw_page_pictures(
         file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
-    const std::size_t size = write_page(arguments, file);
-    std::cout << printable(arguments.html.string()) << ": " << grouped(size) << " bytes, "
-              << grouped(file.faults.count()) << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    const std::size_t size = write_page(arguments, outputs, file);
+    summary_stream(arguments.html) << printable(output_name(arguments.html)) << ": " << grouped(size) << " bytes, "
+                                   << grouped(file.faults.count())
+                                   << (file.faults.count() == 1 ? " fault\n" : " faults\n");
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
+/// Nothing of a file with faults, which has chunks to show, but no character to sum up.
+std::optional<Summary> summarize_file(const InspectArguments& arguments, const ChunkTree& tree, Bytes bytes) {
+    const auto& chunks = tree.chunks();
+    const bool is_empty =
+        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
+    if (is_empty) return summarize_empty(bytes);
+    const Result<Model> model = Model::from_memory(bytes);
+    if (model) return summarize(*model, bytes);
+    if (arguments.summary) fail(arguments.file, model.error(), bytes);
+    return std::nullopt;
+}
+
 void run(const InspectArguments& arguments) {
+    require_folder_of(arguments.html);
     if (!arguments.html.empty()) {
         run_html(arguments);
         return;
     }
-    const MappedFile file = open_bendy_file(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     Result<ChunkTree> tree = read_chunk_tree(file.bytes());
     if (!tree) fail(arguments.file, tree.error(), file.bytes());
     decode_leaves(*tree);
@@ -217,12 +235,9 @@ void run(const InspectArguments& arguments) {
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
     }
 
-    // A file with faults may have chunks to show, but no character to sum up.
     std::optional<Summary> summary;
     if (root == 0 && !arguments.hex) {
-        const Result<Model> model = Model::from_memory(file.bytes());
-        if (model) summary = summarize(*model, file.bytes());
-        if (!model && arguments.summary) fail(arguments.file, model.error(), file.bytes());
+        summary = summarize_file(arguments, *tree, file.bytes());
     }
     if (arguments.json) {
         print_json(arguments, *tree, root, summary);

@@ -1,11 +1,14 @@
 #include "live_progress.h"
 
 #include "console.h"
+#include "terminal_text.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -66,19 +69,24 @@ void LiveProgress::show_again_and_again() {
 
 void LiveProgress::show() const {
     constexpr std::size_t kWidth = 30;
+    constexpr std::size_t kLeastWidth = 5;
     const std::chrono::duration<double> passed = Clock::now() - start_;
     const double share = std::clamp(share_.load(std::memory_order_relaxed), 0.0, 1.0);
-    std::string line = what_ + ' ';
-    if (share > 0.0) {
-        const auto full = static_cast<std::size_t>(static_cast<double>(kWidth) * share);
-        std::array<char, 8> percent{};
-        std::snprintf(percent.data(), percent.size(), "%3d %%", static_cast<int>(100.0 * share));
-        line += '[' + std::string(full, '#') + std::string(kWidth - full, ' ') + "] " + percent.data() + ", ";
-    }
-    line += clock_text(passed) + time_left_text(share, passed);
+    const std::string time = clock_text(passed) + time_left_text(share, passed);
     const std::size_t columns = columns_of(Stream::error);
-    if (columns != 0 && line.size() >= columns) line.resize(columns - 1);
-    std::cerr << '\r' << line << "\x1b[K" << std::flush;
+    const std::size_t most = columns == 0 ? std::string::npos : columns - 1;  // a full line would wrap
+    std::string bar;
+    if (share > 0.0) {
+        std::array<char, 12> percent{};
+        std::snprintf(percent.data(), percent.size(), "%3d %%, ", static_cast<int>(100.0 * share));
+        constexpr std::string_view kAround = " [] ";
+        const std::size_t others = width_of(what_) + kAround.size() + std::strlen(percent.data()) + time.size();
+        const std::size_t width = std::min(kWidth, most - std::min(most, others));
+        const auto full = static_cast<std::size_t>(static_cast<double>(width) * share);
+        if (width >= kLeastWidth) bar = '[' + std::string(full, '#') + std::string(width - full, ' ') + "] ";
+        bar += percent.data();
+    }
+    std::cerr << '\r' << cut_to(what_ + ' ' + bar + time, columns == 0 ? 0 : most) << "\x1b[K" << std::flush;
 }
 
 }  // namespace bendy::cli

@@ -3,10 +3,11 @@
 #include "input_file.h"
 #include "level_of_detail.h"
 #include "mesh_writer.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
 #include "reach_request.h"
-#include "text_output.h"
 
 #include <bendy/runtime.h>
 
@@ -27,7 +28,8 @@ struct PoseArguments {
     float time = 0.0f;
     ReachRequest reach;
     float lod = 1.0f;  // share of the triangles
-    std::filesystem::path output;
+    std::filesystem::path output = "-";
+    std::string format;  // empty: as the output's name says
 };
 
 /// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
@@ -100,19 +102,28 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     return object;
 }
 
+/// Of the output: what --format says, or its name does.
+std::string format_of(const PoseArguments& arguments) {
+    if (!arguments.format.empty()) return arguments.format;
+    const std::string suffix = suffix_of(arguments.output);
+    return is_dash(arguments.output) || suffix.empty() ? "obj" : suffix.substr(1);
+}
+
 void run(const PoseArguments& arguments) {
-    const std::string extension = arguments.output.extension().string();
-    const auto writer = extension == ".json" ? write_json : extension == ".ply" ? write_ply : write_obj;
-    if (!arguments.output.empty() && extension != ".obj" && extension != ".ply" && extension != ".json") {
-        throw CLI::ValidationError("--output", "must end in .obj, .ply or .json");
-    }
+    const std::string format = format_of(arguments);
+    const auto writer = format == "json" ? write_json : format == "ply" ? write_ply : write_obj;
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, format == "ply" ? Content::binary : Content::text);
+    check_format({"pose", "--output", {".obj", ".ply", ".json"}, false}, arguments.format, arguments.file,
+                 arguments.output);
     require_folder_of(arguments.output);
-    const CharacterFile file = open_character(arguments.file);
+    const CharacterFile file = open_character(arguments.file, outputs);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
 
     const std::string text = writer(pose_object(arguments, *model));
-    write_text(arguments.output, text);
+    outputs.write(arguments.output, text);
 }
 
 }  // namespace
@@ -133,7 +144,11 @@ void add_pose(CLI::App& program) {
     add_reach(*command, arguments->reach);
     add_lod(*command, arguments->lod);
     command->add_option("-o,--output", arguments->output,
-                        "OUT.obj, OUT.ply or OUT.json; OBJ to standard output if not given");
+                        "OUT.obj, OUT.ply or OUT.json; standard output if not given, or for -");
+    command
+        ->add_option("--format", arguments->format,
+                     "obj, ply or json, where no name says it; to standard output: obj if not given")
+        ->check(CLI::IsMember({"obj", "ply", "json"}));
     command->footer(
         "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "
         "meshes: name, positions, normals and indices of triangles. After --reach also reaches, one for each target: "

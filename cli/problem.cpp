@@ -11,8 +11,8 @@
 namespace bendy::cli {
 
 void fail(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << error_label() << printable(file.string()) << ": " << what << '\n';
-    throw Failed{};
+    std::cerr << error_label() << shown_name(file) << ": " << what << '\n';
+    throw Failed{1, file, std::string(what)};
 }
 
 void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
@@ -20,7 +20,11 @@ void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
 }
 
 void warn(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << warning_label() << printable(file.string()) << ": " << what << '\n';
+    std::cerr << warning_label() << shown_name(file) << ": " << what << '\n';
+}
+
+std::string shown_name(const std::filesystem::path& input) {
+    return input == "-" ? "standard input" : printable(input.string());
 }
 
 std::string printable(std::string_view text) {

@@ -11,7 +11,9 @@ namespace bendy::cli {
 
 /// Thrown when the input is bad or the work failed, after the reason has been printed.
 struct Failed {
-    int status = 1;  ///< what the program exits with
+    int status = 1;                   ///< what the program exits with
+    std::filesystem::path file = {};  ///< that the reason is about, and the reason; for reports
+    std::string what = {};
 };
 
 /// Prints `bendy: error: FILE: what is wrong` to standard error and throws Failed.
@@ -21,6 +23,8 @@ struct Failed {
 /// Prints `bendy: warning: FILE: what` to standard error.
 void warn(const std::filesystem::path& file, std::string_view what);
 
+/// An input's name for a terminal; a dash is standard input.
+std::string shown_name(const std::filesystem::path& input);
 /// Text for a terminal: control characters are escaped, so that a name cannot move the cursor or forge a line.
 std::string printable(std::string_view text);
 /// 1234567 as "1,234,567".

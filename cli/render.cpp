@@ -6,13 +6,15 @@
 #include "find_cycle.h"
 #include "input_file.h"
 #include "level_of_detail.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "progress_bar.h"
 #include "reach_request.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/runtime.h>
+#include <bendy/viewer/linked_file.h>
 #include <bendy/viewer/picture_file.h>
 #include <bendy/viewer/render.h>
 #include <bendy/viewer/viewer_error.h>
@@ -41,6 +43,7 @@ struct RenderArguments {
     std::string camera;
     std::string background;
     std::string context = "auto";
+    std::string format;   // empty: as the output's name says
     unsigned frames = 0;  // 0: not said
     bool verbose = false;
     ReachRequest reach;
@@ -206,8 +209,8 @@ unsigned default_frames(const Cycle& cycle) {
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
-std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& extension) {
-    const bool is_animation = extension != ".png";
+std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& format) {
+    const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
     if (arguments.has_clip) render.cycle = &find_cycle(arguments.clip, arguments.file, model);
     if (render.cycle == nullptr && (is_animation || arguments.frames > 1)) {
@@ -219,7 +222,7 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
     ReachingMaker maker(arguments, model);
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
     const float start = render.cycle == nullptr ? 0.0f : render.cycle->start;
-    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, extension == ".gif")
+    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, format == "gif")
                                    : arguments.frames > 1
                                        ? draw_sheet(maker, arguments)
                                        : viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
@@ -227,17 +230,36 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
     return bytes;
 }
 
+/// Of the output: what --format says, or its name does.
+std::string format_of(const RenderArguments& arguments) {
+    if (!arguments.format.empty()) return arguments.format;
+    const std::string suffix = suffix_of(arguments.output);
+    return is_dash(arguments.output) || suffix.empty() ? "png" : suffix.substr(1);
+}
+
+/// The file and the images beside it that it names, which are drawn.
+void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
+    for (const Texture& texture : model.textures()) {
+        for (const ImageView& image : texture.images) {
+            if (const auto file = viewer::linked_file(arguments.render.folder, image.uri)) outputs.reads(*file);
+        }
+    }
+}
+
 void run(RenderArguments arguments) {
-    const std::string extension = arguments.output.extension().string();
-    if (extension != ".png" && extension != ".gif" && extension != ".webp")
-        fail_option("--output", "must end in .png, .gif or .webp");
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::binary);
+    check_format({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.format, arguments.file,
+                 arguments.output);
+    const std::string format = format_of(arguments);
     if (arguments.frames > 1 && arguments.has_time) fail_option("--time", "does not go with --frames");
-    if (arguments.frames > 1 || extension != ".png") {
+    if (arguments.frames > 1 || format != "png") {
         arguments.render.width = 320;
         arguments.render.height = 240;
     }
     if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
-    if (extension == ".png") check_sheet(arguments);
+    if (format == "png") check_sheet(arguments);
     if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
     arguments.render.context = arguments.context == "egl"      ? viewer::ContextKind::egl
@@ -245,14 +267,14 @@ void run(RenderArguments arguments) {
                                                                : viewer::ContextKind::any;
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
-    const CharacterFile file = open_character(arguments.file);
+    const CharacterFile file = open_character(arguments.file, outputs);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
     arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
+    note_inputs(arguments, *model, outputs);
     try {
-        const std::vector<std::byte> bytes = draw_all(arguments, *model, extension);
-        if (const auto written = write_file(arguments.output, bytes); !written)
-            fail(arguments.output, describe(written.error()));
+        const std::vector<std::byte> bytes = draw_all(arguments, *model, format);
+        outputs.write(arguments.output, bytes);
     } catch (const viewer::ViewerError& problem) {
         fail(arguments.file, printable(problem.what()));
     }
@@ -267,7 +289,14 @@ void add_render(CLI::App& program) {
         ->add_option("FILE", arguments->file,
                      "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
         ->required();
-    command->add_option("-o,--output", arguments->output, "OUT.png; or OUT.gif, OUT.webp: an animation")->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "OUT.png; or OUT.gif, OUT.webp: an animation; - is standard output")
+        ->required();
+    command
+        ->add_option("--format", arguments->format,
+                     "png, gif or webp, where no name says it; to standard output: png if not given")
+        ->check(CLI::IsMember({"png", "gif", "webp"}));
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the cycle's time line")->needs(clip);

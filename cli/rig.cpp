@@ -1,15 +1,15 @@
 #include "commands.h"
 #include "input_file.h"
+#include "output.h"
 #include "output_folder.h"
+#include "output_suffix.h"
 #include "problem.h"
-#include "text_output.h"
 
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/file.h>
 
 #include <memory>
 
@@ -18,12 +18,16 @@ namespace {
 
 struct RigArguments {
     std::filesystem::path file;
-    std::filesystem::path output;
+    std::filesystem::path output = "-";
 };
 
 void run(const RigArguments& arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::text);
+    check_suffix({"rig", "--output", {".json"}}, arguments.file, arguments.output);
     require_folder_of(arguments.output);
-    const MappedFile file = open_bendy_file(arguments.file);
+    const InputBytes file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail(arguments.file, tree.error(), bytes);
@@ -38,7 +42,7 @@ void run(const RigArguments& arguments) {
         warn(arguments.file, "there are " + grouped(document.objects.size()) + " objects; the rig is the first one's");
 
     const std::string text = converter::write_rig(document.objects.front());
-    write_text(arguments.output, text);
+    outputs.write(arguments.output, text);
 }
 
 }  // namespace

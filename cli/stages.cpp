@@ -20,7 +20,7 @@ bool has_attribute(const Model& model, std::size_t attribute) {
 
 }  // namespace
 
-Stages::Stages(const std::filesystem::path& file, const Model& model, const Cycle* cycle)
+Stages::Stages(const Open& open, const Model& model, const Cycle* cycle)
     : model_(model),
       cycle_(cycle),
       pose_(model),
@@ -31,7 +31,7 @@ Stages::Stages(const std::filesystem::path& file, const Model& model, const Cycl
       normals_(has_attribute(model, 1) ? model.vertex_count() : 0),
       tangents_(has_attribute(model, 2) ? model.vertex_count() : 0),
       weights_(model.target_count(), 0.5f) {
-    add_opening(file);
+    add_opening(open);
     add_posing();
     add_skinning();
     add_inbetweening();
@@ -43,16 +43,16 @@ void Stages::add(std::string name, const char* item, double items, std::function
     if (items > 0.0) list_.push_back({std::move(name), item, items, std::move(run)});
 }
 
-void Stages::add_opening(const std::filesystem::path& file) {
-    add("open, sums checked", "file", 1.0, [file] { (void)Model::open(file); });
-    add("open, sums not checked", "file", 1.0, [file] {
+void Stages::add_opening(const Open& open) {
+    add("open, sums checked", "file", 1.0, [open] { (void)open({}); });
+    add("open, sums not checked", "file", 1.0, [open] {
         OpenOptions options;
         options.sums = Sums::later;
-        (void)Model::open(file, options);
+        (void)open(options);
     });
     const std::size_t cycle = cycle_ == nullptr ? 0 : static_cast<std::size_t>(cycle_ - model_.cycles().data());
-    add("open to the first pose", "file", 1.0, [file, cycle] {
-        const Result<Model> opened = Model::open(file);
+    add("open to the first pose", "file", 1.0, [open, cycle] {
+        const Result<Model> opened = open({});
         if (!opened) return;
         Pose pose(*opened);
         if (cycle < opened->cycles().size()) sample(&opened->cycles()[cycle], opened->cycles()[cycle].start, pose);

@@ -8,7 +8,6 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <random>
 #include <string>
@@ -27,9 +26,12 @@ struct Stage {
 /// The stages of one file, with all that they work on; they use it, and it must not move.
 class Stages {
 public:
+    using Open = std::function<Result<Model>(const OpenOptions&)>;
+
+    /// \param open   opens the file once more, or the bytes that were piped in
     /// \param model  the file opened
     /// \param cycle  what is played; null: the rest pose, and nothing is sampled
-    Stages(const std::filesystem::path& file, const Model& model, const Cycle* cycle);
+    Stages(const Open& open, const Model& model, const Cycle* cycle);
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
     Stages(Stages&&) = delete;
@@ -40,7 +42,7 @@ public:
 
 private:
     void add(std::string name, const char* item, double items, std::function<void()> run);
-    void add_opening(const std::filesystem::path& file);
+    void add_opening(const Open& open);
     void add_posing();
     void add_skinning();
     void add_inbetweening();

@@ -96,24 +96,6 @@ Box rest_bounds(const Model& model) {
     return box_around(points);
 }
 
-/// Chunk ids as people call what they hold.
-std::string words_for(const std::string& kind) {
-    constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{{"PALT", "palettes"},
-                                                                      {"POSI", "positions"},
-                                                                      {"NORM", "normals"},
-                                                                      {"TANG", "tangents"},
-                                                                      {"TEXC", "texture coordinates"},
-                                                                      {"COLR", "colours"},
-                                                                      {"BONE", "influences"},
-                                                                      {"WGHT", "weights"},
-                                                                      {"targets", "morph targets"},
-                                                                      {"cycles", "clips"}}};
-    for (const auto& [id, words] : kWords) {
-        if (kind == id) return std::string(words);
-    }
-    return kind;
-}
-
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
     return grouped(count) + ' ' + std::string(count == 1 ? one : many);
 }
@@ -248,6 +230,20 @@ void add_bounds(const Summary& summary, Lines& lines) {
                "from " + brief(std::array{low.x, low.y, low.z}) + " to " + brief(std::array{high.x, high.y, high.z})});
 }
 
+void add_contents(const Summary& summary, Lines& lines) {
+    lines.add("joints", {grouped(summary.joints.size())});
+    add_rig(summary, lines);
+    add_meshes(summary, lines);
+    add_levels(summary, lines);
+    add_morph_targets(summary, lines);
+    lines.add("clips",
+              listed(summary.clips, grouped(summary.clips.size()), [](const Summary::ClipLine& clip, std::size_t k) {
+                  return label_of(clip.name, k) + ' ' + brief(clip.end - clip.start) + " s";
+              }));
+    add_surfaces(summary, lines);
+    add_bounds(summary, lines);
+}
+
 template <class List>
 ordered_json json_list(const List& list, void (*fill)(ordered_json&, const typename List::value_type&)) {
     ordered_json all = ordered_json::array();
@@ -308,9 +304,35 @@ ordered_json levels_as_json(const Summary& summary) {
 
 }  // namespace
 
-Summary summarize(const Model& model, Bytes file) {
+std::string kind_in_words(const std::string& kind) {
+    constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{{"PALT", "palettes"},
+                                                                      {"POSI", "positions"},
+                                                                      {"NORM", "normals"},
+                                                                      {"TANG", "tangents"},
+                                                                      {"TEXC", "texture coordinates"},
+                                                                      {"COLR", "colours"},
+                                                                      {"BONE", "influences"},
+                                                                      {"WGHT", "weights"},
+                                                                      {"targets", "morph targets"},
+                                                                      {"cycles", "clips"}}};
+    for (const auto& [id, words] : kWords) {
+        if (kind == id) return std::string(words);
+    }
+    return kind;
+}
+
+Summary summarize_empty(Bytes file) {
     Summary summary;
     summary.bytes = file.size();
+    summary.objects = 0;
+    for (const converter::ByteCount& count : converter::count_bytes(file)) {
+        if (count.bytes != 0) summary.bytes_by_kind.emplace_back(kind_in_words(count.kind), count.bytes);
+    }
+    return summary;
+}
+
+Summary summarize(const Model& model, Bytes file) {
+    Summary summary = summarize_empty(file);
     summary.name = model.name();
     if (const Result<ChunkTree> tree = read_chunk_tree(file)) {
         summary.objects = static_cast<std::uint64_t>(std::count_if(
@@ -329,9 +351,6 @@ Summary summarize(const Model& model, Bytes file) {
     for (const Material& material : model.materials()) summary.materials.push_back({std::string(material.name)});
     summary.textures = list_textures(model);
     summary.bounds = rest_bounds(model);
-    for (const converter::ByteCount& count : converter::count_bytes(file)) {
-        if (count.bytes != 0) summary.bytes_by_kind.emplace_back(words_for(count.kind), count.bytes);
-    }
     return summary;
 }
 
@@ -343,20 +362,11 @@ std::string summary_as_text(const Summary& summary, const std::string& file, std
     }
     std::string head = printable(file) + ": " + grouped(summary.bytes) + " bytes";
     if (images != 0) head += ", " + grouped(images) + " of them images";
+    if (summary.objects == 0) head += ", no object";
     if (summary.objects > 1) head += "; " + grouped(summary.objects) + " objects, this is the first";
 
     Lines lines(columns);
-    lines.add("joints", {grouped(summary.joints.size())});
-    add_rig(summary, lines);
-    add_meshes(summary, lines);
-    add_levels(summary, lines);
-    add_morph_targets(summary, lines);
-    lines.add("clips",
-              listed(summary.clips, grouped(summary.clips.size()), [](const Summary::ClipLine& clip, std::size_t k) {
-                  return label_of(clip.name, k) + ' ' + brief(clip.end - clip.start) + " s";
-              }));
-    add_surfaces(summary, lines);
-    add_bounds(summary, lines);
+    if (summary.objects != 0) add_contents(summary, lines);
     if (with_bytes_by_kind) {
         std::vector<std::string> parts;
         for (const auto& [kind, bytes] : summary.bytes_by_kind) parts.push_back(kind + ' ' + grouped(bytes));

@@ -75,6 +75,12 @@ struct Summary {
 /// \param file  the bytes that the model was made from
 Summary summarize(const Model& model, Bytes file);
 
+/// Of a file without an object: only its size.
+Summary summarize_empty(Bytes file);
+
+/// What count_bytes calls a kind, in words: "POSI" is "positions".
+std::string kind_in_words(const std::string& kind);
+
 /// Lines for people, after the file's name and size. \param columns  longer lines are folded at commas; 0: none is.
 std::string summary_as_text(const Summary& summary, const std::string& file, std::size_t columns,
                             bool with_bytes_by_kind = true);

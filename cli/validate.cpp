@@ -1,11 +1,11 @@
 #include "colour.h"
 #include "commands.h"
 #include "dangling_links.h"
+#include "fault_lines.h"
 #include "input_file.h"
 #include "problem.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 
 #include <nlohmann/json.hpp>
@@ -37,18 +37,9 @@ const char* class_name(ErrorClass kind) {
     return "";
 }
 
-void print_lines(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
-    for (const Error& fault : faults.list()) {
-        std::cout << printable(file.string()) << ": " << code_name(fault.code) << ": "
-                  << describe_with_place(fault, bytes) << '\n';
-    }
-    if (faults.left_out() != 0)
-        std::cout << printable(file.string()) << ": " << grouped(faults.left_out()) << " more faults\n";
-}
-
 /// What is wrong with a file that is no bendy file at all: it cannot be opened, or is known to be something else.
 /// Empty for all others, whose faults tell.
-std::string why_no_file(const std::filesystem::path& file, const Result<MappedFile>& mapped) {
+std::string why_no_file(const std::filesystem::path& file, const Result<InputBytes>& mapped) {
     return mapped ? why_not_bendy(file, mapped->bytes()) : why_not_opened(file, mapped.error());
 }
 
@@ -84,7 +75,7 @@ void run(const ValidateArguments& arguments) {
     bool all_good = true;
     nlohmann::json report = nlohmann::json::array();
     for (const std::filesystem::path& file : arguments.files) {
-        const Result<MappedFile> mapped = MappedFile::open(file);
+        const Result<InputBytes> mapped = InputBytes::open(file);
         Faults faults;
         Bytes bytes;
         Links links;
@@ -100,9 +91,9 @@ void run(const ValidateArguments& arguments) {
         if (arguments.json) {
             report.push_back(to_json(file, faults, links, bytes, why));
         } else if (!why.empty()) {
-            std::cerr << error_label() << printable(file.string()) << ": " << printable(why) << '\n';
+            std::cerr << error_label() << shown_name(file) << ": " << printable(why) << '\n';
         } else {
-            print_lines(file, faults, bytes);
+            print_fault_lines(std::cout, file, faults, bytes);
             for (const DanglingLink& link : links)
                 warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
         }

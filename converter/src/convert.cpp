@@ -12,9 +12,11 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import_gltf.h>
 #include <bendy/converter/import_md2.h>
 #include <bendy/converter/import_x.h>
 #include <bendy/converter/source_format.h>
+#include <bendy/format/byte_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
 
@@ -27,6 +29,28 @@ namespace bendy::converter {
 namespace {
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
+
+using Buffer = std::vector<std::byte>;
+
+std::string utf8_stem(const std::filesystem::path& file) {
+    const std::u8string stem = file.stem().u8string();
+    return {stem.begin(), stem.end()};
+}
+
+/// What was read already, and is called `file`.
+Result<Scene, ImportError> read_source(Buffer source, const std::filesystem::path& file, SourceFormat format,
+                                       const ConvertOptions& options, Report& report) {
+    switch (format) {
+        case SourceFormat::bendy:
+            return import_bendy(Bytes(source), report);
+        case SourceFormat::x:
+            return import_x(as_text(source), file, {options.gltf.embed_images, options.ticks_per_second}, report);
+        case SourceFormat::md2:
+            return import_md2(source, utf8_stem(file), report);
+        default:
+            return import_gltf(std::move(source), file, options.gltf, report);
+    }
+}
 
 Result<Scene, ImportError> read_source(const std::filesystem::path& file, SourceFormat format,
                                        const ConvertOptions& options, Report& report) {
@@ -43,15 +67,17 @@ Result<Scene, ImportError> read_source(const std::filesystem::path& file, Source
 }
 
 /// The scene of a source of any kind, with its rig.
-Result<Scene, ImportError> import_source(const std::filesystem::path& file, const ConvertOptions& options,
-                                         const std::optional<Rig>& rig, Report& report) {
-    if (std::string why = why_not_convertible(file); !why.empty()) return ImportError{{}, std::move(why)};
-    const SourceFormat format = find_source_format(file);
+Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std::filesystem::path& file,
+                                         const ConvertOptions& options, const std::optional<Rig>& rig, Report& report) {
+    if (std::string why = source ? why_not_convertible(*source, file) : why_not_convertible(file); !why.empty())
+        return ImportError{{}, std::move(why)};
+    const SourceFormat format = source ? find_source_format(*source, file) : find_source_format(file);
     if (format != SourceFormat::gltf && options.gltf.scene)
         return ImportError{{}, "a scene can be chosen in glTF files only"};
     if (format != SourceFormat::x && options.ticks_per_second != 0.0)
         return ImportError{{}, "ticks per second can be set for X-files only"};
-    auto scene = read_source(file, format, options, report);
+    auto scene = source ? read_source(*std::move(source), file, format, options, report)
+                        : read_source(file, format, options, report);
     if (!scene) return scene;
     // Where images are to be embedded, a link is what could not be read: it stays what the source says.
     if (format == SourceFormat::bendy || !options.gltf.embed_images)
@@ -64,16 +90,19 @@ Result<Scene, ImportError> import_source(const std::filesystem::path& file, cons
     return scene;
 }
 
-}  // namespace
-
-Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
-                                                    Report& report) {
+Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std::filesystem::path& file,
+                                        const ConvertOptions& options, Report& report) {
     std::optional<Rig> rig;
     try {
-        report.add_source(file);
-        if (options.rig) report.add_source(*options.rig);
-        if (options.rig) rig = read_rig(*options.rig, report);
-        auto scene = import_source(file, options, rig, report);
+        if (!source) report.add_source(file);
+        if (options.rig_text) {
+            rig = parse_rig(*options.rig_text, report);
+            if (options.rig) rig->source = options.rig->filename().string() + ": ";
+        } else if (options.rig) {
+            report.add_source(*options.rig);
+            rig = read_rig(*options.rig, report);
+        }
+        auto scene = import_source(std::move(source), file, options, rig, report);
         if (!scene) return scene.error();
         if (options.merge_clips) {
             merge_clips(*scene, report);
@@ -87,9 +116,8 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
         if (options.lod) collapse_vertices(*scene);
         if (options.sort_vertices && !options.lod && !options.compact)
             std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);
-        std::vector<std::byte> bytes =
-            options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
-                            : build_chunks(*std::move(scene), kGenerator, report);
+        Buffer bytes = options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
+                                       : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);
         if (!faults.empty())
@@ -100,6 +128,17 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
     } catch (const std::bad_alloc&) {
         return ImportError{{}, "not enough memory"};
     }
+}
+
+}  // namespace
+
+Result<Buffer, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options, Report& report) {
+    return convert_any(std::nullopt, file, options, report);
+}
+
+Result<Buffer, ImportError> convert(Buffer source, const std::filesystem::path& name, const ConvertOptions& options,
+                                    Report& report) {
+    return convert_any(std::move(source), name, options, report);
 }
 
 }  // namespace bendy::converter

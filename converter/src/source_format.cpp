@@ -139,12 +139,24 @@ std::optional<FileKind> find_file_kind(const std::filesystem::path& file) {
     return find_file_kind(as_byte_span(beginning), file);
 }
 
-SourceFormat find_source_format(const std::filesystem::path& file) {
-    if (const auto kind = find_file_kind(file); kind && kind->format) return *kind->format;
+namespace {
+
+SourceFormat source_format_of(const std::optional<FileKind>& kind, const std::filesystem::path& file) {
+    if (kind && kind->format) return *kind->format;
     const std::string extension = small_extension(file);
     if (extension == ".x") return SourceFormat::x;
     if (extension == ".md2") return SourceFormat::md2;
     return SourceFormat::gltf;
+}
+
+}  // namespace
+
+SourceFormat find_source_format(const std::filesystem::path& file) {
+    return source_format_of(find_file_kind(file), file);
+}
+
+SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& name) {
+    return source_format_of(find_file_kind(bytes, name), name);
 }
 
 std::string why_not_a_file(const std::filesystem::path& file) {
@@ -166,6 +178,11 @@ std::string why_not_convertible(const std::filesystem::path& file) {
     if (std::string why = why_not_a_file(file); !why.empty()) return why;
     const auto kind = find_file_kind(file);
     return kind && !kind->format ? why_not_bendy(*kind, file) : std::string();
+}
+
+std::string why_not_convertible(Bytes bytes, const std::filesystem::path& name) {
+    const auto kind = find_file_kind(bytes, name);
+    return kind && !kind->format ? why_not_bendy(*kind, name) : std::string();
 }
 
 }  // namespace bendy::converter

@@ -204,7 +204,7 @@ class CommandLine(Case):
             self.misused(command)
 
     def test_one_file_too_many_is_named(self):
-        for command in ("convert", "inspect", "pose", "rig", "bench"):
+        for command in ("inspect", "pose", "rig", "bench"):
             self.assertIn("second.bendy", self.misused(command, self.convert(), "second.bendy"))
 
     def test_what_a_user_typed_cannot_forge_lines(self):
@@ -215,6 +215,8 @@ class CommandLine(Case):
         (self.folder / "folder").mkdir()
         for command in ("convert", "inspect", "pose", "rig", "bench"):
             for name in ("missing", "empty", "folder", "empty/below", "missing/below"):
+                if (command, name) == ("convert", "folder"):
+                    continue  # it has nothing to convert
                 line = self.failed(command, name, file=name)
                 self.assertGreater(len(line), len(f"bendy: error: {name}: "))
         self.assertEqual(self.files(), ["empty", "folder"])
@@ -369,6 +371,24 @@ class Convert(Case):
         self.assertNotIn(b"proposed", result.stdout)
         self.done("validate", "legs.bendy")
         self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
+
+    def test_a_foot_beside_its_leg_comes_along(self):
+        nodes = [{"name": "Root", "children": [1, 6, 7]}, {"name": "Hips", "translation": [0, 1, 0], "children": [2, 4]}]
+        for name, x in (("Left", 0.1), ("Right", -0.1)):
+            at = len(nodes)
+            nodes += [{"name": f"{name}UpLeg", "translation": [x, 0, 0], "children": [at + 1]},
+                      {"name": f"{name}Leg", "translation": [0, -0.45, 0.02]}]
+        nodes += [{"name": f"{name}Foot", "translation": [x, 0.1, 0]} for name, x in (("Left", 0.1), ("Right", -0.1))]
+        (self.folder / "robot.gltf").write_text(json.dumps(
+            {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
+        self.assertEqual(self.bendy("convert", "robot.gltf", "--auto-rig").returncode, 0)
+        result = self.bendy("pose", "robot.bendy", "--reach", "LeftLeg=0.15,0.3,0.2", "-o", "robot.json")
+        self.assertEqual(result.returncode, 0)
+        joints = {joint["name"]: joint["world"][12:15]
+                  for joint in json.loads((self.folder / "robot.json").read_text())["joints"]}
+        for found, expected in ((joints["LeftFoot"], [0.15, 0.3, 0.2]), (joints["RightFoot"], [-0.1, 0.1, 0])):
+            for number, wanted in zip(found, expected):
+                self.assertAlmostEqual(number, wanted, delta=1e-3)
 
     def test_names_are_escaped_in_the_summary(self):
         text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
@@ -1929,7 +1949,7 @@ class FromBendy(Case):
 
     def test_the_input_stays(self):
         shutil.copy(self.convert(), self.folder / "in.bendy")
-        self.assertIn("is the input itself", self.failed("convert", "in.bendy"))
+        self.assertIn("is an input as well", self.failed("convert", "in.bendy"))
 
     def test_a_damaged_file_is_refused_with_its_place(self):
         data = bytearray(self.convert().read_bytes())
@@ -2013,7 +2033,7 @@ class Export(Case):
         self.failed("export", "bad.bendy", "-o", "bad.glb", file="bad.bendy")
         self.assertEqual(self.files(), ["bad.bendy"])
         shutil.copy(self.convert(), self.folder / "same.glb")
-        self.assertIn("would be the input", self.failed("export", "same.glb", file="same.glb"))
+        self.assertIn("is an input as well", self.failed("export", "same.glb", file="same.glb"))
         self.failed("export", self.convert(), "-o", "no/such/folder.glb")
         self.assertIn("--format", self.misused("export", "x.bendy", "--format", "fbx"))
 

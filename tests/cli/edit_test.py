@@ -184,7 +184,8 @@ class Strip(EditCase):
     def test_a_file_may_be_edited_in_place(self):
         path = self.folder / "fox.bendy"
         path.write_bytes(self.made("tentacle").read_bytes())
-        self.edit(path, "--strip", "cycles", name="fox.bendy")
+        self.done("edit", path, "--strip", "cycles", "--in-place")
+        self.assertEqual(self.done("validate", path), b"")
         self.assertEqual(self.cycles(path), [])
         self.assertEqual(self.files(), ["fox.bendy"])
 

@@ -196,8 +196,7 @@ class Summaries(Case):
         summary = self.done("inspect", "m.bendy", "--summary")
         self.assertEqual(summary, said)
         self.assertTrue(inspected.startswith(summary + "\n      offset "), inspected[:2000])
-        for line in ("m.bendy: 351,344 bytes", "  joints         65", "  clips          2: Idle 3 s, Walk 1 s"):
-            self.assertTrue(any(l.startswith(line.split(":")[0].rstrip("0123456789, bytes")) for l in summary.splitlines()), line)
+        self.assertTrue(summary.startswith(f"m.bendy: {(self.folder / 'm.bendy').stat().st_size:,} bytes, "), summary)
         self.assertIn("\n  clips          2: Idle 3 s, Walk 1 s\n", summary)
         self.assertIn("\n  morph targets  2: Blink, Smile\n", summary)
         self.assertRegex(summary, r"\n  meshes         2 with 4,504 vertices, 8,052 triangles, up to 3 influences a vertex\n")
@@ -332,10 +331,12 @@ class Terminal(Case):
         status, text = self.on_terminal(*arguments, pause=0.15)
         self.assertEqual(status, 0)
         self.assertRegex(text, r"\rconverting mannequin\.glb (\[#* *\] +\d+ %, )?0:0\d")
-        self.assertRegex(text, r"\r\x1b\[Kc\.bendy: ")  # which then goes away
-        quiet, text = self.on_terminal(*arguments, "-q", pause=0.15)
-        self.assertEqual((quiet, text), (0, ""))
-        self.assertEqual(self.bendy(*arguments).stderr, "")
+        self.assertRegex(text, r"\r\x1b\[Kbendy: ")  # which then goes away
+        for line in text.split("\r"):
+            self.assertLess(len(line.split("\x1b")[0]), 70)
+        _, text = self.on_terminal(*arguments, "-q", pause=0.15)
+        self.assertNotIn("converting", text)
+        self.assertNotIn("converting", self.bendy(*arguments).stderr)
 
 
 class Batches(Case):
@@ -354,7 +355,7 @@ class Batches(Case):
             lines = self.lines(self.done("convert", "in", "-o", f"out{jobs}", "-j", jobs))
             self.assertEqual([line.split()[0] for line in lines], ["in/a.glb", "in/b.glb", "in/deep/c.glb"])
             for line in lines:
-                self.assertRegex(line, rf"^in/(\S+)\.glb -> out{jobs}/\1\.bendy  [\d,]+ bytes  \d+\.\d s$")
+                self.assertRegex(line, rf"^in/(\S+)\.glb -> out{jobs}/\1\.bendy  [\d,]+ bytes  (1 warning  )?\d+\.\d s$")
         self.assertEqual(self.done("convert", "in", "-o", "out1", "--force", "-q"), "")
 
     def test_warnings_are_counted_and_stand_with_their_file(self):

@@ -188,10 +188,10 @@ class TextTwin(Case):
                          f'bendy: error: {text}:{number + 1}:{column}: "major": the number is out of the range of u16')
         self.assertEqual(out.read_bytes(), b"old")
 
-    def test_what_assembles_and_is_not_valid_is_warned_of(self):
+    def test_what_assembles_and_is_not_valid_is_warned_of_where_it_is_wanted(self):
         text = self.twin(SOURCE / "spec" / "examples" / "smallest.bendy")
         text.write_text(text.read_text().replace('"objects": 0', '"objects": 1'))
-        result = self.bendy("assemble", text, "-o", "out.bendy")
+        result = self.bendy("assemble", text, "-o", "out.bendy", "--allow-invalid")
         self.assertEqual(result.returncode, 0)
         self.assertIn(b"bendy: warning: out.bendy: the file has faults", result.stderr)
 

@@ -3,7 +3,8 @@
 
     run_blocks.py --bendy PROGRAM --source SOURCE_DIR --compile "COMMAND" [--link "FLAGS"] PAGE...
 
-    sh      run by bash, all blocks of a page in one folder with the example characters; every line must exit with 0
+    sh      run by bash, all blocks of a page in one folder with the example characters, which is
+            its own folder examples, too; every line must exit with 0
     text    after a block that is run: what that prints, "..." for any lines between; elsewhere: something to look at
     cpp, c  compiled with COMMAND and linked with FLAGS; with a main it is run, with mannequin.bendy as its argument,
             without it is a part of a function, whose names PARTS gives
@@ -182,6 +183,7 @@ def main():
         with tempfile.TemporaryDirectory(prefix="bendy-docs-") as folder:
             for name in ("mannequin", "tentacle"):
                 shutil.copy(Path(options.source) / f"examples/{name}.glb", folder)
+            (Path(folder) / "examples").symlink_to(".")  # the README says "cd examples" first
             subprocess.run([options.bendy, "convert", "-q", "mannequin.glb"], cwd=folder, check=True, stderr=subprocess.DEVNULL)
             runner = Runner(options, Path(folder))
             for block in blocks:

@@ -603,6 +603,16 @@ class Window(WithFolder):
         self.assertIn("missing.glb", states[2]["message"])
         self.assertNotEqual(states[3]["message"], "")
 
+    def test_standard_input_opens(self):
+        script = self.folder / "script"
+        script.write_text("wait 0.1\n", encoding="utf-8")
+        for name in (SOURCE / "examples/tentacle.glb", self.folder / "tentacle.bendy"):
+            with open(name, "rb") as stream:
+                done = subprocess.run([BENDY, "view", "-", "--script", script], stdin=stream, capture_output=True,
+                                      text=True, timeout=300, env=self.env)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertFalse(json.loads(done.stdout.splitlines()[0])["demo"])
+
     def test_real_keys(self):
         if not shutil.which("xdotool"):
             self.skipTest("xdotool is not there: no real keys")

@@ -4,11 +4,10 @@
 #include "texture_units.h"
 
 #include <bendy/format/file.h>
+#include <bendy/viewer/linked_file.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,32 +50,6 @@ void set_sampler(const SamplerRecord& sampler) {
     set_parameter(GL_TEXTURE_WRAP_T, wrap_of(sampler.wrap_t));
     if (sampler.min_filter == 0 || sampler.min_filter >= static_cast<std::uint8_t>(Filter::nearest_mipmap_nearest))
         gl::GenerateMipmap(GL_TEXTURE_2D);
-}
-
-/// "a%20b" as "a b"; a percent sign that means nothing stays.
-std::string percent_decoded(std::string_view text) {
-    std::string out;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        unsigned byte = 0;
-        const char* digits = text.data() + at + 1;
-        if (text[at] == '%' && text.size() - at > 2 &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte != 0) {
-            out += static_cast<char>(byte);
-            at += 2;
-        } else {
-            out += text[at];
-        }
-    }
-    return out;
-}
-
-/// The file that a URI names inside `folder`; nothing for what leads elsewhere.
-std::optional<std::filesystem::path> file_in(const std::filesystem::path& folder, std::string_view uri) {
-    if (folder.empty() || uri.empty() || uri.find(':') != std::string_view::npos) return std::nullopt;
-    const std::filesystem::path file = percent_decoded(uri);
-    const bool leads_out = std::any_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
-    if (file.is_absolute() || leads_out) return std::nullopt;
-    return folder / file;
 }
 
 }  // namespace
@@ -125,7 +98,7 @@ bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool sr
     MappedFile linked;
     Bytes bytes = image.bytes;
     if (bytes.empty()) {
-        const auto path = file_in(folder_, image.uri);
+        const auto path = linked_file(folder_, image.uri);
         problem = "its image is not in this file, and is not read from outside its folder";
         if (!path) return false;
         auto opened = MappedFile::open(*path);

@@ -2,6 +2,7 @@
 
 #include "compact/compact_geometry.h"
 #include "compact/pack_cycles.h"
+#include "cycle_span.h"
 #include "error_place.h"
 #include "measure_error.h"
 #include "size_at_rest.h"
@@ -72,9 +73,8 @@ std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
                                      Report& report, const std::function<void(double)>& progress) {
     constexpr int kAttempts = 6;            // the last leaves the cycles as they are
-    constexpr double kGeometryDone = 0.05;  // of the whole work
     constexpr double kPackingShare = 0.6;   // of an attempt
-    constexpr double kAttemptShare = 0.9;   // of what is left of the work
+    constexpr double kAttemptShare = 0.75;  // of what is left of the work
     constexpr double kOvershoot = 1.1;      // of what is taken off the cycles, for what is too much
     constexpr double kLeast = 0.2;          // of their share, from one attempt to the next
     constexpr double kStep =
@@ -89,11 +89,16 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
     Report unheard;  // the compact file's warnings are the same
     Scene geometry_scene = exact;
     const double geometry_share = exact.cycles.empty() ? 1.0 : kGeometryShare;
+    // About: the geometry takes as long as five seconds of cycles.
+    constexpr double kGeometryWork = 5.0;
+    double seconds = 0.0;
+    for (const Cycle& cycle : exact.cycles) seconds += span_of(cycle).at(1.0) - span_of(cycle).at(0.0);
+    const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
-        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, kGeometryDone));
+        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
     double cycle_share = kCycleShare;
     Attempt attempt;
-    double done = kGeometryDone;
+    double done = geometry_done;
     for (int number = 0; number < kAttempts; ++number) {
         // The first is mostly the last: what is told never falls, and leaves some room for others.
         const double attempt_done = done + kAttemptShare * (1.0 - done);

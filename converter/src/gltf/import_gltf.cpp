@@ -13,19 +13,22 @@
 #include "material.h"
 #include "mesh.h"
 #include "skeleton.h"
+#include "source_generator.h"
 #include "tinygltf.h"
 
 #include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace bendy::converter {
 namespace gltf {
 namespace {
 
-Scene import(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
-    const Container container = open_container(read_file(file, {}));
+Scene import(std::vector<std::byte> bytes, const std::filesystem::path& file, const GltfOptions& options,
+             Report& report) {
+    const Container container = open_container(std::move(bytes));
     const Json root = parse_json(container.json, options.instances, report);
     Budget budget;
     budget.add_source(container.bytes.size());
@@ -44,7 +47,9 @@ Scene import(const std::filesystem::path& file, const GltfOptions& options, Repo
     import_animations(document, skeleton, meshes, scene);
     keep_members(document, skeleton, scene);
     scene.source_extras = extras_text(root);
-    scene.asset = root["asset"].dump();
+    Json asset = root["asset"];
+    restore_source_generator(asset);
+    scene.asset = asset.dump();
     return scene;
 }
 
@@ -55,19 +60,31 @@ std::string one_line(std::string text) {
     return text;
 }
 
+/// \param read  gives the file's bytes, or fails
+template <class Read>
+Result<Scene, ImportError> import_from(const Read& read, const std::filesystem::path& file, const GltfOptions& options,
+                                       Report& report) {
+    try {
+        return import(read(), file, options, report);
+    } catch (const Failure& failure) {
+        return ImportError{one_line(failure.error.place), one_line(failure.error.message)};
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, one_line(std::string("unexpected: ") + error.what())};
+    }
+}
+
 }  // namespace
 }  // namespace gltf
 
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
-    try {
-        return gltf::import(file, options, report);
-    } catch (const Failure& failure) {
-        return ImportError{gltf::one_line(failure.error.place), gltf::one_line(failure.error.message)};
-    } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
-    } catch (const std::exception& error) {
-        return ImportError{{}, gltf::one_line(std::string("unexpected: ") + error.what())};
-    }
+    return gltf::import_from([&] { return gltf::read_file(file, {}); }, file, options, report);
+}
+
+Result<Scene, ImportError> import_gltf(std::vector<std::byte> bytes, const std::filesystem::path& file,
+                                       const GltfOptions& options, Report& report) {
+    return gltf::import_from([&] { return std::move(bytes); }, file, options, report);
 }
 
 }  // namespace bendy::converter

@@ -1,6 +1,7 @@
 #include <bendy/converter/export_gltf.h>
 
 #include "failure.h"
+#include "gltf/source_generator.h"
 #include "gltf/uri.h"
 #include "gltf_out/animation.h"
 #include "gltf_out/buffer.h"
@@ -34,13 +35,17 @@ namespace {
 
 using gltf_out::Buffer;
 
-/// The source's own account of itself where it is one of glTF 2.0, else ours.
+/// The source's own account of itself where it is one of glTF 2.0, else ours; in both, who writes this.
 Json write_asset(const Scene& scene, Report& report) {
-    Json ours{{"version", "2.0"}, {"generator", "bendy " BENDY_VERSION}};
+    constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
+    Json ours{{"version", "2.0"}, {"generator", kGenerator}};
     if (scene.asset.empty()) return ours;
     try {
         auto asset = parse_json_text<Json>(scene.asset, report);
-        if (asset.is_object() && asset.contains("version") && asset["version"] == "2.0") return asset;
+        if (asset.is_object() && asset.contains("version") && asset["version"] == "2.0") {
+            gltf::name_generator(asset, kGenerator);
+            return asset;
+        }
     } catch (const Failure&) {
     }
     report.warn("what the file says of its source is left out: it is no asset of glTF 2.0", "HEAD/EXTR");

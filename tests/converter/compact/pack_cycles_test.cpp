@@ -265,6 +265,25 @@ TEST(PackCycles, IsTheSameEveryTime) {
     EXPECT_EQ(pack(), pack());
 }
 
+TEST(PackCycles, ProgressRisesInsideACycleAndByItsLength) {
+    Scene scene = chain(3);
+    for (std::uint32_t j = 0; j < 3; ++j) rotate(scene, j, frames(90, 30.0), wave);
+    scene.cycles.push_back(scene.cycles[0]);
+    for (Track& track : scene.cycles[1].tracks) {
+        track.times.resize(9);
+        track.values.resize(9 * static_cast<std::size_t>(track.components));
+    }
+    std::vector<double> told;
+    pack_cycles(scene, kBound, [&](double done) { told.push_back(done); });
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    ASSERT_FALSE(told.empty());
+    EXPECT_DOUBLE_EQ(told.back(), 1.0);
+    EXPECT_GT(std::count_if(told.begin(), told.end(), [](double done) { return done < 0.8; }),
+              0);  // the long one's steps
+    EXPECT_GT(told.size(), scene.cycles.size());
+    EXPECT_TRUE(std::any_of(told.begin(), told.end(), [](double done) { return done > 0.85 && done < 0.95; }));
+}
+
 TEST(PackCycles, UnpackedTracksAreTheSameMotion) {
     Scene scene = chain(3);
     for (std::uint32_t j = 0; j < 3; ++j) rotate(scene, j, frames(40, 24.0), wave);

@@ -24,6 +24,8 @@ struct ConvertOptions {
     bool merge_clips = false;
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.
     std::optional<std::filesystem::path> rig;
+    /// The rig file's text, where it has been read already; `rig` is then only its name.
+    std::optional<std::string> rig_text;
     /// Propose IK chains and limits by the joints' names, see spec/rig.md; what is proposed is listed in the report.
     bool auto_rig = false;
     /// Bind each vertex of meshes without a skin to the bone that is nearest, see docs/convert.md; how many went to how
@@ -47,5 +49,10 @@ struct ConvertOptions {
 /// Throws nothing. Keeps nothing between calls: threads may convert side by side.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
+
+/// The same of a source's bytes, as they come from a pipe. \param name  of the source, with a folder in front beside
+/// which the files that it refers to are looked for; without one, they are relative to the working directory
+Result<std::vector<std::byte>, ImportError> convert(std::vector<std::byte> source, const std::filesystem::path& name,
+                                                    const ConvertOptions& options, Report& report);
 
 }  // namespace bendy::converter

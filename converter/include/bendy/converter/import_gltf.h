@@ -4,9 +4,11 @@
 #include <bendy/converter/scene.h>
 #include <bendy/format/result.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bendy::converter {
 
@@ -25,5 +27,9 @@ struct GltfOptions {
 /// Scene. What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and
 /// every index in range.
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report);
+
+/// The same of a file's bytes. \param file  beside which other files are looked for
+Result<Scene, ImportError> import_gltf(std::vector<std::byte> bytes, const std::filesystem::path& file,
+                                       const GltfOptions& options, Report& report);
 
 }  // namespace bendy::converter

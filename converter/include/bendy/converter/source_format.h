@@ -16,6 +16,8 @@ enum class SourceFormat : std::uint8_t { gltf, bendy, x, md2 };
 /// Told by the file's first bytes; where these say nothing, by its name. What is neither counts as glTF, whose importer
 /// says what is wrong.
 SourceFormat find_source_format(const std::filesystem::path& file);
+/// The same of a file's bytes.
+SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& name);
 
 /// What a file is, in words for its user.
 struct FileKind {
@@ -36,5 +38,7 @@ std::string why_not_a_file(const std::filesystem::path& file);
 std::string why_not_bendy(const FileKind& kind, const std::filesystem::path& file);
 /// Why `convert` cannot read a file that is missing, a folder, or of a kind that it does not read; empty if it may try.
 std::string why_not_convertible(const std::filesystem::path& file);
+/// The same of a file's bytes.
+std::string why_not_convertible(Bytes bytes, const std::filesystem::path& name);
 
 }  // namespace bendy::converter
