@@ -16,7 +16,8 @@ class Difference:
 
     mean: the mean difference of a channel. most: the 99th percentile over the pixels of how far a channel is from what the
     other picture has there and right beside it; edges, and details smaller than a pixel, which each program samples in its own
-    way, do not count in it. elsewhere: the pixels where that is more than `tolerance`."""
+    way, do not count in it. elsewhere: the pixels where that is more than `tolerance`, and which have no background beside them
+    in either picture."""
 
     def __init__(self, first, second, background, tolerance=2):
         assert first[:2] == second[:2], (first[:2], second[:2])
@@ -24,28 +25,37 @@ class Difference:
         a, b = rgb(first), rgb(second)
         apart = [abs(x - y) for x, y in zip(a, b)]
         drawn = []
+        self.elsewhere = 0
         for pixel in range(self.width * self.height):
             at = 3 * pixel
             if a[at:at + 3] == b[at:at + 3] == background:
                 continue
             far = max(apart[at:at + 3])
-            drawn.append(far if far < 2 else max(self.outside(a, b, pixel), self.outside(b, a, pixel)))
+            if far > 1:
+                far = max(self.outside(a, b, pixel), self.outside(b, a, pixel))
+            if far > tolerance and not any(data[3 * near:3 * near + 3] == background
+                                           for data in (a, b) for near in self.around(pixel)):
+                self.elsewhere += 1
+            drawn.append(far)
         self.drawn = len(drawn)
         self.mean = sum(apart) / (3 * max(1, len(drawn)))
         self.most = sorted(drawn)[len(drawn) * 99 // 100] if drawn else 0
-        self.elsewhere = sum(far > tolerance for far in drawn)
 
     def outside(self, a, b, pixel):
         """How far the pixel in a is from the range of the 3 x 3 pixels around it in b."""
-        y, x = divmod(pixel, self.width)
-        around = [3 * (v * self.width + u) for v in range(max(0, y - 1), min(self.height, y + 2))
-                  for u in range(max(0, x - 1), min(self.width, x + 2))]
+        around = self.around(pixel)
         worst = 0
         for channel in range(3):
-            values = [b[at + channel] for at in around]
+            values = [b[3 * near + channel] for near in around]
             value = a[3 * pixel + channel]
             worst = max(worst, value - max(values), min(values) - value)
         return worst
+
+    def around(self, pixel):
+        """The 3 x 3 pixels, fewer at the border."""
+        y, x = divmod(pixel, self.width)
+        return [v * self.width + u for v in range(max(0, y - 1), min(self.height, y + 2))
+                for u in range(max(0, x - 1), min(self.width, x + 2))]
 
     def __str__(self):
         return f"{self.drawn:6} pixels: mean {self.mean:.3f}, 99 of 100 within {self.most}, {self.elsewhere} elsewhere"

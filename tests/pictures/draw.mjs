@@ -74,7 +74,7 @@ function light(scene, yaw) {
     lamp.position.set(Math.sin(angle), height, Math.cos(angle));
     scene.add(lamp);
   };
-  towards(yaw - 0.7, 0.85, 2.0);
+  towards(yaw - 0.7, 0.85, 2.4);
   towards(yaw + 2.4, 0.6, 1.2);
   scene.add(new THREE.HemisphereLight(new THREE.Color(0.6, 0.6, 0.6), new THREE.Color(0.15, 0.15, 0.15), 1));
   scene.environment = evenLight();

@@ -26,7 +26,8 @@ from png_file import read_png, write_png  # noqa: E402
 
 SKIPPED = 77
 SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}
-WIDTH, HEIGHT = 200, 150
+MADE_SIZE = (200, 150)
+CHARACTER_SIZE = (400, 300)  # finer: details smaller than a pixel are no matter of the material
 BACKGROUND = "#3a6b52"
 
 # Name: path below the corpus, the number of a clip and a time, or None for the rest pose.
@@ -50,7 +51,7 @@ CORPUS = {
 class Case:
     """One picture of both."""
 
-    def __init__(self, name, file, pitch=11, yaw=34, distance=1, clip=None, time=None, size=(WIDTH, HEIGHT)):
+    def __init__(self, name, file, pitch=11, yaw=34, distance=1, clip=None, time=None, size=CHARACTER_SIZE):
         self.name, self.file, self.clip, self.time = name, file, clip, time
         self.job = {"file": str(file), "width": size[0], "height": size[1], "yaw": yaw, "pitch": pitch,
                     "distance": distance, "background": BACKGROUND}
@@ -90,8 +91,8 @@ def install(work, npm):
 
 def all_cases(arguments, work):
     if arguments.files:
-        return [Case(file.stem, file, size=(480, 360)) for file in arguments.files]
-    cases = [Case(name, made.write(work / f"{name}.gltf"), made.pitch, distance=0.75) for name, made in MADE.items()]
+        return [Case(file.stem, file) for file in arguments.files]
+    cases = [Case(name, made.write(work / f"{name}.gltf"), made.pitch, distance=0.75, size=MADE_SIZE) for name, made in MADE.items()]
     examples = arguments.source / "examples"
     cases.append(Case("tentacle", examples / "tentacle.glb", clip=1, time=0.5))
     cases.append(Case("mannequin", examples / "mannequin.glb", clip=0, time=0.3))
@@ -101,17 +102,18 @@ def all_cases(arguments, work):
 
 
 def judge(case, difference):
-    """What is wrong, or nothing."""
+    """What is wrong, or nothing. Measured with Mesa's llvmpipe beside SwiftShader: made files up to 0.4 and 1, characters up to
+    1.3 and 10, which are creases and details as small as a pixel; unlit ones 0 or 1 pixel, at an inner edge."""
     made = MADE.get(case.name)
     if difference.drawn < 500:
         return "next to nothing is drawn"
-    if made and made.is_unlit and difference.elsewhere:
+    if made and made.is_unlit and difference.elsewhere > 4:
         return f"{difference.elsewhere} pixels differ"
-    most_mean = 0.6 if made else 2.5  # characters are smaller and have more edges
+    most_mean, most = (0.8, 3) if made else (2.5, 16)
     if difference.mean > most_mean:
         return f"the mean difference is {difference.mean:.2f} of 255"
-    if difference.most > 4:
-        return f"one pixel of 100 differs by more than {difference.most - 1} of 255"
+    if difference.most > most:
+        return f"one pixel of 100 differs by {difference.most} of 255 or more"
     return None
 
 

@@ -16,7 +16,7 @@ glm::vec3 towards(float yaw, float height) {
 Lighting lighting_for(const Camera& camera) {
     Lighting lighting;
     lighting.directions = {towards(camera.yaw() - 0.7f, 0.85f), towards(camera.yaw() + 2.4f, 0.6f)};
-    lighting.irradiance = {2.0f, 1.2f};
+    lighting.irradiance = {2.4f, 1.2f};
     return lighting;
 }
 
