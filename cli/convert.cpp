@@ -79,6 +79,8 @@ void write_depfile(const ConvertArguments& arguments, const converter::Report& r
 /// \returns the bytes that it has written
 std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, NamedBy named, converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
+    require_folder_of(arguments.output);
+    require_folder_of(arguments.depfile);
     Outputs outputs(arguments.force);
     outputs.reads(input);
     if (!arguments.rig.empty()) outputs.reads(arguments.rig);
@@ -147,8 +149,6 @@ void run(ConvertArguments arguments) {
     const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
                           (!arguments.output.empty() && (!arguments.output.has_filename() ||
                                                          std::filesystem::is_directory(arguments.output, ignored)));
-    if (!is_batch) require_folder_of(arguments.output);
-    require_folder_of(arguments.depfile);
     if (arguments.output.empty() && !is_batch)
         arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
     check_names(arguments, is_batch);

@@ -5,6 +5,7 @@
 #include "inspect_html.h"
 #include "inspect_json.h"
 #include "output.h"
+#include "output_folder.h"
 #include "output_suffix.h"
 #include "problem.h"
 #include "summary.h"
@@ -153,7 +154,7 @@ void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::u
 
 void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
                 const std::optional<Summary>& summary) {
-    const std::string name = arguments.file.filename().string();
+    const std::string name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
     if (arguments.chunk.empty() && summary) {
         std::cout << summary_as_text(*summary, name, columns_of(Stream::output));
         if (arguments.summary) return;

@@ -36,6 +36,7 @@ private:
 };
 
 double height_of_joints(const Scene& scene, EvaluatedPose& pose) {
+    if (scene.joints.empty()) return 0.0;
     Extent extent;
     extent.add_origins(pose);
     if (extent.height() > 0.0) return extent.height();

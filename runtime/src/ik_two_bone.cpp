@@ -11,7 +11,7 @@
 namespace bendy {
 namespace {
 
-constexpr double kSame = 1e-6;  // radians, and cosines: what rounding could take to either side
+constexpr double kSameTurn = 1e-6;  // radians, and cosines: what rounding could take to either side
 
 double length_of(const glm::dvec3& v) {
     return std::sqrt(glm::dot(v, v));
@@ -63,14 +63,14 @@ double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& 
     return angle_between(legal_local(l, local), local);
 }
 
-struct Bend {
+struct MiddleTurn {
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     double illegality = 0.0;  ///< radians
 };
 
 /// The turn of the middle joint about `axis` that takes the tip as far from the start as `distance`, or as near to that
 /// as it gets.
-Bend find_bend(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
+MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
     const IkLink& link = problem.links[middle];
     const glm::dvec3 u = link.position - problem.origin;
     const glm::dvec3 v = problem.tip - link.position;
@@ -94,26 +94,26 @@ Bend find_bend(const IkProblem& problem, std::size_t middle, const glm::dvec3& a
         const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
         return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    const Bend one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
-    const Bend other{turn(1.0), illegality(problem, middle, turn(1.0))};
+    const MiddleTurn one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
+    const MiddleTurn other{turn(1.0), illegality(problem, middle, turn(1.0))};
     const double excess = one.illegality - other.illegality;
-    const bool is_smaller =
-        std::abs(other.turn.w - one.turn.w) > kSame ? other.turn.w > one.turn.w : hinge_prefers_back(link.constraint);
-    return excess > kSame || (excess > -kSame && is_smaller) ? other : one;
+    const bool is_smaller = std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w
+                                                                            : hinge_prefers_back(link.constraint);
+    return excess > kSameTurn || (excess > -kSameTurn && is_smaller) ? other : one;
 }
 
 /// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
 void bend(IkProblem& problem, std::size_t middle, double distance) {
     IkLink& link = problem.links[middle];
     const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
-    Bend best = find_bend(problem, middle, axis, distance);
-    if (best.illegality > kSame) {
+    MiddleTurn best = find_middle_turn(problem, middle, axis, distance);
+    if (best.illegality > kSameTurn) {
         // From rest the way that the constraint allows most.
         const glm::dquat before = link.local;
         link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
         problem.place(middle);
         const glm::dvec3 preferred = link.global * (link.frame * preferred_side(*link.constraint));
-        const Bend other = find_bend(problem, middle, preferred, distance);
+        const MiddleTurn other = find_middle_turn(problem, middle, preferred, distance);
         if (other.illegality < best.illegality && preferred != glm::dvec3(0.0)) {
             best = other;
         } else {

@@ -19,9 +19,10 @@ MAY_USE = {
 # header: the folders that may include it
 PRIVATE = {
     "tiny_gltf.h": "converter/src/gltf/",
+    "zlib.h": "converter/src/x/",
     "meshoptimizer.h": ("converter/src/", "format/src/"),
     "draco/": "converter/src/",
-    "nlohmann/": ("converter/src/", "cli/"),
+    "nlohmann/": ("converter/src/", "cli/", "viewer/src/"),
     "rapidjson/": "twin/src/",
     "CLI/": "cli/",
     "GL/": "viewer/src/",

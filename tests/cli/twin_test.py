@@ -172,7 +172,7 @@ class TextTwin(Case):
             self.done("assemble", name)
             self.assertEqual((self.folder / made).read_bytes(), path.read_bytes())
         (self.folder / "d.bendy").write_bytes(text)
-        self.assertIn("-o", self.failed("assemble", "d.bendy"))
+        self.assertIn("is an input as well as an output", self.failed("assemble", "d.bendy"))
         self.assertEqual((self.folder / "d.bendy").read_bytes(), text)
 
     def test_faults_name_line_and_column(self):

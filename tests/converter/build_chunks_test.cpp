@@ -177,7 +177,7 @@ Scene make_scene() {
     scene.textures.resize(3);
     scene.textures[0] = {
         "skin", {0, 1}, Filter::linear, Filter::nearest_mipmap_linear, Wrap::clamp_to_edge, Wrap::mirrored_repeat,
-        "{}"};
+        "{}",   ""};
     scene.textures[1].images = {2};
     scene.textures[2].images = {1, 2};
     scene.extras = R"({"object":1})";

@@ -219,7 +219,9 @@ TEST_F(DemoTest, KeysBendOneJointAndWhatHangsOnIt) {
                     EXPECT_EQ(demo.pose().local()[other].rotation, before[other].rotation);
                 }
             }
-            if (key == DemoKey::left) EXPECT_LT(demo.tip().x, tip.x - 1e-3f) << link;
+            if (key == DemoKey::left) {
+                EXPECT_LT(demo.tip().x, tip.x - 1e-3f) << link;
+            }
             demo.hold(back, 0.05);
             run(0.02);
             EXPECT_LT(glm::length(demo.tip() - tip), 1e-4f) << link;

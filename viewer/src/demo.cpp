@@ -257,15 +257,31 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     const float length = glm::length(turn);
     if (!(length > 0.0f)) return;
     const glm::quat before = bent_with_all(joint);
-    glm::quat own = glm::normalize(before * joint_bends_[joint] * glm::angleAxis(amount * length, turn / length));
-    // The limits stop it here, so that a key that goes on being pressed leaves nothing to take back.
+    const glm::quat from = before * joint_bends_[joint];
+    const auto turned = [&](float share) {
+        return glm::normalize(from * glm::angleAxis(share * amount * length, turn / length));
+    };
+    float share = 1.0f;
     if (const Constraint* constraint = limit_of(joint)) {
-        const glm::quat& rest = model_->joints()[joint].rest.rotation;
-        const glm::dquat R = to_limit_space(*constraint, rest, own);
-        const glm::dquat legal = clamp_rotation(*constraint, R);
-        if (legal != R) own = from_limit_space(*constraint, rest, legal);
+        // It stops at its limits, and does not slide along them: a key that goes on being pressed leaves nothing to
+        // take back.
+        const auto excess = [&](float part) {
+            const glm::quat& rest = model_->joints()[joint].rest.rotation;
+            return bendy::violation(*constraint, to_limit_space(*constraint, rest, turned(part)));
+        };
+        constexpr double kLegal = 1e-6;    // radians
+        constexpr double kOutside = 1e-4;  // where bending the whole chain has brought it
+        constexpr int kHalvings = 16;
+        if (excess(1.0f) > kLegal && excess(0.0f) < kOutside) {
+            float legal = 0.0f;
+            for (int k = 0; k < kHalvings; ++k) {
+                const float middle = 0.5f * (legal + share);
+                (excess(middle) > kLegal ? share : legal) = middle;
+            }
+            share = legal;
+        }
     }
-    joint_bends_[joint] = glm::normalize(glm::conjugate(before) * own);
+    joint_bends_[joint] = glm::normalize(glm::conjugate(before) * turned(share));
 }
 
 /// The joint's rotation by what bends the whole chain.

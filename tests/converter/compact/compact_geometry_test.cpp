@@ -1,5 +1,6 @@
 #include "compact/compact_geometry.h"
 #include "measure_error.h"
+#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import_bendy.h>

@@ -379,7 +379,7 @@ TEST(ImportX, AMissingRateIsNamedAndCanBeSet) {
               (std::vector<std::string>{
                   ": AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the "
                   "last key is at 0.01 s; --ticks-per-second sets another rate"}));
-    for (const std::string& rate : {"", "AnimTicksPerSecond { 4800; }\n"}) {
+    for (const char* rate : {"", "AnimTicksPerSecond { 4800; }\n"}) {
         Report report;
         const auto set = import_x(kHeader + rate + kWalk, "walk.x", {.ticks_per_second = 24.0}, report);
         ASSERT_TRUE(set);
