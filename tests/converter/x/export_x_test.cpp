@@ -409,7 +409,7 @@ TEST(ExportX, ColoursAreThoseOfTheScreen) {
     scene.meshes[0].colours.push_back({"", 0, 4, std::vector<float>(12, 0.21404114f)});
     const Trip trip = travel(scene);
     const std::string& text = trip.asset.text;
-    EXPECT_NE(text.find("0.5;1;0;0.5;;"), std::string::npos) << text;
+    EXPECT_NE(text.find("0.5;1.0;0.0;0.5;;"), std::string::npos) << text;
     EXPECT_NE(text.find("0;0.5;0.5;0.5;0.21404114;"), std::string::npos) << text;
     const Material& back = trip.after.materials.at(0);
     EXPECT_FLOAT_EQ(back.base_colour.x, 0.21404114f);

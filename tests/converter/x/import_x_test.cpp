@@ -345,7 +345,7 @@ TEST(ImportX, DeclDataHoldsNormalsCoordinatesAndColours) {
     EXPECT_EQ(mesh.texture_coords[0].values, (std::vector<float>{0, 1.5f, 0.25f, 1.5f, 0.5f, 1.5f, 0.75f, 1.5f}));
     ASSERT_EQ(mesh.colours.size(), 1u);
     EXPECT_FLOAT_EQ(mesh.colours[0].values[3], 128.0f / 255.0f);
-    EXPECT_FLOAT_EQ(mesh.colours[0].values[1], 64.0f / 255.0f);
+    EXPECT_FLOAT_EQ(mesh.colours[0].values[1], 0.051269463f);  // sRGB 64 / 255
     EXPECT_EQ(mesh.colours[0].values[2], 0.0f);
     EXPECT_TRUE(file.report.warnings().empty());
 }
