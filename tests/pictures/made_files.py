@@ -105,7 +105,8 @@ class Made:
     def write(self, path):
         file = GltfFile(
             scenes=[{"nodes": [0]}], nodes=[{"mesh": 0, **({"scale": self.scale} if self.scale else {})}],
-            extensionsUsed=["KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength"])
+            extensionsUsed=["KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
+                            "KHR_materials_specular", "KHR_materials_ior"])
         attributes, indices = ball(file, **self.ball)
         primitive = {"attributes": attributes, "indices": indices}
         if self.material:
@@ -164,6 +165,10 @@ MADE = {
     "second_coordinates": Made("arrows", "occlusion", use={"texCoord": 1}, ball={"second": True}),
     "emissive_strength": Made(factors=coloured(0, 0, 0), emissiveFactor=[0.1, 0.2, 0.05],
                               extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 3.5}}),
+    "specular": Made("base_colour", extensions={
+        "KHR_materials_specular": {"specularFactor": 0.7, "specularColorFactor": [1.0, 0.5, 2.0]}}),
+    "without_specular": Made("base_colour", extensions={"KHR_materials_specular": {"specularFactor": 0}}),
+    "ior": Made(factors=coloured(0.1, 0.2, 0.4, roughnessFactor=0.3), extensions={"KHR_materials_ior": {"ior": 2.2}}),
     "unlit": Made("base_colour", ball={"colours": 3}, sampler=PLAIN, **UNLIT),
     "unlit_transform": Made("arrows", use=TURNED, sampler=PLAIN, **UNLIT),
     "unlit_second_coordinates": Made("arrows", use={"texCoord": 1}, ball={"second": True}, sampler=PLAIN, **UNLIT),

@@ -3,7 +3,6 @@
 #include "lighting.h"
 #include "reflectance_table.h"
 #include "shaders.h"
-#include "shown_surface.h"
 #include "texture_units.h"
 
 #include <glm/geometric.hpp>
@@ -151,7 +150,7 @@ void Renderer::draw_range(const Draw& draw) const {
                      GL_UNSIGNED_INT, place);
 }
 
-const SurfaceRecord& Renderer::surface_of(const Draw& draw) const {
+const ShownSurface& Renderer::surface_of(const Draw& draw) const {
     return surfaces_[std::min<std::size_t>(draw.material, surfaces_.size() - 1)];
 }
 
@@ -159,7 +158,7 @@ const SurfaceRecord& Renderer::surface_of(const Draw& draw) const {
 void Renderer::load_textures(const Warn& warn) {
     bool is_beyond = false;
     for (const Draw& draw : model_->draws()) {
-        for (const MapUse& use : maps_of(surface_of(draw))) {
+        for (const MapUse& use : maps_of(surface_of(draw).record)) {
             textures_.load(use.record->texture, use.srgb);
             is_beyond = is_beyond || (use.record->texture != kNone && use.record->coords > kLastSet);
         }
@@ -169,7 +168,8 @@ void Renderer::load_textures(const Warn& warn) {
 }
 
 void Renderer::set_material(const Draw& draw) const {
-    const SurfaceRecord& surface = surface_of(draw);
+    const ShownSurface& shown = surface_of(draw);
+    const SurfaceRecord& surface = shown.record;
     const std::array<MapUse, 5> uses = maps_of(surface);
     std::array<glm::mat3, 5> matrices{};
     std::array<GLint, 5> sets{};
@@ -191,6 +191,8 @@ void Renderer::set_material(const Draw& draw) const {
     // Without its map a surface has no light of its own, and no bumps.
     const bool is_dark = surface.emissive_texture.texture != kNone && !is_shown[kEmissive];
     set_vector(surface_["emissive"], is_dark ? glm::vec3(0.0f) : glm::make_vec3(surface.emissive.data()));
+    set_vector(surface_["dielectric"], shown.dielectric);
+    gl::Uniform1f(surface_["dielectric_at_grazing"], shown.dielectric_at_grazing);
     gl::Uniform1f(surface_["metallic"], surface.metallic);
     gl::Uniform1f(surface_["roughness"], surface.roughness);
     gl::Uniform1f(surface_["normal_scale"], surface.normal_scale);
@@ -225,7 +227,7 @@ void Renderer::draw_surface(const Camera& camera) const {
     std::vector<SeeThrough> later;
     const auto draws = level_.draws();
     for (std::size_t number = 0; number < draws.size(); ++number) {
-        if (is_blended(surface_of(draws[number]))) {
+        if (is_blended(surface_of(draws[number]).record)) {
             const glm::vec3 centre = number < centres_.size() ? centres_[number] : glm::vec3(0.0f);
             later.push_back({glm::length(centre - camera.eye()), number});
             continue;

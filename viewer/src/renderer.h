@@ -4,6 +4,7 @@
 #include "overlay.h"
 #include "program.h"
 #include "scene_buffers.h"
+#include "shown_surface.h"
 #include "texture_loader.h"
 
 #include <bendy/runtime.h>
@@ -43,10 +44,10 @@ private:
     void draw_list(const std::vector<OverlayVertex>& list) const;
     void set_skin(const Program& program, const Camera& camera) const;
 
-    [[nodiscard]] const SurfaceRecord& surface_of(const Draw& draw) const;
+    [[nodiscard]] const ShownSurface& surface_of(const Draw& draw) const;
 
     const Model* model_;
-    std::vector<SurfaceRecord> surfaces_;  // of the materials, and the default one
+    std::vector<ShownSurface> surfaces_;  // of the materials, and the default one
     Lod level_;
     SceneBuffers buffers_;
     TextureLoader textures_;

@@ -86,6 +86,8 @@ uniform float environment;  // radiance from everywhere
 uniform sampler2D reflectance;  // by roughness and the cosine between normal and view
 uniform vec4 base_colour;
 uniform vec3 emissive;
+uniform vec3 dielectric;  // what a surface that is no metal mirrors from straight ahead,
+uniform float dielectric_at_grazing;  // and at a grazing angle
 uniform float metallic;
 uniform float roughness;
 uniform float normal_scale;
@@ -154,15 +156,15 @@ vec3 bent_normal(vec3 n, bool is_front) {
 }
 
 /// Schlick's, as Karis has it: "Real shading in Unreal Engine 4", 2013.
-vec3 fresnel(vec3 f0, float vh) {
+vec3 fresnel(vec3 f0, float f90, float vh) {
     float f = exp2((-5.55473 * vh - 6.98316) * vh);
-    return f0 * (1.0 - f) + f;
+    return f0 * (1.0 - f) + f90 * f;
 }
 
 /// Once mirrored, and mirrored more often: Fdez-Aguera, "A multiple-scattering microfacet model for real-time image-based
 /// lighting", 2019. `even`: what a surface of this roughness mirrors of even light.
-void scattering(vec2 even, vec3 f0, out vec3 once, out vec3 often) {
-    once = f0 * even.x + even.y;
+void scattering(vec2 even, vec3 f0, float f90, out vec3 once, out vec3 often) {
+    once = f0 * even.x + f90 * even.y;
     float rest = 1.0 - even.x - even.y;
     vec3 average = f0 + (1.0 - f0) / 21.0;
     often = once * average / (1.0 - rest * average) * rest;
@@ -172,8 +174,8 @@ void scattering(vec2 even, vec3 f0, out vec3 once, out vec3 often) {
 /// several times is not lost, as in three.js (Turquin, "Practical multiple scattering compensation", 2019, for the lights
 /// with a direction), so that what other programs show of a glTF file is what is shown here.
 vec3 shade(vec3 albedo, float metal, float rough, vec3 n, vec3 v, float occlusion) {
-    const vec3 kDielectric = vec3(0.04);
-    vec3 f0 = mix(kDielectric, albedo, metal);
+    vec3 f0 = mix(dielectric, albedo, metal);
+    float f90 = mix(dielectric_at_grazing, 1.0, metal);
     vec3 diffuse = albedo * (1.0 - metal);
     float nv = clamp(dot(n, v), 0.0, 1.0);
     vec2 even = texture(reflectance, vec2(rough, nv)).xy;
@@ -189,16 +191,16 @@ vec3 shade(vec3 albedo, float metal, float rough, vec3 n, vec3 v, float occlusio
         float d = nh * nh * (a2 - 1.0) + 1.0;
         float distribution = a2 / (kPi * d * d);
         float visibility = 0.5 / max(nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl), 1e-6);
-        vec3 mirrored_share = fresnel(f0, vh) * distribution * visibility * compensation;
-        lit += nl * light_irradiance[k] * (mirrored_share + (1.0 - fresnel(kDielectric, vh)) * diffuse / kPi);
+        vec3 mirrored_share = fresnel(f0, f90, vh) * distribution * visibility * compensation;
+        lit += nl * light_irradiance[k] * (mirrored_share + (1.0 - fresnel(dielectric, f90, vh)) * diffuse / kPi);
     }
     vec3 once;
     vec3 often;
-    scattering(even, kDielectric, once, often);
+    scattering(even, dielectric, f90, once, often);
     vec3 base = diffuse * (1.0 - once - often);
     vec3 metal_once;
     vec3 metal_often;
-    scattering(even, albedo, metal_once, metal_often);
+    scattering(even, albedo, f90, metal_once, metal_often);
     vec3 around = mix(once + often, metal_once + metal_often, metal);
     float hemisphere = mix(ground, sky, 0.5 * n.y + 0.5);
     // Lagarde and de Rousiers, "Moving Frostbite to physically based rendering", 2014: what is mirrored is occluded less.

@@ -1,37 +1,53 @@
 #include "shown_surface.h"
 
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <string_view>
+#include <optional>
 
 namespace bendy::viewer {
 namespace {
 
-/// 1 where the extensions say nothing, or nothing that has a meaning.
-float emissive_strength(std::string_view extensions) {
-    if (extensions.empty()) return 1.0f;
-    const auto json = nlohmann::json::parse(extensions, nullptr, false);
-    const nlohmann::json* value = &json;
-    for (const char* key : {"KHR_materials_emissive_strength", "emissiveStrength"}) {
-        if (!value->is_object()) return 1.0f;
-        const auto found = value->find(key);
-        if (found == value->end()) return 1.0f;
-        value = &*found;
-    }
-    const float strength = value->is_number() ? value->get<float>() : 1.0f;
-    return std::isfinite(strength) && strength >= 0.0f ? strength : 1.0f;
+/// A number of an extension, at least 0; nothing where there is none that has a meaning.
+std::optional<float> number_of(const nlohmann::json& value) {
+    if (!value.is_number()) return std::nullopt;
+    const auto number = value.get<float>();
+    return std::isfinite(number) && number >= 0.0f ? std::optional(number) : std::nullopt;
+}
+
+nlohmann::json member(const nlohmann::json& object, const char* key) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() ? nlohmann::json() : *found;
+}
+
+ShownSurface shown_surface(const MaterialView& material) {
+    ShownSurface surface{material.surface};
+    if (material.extensions.empty()) return surface;
+    const auto extensions = nlohmann::json::parse(material.extensions, nullptr, false);
+    const float strength =
+        number_of(member(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength")).value_or(1.0f);
+    for (float& colour : surface.record.emissive) colour *= strength;
+
+    // 0 stands for an index without end: everything is mirrored.
+    const float ior = number_of(member(member(extensions, "KHR_materials_ior"), "ior")).value_or(1.5f);
+    const float from_ahead = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
+    const nlohmann::json specular = member(extensions, "KHR_materials_specular");
+    glm::vec3 colour(1.0f);
+    const nlohmann::json factors = member(specular, "specularColorFactor");
+    for (int k = 0; k < 3 && factors.is_array() && factors.size() == 3; ++k)
+        colour[k] = number_of(factors[static_cast<std::size_t>(k)]).value_or(1.0f);
+    surface.dielectric_at_grazing = std::min(number_of(member(specular, "specularFactor")).value_or(1.0f), 1.0f);
+    surface.dielectric = glm::min(from_ahead * from_ahead * colour, glm::vec3(1.0f)) * surface.dielectric_at_grazing;
+    return surface;
 }
 
 }  // namespace
 
-std::vector<SurfaceRecord> shown_surfaces(const Model& model) {
-    std::vector<SurfaceRecord> surfaces;
-    for (const auto& material : model.materials()) {
-        surfaces.push_back(material.surface);
-        const float strength = emissive_strength(material.extensions);
-        for (float& colour : surfaces.back().emissive) colour *= strength;
-    }
+std::vector<ShownSurface> shown_surfaces(const Model& model) {
+    std::vector<ShownSurface> surfaces;
+    for (const MaterialView& material : model.materials()) surfaces.push_back(shown_surface(material));
     surfaces.emplace_back();
     return surfaces;
 }
