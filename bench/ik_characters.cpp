@@ -39,7 +39,7 @@ constexpr std::array<Row, 6> kRows{{{Solver::any, "any"},
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     local_to_model(pose);
     const auto& offset = chain.record.tip_offset;
-    return glm::vec3(pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f));
+    return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
 /// The joints that the chain turns, from the effector up.

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "bendy_bench_repeat: %s: %s\n", argv[1], bendy::describe(model.error()).c_str());
         return 1;
     }
-    const bendy::cli::Stages stages(argv[1], *model, model->cycles().empty() ? nullptr : model->cycles().data());
+    const auto open = [&](const bendy::OpenOptions& options) { return bendy::Model::open(argv[1], options); };
+    const bendy::cli::Stages stages(open, *model, model->cycles().empty() ? nullptr : model->cycles().data());
     for (std::size_t k = 0; argc == 2 && k < stages.list().size(); ++k) {
         const bendy::cli::Stage& stage = stages.list()[k];
         std::printf("%zu\t%.0f\t%s\t%s\n", k, stage.items, stage.item, stage.name.c_str());

@@ -48,7 +48,9 @@ void per_item(benchmark::State& state, const char* item, double items) {
 /// A file and its stages, where they may stay.
 struct File {
     File(const std::filesystem::path& path, Model opened)
-        : model(std::move(opened)), stages(path, model, model.cycles().empty() ? nullptr : model.cycles().data()) {}
+        : model(std::move(opened)),
+          stages([path](const OpenOptions& options) { return Model::open(path, options); }, model,
+                 model.cycles().empty() ? nullptr : model.cycles().data()) {}
     Model model;
     cli::Stages stages;
 };

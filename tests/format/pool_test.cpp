@@ -336,7 +336,9 @@ TEST(Pool, RefusesUnknownTypesSwitchesAndReservedFields) {
             return shape_faults(root);
         };
         EXPECT_EQ(faults([](auto& record) { record.component_type = 6; }), Lines{"ENUM_RANGE " + kind.path});
-        EXPECT_EQ(faults([](auto& record) { record.normalised = 3; }), Lines{"ENUM_RANGE " + kind.path});
+        EXPECT_EQ(faults([](auto& record) { record.normalised = 4; }), Lines{"ENUM_RANGE " + kind.path});
+        EXPECT_EQ(faults([](auto& record) { record.normalised = 3; }), Lines{"STREAM_TYPE " + kind.path})
+            << "numbers of a list, which the pool does not have";
         EXPECT_EQ(faults([](auto& record) { record.reserved = 1; }), Lines{"RESERVED_FIELD " + kind.path});
     }
 }
