@@ -262,7 +262,7 @@ TEST(AutoSkin, TheSkeletonIsTheSkinsOrWhatCarriesNoMeshOrWhatIsNamed) {
     EXPECT_EQ(bind(scene, "Armature"),
               Lines{": no vertices bound: every mesh has a skin or hangs on a joint of the skeleton"});
     EXPECT_EQ(bind(scene, "Tail"),
-              Lines{"error: there is no joint \"Tail\"; there are \"Armature\", \"Hips\" and \"Spine\""});
+              Lines{"error: there is no joint \"Tail\"; there are \"Armature\", \"Hips\", \"Spine\" and \"Body\""});
 }
 
 TEST(AutoSkin, WithoutASkeletonItWarns) {

@@ -45,7 +45,7 @@ TEST(GltfSkeleton, SceneByDefaultByNameAndByIndex) {
     for (const char* name : {"three", "2", "-1", "", "1x"}) {
         options.scene = name;
         EXPECT_EQ(import_nodes(members, options).message(),
-                  "there is no scene '" + std::string(name) + "' (the file has 2)");
+                  "there is no scene \"" + std::string(name) + "\"; there are \"one\" and \"two\"");
     }
 }
 

@@ -278,8 +278,8 @@ std::string compressed(const std::string& file, const std::string& variant, std:
 
 std::string long_file() {
     std::string file = "xof 0303txt 0032\n";
-    for (int i = 0; i < 4000; ++i)
-        file += "Frame Joint" + std::to_string(i * 7919 % 4001) + " { " + std::string(i % 3 == 0 ? "Frame { } " : "") +
+    for (int i = 0; i < 5000; ++i)
+        file += "Frame Joint" + std::to_string(i * 7919 % 5003) + " { " + std::string(i % 3 == 0 ? "Frame { } " : "") +
                 "}\n";
     return file;
 }
@@ -366,7 +366,7 @@ TEST(ImportX, ADeclDataOfAnotherSizeIsRefused) {
     EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 99;0;3;0;; 3; 0,0,0;; } }"),
               "line 5, column 15: there is no vertex element of type 99");
     EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 2;0;3;0;; 12; 2143289344,0,0,0,0,0,0,0,0,0,0,0;; } }"),
-              "line 5, column 59: a number of a vertex is not finite");
+              "line 5, column 60: a number of a vertex is not finite");
 }
 
 const std::string kWalk = R"(Frame A { } AnimationSet Walk { Animation { { A }
