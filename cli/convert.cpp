@@ -79,7 +79,7 @@ void write_depfile(const ConvertArguments& arguments, const converter::Report& r
 /// \returns the bytes that it has written
 std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, NamedBy named, converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
-    require_folder_of(arguments.output);
+    if (named == NamedBy::user) require_folder_of(arguments.output);  // else it is the input's
     require_folder_of(arguments.depfile);
     Outputs outputs(arguments.force);
     outputs.reads(input);

@@ -304,7 +304,7 @@ class Convert(Case):
         self.failed("convert", "bad.glb", file="bad.glb")
         self.assertEqual(self.files(), ["bad.glb"])
         (self.folder / "bad.bendy").write_bytes(b"old")
-        self.failed("convert", "bad.glb", file="bad.glb")
+        self.failed("convert", "bad.glb", "-o", "bad.bendy", file="bad.glb")
         self.assertEqual(self.files(), ["bad.bendy", "bad.glb"])
         self.assertEqual((self.folder / "bad.bendy").read_bytes(), b"old")
 
@@ -1363,8 +1363,9 @@ class PoseCommand(Case):
             self.assertIn("--time", self.misused("pose", self.convert(), "--clip", "Walk", "--time", time))
 
     def test_outputs_end_in_a_known_format(self):
-        for output in ("out", "out.fbx", "out.obj.txt", ".obj", "json"):
+        for output in ("out", "out.obj.txt", ".obj", "json"):
             self.assertIn(".ply", self.misused("pose", self.convert(), "-o", output))
+        self.assertIn("would be FBX", self.misused("pose", self.convert(), "-o", "out.fbx"))
         self.assertEqual(self.files(), [])
 
     def test_no_output_is_left_by_a_failure(self):
@@ -2000,7 +2001,9 @@ class Export(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(b"levels of detail left out", result.stderr)
         self.done("convert", "every.glb", "-o", "every.bendy")
-        self.assertIn(b"worst met 0 mm", self.done("diff", source, "every.bendy", "--tolerance", "0.001mm"))
+        result = self.bendy("diff", source, "every.bendy", "--tolerance", "0.001mm")
+        # glTF hangs a mesh that no joint carries into the scene by a node.
+        self.assertEqual(result.stdout.splitlines(), [b'+ joint "wing": only in B', b"tolerance 0.001 mm; worst met 0 mm"])
 
     def triangles(self, path, *arguments):
         """Of each mesh, the places of its triangles' corners in the middle of the walk, sorted."""
