@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -54,9 +55,9 @@ void upload_reflectance(GLuint texture) {
     gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
     gl::BindTexture(GL_TEXTURE_2D, texture);
     gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    for (const GLenum filter : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         gl::TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    for (const GLenum wrap : std::array<GLenum, 2>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
         gl::TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
