@@ -92,8 +92,8 @@ TEST_F(MoveLinks, EmbeddedImagesHaveNone) {
 TEST(LinkedFile, IsWhatTheUriMeans) {
     const std::filesystem::path file = std::filesystem::path("models") / "fox.bendy";
     EXPECT_EQ(linked_file("a%20b.png", file), std::filesystem::path("models") / "a b.png");
-    EXPECT_EQ(linked_file("/tmp/a%20b.png", file), std::filesystem::path("/tmp/a b.png"));
-    EXPECT_EQ(linked_file("file:///tmp/a.png", file), std::filesystem::path("/tmp/a.png"));
+    EXPECT_EQ(linked_file("/pictures/a%20b.png", file), std::filesystem::path("/pictures/a b.png"));
+    EXPECT_EQ(linked_file("file:///pictures/a.png", file), std::filesystem::path("/pictures/a.png"));
     EXPECT_EQ(linked_file("file:///C:/a.png", file), std::filesystem::path("C:/a.png"));
     EXPECT_EQ(linked_file("data:image/png;base64,AAAA", file), std::nullopt);
     EXPECT_EQ(linked_file("https://example.org/a.png", file), std::nullopt);

@@ -15,7 +15,7 @@
 namespace bendy::converter {
 
 struct ConvertOptions {
-    /// The file that the result is meant for: links to images are relative to its folder. Empty: beside the source.
+    /// Where the result will be written: links to images are relative to its folder. Empty: beside the source.
     std::filesystem::path output;
     GltfOptions gltf;  ///< for glTF sources, embed_images for X-files too; a scene chosen in others is an error
     /// For X-files, see XOptions; 0: as the file says. An error for other sources.
