@@ -127,9 +127,10 @@ void check_names(const ConvertArguments& arguments, bool is_batch) {
         throw CLI::ValidationError("--json", "goes to standard output, and so does a file: give that a name");
     if (!arguments.depfile.empty() && is_dash(arguments.output))
         throw CLI::ValidationError("--depfile", "goes with an output that has a name");
-    if (const auto format = format_named_by(arguments.depfile); !format.empty())
+    if (const auto format = format_named_by(arguments.depfile); !format.empty()) {
         throw CLI::ValidationError("--depfile", printable(arguments.depfile.string()) + " would be " +
                                                     std::string(format) + ", not a rule for Make");
+    }
     std::error_code ignored;
     if (const auto format = format_named_by(arguments.output);
         is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {

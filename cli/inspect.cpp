@@ -104,7 +104,9 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
         std::snprintf(columns.data(), columns.size(), "%12llu %12llu  ", static_cast<unsigned long long>(chunk.offset),
                       static_cast<unsigned long long>(chunk.size));
         const std::string before = columns.data() + indentation(ends.size());
-        std::string line = before + chunk.id.letters().data() + label;
+        std::string line = before;
+        line += chunk.id.letters().data();
+        line += label;
         const std::string content = describe_chunk(tree, number, rigs);
         if (!content.empty()) line += "  " + content;
         line = cut_to(line, width);

@@ -19,9 +19,9 @@ struct InspectedFile {
 };
 
 /// One self-contained HTML page: pictures, facts, faults, chunks, skeletons, cycles, textures, materials. It loads
-/// nothing, and nothing in the file can run in it: the file's data stand in one block of JSON without markup
-/// characters, the page's script makes text of them, and its content security policy allows that script alone. Bounded
-/// in size for any file; what is left out is counted on the page.
+/// nothing, and no content of the file can run in it: the data are one block of JSON without markup characters, the
+/// page's script turns them into text, and the content security policy allows only that script. The page's size is
+/// bounded for any file; the page counts what it leaves out.
 std::string inspect_page(const InspectedFile& file);
 
 }  // namespace bendy::cli

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
@@ -15,8 +16,8 @@
 namespace bendy::cli {
 
 std::string clock_text(std::chrono::duration<double> time) {
-    constexpr long long kMost = 99 * 3600;
-    const auto seconds = static_cast<long long>(std::clamp(time.count(), 0.0, static_cast<double>(kMost)) + 0.5);
+    constexpr long long kMost = 99LL * 3600;
+    const long long seconds = std::llround(std::clamp(time.count(), 0.0, static_cast<double>(kMost)));
     std::array<char, 48> text{};
     if (seconds >= 3600) {
         std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", seconds / 3600, seconds / 60 % 60, seconds % 60);

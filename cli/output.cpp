@@ -60,9 +60,10 @@ const fs::path* Outputs::input_at(const fs::path& output) const {
 }
 
 std::string Outputs::claim(const fs::path& output, NamedBy named) {
-    if (const fs::path* input = input_at(output))
+    if (const fs::path* input = input_at(output)) {
         return "is an input as well as an output" +
                (*input == output ? std::string() : ", it is " + shown_name(*input)) + ": give another name";
+    }
     if (is_dash(output))
         return outputs_.insert(output).second ? "" : "cannot take two outputs: write one of them to a file";
     if (holds_bytes(output) || !is_there(output)) {

@@ -178,7 +178,7 @@ private:
                     things.add(object.pools[p].targets[t].name, here.pools[p].targets[t]);
             }
         });
-        if (const auto done = take_out(std::move(things)); !done) return done;
+        if (auto done = take_out(std::move(things)); !done) return done;
         for (std::size_t k = 0; k < staying_.objects.size(); ++k) {
             const ObjectView& object = source_.document.objects[k];
             for (std::size_t p = 0; p < object.pools.size(); ++p) {

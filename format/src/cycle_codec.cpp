@@ -333,6 +333,8 @@ bool decode_cycle(Bytes body, std::span<std::byte> out) {
     if (!take_zstd(frame, plain)) return false;
     const auto payload = PlainReader(plain).payload();
     if (!payload || payload->size() != out.size()) return false;
+    // The payload's record follows from the numbers; the stored one must be the same.
+    if (!std::equal(plain.begin(), plain.begin() + sizeof(PackRecord), payload->begin())) return false;
     std::copy(payload->begin(), payload->end(), out.begin());
     return true;
 }

@@ -381,6 +381,23 @@ TEST(CycleCodec, RefusesACycleOfNoFrames) {
     EXPECT_FALSE(decodes_to(with_plain_form({bytes.begin(), bytes.end()}, sizeof record), out));
 }
 
+TEST(CycleCodec, RefusesARecordThatItsNumbersDoNotGive) {
+    PackedSamples samples = make_samples(1, 3, 0);
+    samples.tracks = {{TrackPath::translation, 0, {120, 120, 120}, 3, true, {1, 2, 3, 4, 5, 6, 7, 8, 9}}};
+    const Buffer payload = payload_of(samples);
+    const Buffer plain = plain_form(encoded(payload));
+    Buffer out;
+    ASSERT_TRUE(decodes_to(with_plain_form(plain, payload.size()), out));
+    const auto refuses = [&](std::size_t at, unsigned bits) {
+        Buffer changed = plain;
+        changed[at] ^= static_cast<std::byte>(bits);
+        return !decodes_to(with_plain_form(changed, payload.size()), out);
+    };
+    for (unsigned list = 0; list < kPackedLists; ++list)
+        EXPECT_TRUE(refuses(offsetof(PackRecord, wide), 1u << list)) << list;
+    EXPECT_TRUE(refuses(offsetof(PackRecord, reserved), 1u));
+}
+
 // --- in a file
 
 Lines faults_with_pack(const PackedSamples& samples) {

@@ -36,8 +36,8 @@ class Comparison {
     /** Both reports of one file. Equal is what must be: acceptance, and the faults that no other one can have led to. */
     reports(file, theirs, ours, note) {
         this.counts.files += 1;
-        const ours_damaged = ours.file?.has_damaged_frame && !theirs.faults.some(({ code }) => code === 'CODEC_DATA');
-        if (ours_damaged) {
+        const refused = new Set(theirs.faults.filter(({ code }) => code === 'CODEC_DATA').map(({ offset }) => offset));
+        if (ours.file?.damaged_frames.some((offset) => !refused.has(offset))) {
             this.counts['damaged zstd frames'] += 1;
             return;
         }

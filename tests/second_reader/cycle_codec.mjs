@@ -117,7 +117,12 @@ export function decode_cycle(start, body, unzstd, refuse_unless) {
             for (let t = 0; t < joints[list].length; ++t) visit(t * kNumbers[list] + n);
     };
     for (let list = 0; list < 8; ++list) by_number(list, (k) => out.push(steps[list][k]));
+    refuse_unless(view.getUint16(18, true) === 0, 'reserved bytes of the record');
+    refuse_unless(joints.every((list, k) => (list.length > 0) === (((record.lists >> k) & 1) === 1)), 'a list without joints');
     const is_wide = (list) => ((record.wide >> list) & 1) === 1;
+    let wide = 0; // as the bases need it
+    const note_base = (list, base) => (wide |= base !== (base << 16) >> 16 ? 1 << list : 0);
+    for (const list of [0, 2, 4, 6]) for (const number of constants[list]) note_base(list, number);
     for (const list of [0, 2, 4, 6]) by_number(list, (k) => push_number(out, constants[list][k], is_wide(list)));
     for (const byte of times) out.push(byte);
     const segments = segments_of(record, is_animated);
@@ -128,16 +133,17 @@ export function decode_cycle(start, body, unzstd, refuse_unless) {
             for (let b = 0; b < 4; ++b) out[table_at + b] = (out.length >>> (8 * b)) & 0xff;
             table_at += 4;
         }
-        write_segment(out, { joints, samples, by_number, is_wide, refuse_unless }, first, last);
+        write_segment(out, { joints, samples, by_number, is_wide, note_base, refuse_unless }, first, last);
         refuse_unless(out.length <= start.size, 'the payload is longer than it should be');
     }
+    refuse_unless(wide === record.wide, 'wide is not what the bases need');
     out.push(0, 0, 0, 0);
     refuse_unless(out.length === start.size, 'the payload has another size');
     return Uint8Array.from(out);
 }
 
 function write_segment(out, cycle, first, last) {
-    const { joints, samples, by_number, is_wide, refuse_unless } = cycle;
+    const { joints, samples, by_number, is_wide, note_base, refuse_unless } = cycle;
     const packed = {};
     for (const list of [1, 3, 5, 7]) {
         const bases = [], widths = [];
@@ -148,6 +154,7 @@ function write_segment(out, cycle, first, last) {
                 high = Math.max(high, x[k]);
             }
             bases[c] = low;
+            note_base(list, low);
             widths[c] = high === low ? 0 : 32 - Math.clz32(high - low);
         });
         const each = kNumbers[list];

@@ -20,6 +20,7 @@ class CheckedFile {
         Object.assign(this, { read, bytes, chunks, faults, head: chunks[0], derived_bytes: 0 });
         this.counts = { objects: 0, joints: 0, pools: 0, vertices: 0, cycles: 0, materials: 0, textures: 0 };
         this.payloads = new Map();
+        this.damaged_frames = []; // offsets of leaves
     }
     add(code, chunk) {
         this.faults.push({ code, path: path_of(chunk), offset: chunk.offset });
@@ -38,7 +39,7 @@ class CheckedFile {
             let result = { payload: stored_payload(this.bytes, chunk) };
             if (chunk.codec !== 0) result = decode(this.read, chunk.codec, result.payload);
             if (result.code) this.add(result.code, chunk);
-            if (result.in_frame) this.has_damaged_frame = true;
+            if (result.in_frame) this.damaged_frames.push(chunk.offset);
             this.payloads.set(chunk, result.payload ?? null);
         }
         return this.payloads.get(chunk);

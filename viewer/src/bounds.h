@@ -22,8 +22,8 @@ std::vector<bool> find_controls(const Model& model);
 /// A box round all that is drawn of a model over a cycle, at some of its times; null: the rest pose. Without a surface,
 /// round the joints, controls apart.
 /// \param adjust  changes every pose after the cycle; may be empty
-/// \param points  others that the box is to hold
+/// \param others  points that the box is to hold
 Box bounding_box(const Model& model, const Cycle* cycle, const std::function<void(Pose&)>& adjust = {},
-                 std::span<const glm::vec3> points = {});
+                 std::span<const glm::vec3> others = {});
 
 }  // namespace bendy::viewer

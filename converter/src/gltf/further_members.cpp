@@ -19,12 +19,12 @@ struct Inner {
     const Shape* shape;
 };
 
-/// Which members an object has by the specification. `extras` and `name` stand in `known` where the Scene holds them,
-/// `extensions` where others say what becomes of them.
+/// The members that the specification gives an object. `known` lists `extras` and `name` where the Scene holds them,
+/// and `extensions` where other code reports what becomes of them.
 struct Shape {
     std::string_view known;  ///< names, separated by spaces
     std::span<const Inner> inner = {};
-    bool is_open = false;  ///< members that are not named here are somebody else's: extensions without a shape
+    bool is_open = false;  ///< may have members that are not listed: those of extensions without a shape
 };
 
 constexpr Shape kPlain{""};

@@ -65,6 +65,7 @@ std::optional<std::size_t> choose_scene(const Document& document, const std::opt
         const auto parsed = std::from_chars(option->data(), end, index);
         if (!option->empty() && parsed.ec == std::errc() && parsed.ptr == end && index < scenes.size()) return index;
         std::vector<std::string_view> names;
+        names.reserve(scenes.size());
         for (const auto& scene : scenes) names.emplace_back(scene.name);
         fail("scenes", edit::no_such_name("scene", *option, names));
     }
@@ -107,9 +108,9 @@ public:
         mark_skins(skeleton);
         Losses losses;
         for (std::size_t node = 0; node < nodes_.size(); ++node) {
-            if (skeleton.joint_of_node[node] == kNone)
-                losses.add("nodes outside the chosen scene", call(document_.json["nodes"][node], "nodes", node),
-                           at("nodes", node));
+            if (skeleton.joint_of_node[node] != kNone) continue;
+            losses.add("nodes outside the chosen scene", call(document_.json["nodes"][node], "nodes", node),
+                       at("nodes", node));
         }
         losses.report(document_.report);
         return skeleton;

@@ -411,13 +411,14 @@ private:
             return std::all_of(fits.begin(), fits.end(), [](const BendFit& fit) { return fit.is_hinge; });
         };
         if (is_pooled_) {
-            const std::vector<BendFit> same(members_.size(), fit_hinge(pooled_, pooled_rest_));
+            std::vector<BendFit> same(members_.size(), fit_hinge(pooled_, pooled_rest_));
             if (are_hinges(same)) return same;
         }
         std::vector<BendFit> own = fit_each(fit_hinge);
         if (are_hinges(own)) return own;
-        if (is_pooled_) return std::vector<BendFit>(members_.size(), fit_swing(pooled_, pooled_rest_));
-        return fit_each(fit_swing);
+        if (!is_pooled_) return fit_each(fit_swing);
+        std::vector<BendFit> same(members_.size(), fit_swing(pooled_, pooled_rest_));
+        return same;
     }
 
     void fit_bends(std::vector<ProposedLimit>& limits) {
@@ -560,7 +561,7 @@ std::vector<ProposedLimit> fit_to_clips(const Scene& scene, const RestFrames& re
             is_done[j] = true;
             if (j != i) break;
         }
-        for (ProposedLimit& limit : group.fit(report)) limits.push_back(std::move(limit));
+        for (const ProposedLimit& limit : group.fit(report)) limits.push_back(limit);
     }
     return limits;
 }

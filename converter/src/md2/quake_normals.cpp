@@ -36,6 +36,7 @@ std::vector<Face> icosahedron() {
          {0, 1, 6}, {6, 1, 10}, {9, 0, 11}, {9, 11, 2}, {9, 2, 5},  {7, 2, 11}}};
     constexpr int kCuts = 2;
     std::vector<Face> faces;
+    faces.reserve(kFaces.size());
     for (const auto& [a, b, c] : kFaces) faces.push_back({{corners[a], corners[b], corners[c]}, kCuts});
     return faces;
 }

@@ -42,10 +42,11 @@ void move_links(Scene& scene, const std::filesystem::path& from, const std::file
             report.warn("linked image does not exist: " + quote(image.uri), place);
         const bool is_relative = !image.uri.starts_with('/') && !image.uri.starts_with("file:");
         if (source != folder && is_relative) image.uri = uri_between(folder, *file);
-        if (image.uri.starts_with("../"))
+        if (image.uri.starts_with("../")) {
             report.warn("link to an image leads out of the output's folder, where the viewer does not follow it: " +
                             quote(image.uri),
                         place);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 
+#define ZLIB_CONST  // pointers to what zlib only reads are to const
 #include <zlib.h>
 
 #include <algorithm>
@@ -46,9 +47,7 @@ public:
     }
 
 private:
-    static Bytef* bytes_of(std::string_view text) {  // zlib reads, and takes no pointer to const
-        return reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    }
+    static const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
     z_stream stream_{};
     std::array<char, kLargestBlock> block_{};
