@@ -19,7 +19,7 @@ using nlohmann::json;
 
 /// The same for a file however its folder was written. Not what a link names: other files are looked for beside the
 /// link.
-std::filesystem::path plain(const std::filesystem::path& file) {
+std::filesystem::path in_plain_folder(const std::filesystem::path& file) {
     const std::filesystem::path whole = std::filesystem::absolute(file);
     std::error_code unknown;
     return std::filesystem::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
@@ -71,7 +71,7 @@ bool BatchRecord::is_up_to_date(const BatchFile& file, const std::string& recipe
     if (found == entries_.end()) return false;
     const Entry& entry = found->second;
     return entry.recipe == recipe && entry.output.is_there && entry.output == converter::stamp_of(file.output) &&
-           !entry.sources.empty() && plain(entry.sources.front().file) == plain(file.input) &&
+           !entry.sources.empty() && in_plain_folder(entry.sources.front().file) == in_plain_folder(file.input) &&
            std::all_of(entry.sources.begin(), entry.sources.end(),
                        [](const SourceFile& source) { return source.stamp == converter::stamp_of(source.file); });
 }

@@ -28,7 +28,7 @@ using Kind = Difference::Kind;
 constexpr int kDiffers = 1;
 constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands return
 
-struct Arguments {
+struct DiffArguments {
     std::array<std::filesystem::path, 2> files;
     std::optional<double> tolerance;             // of numbers, chunk by chunk
     std::optional<converter::ErrorBound> bound;  // of places
@@ -130,7 +130,7 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
     if (differences.left_out() != 0) std::cout << grouped(differences.left_out()) << " more differences\n";
 }
 
-Json to_json(const Arguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
+Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
     Json list = Json::array();
     for (const Difference& difference : differences.list()) {
         const auto& [here, there] = difference.chunks;
@@ -176,7 +176,7 @@ std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputByt
     return read_file(file.bytes());
 }
 
-bool are_same(const Arguments& arguments) {
+bool are_same(const DiffArguments& arguments) {
     if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
     std::array<InputBytes, 2> files;
     std::array<std::unique_ptr<ReadFile>, 2> read;
@@ -195,7 +195,7 @@ bool are_same(const Arguments& arguments) {
     return differences.count() == 0;
 }
 
-void run(const Arguments& arguments) {
+void run(const DiffArguments& arguments) {
     bool same = false;
     try {
         same = are_same(arguments);
@@ -215,7 +215,7 @@ void run(const Arguments& arguments) {
 }
 
 /// A number, or a length or share as `convert --max-error` takes it.
-void read_tolerance(std::string_view text, Arguments& arguments) {
+void read_tolerance(std::string_view text, DiffArguments& arguments) {
     double number = 0.0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (failure == std::errc() && end == text.data() + text.size()) {
@@ -232,7 +232,7 @@ void read_tolerance(std::string_view text, Arguments& arguments) {
 }  // namespace
 
 void add_diff(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<DiffArguments>();
     const auto tolerance = std::make_shared<std::string>();
     CLI::App* command = program.add_subcommand(
         "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");

@@ -22,14 +22,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using converter::CharacterComparison;
 using converter::CharacterDifference;
-using Kind = CharacterDifference::Kind;
 
-struct Character {
+struct ComparedCharacter {
     converter::Scene scene;
     std::string rig;  // as a rig file
 };
 
-Character read_character(const std::filesystem::path& path) {
+ComparedCharacter read_compared(const std::filesystem::path& path) {
     const InputBytes file = open_bendy_file(path);
     converter::Report report;
     auto scene = converter::import_bendy(file.bytes(), report);
@@ -54,18 +53,21 @@ std::string length_text(double metres) {
     return text.str();
 }
 
-std::string number_text(double number) {
+std::string three_digits(double number) {
     std::ostringstream text;
     text << std::setprecision(3) << number;
     return text.str();
 }
 
 void print_line(const CharacterDifference& difference) {
-    const bool is_lone = difference.kind == Kind::only_in_a || difference.kind == Kind::only_in_b;
-    const char mark = difference.kind == Kind::only_in_a ? '-' : difference.kind == Kind::only_in_b ? '+' : '!';
+    const bool is_lone = difference.kind == CharacterDifference::Kind::only_in_a ||
+                         difference.kind == CharacterDifference::Kind::only_in_b;
+    const char mark = difference.kind == CharacterDifference::Kind::only_in_a   ? '-'
+                      : difference.kind == CharacterDifference::Kind::only_in_b ? '+'
+                                                                                : '!';
     std::string what = difference.what;
     if (is_lone) what += std::string(what.empty() ? "" : ", ") + (mark == '-' ? "only in A" : "only in B");
-    if (difference.kind == Kind::distance) what = length_text(difference.metres) + " apart";
+    if (difference.kind == CharacterDifference::Kind::distance) what = length_text(difference.metres) + " apart";
     std::cout << mark << ' ' << printable(difference.place) << ": " << printable(what) << '\n';
 }
 
@@ -77,8 +79,8 @@ void print_text(const CharacterComparison& comparison) {
     std::cout << '\n';
     for (const converter::LookDifference& look : comparison.looks) {
         if (look.apart == 0.0) continue;
-        std::cout << "  " << printable(look.place) << ": up to " << number_text(look.apart)
-                  << (look.unit.empty() ? "" : ' ' + look.unit) << " apart, of " << number_text(look.allowed)
+        std::cout << "  " << printable(look.place) << ": up to " << three_digits(look.apart)
+                  << (look.unit.empty() ? "" : ' ' + look.unit) << " apart, of " << three_digits(look.allowed)
                   << " allowed\n";
     }
 }
@@ -100,7 +102,7 @@ Json to_json(const std::array<std::filesystem::path, 2>& files, const CharacterC
     for (const CharacterDifference& difference : comparison.differences) {
         Json entry{{"kind", kKinds[static_cast<std::size_t>(difference.kind)]}, {"place", difference.place}};
         if (!difference.what.empty()) entry["what"] = difference.what;
-        if (difference.kind == Kind::distance) entry["metres"] = difference.metres;
+        if (difference.kind == CharacterDifference::Kind::distance) entry["metres"] = difference.metres;
         list.push_back(std::move(entry));
     }
     report["differences"] = std::move(list);
@@ -112,8 +114,8 @@ Json to_json(const std::array<std::filesystem::path, 2>& files, const CharacterC
 
 bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, const converter::ErrorBound& tolerance,
                           bool as_json) {
-    const Character a = read_character(files[0]);
-    const Character b = read_character(files[1]);
+    const ComparedCharacter a = read_compared(files[0]);
+    const ComparedCharacter b = read_compared(files[1]);
     CharacterComparison comparison;
     {
         ProgressBar bar("comparing");
@@ -129,7 +131,7 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
     }
     if (a.rig != b.rig) {
         comparison.differences.push_back(
-            {Kind::value, "rig", "constraints or IK chains differ; `bendy rig` writes them", 0.0});
+            {CharacterDifference::Kind::value, "rig", "constraints or IK chains differ; `bendy rig` writes them", 0.0});
     }
     if (as_json) {
         std::cout << to_json(files, comparison).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -31,7 +31,7 @@ namespace {
 
 using Buffer = std::vector<std::byte>;
 
-struct Arguments {
+struct EditArguments {
     std::filesystem::path input;
     std::filesystem::path output;
     std::vector<std::string> strips, renames, joint_renames, extracts;
@@ -90,7 +90,7 @@ edit::SameName same_name_of(const std::string& word) {
 class Steps {
 public:
     /// \param outputs  learns what the steps read
-    Steps(const Arguments& arguments, Outputs& outputs) : arguments_(arguments), outputs_(outputs) {}
+    Steps(const EditArguments& arguments, Outputs& outputs) : arguments_(arguments), outputs_(outputs) {}
 
     void add(const std::string& option) {
         const std::size_t number = seen_[option]++;
@@ -163,14 +163,14 @@ private:
         steps_.emplace_back([joint](Bytes file, edit::Log& log) { return edit::extract(file, joint, log); });
     }
 
-    const Arguments& arguments_;
+    const EditArguments& arguments_;
     Outputs& outputs_;
     std::map<std::string, std::size_t> seen_;
     edit::Rename rename_;
     std::vector<Step> steps_;
 };
 
-void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t after) {
+void print_size(const EditArguments& arguments, std::uint64_t before, std::uint64_t after) {
     std::ostream& out = summary_stream(arguments.output);
     out << printable(output_name(arguments.output)) << ": " << grouped(after) << " bytes";
     if (after != before) {
@@ -181,7 +181,7 @@ void print_size(const Arguments& arguments, std::uint64_t before, std::uint64_t 
 }
 
 /// \param outputs  knows what is read besides the file itself
-void run(const Arguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
+void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
     if (!arguments.in_place) outputs.reads(arguments.input);
     outputs.writes(arguments.output, NamedBy::user, Content::binary);
     check_suffix({"edit", "--output", {".bendy"}}, arguments.input, arguments.output);
@@ -206,7 +206,7 @@ void run(const Arguments& arguments, const std::vector<Step>& steps, Outputs& ou
 }  // namespace
 
 void add_edit(CLI::App& program) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EditArguments>();
     CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
     command->add_option("FILE", arguments->input, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");

@@ -68,6 +68,9 @@ function(bendy_private_options target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <span>
       <string> <vector>)
   endif()
+  if(BENDY_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
 endfunction()
 
 # bendy_precompile(TARGET HEADER...): further headers of other libraries that most of the target's files include.

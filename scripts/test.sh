@@ -1,19 +1,31 @@
 #!/usr/bin/env bash
-# Runs every check that the project has; .ci/run calls this and nothing else.
+# Runs every check that the project has, first those that fail most often; .ci/run calls this and nothing else.
 #   scripts/test.sh         all of it
 #   scripts/test.sh quick   one optimised build and its tests
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-step() { printf '\n== %s\n' "$*"; }
+# Says what comes next, and how many minutes everything has taken so far.
+step() { printf '\n== %d:%02d  %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
 
 scripts/setup.sh test
+
+step "format"
+scripts/lint.sh
 
 step "optimised build, warnings are errors"
 cmake --preset release -DBENDY_TESTS=ON -DBENDY_WARNINGS_AS_ERRORS=ON >/dev/null
 cmake --build --preset release
+
+step "tests"
+ctest --preset release -LE corpus
+if [ -e ../shared/corpus/visible/manifest.json ]; then
+    step "the corpus: files converted, files refused, worst error"
+    ctest --preset release -L corpus --verbose
+fi
+
 if [ "${1:-}" != quick ]; then
-    step "format and lint"
+    step "lint"
     scripts/lint.sh build/release
 
     step "every public header compiles by itself"
@@ -41,13 +53,7 @@ if [ "${1:-}" != quick ]; then
     step "fuzzing, six minutes of processor"
     scripts/fuzz.sh
 fi
-if [ -e ../shared/corpus/visible/manifest.json ]; then
-    step "the corpus: files converted, files refused, worst error"
-    ctest --preset release -L corpus --verbose
-fi
-
-step "tests"
-ctest --preset release -LE corpus
 
 step "what a newcomer runs first"
 scripts/demo.sh >/dev/null
+step "done"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """clang-tidy over several sources at once: scripts/tidy_in_groups.py BUILD-FOLDER SOURCE...
 
-Most of clang-tidy's time goes into the headers, so sources of one folder with the same flags are read as one: a file
-that includes them. Sources that cannot be read together (two have a function of one name) are parted until they can.
+Most of clang-tidy's time goes into the headers, so sources with the same flags are read as one: a file that includes
+them. A source that does not compile with those before it (both define a function of one name) goes to a later group.
 """
 import collections
 import concurrent.futures
@@ -10,11 +10,13 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
 
-GROUP = 12
+GROUP = 40
+CONFIG = pathlib.Path(__file__).resolve().parent.parent / ".clang-tidy"
 
 
 def flags_of(entry):
@@ -30,56 +32,87 @@ def flags_of(entry):
             skip = not skip and word in ("-o", "-MF", "-MT")
             continue
         kept.append(word)
-    return tuple(kept)
+    return ("-Wno-unknown-warning-option", *kept)
 
 
-class Linter:
-    def __init__(self, build):
-        self.folder = build / "lint"
-        self.folder.mkdir(exist_ok=True)
-        self.entries = {entry["file"]: entry for entry in json.loads((build / "compile_commands.json").read_text())}
-
-    def groups(self, sources):
-        by_flags = collections.defaultdict(list)
+def read_build(build):
+    """The flags of every source of the build, also of those that it compiles several at a time."""
+    flags = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        file = pathlib.Path(entry["directory"], entry["file"])
+        if file.suffix == ".c":
+            continue
+        sources = [str(file)]
+        if file.parent.name == "Unity":
+            sources = re.findall(r'^#include "(.*)"$', file.read_text(), re.MULTILINE)
         for source in sources:
-            path = str(source.resolve())
-            if path not in self.entries:
-                sys.exit(f"{source}: not in the build, so nobody knows its flags")
-            by_flags[flags_of(self.entries[path]), source.parent].append(path)
-        for (flags, _), paths in by_flags.items():
-            for first in range(0, len(paths), GROUP):
-                yield flags, paths[first:first + GROUP]
-
-    def run(self, flags, paths):
-        """The findings, and whether there are none."""
-        together = self.folder / f"{hashlib.md5(repr(paths).encode()).hexdigest()}.cpp"
-        together.write_text("".join(f'#include "{path}"  // NOLINT(bugprone-suspicious-include)\n' for path in paths))
-        command = ["-Wno-unknown-warning-option", *flags]
-        place = self.entries[paths[0]]["directory"]
-        if len(paths) > 1:
-            reads = subprocess.run(["clang++", "-fsyntax-only", "-w", *command, str(together)], cwd=place, capture_output=True)
-            if reads.returncode != 0:
-                half = len(paths) // 2
-                return [found for part in (paths[:half], paths[half:]) for found in self.run(flags, part)]
-        target = str(together) if len(paths) > 1 else paths[0]
-        done = subprocess.run(["clang-tidy", "--quiet", "--warnings-as-errors=*", f"--config-file={CONFIG}", target, "--", *command],
-                              cwd=place, capture_output=True, text=True)
-        return [(done.returncode, done.stdout, done.stderr if done.returncode else "")]
+            flags[source] = flags_of(entry)
+    return flags
 
 
-CONFIG = pathlib.Path(__file__).resolve().parent.parent / ".clang-tidy"
+class Group:
+    """Sources that compile as one."""
+
+    def __init__(self, folder, flags, sources):
+        self.flags = flags
+        self.sources = sources
+        self.file = folder / f"{hashlib.md5(repr((flags, sources)).encode()).hexdigest()}.cpp"
+        self.lines = []
+        for number, source in enumerate(sources):
+            self.lines += ["#undef main", f"#define main main_{number}"]  # programs go together, too
+            self.lines.append(f'#include "{source}"  // NOLINT(bugprone-suspicious-include)')
+        self.file.write_text("\n".join(self.lines) + "\n")
+
+    def misfits(self):
+        """Those that do not compile behind the others."""
+        if len(self.sources) == 1:
+            return []
+        done = subprocess.run(["clang++", "-fsyntax-only", "-w", "-ferror-limit=0", *self.flags, str(self.file)],
+                              capture_output=True, text=True)
+        faulty = {self.lines[int(line) - 1] for line in re.findall(rf"^In file included from {re.escape(str(self.file))}:(\d+):", done.stderr, re.MULTILINE)}
+        if done.returncode == 0:
+            return []
+        return [source for source in self.sources if any(f'"{source}"' in line for line in faulty)] or self.sources[1:]
+
+    def lint(self):
+        """Exit status and findings."""
+        target = self.file if len(self.sources) > 1 else self.sources[0]
+        done = subprocess.run(["clang-tidy", "--quiet", "--warnings-as-errors=*", f"--config-file={CONFIG}", str(target), "--", *self.flags],
+                              capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+
+def make_groups(folder, flags, sources):
+    groups = []
+    while sources:
+        chosen, later = sources[:GROUP], sources[GROUP:]
+        group = Group(folder, flags, chosen)
+        while misfits := group.misfits():
+            later += misfits
+            group = Group(folder, flags, [source for source in group.sources if source not in misfits])
+        groups.append(group)
+        sources = later
+    return groups
 
 
 def main():
-    build, *sources = [pathlib.Path(argument) for argument in sys.argv[1:]]
-    linter = Linter(build.resolve())
+    build, *sources = [pathlib.Path(argument).resolve() for argument in sys.argv[1:]]
+    flags = read_build(build)
+    by_flags = collections.defaultdict(list)
+    for source in map(str, sources):
+        if source not in flags:
+            sys.exit(f"{source}: not in the build, so nobody knows its flags")
+        by_flags[flags[source]].append(source)
+    folder = build / "lint"
+    folder.mkdir(exist_ok=True)
     failed = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for results in pool.map(lambda group: linter.run(*group), list(linter.groups(sources))):
-            for status, out, err in results:
-                failed |= status != 0
-                if status:
-                    print(out + err, end="")
+        groups = [group for made in pool.map(lambda item: make_groups(folder, *item), by_flags.items()) for group in made]
+        groups.sort(key=lambda group: -len(group.sources))
+        for status, text in pool.map(Group.lint, groups):
+            failed |= status != 0
+            if status:
+                print(text, end="")
     sys.exit(failed)
 
 

@@ -20,12 +20,6 @@ bool is_all(const std::vector<bool>& stays) {
     return std::find(stays.begin(), stays.end(), false) == stays.end();
 }
 
-template <class T>
-void append(Buffer& payload, const T& value) {
-    const Bytes bytes = bytes_of(value);
-    payload.insert(payload.end(), bytes.begin(), bytes.end());
-}
-
 class ObjectMender {
 public:
     ObjectMender(const Source& source, const Staying& staying, std::size_t object, Rewrite& rewrite, Log& log)

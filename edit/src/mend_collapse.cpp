@@ -9,11 +9,6 @@
 namespace bendy::edit {
 namespace {
 
-template <class T>
-void append(Buffer& payload, const T& value) {
-    const Bytes bytes = bytes_of(value);
-    payload.insert(payload.end(), bytes.begin(), bytes.end());
-}
 void pad(Buffer& payload) {
     payload.resize(padded(payload.size()));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/chunk_writer.h>
 
@@ -11,6 +12,12 @@
 namespace bendy::edit {
 
 using Buffer = std::vector<std::byte>;
+
+template <class T>
+void append(Buffer& payload, const T& value) {
+    const Bytes bytes = bytes_of(value);
+    payload.insert(payload.end(), bytes.begin(), bytes.end());
+}
 
 /// A file with changes: chunks that go, leaves with another payload, chunks that are added. What is not touched is
 /// copied byte for byte. Chunks are called by their numbers in the tree, which must outlive this.

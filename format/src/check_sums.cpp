@@ -9,17 +9,14 @@
 namespace bendy {
 namespace {
 
-constexpr std::uint64_t kSumAt = 4;
-constexpr std::uint64_t kSizeAt = 8;
-
 /// Adds the stored sums of a container's children, some at a time.
 std::uint32_t add_children(Bytes payload, std::uint32_t sum) {
     std::array<std::uint32_t, 64> sums;  // NOLINT(*-member-init): those that are used are set
     std::size_t count = 0;
     for (std::uint64_t at = 0; at < payload.size();) {
-        copy_at(payload, at + kSumAt, sums[count++]);
+        copy_at(payload, at + kChunkSumAt, sums[count++]);
         std::uint64_t child = 0;
-        copy_at(payload, at + kSizeAt, child);
+        copy_at(payload, at + kChunkSizeAt, child);
         at += kChunkHeaderSize + padded(child & kMaxPayload);
         if (count < sums.size() && at < payload.size()) continue;
         sum = crc32c(std::as_bytes(std::span(sums).first(count)), sum);
@@ -32,7 +29,7 @@ std::uint32_t add_children(Bytes payload, std::uint32_t sum) {
 
 std::uint32_t chunk_sum(Bytes chunk) {
     std::uint64_t size_and_flags = 0;
-    copy_at(chunk, kSizeAt, size_and_flags);
+    copy_at(chunk, kChunkSizeAt, size_and_flags);
     const std::uint64_t size = size_and_flags & kMaxPayload;
     const bool is_container = (size_and_flags >> 48 & kContainerFlag) != 0;
 

@@ -10,9 +10,6 @@
 namespace bendy {
 namespace {
 
-constexpr std::uint64_t kSumAt = 4;
-constexpr std::uint64_t kSizeAt = 8;
-
 template <class T>
 void store(std::vector<std::byte>& bytes, std::uint64_t offset, T value) {
     std::memcpy(bytes.data() + offset, &value, sizeof value);
@@ -25,7 +22,7 @@ void ChunkWriter::put_header(FourCC id, std::uint16_t flags) {
     const std::uint64_t offset = bytes_.size();
     bytes_.resize(offset + kChunkHeaderSize);
     store(bytes_, offset, id.value);
-    store(bytes_, offset + kSizeAt, pack_size_and_flags(0, flags));
+    store(bytes_, offset + kChunkSizeAt, pack_size_and_flags(0, flags));
     open_.push_back(offset);
 }
 
@@ -44,10 +41,10 @@ void ChunkWriter::end(std::uint16_t flags) {
     const std::uint64_t size = bytes_.size() - offset - kChunkHeaderSize;
     assert(size <= kMaxPayload);
     std::uint64_t size_and_flags = 0;
-    copy_at(Bytes(bytes_), offset + kSizeAt, size_and_flags);
-    store(bytes_, offset + kSizeAt, size_and_flags | pack_size_and_flags(size, flags));
+    copy_at(Bytes(bytes_), offset + kChunkSizeAt, size_and_flags);
+    store(bytes_, offset + kChunkSizeAt, size_and_flags | pack_size_and_flags(size, flags));
     bytes_.resize(offset + kChunkHeaderSize + padded(size));
-    store(bytes_, offset + kSumAt, chunk_sum(Bytes(bytes_).subspan(offset)));
+    store(bytes_, offset + kChunkSumAt, chunk_sum(Bytes(bytes_).subspan(offset)));
 }
 
 void ChunkWriter::leaf(FourCC id, Bytes payload, std::uint16_t flags) {

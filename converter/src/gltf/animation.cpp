@@ -74,9 +74,9 @@ bool asks_to_loop(const Json& animation) {
     return loop->is_boolean() ? loop->get<bool>() : loop->is_number() && loop->get<double>() != 0.0;
 }
 
-class Importer {
+class AnimationImporter {
 public:
-    Importer(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
+    AnimationImporter(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
         : document_(document), skeleton_(skeleton), meshes_(meshes), scene_(scene) {}
 
     void import(std::size_t index) {
@@ -248,7 +248,7 @@ private:
 }  // namespace
 
 void import_animations(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene) {
-    Importer importer(document, skeleton, meshes, scene);
+    AnimationImporter importer(document, skeleton, meshes, scene);
     for (std::size_t i = 0; i < document.model.animations.size(); ++i) importer.import(i);
 }
 

@@ -227,9 +227,9 @@ std::uint64_t byte_size(const Mesh& mesh) {
 
 // ---------------------------------------------------------------------------------------------- all nodes
 
-class Importer {
+class MeshImporter {
 public:
-    Importer(const Document& document, const Skeleton& skeleton, Scene& scene)
+    MeshImporter(const Document& document, const Skeleton& skeleton, Scene& scene)
         : document_(document), skeleton_(skeleton), scene_(scene) {}
 
     MeshesOfNode import() {
@@ -359,7 +359,7 @@ private:
 }  // namespace
 
 MeshesOfNode import_meshes(const Document& document, const Skeleton& skeleton, Scene& scene) {
-    return Importer(document, skeleton, scene).import();
+    return MeshImporter(document, skeleton, scene).import();
 }
 
 }  // namespace bendy::converter::gltf

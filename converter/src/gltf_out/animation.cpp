@@ -53,9 +53,9 @@ double shortest(float number) {
     return back;
 }
 
-class Exporter {
+class AnimationExporter {
 public:
-    Exporter(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report)
+    AnimationExporter(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report)
         : scene_(scene), node_of_mesh_(node_of_mesh), buffer_(buffer), report_(report) {}
 
     Json run() {
@@ -205,7 +205,7 @@ private:
 
 Json export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
                        Report& report) {
-    return Exporter(scene, node_of_mesh, buffer, report).run();
+    return AnimationExporter(scene, node_of_mesh, buffer, report).run();
 }
 
 }  // namespace bendy::converter::gltf_out

@@ -111,9 +111,9 @@ const char* extension_of(const std::string& media_type) {
     return nullptr;
 }
 
-class Exporter {
+class MaterialExporter {
 public:
-    Exporter(const Scene& scene, Json& root, Buffer& buffer, Report& report)
+    MaterialExporter(const Scene& scene, Json& root, Buffer& buffer, Report& report)
         : scene_(scene), root_(root), buffer_(buffer), report_(report) {}
 
     void run() {
@@ -200,7 +200,7 @@ private:
 }  // namespace
 
 void export_materials(const Scene& scene, Json& root, Buffer& buffer, Report& report) {
-    Exporter(scene, root, buffer, report).run();
+    MaterialExporter(scene, root, buffer, report).run();
 }
 
 }  // namespace bendy::converter::gltf_out

@@ -79,9 +79,9 @@ struct Drawn {
     std::vector<std::uint32_t> meshes;  ///< of the scene
 };
 
-class Exporter {
+class MeshExporter {
 public:
-    Exporter(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots, Buffer& buffer,
+    MeshExporter(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots, Buffer& buffer,
              Report& report)
         : scene_(scene),
           node_members_(node_members),
@@ -323,7 +323,7 @@ private:
 
 ExportedMeshes export_meshes(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots,
                              Buffer& buffer, Report& report) {
-    return Exporter(scene, node_members, nodes, roots, buffer, report).run();
+    return MeshExporter(scene, node_members, nodes, roots, buffer, report).run();
 }
 
 }  // namespace bendy::converter::gltf_out

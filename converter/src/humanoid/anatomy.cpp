@@ -10,7 +10,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr double kDegree = trig::kPi / 180.0;
 constexpr double kStrange = 10.0;  // degrees outside: this is no human's joint, or it has another rest pose
 
 // From the AAOS tables as Norkin & White, Measurement of Joint Motion, appendix A, give them, if nothing else is said.
@@ -61,7 +60,7 @@ glm::dvec3 swing_between(glm::dvec3 from, glm::dvec3 to) {
     const glm::dvec3 axis = glm::cross(from, to);
     const double sine = glm::length(axis);
     if (sine < 1e-9) return glm::dvec3(0.0);
-    return axis * (trig::atan2(sine, glm::dot(from, to)) / kDegree / sine);
+    return axis * (trig::atan2(sine, glm::dot(from, to)) / trig::kDegree / sine);
 }
 
 class Anatomist {

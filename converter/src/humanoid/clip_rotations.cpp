@@ -14,8 +14,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr double kDegree = trig::kPi / 180.0;
-
 std::optional<glm::dquat> to_unit(const double* xyzw) {
     const glm::dquat q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     const double length = glm::length(q);
@@ -51,7 +49,7 @@ ClipRotations::ClipRotations(const Scene& scene) : scene_(scene), tracks_(scene.
 }
 
 ClipRotations::OfJoint ClipRotations::of(std::uint32_t joint) const {
-    constexpr double kApart = 5.0 * kDegree;
+    constexpr double kApart = 5.0 * trig::kDegree;
     OfJoint result;
     const glm::dquat from_rest = glm::conjugate(rest_rotation(scene_.joints[joint]));
     std::vector<double> numbers;
@@ -140,7 +138,7 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
         }
     }
     const auto direction = unit(sum);
-    if (!direction || most < 10.0 * kDegree) return std::nullopt;
+    if (!direction || most < 10.0 * trig::kDegree) return std::nullopt;
     result.direction = *direction;
     result.agreement = glm::length(sum) / weight;
     return result;

@@ -19,7 +19,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr double kDegree = trig::kPi / 180.0;
 constexpr double kStill = 5.0;    // degrees: clips that turn a joint by less show no axis
 constexpr double kWobble = 1.0;   // degrees: a hinge may leave its axis by this much
 constexpr double kMargin = 0.25;  // degrees beyond the clips
@@ -39,24 +38,24 @@ SwingTwist decompose(const glm::dquat& r) {
     if (length < 1e-12) return {0.0, {r.y, r.z}, 0.0};
     const double cosine = r.w / length;
     const double sine = r.x / length;
-    double twist = 2.0 * trig::atan2(sine, cosine) / kDegree;
+    double twist = 2.0 * trig::atan2(sine, cosine) / trig::kDegree;
     if (twist > 180.0) twist -= 360.0;
     if (twist < -180.0) twist += 360.0;
     return {twist, {cosine * r.y - sine * r.z, sine * r.y + cosine * r.z}, length};
 }
 
 double half_sine_of(double degrees) {
-    return trig::sin_cos(0.5 * std::clamp(degrees, 0.0, 180.0) * kDegree).sin;
+    return trig::sin_cos(0.5 * std::clamp(degrees, 0.0, 180.0) * trig::kDegree).sin;
 }
 
 double degrees_of(double half_sine) {
     const double sine = std::min(half_sine, 1.0);
-    return 2.0 * trig::atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))) / kDegree;
+    return 2.0 * trig::atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))) / trig::kDegree;
 }
 
 /// The angle of a rotation about an axis that is nearly its own; degrees.
 double angle_about(const glm::dquat& r, const glm::dvec3& axis) {
-    return 2.0 * trig::atan2(glm::dot({r.x, r.y, r.z}, axis), r.w) / kDegree;
+    return 2.0 * trig::atan2(glm::dot({r.x, r.y, r.z}, axis), r.w) / trig::kDegree;
 }
 
 double largest_angle(const Rotations& rotations) {
@@ -162,8 +161,8 @@ BendFit measure_bend(BendFit fit, const Rotations& rotations) {
         if (!fit.is_hinge) {
             const SwingTwist parts = decompose(r);
             const glm::dvec3 swing(0.0, parts.swing.x, parts.swing.y);
-            angle = 2.0 * trig::atan2(glm::dot(swing, fit.axis), parts.cosine) / kDegree;
-            const double sideways = 2.0 * trig::atan2(glm::dot(swing, y), parts.cosine) / kDegree;
+            angle = 2.0 * trig::atan2(glm::dot(swing, fit.axis), parts.cosine) / trig::kDegree;
+            const double sideways = 2.0 * trig::atan2(glm::dot(swing, y), parts.cosine) / trig::kDegree;
             fit.x = united(fit.x, {parts.twist, parts.twist});
             fit.y = united(fit.y, {sideways, sideways});
         }
@@ -287,7 +286,7 @@ public:
     }
 
 private:
-    static double angle_of(double sine, double cosine) { return 2.0 * trig::atan2(sine, cosine) / kDegree; }
+    static double angle_of(double sine, double cosine) { return 2.0 * trig::atan2(sine, cosine) / trig::kDegree; }
 
     std::array<Range, 2> ranges_;
 };
@@ -368,7 +367,7 @@ private:
 
     /// Whether both sides rest as each other's mirror images.
     [[nodiscard]] bool are_alike() const {
-        const double least = trig::sin_cos((90.0 - kAlike) * kDegree).sin;  // cosine
+        const double least = trig::sin_cos((90.0 - kAlike) * trig::kDegree).sin;  // cosine
         const JointAnatomy& a = *members_[0].anatomy;
         const JointAnatomy& b = *members_[1].anatomy;
         const auto mirror = [&](const glm::dvec3& v) { return v - 2.0 * glm::dot(v, left_) * left_; };
@@ -457,7 +456,7 @@ private:
             set(limit, LimitModel::swing_twist_pyramid, axes,
                 {whole(side.x, {}), whole(side.y, {}), {std::max(range.low, -179.0), std::min(range.high, 179.0)}});
             // A straight limb bends to where it bends most readily.
-            limit.limit.preferred[2] = static_cast<float>(std::clamp(30.0, range.low, range.high) * kDegree);
+            limit.limit.preferred[2] = static_cast<float>(std::clamp(30.0, range.low, range.high) * trig::kDegree);
         }
     }
 
@@ -528,8 +527,8 @@ private:
         limit.frame = to_record(frame);
         const std::array<Range, 3> of_axis{ranges.x, ranges.y, ranges.z};
         for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
-            limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * kDegree);
-            limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * kDegree);
+            limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * trig::kDegree);
+            limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * trig::kDegree);
         }
     }
 

@@ -11,16 +11,16 @@
 namespace bendy::converter {
 namespace {
 
-struct Limb {
+struct NamedLimb {
     const char* name;
     HumanBone start, middle, effector;
     double bends;  ///< 1 forward, -1 backward
 };
-constexpr std::array kLimbs{
-    Limb{"LeftArm", HumanBone::left_upper_arm, HumanBone::left_lower_arm, HumanBone::left_hand, -1.0},
-    Limb{"RightArm", HumanBone::right_upper_arm, HumanBone::right_lower_arm, HumanBone::right_hand, -1.0},
-    Limb{"LeftLeg", HumanBone::left_upper_leg, HumanBone::left_lower_leg, HumanBone::left_foot, 1.0},
-    Limb{"RightLeg", HumanBone::right_upper_leg, HumanBone::right_lower_leg, HumanBone::right_foot, 1.0},
+constexpr std::array kNamedLimbs{
+    NamedLimb{"LeftArm", HumanBone::left_upper_arm, HumanBone::left_lower_arm, HumanBone::left_hand, -1.0},
+    NamedLimb{"RightArm", HumanBone::right_upper_arm, HumanBone::right_lower_arm, HumanBone::right_hand, -1.0},
+    NamedLimb{"LeftLeg", HumanBone::left_upper_leg, HumanBone::left_lower_leg, HumanBone::left_foot, 1.0},
+    NamedLimb{"RightLeg", HumanBone::right_upper_leg, HumanBone::right_lower_leg, HumanBone::right_foot, 1.0},
 };
 
 template <std::size_t N, class Vector>
@@ -41,8 +41,8 @@ Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, 
 }
 
 /// The direction in which the limb bends, in the space of start's parent; zeros if there is none.
-std::array<float, 3> pole_of(const Scene& scene, const RestFrames& rest, const Limb& limb, const Humanoid& humanoid,
-                             const Stance& stance) {
+std::array<float, 3> pole_of(const Scene& scene, const RestFrames& rest, const NamedLimb& limb,
+                             const Humanoid& humanoid, const Stance& stance) {
     const std::uint32_t start = humanoid[limb.start];
     const std::uint32_t effector = humanoid[limb.effector];
     std::optional<glm::dvec3> bend;
@@ -54,7 +54,7 @@ std::array<float, 3> pole_of(const Scene& scene, const RestFrames& rest, const L
     return pole ? to_array<3>(*pole) : std::array<float, 3>{};
 }
 
-Chain make_limb(const Scene& scene, const RestFrames& rest, const Limb& limb, const Humanoid& humanoid,
+Chain make_limb(const Scene& scene, const RestFrames& rest, const NamedLimb& limb, const Humanoid& humanoid,
                 const Stance& stance, std::uint8_t flags) {
     const std::uint32_t start = humanoid[limb.start];
     const std::uint32_t effector = humanoid[limb.effector];
@@ -128,7 +128,7 @@ std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, 
                                     const Stance& stance, std::uint8_t flags, const std::string& where,
                                     Report& report) {
     std::vector<Chain> chains;
-    for (const Limb& limb : kLimbs) {
+    for (const NamedLimb& limb : kNamedLimbs) {
         const auto leave_out = [&](const std::string& why) {
             report.warn("chain " + std::string(limb.name) + " left out: " + why, where);
         };

@@ -35,9 +35,9 @@ glm::vec3 to_metres(const glm::vec3& units) {
 
 using Places = std::vector<glm::vec3>;
 
-class Importer {
+class Md2Importer {
 public:
-    Importer(std::span<const std::byte> file, const std::string& name, Report& report)
+    Md2Importer(std::span<const std::byte> file, const std::string& name, Report& report)
         : file_(file), header_(read_header(file)), name_(name), report_(report) {
         budget_.add_source(file.size());
     }
@@ -264,7 +264,7 @@ private:
 
 Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::string& name, Report& report) {
     return without_throwing<Scene>(
-        [&]() -> Result<Scene, ImportError> { return md2::Importer(bytes, name, report).run(); });
+        [&]() -> Result<Scene, ImportError> { return md2::Md2Importer(bytes, name, report).run(); });
 }
 
 Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report) {

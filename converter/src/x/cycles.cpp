@@ -27,9 +27,9 @@ struct Times {
     std::vector<std::size_t> keys;
 };
 
-class Importer {
+class CycleImporter {
 public:
-    Importer(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report)
+    CycleImporter(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report)
         : file_(file), frames_(frames), scene_(scene), report_(report) {
         for (const auto& [set, name] : file.cycle_names) names_.try_emplace(set, name);
     }
@@ -183,7 +183,7 @@ private:
 }  // namespace
 
 void import_cycles(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report) {
-    Importer importer(file, frames, scene, report);
+    CycleImporter importer(file, frames, scene, report);
     for (const AnimationSet& set : file.sets) importer.import(set);
 }
 

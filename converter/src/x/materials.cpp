@@ -27,9 +27,9 @@ std::filesystem::path path_of(const std::string& name) {
     return std::filesystem::path(std::u8string(path.begin(), path.end())).lexically_normal();
 }
 
-class Importer {
+class MaterialImporter {
 public:
-    Importer(const std::filesystem::path& file, bool embed_images, Scene& scene, Report& report)
+    MaterialImporter(const std::filesystem::path& file, bool embed_images, Scene& scene, Report& report)
         : file_(file), embed_images_(embed_images), scene_(scene), report_(report) {}
 
     void import(const Material& source) {
@@ -97,7 +97,7 @@ float power_of(float roughness) {
 
 void import_materials(const XFile& source, const std::filesystem::path& file, bool embed_images, Scene& scene,
                       Report& report) {
-    Importer importer(file, embed_images, scene, report);
+    MaterialImporter importer(file, embed_images, scene, report);
     for (const Material& material : source.materials) importer.import(material);
 }
 

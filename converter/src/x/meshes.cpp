@@ -66,9 +66,9 @@ Stream stream_of(const std::vector<glm::vec<N, float>>& source, const Vertices& 
     return stream;
 }
 
-class Importer {
+class MeshImporter {
 public:
-    Importer(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report)
+    MeshImporter(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report)
         : frames_(frames), budget_(budget), scene_(scene), report_(report) {
         for (std::uint32_t i = 0; i < file.materials.size(); ++i)
             material_of_.try_emplace(file.materials[i].identifier, i);
@@ -200,7 +200,7 @@ private:
 }  // namespace
 
 void import_meshes(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report) {
-    Importer importer(file, frames, budget, scene, report);
+    MeshImporter importer(file, frames, budget, scene, report);
     for (const Mesh& mesh : file.meshes) importer.import(mesh);
 }
 

@@ -31,9 +31,9 @@ int type_of(TrackPath path) {
     return path == TrackPath::rotation ? 0 : path == TrackPath::scale ? 1 : 2;
 }
 
-class Exporter {
+class AnimationExporter {
 public:
-    Exporter(const Scene& scene, const Names& names, Text& text, Report& report)
+    AnimationExporter(const Scene& scene, const Names& names, Text& text, Report& report)
         : scene_(scene), names_(names), text_(text), report_(report), ticks_(scene) {}
 
     void run() {
@@ -186,7 +186,7 @@ private:
 }  // namespace
 
 void write_cycles(const Scene& scene, const Names& names, Text& text, Report& report) {
-    Exporter(scene, names, text, report).run();
+    AnimationExporter(scene, names, text, report).run();
 }
 
 }  // namespace bendy::converter::x_out

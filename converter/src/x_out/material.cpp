@@ -66,9 +66,9 @@ bool is_same(const TextureUse& a, const TextureUse& b) {
            a.scale == b.scale;
 }
 
-class Exporter {
+class MaterialExporter {
 public:
-    Exporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
+    MaterialExporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
              Report& report)
         : scene_(scene), image_stem_(image_stem), text_(text), images_(images), report_(report) {}
 
@@ -156,7 +156,7 @@ private:
 
 void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
                      std::vector<XAsset::File>& images, Report& report) {
-    Exporter exporter(scene, image_stem, text, images, report);
+    MaterialExporter exporter(scene, image_stem, text, images, report);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         exporter.write(scene.materials[i], names.materials[i], at("materials", i));
 }

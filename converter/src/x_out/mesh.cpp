@@ -16,9 +16,9 @@
 namespace bendy::converter::x_out {
 namespace {
 
-class Exporter {
+class MeshExporter {
 public:
-    Exporter(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report)
+    MeshExporter(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report)
         : mesh_(scene.meshes[number]),
           number_(number),
           place_(at("meshes", number)),
@@ -276,7 +276,7 @@ private:
 }  // namespace
 
 void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report) {
-    Exporter(scene, number, names, text, report).write();
+    MeshExporter(scene, number, names, text, report).write();
 }
 
 }  // namespace bendy::converter::x_out

@@ -40,6 +40,9 @@ struct Chunk {
     [[nodiscard]] std::uint64_t payload_offset() const { return offset + kChunkHeaderSize; }
 };
 
+inline constexpr std::uint64_t kChunkSumAt = 4;   ///< in a header
+inline constexpr std::uint64_t kChunkSizeAt = 8;  ///< size and flags, in a header
+
 /// `size` rounded up to the next chunk boundary. size <= 2^48, so this cannot overflow.
 constexpr std::uint64_t padded(std::uint64_t size) {
     return (size + (kChunkAlignment - 1)) & ~(kChunkAlignment - 1);

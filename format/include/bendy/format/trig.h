@@ -9,6 +9,7 @@
 namespace bendy::trig {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180.0;  ///< radians
 
 struct SinCos {
     double sin, cos;
