@@ -62,13 +62,13 @@ private:
         fs::recursive_directory_iterator entry(folder, error);
         for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
             std::error_code ignored;
-            if (converter::has_readable_extension(entry->path()) && !entry->is_directory(ignored))
+            if (converter::has_readable_suffix(entry->path()) && !entry->is_directory(ignored))
                 add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
         }
         if (error) {
             plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
         } else if (files_.size() == before) {
-            warn(folder, "has no file to convert (" + converter::list_readable_extensions() + ')');
+            warn(folder, "has no file to convert (" + converter::list_readable_suffixes() + ')');
         }
     }
 

@@ -163,7 +163,7 @@ void run(ConvertArguments arguments) {
 
 void add_convert(CLI::App& program) {
     const auto arguments = std::make_shared<ConvertArguments>();
-    const std::string extensions = converter::list_readable_extensions();
+    const std::string extensions = converter::list_readable_suffixes();
     CLI::App* command =
         program.add_subcommand("convert", "Convert characters (" + extensions + "), or bendy files, to bendy files");
     command

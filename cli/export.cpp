@@ -83,6 +83,7 @@ std::uint64_t export_gltf(const ExportArguments& arguments, Bytes file, bool is_
     return asset->json.size() + asset->buffer.size();
 }
 
+#ifdef BENDY_X_FILES
 /// \return bytes that were written
 std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& outputs, converter::Report& report) {
     const converter::ExportOptions options = options_of(arguments, file);
@@ -107,6 +108,12 @@ std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& ou
     }
     return size;
 }
+#else
+std::uint64_t export_x(const ExportArguments& arguments, Bytes /*file*/, Outputs& /*outputs*/,
+                       converter::Report& /*report*/) {
+    fail(arguments.file, "this bendy was built without X-files (BENDY_X_FILES)");
+}
+#endif
 
 void run(ExportArguments arguments) {
     require_folder_of(arguments.output);

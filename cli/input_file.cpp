@@ -53,7 +53,7 @@ Result<CharacterFile, converter::ImportError> read_character(const std::filesyst
     const auto kind = converter::find_file_kind(mapped->bytes(), file);
     const bool is_bendy = kind && kind->format == converter::SourceFormat::bendy;
     // Of what is not known the name decides who says what is wrong with it.
-    if (is_bendy || (!kind && !is_dash(file) && !converter::has_readable_extension(file)))
+    if (is_bendy || (!kind && !is_dash(file) && !converter::has_readable_suffix(file)))
         return CharacterFile(*std::move(mapped));
     auto converted = converted_input(file, *std::move(mapped), report);
     if (!converted) return converted.error();

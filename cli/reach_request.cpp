@@ -134,30 +134,6 @@ ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file,
     return {&find_chain(file, model, text.substr(0, equals)), target};
 }
 
-bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
-    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
-    return joint != kNone;
-}
-
-/// Takes the joint that the chain follows along to where the tip is now, with all that hangs on it: a foot that has a
-/// joint of its own beside the leg stays at the leg's end.
-void carry_target(const Chain& chain, Pose& pose) {
-    const Model& model = pose.model();
-    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
-        is_at_or_below(model, chain.start, chain.target)) {
-        return;
-    }
-    local_to_model(pose);
-    const auto& offset = chain.record.tip_offset;
-    const glm::dvec4 tip =
-        glm::dmat4(pose.model_space()[chain.effector]) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
-    const std::uint32_t parent = model.joints()[chain.target].parent;
-    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : glm::dmat4(pose.model_space()[parent]);
-    if (std::abs(glm::determinant(space)) < 1e-30) return;
-    const glm::vec3 place(glm::inverse(space) * tip);
-    pose.change_local()[chain.target].translation = place;
-}
-
 }  // namespace
 
 void add_reach(CLI::App& command, ReachRequest& request) {
@@ -190,10 +166,8 @@ std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vec
     options.solver = find_solver(request.solver);
     options.obey_constraints = !request.ignore_limits;
     std::vector<ReachResult> results;
-    for (const ReachGoal& goal : goals) {
-        results.push_back(reach(goal.chain, goal.target, pose, options));
-        carry_target(*goal.chain, pose);
-    }
+    options.carry_target = true;
+    for (const ReachGoal& goal : goals) results.push_back(reach(goal.chain, goal.target, pose, options));
     return results;
 }
 

@@ -67,7 +67,7 @@ class Draw(Sized):
 class ReachOptions(Sized):
     _fields_ = [("size", c_uint32), ("solver", c_uint32), ("iterations", c_uint32), ("restarts", c_uint32), ("tolerance", c_float),
                 ("influence", c_float), ("softness", c_float), ("gain", c_float), ("step_limit", c_float),
-                ("ignore_constraints", c_uint32), ("has_pole", c_uint32), ("pole", c_float * 3)]
+                ("ignore_constraints", c_uint32), ("has_pole", c_uint32), ("pole", c_float * 3), ("carry_target", c_uint32)]
 
     def __init__(self, **fields):
         super().__init__(**{"restarts": 8, "influence": 1.0, "gain": 1.0, "step_limit": 0.2, **fields})

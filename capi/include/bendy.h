@@ -320,14 +320,11 @@ typedef struct bendy_reach_options {
     uint32_t ignore_constraints; /* 1: joints may turn past their limits */
     uint32_t has_pole;           /* 1: `pole` counts; 0: the chain's own pole */
     float pole[3];               /* two-bone, aim: a point in model space to bend towards */
+    uint32_t carry_target;       /* 1: then the joint that the chain follows is moved to the tip, with all below it */
 } bendy_reach_options;
 
-#define BENDY_REACH_OPTIONS_INIT                                                                   \
-    {                                                                                              \
-        sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 8, 0.0f, 1.0f, 0.0f, 1.0f, 0.2f, 0, 0, { \
-            0.0f, 0.0f, 0.0f                                                                       \
-        }                                                                                          \
-    }
+#define BENDY_REACH_OPTIONS_INIT \
+    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 8, 0.0f, 1.0f, 0.0f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 0 }
 
 typedef enum bendy_reach_status {
     BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */

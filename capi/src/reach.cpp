@@ -31,6 +31,7 @@ bendy_status take_options(const bendy_reach_options* options, ReachOptions& take
     taken.step_limit = values.step_limit;
     taken.restarts = values.restarts;
     taken.obey_constraints = values.ignore_constraints == 0;
+    taken.carry_target = values.carry_target != 0;
     if (values.has_pole == 0) return BENDY_OK;
     if (const bendy_status status = check_finite(values.pole, "pole", error)) return status;
     taken.pole = glm::vec3(values.pole[0], values.pole[1], values.pole[2]);

@@ -9,12 +9,11 @@
 #include "passes/move_links.h"
 #include "passes/sort_by_bones.h"
 #include "rig/parse_rig.h"
+#include "source/importers.h"
+#include "source/read_file.h"
+#include "without_throwing.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/import_gltf.h>
-#include <bendy/converter/import_md2.h>
-#include <bendy/converter/import_x.h>
 #include <bendy/converter/source_format.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/diagnostics.h>
@@ -32,52 +31,22 @@ constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 
 using Buffer = std::vector<std::byte>;
 
-std::string utf8_stem(const std::filesystem::path& file) {
-    const std::u8string stem = file.stem().u8string();
-    return {stem.begin(), stem.end()};
-}
-
-/// What was read already, and is called `file`.
-Result<Scene, ImportError> read_source(Buffer source, const std::filesystem::path& file, SourceFormat format,
-                                       const ConvertOptions& options, Report& report) {
-    switch (format) {
-        case SourceFormat::bendy:
-            return import_bendy(Bytes(source), report);
-        case SourceFormat::x:
-            return import_x(as_text(source), file, {options.gltf.embed_images, options.ticks_per_second}, report);
-        case SourceFormat::md2:
-            return import_md2(source, utf8_stem(file), report);
-        default:
-            return import_gltf(std::move(source), file, options.gltf, report);
-    }
-}
-
-Result<Scene, ImportError> read_source(const std::filesystem::path& file, SourceFormat format,
-                                       const ConvertOptions& options, Report& report) {
-    switch (format) {
-        case SourceFormat::bendy:
-            return import_bendy(file, report);
-        case SourceFormat::x:
-            return import_x(file, {options.gltf.embed_images, options.ticks_per_second}, report);
-        case SourceFormat::md2:
-            return import_md2(file, report);
-        default:
-            return import_gltf(file, options.gltf, report);
-    }
-}
-
 /// The scene of a source of any kind, with its rig.
 Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std::filesystem::path& file,
                                          const ConvertOptions& options, const std::optional<Rig>& rig, Report& report) {
     if (std::string why = source ? why_not_convertible(*source, file) : why_not_convertible(file); !why.empty())
         return ImportError{{}, std::move(why)};
-    const SourceFormat format = source ? find_source_format(*source, file) : find_source_format(file);
-    if (format != SourceFormat::gltf && options.gltf.scene)
-        return ImportError{{}, "a scene can be chosen in glTF files only"};
-    if (format != SourceFormat::x && options.ticks_per_second != 0.0)
+    if (!source) {
+        auto bytes = without_throwing<Buffer>([&] { return read_file(file, {}); });
+        if (!bytes) return bytes.error();
+        source = *std::move(bytes);
+    }
+    const SourceFormat format = find_source_format(*source, file);
+    const Importer& importer = importer_of(format);
+    if (!importer.takes_scene && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
+    if (!importer.takes_ticks && options.ticks_per_second != 0.0)
         return ImportError{{}, "ticks per second can be set for X-files only"};
-    auto scene = source ? read_source(*std::move(source), file, format, options, report)
-                        : read_source(file, format, options, report);
+    auto scene = importer.import(*std::move(source), file, options, report);
     if (!scene) return scene;
     // Where images are to be embedded, a link is what could not be read: it stays what the source says.
     if (format == SourceFormat::bendy || !options.gltf.embed_images)

@@ -383,11 +383,37 @@ private:
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
 };
 
+namespace {
+
+bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
+    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
+    return joint != kNone;
+}
+
+/// See ReachOptions::carry_target.
+void carry_target(const Chain& chain, Pose& pose) {
+    const Model& model = pose.model();
+    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
+        is_at_or_below(model, chain.start, chain.target)) {
+        return;
+    }
+    const auto& offset = chain.record.tip_offset;
+    const glm::dvec4 tip = joint_to_model(pose, chain.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const std::uint32_t parent = model.joints()[chain.target].parent;
+    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : joint_to_model(pose, parent);
+    if (std::abs(glm::determinant(space)) < 1e-30) return;
+    pose.change_local()[chain.target].translation = glm::vec3(glm::inverse(space) * tip);
+}
+
+}  // namespace
+
 ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
     const bool is_number = std::isfinite(target.position.x + target.position.y + target.position.z);
     if (chain == nullptr || !is_number) return {};
-    if (const auto quick = reach_quickly(*chain, target, pose, options)) return *quick;
-    return reach_at_length(*chain, target, pose, options);
+    const auto quick = reach_quickly(*chain, target, pose, options);
+    const ReachResult result = quick ? *quick : reach_at_length(*chain, target, pose, options);
+    if (options.carry_target && result.status != ReachStatus::refused) carry_target(*chain, pose);
+    return result;
 }
 
 ReachResult reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {

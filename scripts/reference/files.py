@@ -1,17 +1,19 @@
 """Which arguments are files, by their extensions, as the help cannot say. Of what is not here, positional arguments and
 --output are files of any kind."""
 
+READABLE = "READABLE"  # as its help lists them
+
 FILES = {
-    ("convert", "IN"): ".gltf .glb .vrm .x .md2 .bendy",
+    ("convert", "IN"): f"{READABLE} .bendy",
     ("convert", "--depfile"): ".d",
     ("convert", "--output"): ".bendy",
     ("convert", "--rig"): ".json",
     ("inspect", "FILE"): ".bendy",
     ("inspect", "--html"): ".html",
     ("validate", "FILE"): ".bendy",
-    ("pose", "FILE"): ".bendy .gltf .glb .vrm .x .md2",
+    ("pose", "FILE"): f".bendy {READABLE}",
     ("pose", "--output"): ".obj .ply .json",
-    ("render", "FILE"): ".bendy .gltf .glb .vrm .x .md2",
+    ("render", "FILE"): f".bendy {READABLE}",
     ("render", "--output"): ".png .gif .webp",
     ("rig", "FILE"): ".bendy",
     ("rig", "--output"): ".json",
@@ -27,6 +29,6 @@ FILES = {
     ("edit", "--merge"): ".bendy .gltf .glb",
     ("export", "FILE"): ".bendy",
     ("export", "--output"): ".glb .gltf .x",
-    ("view", "FILE"): ".bendy .gltf .glb .vrm .x .md2",
+    ("view", "FILE"): f".bendy {READABLE}",
     ("bench", "FILE"): ".bendy",
 }

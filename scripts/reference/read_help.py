@@ -4,7 +4,7 @@ import re
 import subprocess
 from dataclasses import dataclass, field
 
-from reference.files import FILES
+from reference.files import FILES, READABLE
 
 
 @dataclass
@@ -118,7 +118,19 @@ def read_program(program):
     """The Command of the whole program, with those of its commands."""
     whole, names = read_page(_help(program), "")
     whole.commands = [read_page(_help(program, name), name)[0] for name in names]
+    readable = _readable(whole.commands)
+    for option in (option for command in whole.commands for option in command.arguments + command.options):
+        if option.files:
+            option.files = [suffix for each in option.files for suffix in (readable if each == READABLE else [each])]
     return whole
+
+
+def _readable(commands):
+    """The suffixes of what `bendy convert` reads: its help has them in brackets."""
+    for command in commands:
+        if command.name == "convert":
+            return re.search(r"\((\..*?)\)", command.about)[1].split(", ")
+    return []
 
 
 def read_page(text, name):

@@ -132,6 +132,7 @@ TEST(CPose, DefaultOptionsAreTheRuntimes) {
     EXPECT_EQ(options.gain, expected.gain);
     EXPECT_EQ(options.step_limit, expected.step_limit);
     EXPECT_EQ(options.ignore_constraints, expected.obey_constraints ? 0u : 1u);
+    EXPECT_EQ(options.carry_target, expected.carry_target ? 1u : 0u);
 }
 
 TEST(CPose, DifferenceAddedGivesThePoseAgain) {

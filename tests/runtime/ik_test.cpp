@@ -566,6 +566,46 @@ TEST(Ik, SeveralChainsRunByPriorityAndInfluence) {
     EXPECT_LE(glm::length(position_of(pose, 4) - glm::vec3(1.0f, 3.0f, 0.0f)), 1e-3f);  // the last one solved
 }
 
+TEST(Ik, WhatTheChainFollowsIsCarriedToTheTip) {
+    test::ModelSpec spec = rope(3);
+    test::JointSpec root;  // moved, turned and scaled: the foot hangs on it
+    root.rest = test::turned(30.0, 2);
+    root.rest.translation = {1.0f, 2.0f, 3.0f};
+    root.rest.scale = {2.0f, 2.0f, 2.0f};
+    spec.joints.push_back(root);
+    test::JointSpec foot;
+    foot.parent = 4;
+    spec.joints.push_back(foot);
+    spec.chains[0].target = 5;
+    spec.chains[0].tip_offset = {0.0f, 0.25f, 0.0f};
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 before = position_of(pose, 5);
+    const glm::vec3 target(1.0f, 1.5f, 0.5f);
+    EXPECT_EQ(reach(model->chains().data(), target, pose).status, ReachStatus::reached);
+    EXPECT_EQ(position_of(pose, 5), before);
+    ReachOptions options;
+    options.carry_target = true;
+    EXPECT_EQ(reach(model->chains().data(), target, pose, options).status, ReachStatus::reached);
+    EXPECT_LE(glm::length(position_of(pose, 5) - target), 1e-3f);
+}
+
+TEST(Ik, WhatTheChainFollowsStaysWhereItIsPartOfTheSkeletonAboveOrBelow) {
+    for (const std::uint32_t followed : {0u, 1u, 4u}) {
+        test::ModelSpec spec = rope(4);
+        spec.chains[0].start = 1;
+        spec.chains[0].effector = 3;
+        spec.chains[0].target = followed;
+        const Owned model(build_file(spec));
+        Pose pose(*model);
+        const glm::vec3 before = pose.local()[followed].translation;
+        ReachOptions options;
+        options.carry_target = true;
+        reach(model->chains().data(), glm::vec3(1.0f, 2.0f, 0.0f), pose, options);
+        EXPECT_EQ(pose.local()[followed].translation, before) << followed;
+    }
+}
+
 TEST(Ik, SameNumbersSamePose) {
     const Owned model(build_file(rope(5)));
     for (const Solver solver : kSolvers) {

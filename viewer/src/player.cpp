@@ -57,9 +57,11 @@ void Player::update() {
         pose_.set_rest();
     }
     if (obeys_limits) constrain(pose_);
+    ReachOptions options;
+    options.carry_target = true;
     for (const std::uint32_t number : model_->chain_order()) {
         if (number < chains.size() && chains[number].is_on)
-            reach(&model_->chains()[number], chains[number].target, pose_);
+            reach(&model_->chains()[number], chains[number].target, pose_, options);
     }
     local_to_model(pose_);
 }

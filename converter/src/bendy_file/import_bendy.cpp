@@ -76,7 +76,7 @@ std::vector<float> frame_times(const CycleView& cycle, std::uint32_t keys) {
 
 class CycleImporter {
 public:
-    CycleImporter(const ChunkTree& tree, const SkeletonView& skeleton, gltf::Budget& budget, Report& report)
+    CycleImporter(const ChunkTree& tree, const SkeletonView& skeleton, Budget& budget, Report& report)
         : tree_(tree), budget_(budget), report_(report) {
         rests_.reserve(skeleton.joints.size());
         for (const JointView& joint : skeleton.joints) rests_.push_back(joint.rest);
@@ -142,7 +142,7 @@ private:
     }
 
     const ChunkTree& tree_;
-    gltf::Budget& budget_;
+    Budget& budget_;
     Report& report_;
     std::vector<RestRecord> rests_;
 };
@@ -254,7 +254,7 @@ Scene import(Bytes bytes, Report& report) {
     if (!faults.empty()) fail({}, describe_with_place(faults.list().front(), bytes));
     if (document.objects.empty()) fail({}, "there is no object in the file");
 
-    gltf::Budget budget;
+    Budget budget;
     budget.add_source(bytes.size());
     const ObjectView& object = document.objects.front();
     for (std::size_t other = 1; other < document.objects.size(); ++other) {

@@ -34,8 +34,8 @@ std::vector<Vector> read_vectors(const StreamView& stream) {
 
 class PoolImporter {
 public:
-    PoolImporter(const ChunkTree& tree, const PoolView& pool, std::vector<const PolygonView*> polygons,
-                 gltf::Budget& budget, Report& report)
+    PoolImporter(const ChunkTree& tree, const PoolView& pool, std::vector<const PolygonView*> polygons, Budget& budget,
+                 Report& report)
         : tree_(tree), pool_(pool), polygons_(std::move(polygons)), budget_(budget), report_(report) {}
 
     Mesh import() {
@@ -227,14 +227,14 @@ private:
     const ChunkTree& tree_;
     const PoolView& pool_;
     std::vector<const PolygonView*> polygons_;
-    gltf::Budget& budget_;
+    Budget& budget_;
     Report& report_;
     Mesh mesh_;
 };
 
 }  // namespace
 
-void import_pools(const ChunkTree& tree, const ObjectView& object, gltf::Budget& budget, Scene& scene, Report& report) {
+void import_pools(const ChunkTree& tree, const ObjectView& object, Budget& budget, Scene& scene, Report& report) {
     std::vector<std::vector<const PolygonView*>> polygons(object.pools.size());
     for (const PolygonView& range : object.skeleton.polygons) polygons[range.pool].push_back(&range);
     for (std::size_t pool = 0; pool < object.pools.size(); ++pool) {

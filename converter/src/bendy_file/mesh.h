@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gltf/budget.h"
+#include "source/budget.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
@@ -10,6 +10,6 @@ namespace bendy::converter {
 
 /// Fills scene.meshes from an object's pools and its joints' polygons, one mesh a pool. The document passes
 /// check_values.
-void import_pools(const ChunkTree& tree, const ObjectView& object, gltf::Budget& budget, Scene& scene, Report& report);
+void import_pools(const ChunkTree& tree, const ObjectView& object, Budget& budget, Scene& scene, Report& report);
 
 }  // namespace bendy::converter

@@ -3,7 +3,7 @@
 #include "accessor.h"
 #include "failure.h"
 #include "rig/parse_markers.h"
-#include "transform.h"
+#include "source/transform.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,8 @@
 
 #include "failure.h"
 #include "meshopt.h"
-#include "uri.h"
+#include "source/read_file.h"
+#include "source/uri.h"
 
 namespace bendy::converter::gltf {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "budget.h"
 #include "check_json.h"
 #include "container.h"
+#include "source/budget.h"
 
 #include <bendy/converter/report.h>
 

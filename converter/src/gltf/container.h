@@ -19,10 +19,6 @@ struct Container {
     bool has_bin = false;  ///< a BIN chunk is there, perhaps of no length
 };
 
-/// All bytes of a regular file, at most `limit` of them. Fails at `place`.
-std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place,
-                                 std::uint64_t limit = UINT64_MAX);
-
 /// Tells .glb from .gltf by the first bytes and takes the first apart. Fails with an empty place.
 Container open_container(std::vector<std::byte> bytes);
 

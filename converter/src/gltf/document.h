@@ -1,8 +1,8 @@
 #pragma once
 
-#include "budget.h"
 #include "buffers.h"
 #include "check_json.h"
+#include "source/budget.h"
 #include "tinygltf.h"
 
 #include <bendy/converter/report.h>

@@ -14,7 +14,4 @@ namespace bendy::converter::gltf {
 /// not there.
 void import_images(const Document& document, bool embed, Scene& scene);
 
-/// The media type that an image's first bytes show, or empty.
-std::string media_type_of(std::span<const std::byte> bytes);
-
 }  // namespace bendy::converter::gltf

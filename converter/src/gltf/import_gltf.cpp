@@ -13,6 +13,7 @@
 #include "material.h"
 #include "mesh.h"
 #include "skeleton.h"
+#include "source/read_file.h"
 #include "source_generator.h"
 #include "tinygltf.h"
 
@@ -79,7 +80,7 @@ Result<Scene, ImportError> import_from(const Read& read, const std::filesystem::
 }  // namespace gltf
 
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
-    return gltf::import_from([&] { return gltf::read_file(file, {}); }, file, options, report);
+    return gltf::import_from([&] { return read_file(file, {}); }, file, options, report);
 }
 
 Result<Scene, ImportError> import_gltf(std::vector<std::byte> bytes, const std::filesystem::path& file,

@@ -5,7 +5,7 @@
 #include "failure.h"
 #include "gltf_out/buffer.h"
 #include "losses.h"
-#include "transform.h"
+#include "source/transform.h"
 
 #include <cmath>
 #include <cstdint>

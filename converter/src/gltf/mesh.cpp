@@ -4,8 +4,8 @@
 #include "draco.h"
 #include "failure.h"
 #include "further_members.h"
-#include "influences.h"
 #include "primitive.h"
+#include "source/influences.h"
 
 #include <algorithm>
 #include <cmath>

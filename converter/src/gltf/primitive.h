@@ -1,7 +1,7 @@
 #pragma once
 
 #include "document.h"
-#include "influences.h"
+#include "source/influences.h"
 
 #include <bendy/converter/scene.h>
 

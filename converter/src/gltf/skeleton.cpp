@@ -4,7 +4,7 @@
 #include "further_members.h"
 #include "instancing.h"
 #include "losses.h"
-#include "transform.h"
+#include "source/transform.h"
 
 #include <bendy/edit/names.h>
 

@@ -2,7 +2,6 @@
 
 #include "failure.h"
 #include "gltf/source_generator.h"
-#include "gltf/uri.h"
 #include "gltf_out/animation.h"
 #include "gltf_out/buffer.h"
 #include "gltf_out/instancing.h"
@@ -13,6 +12,7 @@
 #include "passes/keep_level.h"
 #include "passes/move_links.h"
 #include "rig/rig_in_extras.h"
+#include "source/uri.h"
 #include "without_throwing.h"
 
 #include <bendy/converter/import_bendy.h>
@@ -145,7 +145,7 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     add_list(root, "accessors", buffer.accessors());
     if (!buffer.bytes().empty()) {
         Json entry{{"byteLength", buffer.bytes().size()}};
-        if (!buffer_file.empty()) entry["uri"] = gltf::uri_of(buffer_file);
+        if (!buffer_file.empty()) entry["uri"] = uri_of(buffer_file);
         root["buffers"].push_back(std::move(entry));
     }
     return {root.dump(), std::move(buffer).take()};

@@ -2,11 +2,11 @@
 
 #include "failure.h"
 #include "frame_cycles.h"
-#include "gltf/budget.h"
-#include "gltf/container.h"
-#include "gltf/uri.h"
 #include "header.h"
 #include "quake_normals.h"
+#include "source/budget.h"
+#include "source/read_file.h"
+#include "source/uri.h"
 #include "without_throwing.h"
 
 #include <glm/geometric.hpp>
@@ -71,7 +71,7 @@ private:
         for (std::uint32_t skin = 0; skin < header_.skins; ++skin) {
             const std::string path = read_name(file_, header_.skins_at + skin * kSkinSize, kSkinSize);
             Image image;
-            image.uri = gltf::uri_of(std::filesystem::path(std::u8string(path.begin(), path.end())));
+            image.uri = uri_of(std::filesystem::path(std::u8string(path.begin(), path.end())));
             Texture texture;
             texture.images.push_back(skin);
             Material material;
@@ -250,7 +250,7 @@ private:
     Header header_;
     const std::string& name_;
     Report& report_;
-    gltf::Budget budget_;
+    Budget budget_;
     Scene scene_;
     std::vector<std::uint32_t> vertices_;  ///< the file's vertex of each of the mesh's
     std::vector<std::uint32_t> corners_;   ///< three vertices of the file for each triangle, in our order
@@ -269,7 +269,7 @@ Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const st
 
 Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report) {
     return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
-        const std::vector<std::byte> bytes = gltf::read_file(file, {});
+        const std::vector<std::byte> bytes = read_file(file, {});
         const std::u8string stem = file.stem().u8string();
         return import_md2(bytes, std::string(stem.begin(), stem.end()), report);
     });

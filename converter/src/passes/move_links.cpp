@@ -1,7 +1,7 @@
 #include "passes/move_links.h"
 
 #include "failure.h"
-#include "gltf/uri.h"
+#include "source/uri.h"
 
 #include <bendy/converter/linked_file.h>
 
@@ -21,9 +21,8 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 std::string uri_between(const std::filesystem::path& folder, const std::filesystem::path& file) {
     const std::filesystem::path target = folder_of(file) / file.filename();
     const std::filesystem::path relative = target.lexically_relative(folder);
-    if (!relative.empty()) return gltf::uri_of(relative);
-    return "file:///" + target.root_name().generic_string() +
-           gltf::uri_of(target.root_directory() / target.relative_path());
+    if (!relative.empty()) return uri_of(relative);
+    return "file:///" + target.root_name().generic_string() + uri_of(target.root_directory() / target.relative_path());
 }
 
 }  // namespace

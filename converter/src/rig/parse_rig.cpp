@@ -2,9 +2,9 @@
 
 #include "failure.h"
 #include "fields.h"
-#include "gltf/container.h"
 #include "parse_chain.h"
 #include "parse_limit.h"
+#include "source/read_file.h"
 
 #include <unordered_set>
 
@@ -55,7 +55,7 @@ Rig parse_rig(std::string_view text, Report& report) {
 }
 
 Rig read_rig(const std::filesystem::path& file, Report& report) {
-    const auto bytes = gltf::read_file(file, {}, kMostBytes);
+    const auto bytes = read_file(file, {}, kMostBytes);
     Rig rig = parse_rig({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, report);
     rig.source = file.filename().string() + ": ";
     return rig;

@@ -66,7 +66,7 @@ bool is_compressed(std::string_view file) {
            (file[kVariant] == 't' || file[kVariant] == 'b');
 }
 
-std::string decompress(std::string_view file, gltf::Budget& budget) {
+std::string decompress(std::string_view file, Budget& budget) {
     std::string plain(file.substr(0, kHeaderSize));
     plain.replace(kVariant, 4, file[kVariant] == 't' ? "txt " : "bin ");
     std::size_t at = kHeaderSize;

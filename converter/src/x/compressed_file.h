@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gltf/budget.h"
+#include "source/budget.h"
 
 #include <string>
 #include <string_view>
@@ -13,6 +13,6 @@ bool is_compressed(std::string_view file);
 /// The plain file, its header included. The data is MSZIP: blocks of at most 32,768 bytes, each deflated with the block
 /// before it as its dictionary (MS-MCI, section 2). Fails at the byte of the block that is damaged. What the blocks
 /// become is charged to the budget as it grows.
-std::string decompress(std::string_view file, gltf::Budget& budget);
+std::string decompress(std::string_view file, Budget& budget);
 
 }  // namespace bendy::converter::x

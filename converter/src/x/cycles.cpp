@@ -1,8 +1,8 @@
 #include "cycles.h"
 
 #include "failure.h"
-#include "gltf/transform.h"
 #include "mirror.h"
+#include "source/transform.h"
 
 #include <glm/geometric.hpp>
 
@@ -109,10 +109,10 @@ private:
         } else if (kind == kPosition) {
             track.values.insert(track.values.end(), {value[0], value[1], 0.0f - value[2]});
         } else {
-            const gltf::UnitQuaternion unit =
-                gltf::make_unit({double{value[1]}, double{value[2]}, -double{value[3]}, double{value[0]}});
+            const UnitQuaternion unit =
+                make_unit({double{value[1]}, double{value[2]}, -double{value[3]}, double{value[0]}});
             if (unit.length == 0.0) fail(animation.place, "a rotation key is (0, 0, 0, 0)");
-            if (std::abs(unit.length - 1.0) > gltf::kUnitTolerance)
+            if (std::abs(unit.length - 1.0) > kUnitTolerance)
                 report_.warn("rotation key is no unit quaternion, normalised", animation.place);
             for (int i = 0; i < 4; ++i) track.values.push_back(unit.value[i]);
         }
@@ -129,7 +129,7 @@ private:
         for (const std::size_t key : times.keys) {
             Matrix matrix{};
             std::copy_n(keys.values.begin() + static_cast<std::ptrdiff_t>(key * 16), 16, matrix.begin());
-            const Transform transform = gltf::decompose(mirrored(matrix));
+            const Transform transform = decompose(mirrored(matrix));
             for (int i = 0; i < 3; ++i) moved.values.push_back(transform.translation[i]);
             for (int i = 0; i < 4; ++i) turned.values.push_back(transform.rotation[i]);
             for (int i = 0; i < 3; ++i) scaled.values.push_back(transform.scale[i]);

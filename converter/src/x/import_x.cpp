@@ -3,11 +3,11 @@
 #include "compressed_file.h"
 #include "cycles.h"
 #include "failure.h"
-#include "gltf/container.h"
 #include "joints.h"
 #include "materials.h"
 #include "meshes.h"
 #include "read_x_file.h"
+#include "source/read_file.h"
 #include "without_throwing.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void set_tick(XFile& file, double stated, Report& report) {
 }
 
 Scene import(std::string_view bytes, const std::filesystem::path& file, const XOptions& options, Report& report) {
-    gltf::Budget budget;
+    Budget budget;
     budget.add_source(bytes.size());
     std::string plain;
     if (is_compressed(bytes)) bytes = plain = decompress(bytes, budget);
@@ -81,7 +81,7 @@ Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesyste
 
 Result<Scene, ImportError> import_x(const std::filesystem::path& file, const XOptions& options, Report& report) {
     return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
-        const std::vector<std::byte> bytes = gltf::read_file(file, {});
+        const std::vector<std::byte> bytes = read_file(file, {});
         return import_x({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, options, report);
     });
 }

@@ -1,11 +1,11 @@
 #include "joints.h"
 
 #include "failure.h"
-#include "gltf/transform.h"
 #include "mirror.h"
 #include "rig/attach_rig.h"
 #include "rig/joint_index.h"
 #include "rig/names.h"
+#include "source/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +96,7 @@ void import_joints(const XFile& file, Scene& scene, Report& report) {
         Joint& joint = scene.joints.emplace_back();
         joint.name = frame.name;
         joint.parent = frame.parent;
-        joint.rest = gltf::decompose(mirrored(frame.matrix));
+        joint.rest = decompose(mirrored(frame.matrix));
         if (!is_finite(joint.rest)) fail(frame.place, "the numbers of its matrix are too large");
     }
     std::unordered_map<std::string_view, std::uint32_t> count;

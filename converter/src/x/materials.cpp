@@ -3,9 +3,9 @@
 #include "display_colour.h"
 #include "encoded_text.h"
 #include "failure.h"
-#include "gltf/container.h"
-#include "gltf/image.h"
-#include "gltf/uri.h"
+#include "source/media_type.h"
+#include "source/read_file.h"
+#include "source/uri.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ private:
         const auto [known, is_new] = texture_of_.try_emplace(source.texture, number);
         if (!is_new) return known->second;
         Image image;
-        image.uri = gltf::uri_of(path_of(source.texture));
+        image.uri = uri_of(path_of(source.texture));
         if (embed_images_) embed(image, source.place);
         Texture texture;
         texture.images.push_back(static_cast<std::uint32_t>(scene_.images.size()));
@@ -66,10 +66,10 @@ private:
 
     void embed(Image& image, const std::string& place) {
         try {
-            const auto file = gltf::resolve_uri(image.uri, file_, place);
+            const auto file = resolve_uri(image.uri, file_, place);
             report_.add_source(file);
-            image.bytes = gltf::read_file(file, place);
-            image.media_type = gltf::media_type_of(image.bytes);
+            image.bytes = read_file(file, place);
+            image.media_type = media_type_of(image.bytes);
             image.uri.clear();
         } catch (const Failure& failure) {  // the character converts without it
             report_.warn("image could not be read (" + failure.error.message + ')', place);

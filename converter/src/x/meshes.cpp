@@ -2,8 +2,8 @@
 
 #include "display_colour.h"
 #include "failure.h"
-#include "gltf/influences.h"
 #include "mirror.h"
+#include "source/influences.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -68,7 +68,7 @@ Stream stream_of(const std::vector<glm::vec<N, float>>& source, const Vertices& 
 
 class MeshImporter {
 public:
-    MeshImporter(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report)
+    MeshImporter(const XFile& file, const FrameIndex& frames, Budget& budget, Scene& scene, Report& report)
         : frames_(frames), budget_(budget), scene_(scene), report_(report) {
         for (std::uint32_t i = 0; i < file.materials.size(); ++i)
             material_of_.try_emplace(file.materials[i].identifier, i);
@@ -154,7 +154,7 @@ private:
             fail(source.place, "a vertex has more than " + std::to_string(kMaxInfluences) + " weights");
         budget_.take((source.positions.size() + 2 * vertices.positions.size()) * most, 8, source.place);
 
-        gltf::Influences all{most, {}, {}};
+        Influences all{most, {}, {}};
         all.bones.resize(source.positions.size() * most);
         all.weights.resize(all.bones.size());
         std::fill(used.begin(), used.end(), 0);
@@ -168,7 +168,7 @@ private:
                 all.weights[place] = skin.weights[i];
             }
         }
-        gltf::normalise_influences(all, source.place, report_);
+        normalise_influences(all, source.place, report_);
         mesh.influences = static_cast<std::uint32_t>(most);
         for (const std::uint32_t position : vertices.positions) {
             const auto first = static_cast<std::ptrdiff_t>(position * most);
@@ -176,7 +176,7 @@ private:
             mesh.bones.insert(mesh.bones.end(), all.bones.begin() + first, all.bones.begin() + last);
             mesh.weights.insert(mesh.weights.end(), all.weights.begin() + first, all.weights.begin() + last);
         }
-        gltf::trim_influences(mesh);
+        trim_influences(mesh);
     }
 
     std::uint32_t add_joint(const Mesh& source) {
@@ -191,7 +191,7 @@ private:
     }
 
     const FrameIndex& frames_;
-    gltf::Budget& budget_;
+    Budget& budget_;
     Scene& scene_;
     Report& report_;
     std::unordered_map<std::string_view, std::uint32_t> material_of_;
@@ -199,7 +199,7 @@ private:
 
 }  // namespace
 
-void import_meshes(const XFile& file, const FrameIndex& frames, gltf::Budget& budget, Scene& scene, Report& report) {
+void import_meshes(const XFile& file, const FrameIndex& frames, Budget& budget, Scene& scene, Report& report) {
     MeshImporter importer(file, frames, budget, scene, report);
     for (const Mesh& mesh : file.meshes) importer.import(mesh);
 }

@@ -2,9 +2,9 @@
 
 #include "encoded_text.h"
 #include "failure.h"
-#include "gltf/transform.h"
 #include "rig/parse_limit.h"
 #include "rig_fields.h"
+#include "source/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +63,8 @@ private:
 };
 
 /// Makes a rotation unit; one that is already keeps its bits.
-void make_unit(std::array<float, 4>& rotation, const std::string& place) {
-    const gltf::UnitQuaternion unit = gltf::make_unit({rotation[0], rotation[1], rotation[2], rotation[3]});
+void normalise(std::array<float, 4>& rotation, const std::string& place) {
+    const UnitQuaternion unit = make_unit({rotation[0], rotation[1], rotation[2], rotation[3]});
     if (unit.length == 0.0) fail(place, "a rotation of it is (0, 0, 0, 0)");
     for (int i = 0; i < 4; ++i) rotation[static_cast<std::size_t>(i)] = unit.value[i];
 }
@@ -78,7 +78,7 @@ Constraint read_constraint(ObjectReader& in) {
     FieldReader fields(in);
     walk_constraint(fields, constraint.record);
     in.end_of("BendyConstraint");
-    make_unit(constraint.record.frame, constraint.place);
+    normalise(constraint.record.frame, constraint.place);
     check_limit_at(constraint.record, constraint.place);
     return constraint;
 }
@@ -90,7 +90,7 @@ IkChain read_chain(ObjectReader& in) {
     FieldReader fields(in);
     walk_chain(fields, chain);
     in.end_of("BendyIkChain");
-    make_unit(chain.record.tip_rotation, chain.place);
+    normalise(chain.record.tip_rotation, chain.place);
     return chain;
 }
 

@@ -1,7 +1,7 @@
 #include "material.h"
 
 #include "failure.h"
-#include "gltf/image.h"
+#include "source/media_type.h"
 #include "x/display_colour.h"
 #include "x/encoded_text.h"
 #include "x/materials.h"
@@ -28,7 +28,7 @@ bool may_be_tga(std::span<const std::byte> bytes) {
 }
 
 std::string ending_of(const Image& image) {
-    const std::string media_type = image.media_type.empty() ? gltf::media_type_of(image.bytes) : image.media_type;
+    const std::string media_type = image.media_type.empty() ? media_type_of(image.bytes) : image.media_type;
     constexpr std::array<std::pair<const char*, const char*>, 8> kEndings{{{"image/png", ".png"},
                                                                            {"image/jpeg", ".jpg"},
                                                                            {"image/ktx2", ".ktx2"},
@@ -69,7 +69,7 @@ bool is_same(const TextureUse& a, const TextureUse& b) {
 class MaterialExporter {
 public:
     MaterialExporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
-             Report& report)
+                     Report& report)
         : scene_(scene), image_stem_(image_stem), text_(text), images_(images), report_(report) {}
 
     void write(const Material& material, const std::string& identifier, const std::string& place) {

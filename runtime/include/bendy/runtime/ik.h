@@ -35,6 +35,9 @@ struct ReachOptions {
     std::uint32_t restarts = 8;     ///< least squares: other beginnings that it tries when it is stuck
     std::optional<glm::vec3> pole;  ///< two-bone, aim: point in model space; default: the chain's pole joint or vector
     bool obey_constraints = true;
+    /// Then moves the joint that the chain follows to the tip, with all below it: where a foot is no child of the leg,
+    /// it stays at the leg's end. Nothing moves if the chain follows no joint, or one in, above or below the chain.
+    bool carry_target = false;
 };
 
 enum class ReachStatus : std::uint8_t {
@@ -56,9 +59,9 @@ struct ReachResult {
 };
 
 /// Moves a chain of the pose's model so that its tip (the effector's tip offset) reaches the target. The incoming pose
-/// is the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are. Allocates
-/// nothing. The same numbers give the same pose on every machine with the plain kernel (kernels.h); others find the
-/// joint matrices that it begins with to their own last digit.
+/// is the beginning, and is brought inside the constraints first. Joints outside the chain stay as they are, unless
+/// options.carry_target. Allocates nothing. The same numbers give the same pose on every machine with the plain kernel
+/// (kernels.h); others find the joint matrices that it begins with to their own last digit.
 ///     pull           Anderson's and Elias' force; one step a call, so it takes frames to arrive
 ///     two_bone       closed form; of a longer chain, start and middle joint turn
 ///     ccd            cyclic coordinate descent, from the tip up

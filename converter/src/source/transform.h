@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
 /// Turns an affine column-major matrix into T * R * U (see Transform), computed in double. A mirrored matrix gets a
 /// negative first row of U. Works for matrices without volume.
@@ -22,4 +22,4 @@ UnitQuaternion make_unit(const std::array<double, 4>& quaternion);
 /// Lengths further from 1 than this are the source's fault, not rounding, and worth a warning.
 inline constexpr double kUnitTolerance = 1e-3;
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

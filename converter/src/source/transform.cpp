@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -129,4 +129,4 @@ UnitQuaternion make_unit(const std::array<double, 4>& q) {
     return unit;
 }
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

@@ -7,7 +7,7 @@
 #include <optional>
 #include <system_error>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 namespace {
 
 std::optional<unsigned> hex_digit(char c) {
@@ -153,4 +153,4 @@ std::string uri_of(const std::filesystem::path& path) {
     return uri;
 }
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

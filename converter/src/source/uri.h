@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
 /// Nothing if a `%` is not followed by two hexadecimal digits.
 std::optional<std::string> percent_decode(std::string_view text);
@@ -30,4 +30,4 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
 /// A relative path as a URI: percent-encoded where it must be.
 std::string uri_of(const std::filesystem::path& path);
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

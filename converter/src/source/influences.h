@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
 /// JOINTS_0.., WEIGHTS_0.. of a primitive, the sets of a vertex one after the other.
 struct Influences {
@@ -31,4 +31,4 @@ LargestBone normalise_influences(Influences& influences, const std::string& plac
 /// Cuts a mesh's influences per vertex to the most that any vertex uses, at least 1.
 void trim_influences(Mesh& mesh);
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

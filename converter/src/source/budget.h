@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 
 /// How many bytes the decoded scene may take. A small hostile file can ask for any amount: one accessor used by every
 /// primitive, one mesh by every node, compressed or implied zeros. So whatever grows the result is charged here first.
@@ -29,4 +29,4 @@ private:
     std::uint64_t left_ = kFloor;
 };
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

@@ -1,4 +1,4 @@
-#include "gltf/transform.h"
+#include "source/transform.h"
 
 #include <gtest/gtest.h>
 

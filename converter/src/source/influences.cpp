@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bendy::converter::gltf {
+namespace bendy::converter {
 namespace {
 
 /// How far a sum of weights may be from 1 per weight that adds to it: float rounding of decoded or stored weights. The
@@ -87,4 +87,4 @@ void trim_influences(Mesh& mesh) {
     mesh.influences = static_cast<std::uint32_t>(used);
 }
 
-}  // namespace bendy::converter::gltf
+}  // namespace bendy::converter

@@ -1,5 +1,9 @@
 #include <bendy/converter/source_format.h>
 
+#include "importers.h"
+
+#include <bendy/converter/readable_files.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -22,6 +26,7 @@ constexpr std::string_view kCollada =
     "export it as glTF 2.0 from Blender 4 (File > Import > Collada, then File > Export > glTF 2.0), or convert it with "
     "COLLADA2GLTF";
 constexpr std::string_view kOtherTool = "export it as glTF 2.0 from the program that made it";
+constexpr std::string_view kNotInThisBuild = "build it with BENDY_X_FILES and BENDY_MD2";
 constexpr std::string_view kArchive = "unpack it, and convert the model that is in it";
 
 constexpr FileKind kFbxFile{"an FBX file", std::nullopt, kFbx};
@@ -30,7 +35,8 @@ constexpr FileKind kBlendFile{"a Blender file", std::nullopt, kBlend};
 constexpr FileKind kColladaFile{"a COLLADA file", std::nullopt, kCollada};
 constexpr FileKind kPlyFile{"a PLY file", std::nullopt, kMeshOnly};
 constexpr FileKind kZipFile{"a ZIP archive", std::nullopt, kArchive};
-constexpr FileKind kGltfFile{"a glTF file", SourceFormat::gltf, {}};
+constexpr FileKind kXFile{"a DirectX X-file", std::nullopt, kNotInThisBuild};
+constexpr FileKind kMd2File{"a Quake II model", std::nullopt, kNotInThisBuild};
 
 constexpr std::size_t kKindBytes = 4096;
 
@@ -39,12 +45,10 @@ struct Recognised {
     FileKind kind;
 };
 
-/// Signatures. USDZ is a ZIP archive: names go before this one.
+/// Signatures of what has no importer, or may have none in this build. USDZ is a ZIP archive: names go before this one.
 constexpr std::array kBeginnings{
-    Recognised{"HEAD", {"a bendy file", SourceFormat::bendy, {}}},
-    Recognised{"glTF", {"a glTF binary file", SourceFormat::gltf, {}}},
-    Recognised{"xof ", {"a DirectX X-file", SourceFormat::x, {}}},
-    Recognised{"IDP2", {"a Quake II model", SourceFormat::md2, {}}},
+    Recognised{"xof ", kXFile},
+    Recognised{"IDP2", kMd2File},
     Recognised{"Kaydara FBX Binary", kFbxFile},
     Recognised{"; FBX ", kFbxFile},
     Recognised{"PXR-USDC", kUsdFile},
@@ -79,6 +83,10 @@ constexpr std::array kEndings{
     Recognised{".zip", kZipFile},
 };
 
+FileKind kind_of(const Importer& importer) {
+    return {importer.name, importer.format, {}};
+}
+
 std::string small_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -93,12 +101,24 @@ std::string_view trimmed(std::string_view text) {
     return start == std::string_view::npos ? std::string_view() : text.substr(start);
 }
 
+/// The importer that the end of a name stands for; null if none does.
+const Importer* find_by_suffix(const std::string& extension) {
+    for (const Importer& importer : importers()) {
+        if (!extension.empty() &&
+            std::find(importer.suffixes.begin(), importer.suffixes.end(), extension) != importer.suffixes.end()) {
+            return &importer;
+        }
+    }
+    return nullptr;
+}
+
 std::optional<FileKind> find_kind_of_text(std::string_view text, const std::string& extension) {
     if (text.starts_with('<') && text.find("<COLLADA") != std::string_view::npos) return kColladaFile;
     if (!text.starts_with('{')) return std::nullopt;
     if (text.find("\"bendy_text\"") != std::string_view::npos)
         return FileKind{"the text of a bendy file", std::nullopt, {}};
-    if (extension == ".gltf" || text.find("\"asset\"") != std::string_view::npos) return kGltfFile;
+    if (extension == ".gltf" || text.find("\"asset\"") != std::string_view::npos)
+        return kind_of(importer_of(SourceFormat::gltf));
     return std::nullopt;
 }
 
@@ -122,6 +142,9 @@ std::string read_beginning(const std::filesystem::path& file) {
 
 std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name) {
     const std::string_view text = as_text(bytes).substr(0, kKindBytes);
+    for (const Importer& importer : importers()) {
+        if (!importer.signature.empty() && text.starts_with(importer.signature)) return kind_of(importer);
+    }
     for (const Recognised& each : kBeginnings) {
         if (text.starts_with(each.by)) return each.kind;
     }
@@ -139,24 +162,26 @@ std::optional<FileKind> find_file_kind(const std::filesystem::path& file) {
     return find_file_kind(as_byte_span(beginning), file);
 }
 
-namespace {
-
-SourceFormat source_format_of(const std::optional<FileKind>& kind, const std::filesystem::path& file) {
-    if (kind && kind->format) return *kind->format;
-    const std::string extension = small_extension(file);
-    if (extension == ".x") return SourceFormat::x;
-    if (extension == ".md2") return SourceFormat::md2;
-    return SourceFormat::gltf;
-}
-
-}  // namespace
-
-SourceFormat find_source_format(const std::filesystem::path& file) {
-    return source_format_of(find_file_kind(file), file);
-}
-
 SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& name) {
-    return source_format_of(find_file_kind(bytes, name), name);
+    if (const auto kind = find_file_kind(bytes, name); kind && kind->format) return *kind->format;
+    const Importer* importer = find_by_suffix(small_extension(name));
+    return importer == nullptr || importer->format == SourceFormat::bendy ? SourceFormat::gltf : importer->format;
+}
+
+std::string list_readable_suffixes() {
+    std::string list;
+    for (const Importer& importer : importers()) {
+        if (importer.format == SourceFormat::bendy) continue;
+        for (const std::string_view suffix : importer.suffixes) {
+            if (!suffix.empty()) list.append(list.empty() ? "" : ", ").append(suffix);
+        }
+    }
+    return list;
+}
+
+bool has_readable_suffix(const std::filesystem::path& file) {
+    const Importer* importer = find_by_suffix(small_extension(file));
+    return importer != nullptr && importer->format != SourceFormat::bendy;
 }
 
 std::string why_not_a_file(const std::filesystem::path& file) {
