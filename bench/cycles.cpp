@@ -2,7 +2,8 @@
 // skeleton, the copy of the rest pose included; times in order, at random, and at random among so many copies that none
 // is in the cache.
 #include "compact/pack_cycles.h"
-#include "unpack.h"
+#include "plan/unpack_plan.h"
+#include "play/unpack.h"
 
 #include <bendy/converter/import_gltf.h>
 

@@ -37,7 +37,7 @@ std::vector<std::string> names_of(std::span<const Kernel> kernels) {
 /// The names of all kernels, so that the help is the same on every machine.
 std::vector<std::string> kernel_names() {
     using enum Kernel;
-    return names_of(std::array{plain, sse4, avx2, avx512, neon, wasm});
+    return names_of(std::array{plain, sse4, avx2, neon, wasm});
 }
 
 /// What is wrong with the name of a kernel; empty if this machine has it.

@@ -44,7 +44,7 @@ def cmake_list(text, keyword):
 
 
 def kernel_targets(text):
-    """{source: instructions}, of those that are compiled for more than the others: {"src/skin_avx2.cpp": "avx2,fma"}"""
+    """{source: instructions}, of those that are compiled for more than the others: {"src/kernels/skin_avx2.cpp": "avx2,fma"}"""
     targets = {}
     for files, options in re.findall(r"set_source_files_properties\(([^)]*?)\s+PROPERTIES COMPILE_OPTIONS\s+\"?([^\")]*)", text):
         instructions = ",".join(option[2:] for option in options.split(";") if option.startswith("-m"))
@@ -59,7 +59,7 @@ class Joiner:
         self.seen = set(seen)
 
     def find(self, name, file):
-        for folder in (file.parent, ROOT / "format/include", ROOT / "runtime/include"):
+        for folder in (file.parent, ROOT / "runtime/src", ROOT / "format/include", ROOT / "runtime/include"):
             if (folder / name).is_file():
                 return (folder / name).resolve()
         return None

@@ -23,7 +23,7 @@ def _program_page(program, exit_status):
         page += f".TP\n.BR bendy\\-{command.name} (1)\n{_text(command.about)}.\n"
     page += _options(program.options) + _exit_status(exit_status)
     page += ".SH ENVIRONMENT\n.TP\n.B BENDY_KERNEL\nWith which instructions of the processor characters are posed and skinned: plain, sse4, "
-    page += "avx2, avx512 or neon.\nThe quickest that the machine has, if not given.\n"
+    page += "avx2 or neon.\nThe quickest that the machine has, if not given.\n"
     return page + _see_also([f"bendy-{command.name}" for command in program.commands])
 
 

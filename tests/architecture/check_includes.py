@@ -16,6 +16,17 @@ MAY_USE = {
     "twin": {"format"},
     "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
 }
+# Rooms of runtime/src, and those that each may use beside its own.
+ROOMS = {
+    "math": set(),
+    "plan": {"math"},
+    "kernels": {"math", "plan"},
+    "model": {"math", "plan"},
+    "pose": {"math", "plan", "kernels", "model"},
+    "play": {"math", "plan", "kernels", "pose"},
+    "ik": {"math", "model", "pose"},
+    "skin": {"math", "plan", "kernels", "model", "pose"},
+}
 # header: the folders that may include it
 PRIVATE = {
     "tiny_gltf.h": "converter/src/gltf/",
@@ -58,6 +69,12 @@ def faults_of(source: Path):
                 project = re.match(r"bendy/(\w+)(?:\.h|/)", header)
                 if project and project.group(1) != folder and project.group(1) not in allowed:
                     faults.append(f"{place}: {folder} may not use {project.group(1)}")
+                room = header.split("/")[0]
+                if folder == "runtime" and room in ROOMS:
+                    own = name.removeprefix("runtime/src/").split("/")[0]
+                    if room != own and room not in ROOMS[own]:
+                        faults.append(f"{place}: {own} may not use {room}")
+                    continue
                 if folder in ("format", "runtime") and "/" in header and not header.startswith(EMBEDDABLE_MAY_USE):
                     faults.append(f"{place}: {folder} may use the C++ library and GLM only")
     if seen == 0:

@@ -1,6 +1,6 @@
 #include <bendy/runtime/constrain.h>
 
-#include "nearest_rotation.h"
+#include "math/nearest_rotation.h"
 #include "runtime/build_model.h"
 
 #include <gtest/gtest.h>

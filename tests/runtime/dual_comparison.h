@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dual_plain.h"
+#include "kernels/dual_plain.h"
 #include "runtime/skin_comparison.h"
 
 #include <algorithm>

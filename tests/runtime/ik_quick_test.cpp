@@ -1,4 +1,4 @@
-#include "ik_quick.h"
+#include "ik/ik_quick.h"
 
 #include <bendy/runtime.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pose_kernels.h"
+#include "kernels/pose_kernels.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>

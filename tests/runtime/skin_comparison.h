@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skin_block.h"
+#include "plan/skin_block.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>

@@ -1,10 +1,10 @@
 #include <bendy/runtime/kernels.h>
 #include <bendy/runtime/skin.h>
 
+#include "plan/skin_plan.h"
 #include "runtime/build_model.h"
 #include "runtime/skin_comparison.h"
 #include "runtime/tried_kernels.h"
-#include "skin_plan.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>

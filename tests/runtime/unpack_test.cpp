@@ -1,4 +1,5 @@
-#include "unpack.h"
+#include "play/unpack.h"
+#include "plan/unpack_plan.h"
 
 #include <bendy/runtime/kernels.h>
 

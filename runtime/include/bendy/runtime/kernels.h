@@ -10,12 +10,11 @@
 namespace BENDY_PUBLIC bendy {
 
 enum class Kernel : std::uint8_t {
-    plain,   ///< one number at a time; every other one is held against it
-    sse4,    ///< four lanes, SSE 4.1
-    avx2,    ///< eight lanes, AVX2 and FMA
-    neon,    ///< four lanes, 64-bit ARM
-    wasm,    ///< four lanes, WebAssembly SIMD
-    avx512,  ///< sixteen lanes, AVX-512 F, VL and DQ: skinning only. Never the first choice: nobody has measured it yet
+    plain,  ///< one number at a time; every other one is held against it
+    sse4,   ///< four lanes, SSE 4.1
+    avx2,   ///< eight lanes, AVX2 and FMA
+    neon,   ///< four lanes, 64-bit ARM
+    wasm,   ///< four lanes, WebAssembly SIMD
 };
 
 /// Those that this program holds and this machine can run, the quickest that is known first; plain is the last.

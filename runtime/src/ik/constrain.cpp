@@ -1,0 +1,65 @@
+#include <bendy/runtime/constrain.h>
+
+#include "math/nearest_rotation.h"
+#include "math/rotation.h"
+
+#include <algorithm>
+
+namespace bendy {
+namespace {
+
+/// Radians: what a legal rotation may be off after it was stored as floats.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
+glm::dquat clamp_rotation(const Constraint& constraint, const glm::dquat& R) {
+    return nearest_rotation(constraint.model, constraint.euler_order, constraint.shape, R);
+}
+
+double violation(const Constraint& constraint, const glm::dquat& R) {
+    return angle_between(clamp_rotation(constraint, R), R);
+}
+
+glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local) {
+    const glm::dquat relative = glm::conjugate(glm::dquat(rest)) * glm::dquat(local);
+    return glm::normalize(glm::conjugate(constraint.frame) * relative * constraint.frame);
+}
+
+glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R) {
+    const glm::dquat relative = constraint.frame * R * glm::conjugate(constraint.frame);
+    const glm::dquat local = glm::normalize(glm::dquat(rest) * relative);
+    return {static_cast<float>(local.w), static_cast<float>(local.x), static_cast<float>(local.y),
+            static_cast<float>(local.z)};
+}
+
+glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest, const glm::vec3& translation) {
+    const glm::dquat axes = glm::normalize(glm::dquat(rest.rotation)) * constraint.frame;
+    const glm::dvec3 d = glm::conjugate(axes) * (glm::dvec3(translation) - glm::dvec3(rest.translation));
+    glm::dvec3 legal = d;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        const double low = constraint.record.translation_min[i];
+        const double high = constraint.record.translation_max[i];
+        if (low <= high) legal[axis] = std::clamp(d[axis], low, high);  // false for NaN
+    }
+    return legal == d ? translation : glm::vec3(glm::dvec3(rest.translation) + axes * legal);
+}
+
+void constrain(Pose& pose) {
+    const Model& model = pose.model();
+    const auto constraints = model.constraints();
+    if (constraints.empty()) return;
+    const std::span<JointTransform> local = pose.change_local();
+    for (const Constraint& constraint : constraints) {
+        if (model.constraint(constraint.joint) != &constraint) continue;
+        const JointTransform& rest = model.joints()[constraint.joint].rest;
+        JointTransform& joint = local[constraint.joint];
+        const glm::dquat R = to_limit_space(constraint, rest.rotation, joint.rotation);
+        const glm::dquat legal = clamp_rotation(constraint, R);
+        if (angle_between(legal, R) > kRounding) joint.rotation = from_limit_space(constraint, rest.rotation, legal);
+        if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
+    }
+}
+
+}  // namespace bendy

@@ -1,0 +1,441 @@
+#include <bendy/runtime/ik.h>
+
+#include <bendy/runtime/constrain.h>
+
+#include "ik_problem.h"
+#include "ik_quick.h"
+#include "math/rigid_part.h"
+#include "math/rotation.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+
+/// What belongs to a reach beside the problem: how to come from the model to the problem and back.
+class Reach {
+public:
+    Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options)
+        : chain_(chain),
+          target_(target),
+          pose_(pose),
+          model_(pose.model()),
+          options_(options),
+          links_(std::span(pose.ik_links_).first(chain.links)) {}
+
+    static glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
+        const auto joints = pose.model().joints();
+        glm::dmat4 matrix(1.0);
+        for (; joint != kNone; joint = joints[joint].parent) {
+            if (!pose.is_stale()) return pose.exact_model_space(joint) * matrix;
+            matrix = to_matrix(pose.local()[joint], joints[joint].shear) * matrix;
+        }
+        return matrix;
+    }
+
+    ReachResult run() {
+        if (!gather()) return {};
+        const bool is_aim = solver() == Solver::aim;
+        ReachResult result;
+        result.iterations = solve();
+        constexpr int kCorrections = 32;
+        for (int i = 0; i < kCorrections && !is_aim && correct_bones(); ++i) result.iterations += solve();
+        if (!is_aim && !is_uneven_ && chain_can_change_length() && !problem_.is_reached()) {
+            fit_length();
+            result.iterations += solve();
+        }
+        scatter();
+        measure(result);
+        return result;
+    }
+
+private:
+    [[nodiscard]] Solver solver() const {
+        if (options_.solver != Solver::any) return options_.solver;
+        if (chain_.solver != Solver::any) return chain_.solver;
+        const auto bones =
+            std::count_if(links_.begin(), links_.end(), [](const IkLink& link) { return link.bone_length > 0.0; });
+        return bones == 2 ? Solver::two_bone : Solver::least_squares;
+    }
+
+    [[nodiscard]] bool chain_can_change_length() const {
+        return chain_.record.stretch > 0.0f || chain_.record.compress > 0.0f;
+    }
+
+    [[nodiscard]] glm::dvec3 to_base(const glm::dvec3& point) const {
+        return glm::dvec3(inverse_base_ * glm::dvec4(point, 1.0)) / problem_.scale;
+    }
+
+    /// Fills links and problem from the pose. False if there is something that is not a number.
+    bool gather() {
+        std::uint32_t joint = chain_.effector;
+        for (std::size_t i = links_.size(); i-- > 0; joint = model_.joints()[joint].parent) links_[i].joint = joint;
+        base_ = bendy::joint_to_model(pose_, model_.joints()[chain_.start].parent);
+        inverse_base_ = glm::affineInverse(base_);
+        gather_links();
+        gather_weights();
+        return gather_problem();
+    }
+
+    void gather_links() {
+        const auto local = std::as_const(pose_).local();
+        double scale = 1.0;   // of the links so far
+        double length = 0.0;  // in the base's space
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            IkLink& link = links_[i];
+            const JointTransform& transform = local[link.joint];
+            const Joint& joint = model_.joints()[link.joint];
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
+            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            length += link.bone_length;
+            is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
+            scale *= mean_scale(transform.scale);
+            link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
+            link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
+            link.rest_frame = glm::normalize(glm::dquat(joint.rest.rotation)) * link.frame;
+            link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
+            link.local = nearest_legal_local(link, glm::normalize(glm::dquat(transform.rotation)));
+        }
+        problem_.scale = length > 0.0 ? length : 1.0;
+        problem_.reach = length > 0.0 ? 1.0 : 0.0;
+        if (is_uneven_) find_longest();
+        for (IkLink& link : links_) {
+            link.bone /= problem_.scale;
+            link.bone_length /= problem_.scale;
+        }
+    }
+
+    void find_longest() {
+        const auto local = std::as_const(pose_).local();
+        double scale = 1.0;  // of the links so far, along their longest axes
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            const glm::vec3 axes = glm::abs(local[links_[i].joint].scale);
+            const glm::vec3 shear = glm::abs(model_.joints()[links_[i].joint].shear);
+            scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
+        }
+    }
+
+    void gather_weights() {
+        for (const PullView& pull : model_.chain_weights(chain_)) {
+            // Joint numbers ascend along the chain.
+            const auto link = std::lower_bound(links_.begin(), links_.end(), pull.joint,
+                                               [](const IkLink& l, std::uint32_t joint) { return l.joint < joint; });
+            if (link != links_.end() && link->joint == pull.joint)
+                link->freedom *= std::isnan(pull.weight) ? 1.0 : std::clamp(double{pull.weight}, 0.0, 1.0);
+        }
+        for (IkLink& link : links_) {
+            const bool is_locked = link.constraint != nullptr && link.constraint->model == LimitModel::locked;
+            link.is_fixed = is_locked || link.freedom == glm::dvec3(0.0);
+        }
+    }
+
+    bool gather_problem() {
+        const ChainRecord& record = chain_.record;
+        problem_.links = links_;
+        problem_.options = &options_;
+        problem_.origin = glm::dvec3(pose_.local()[chain_.start].translation) / problem_.scale;
+        problem_.target = to_base(target_.position);
+        problem_.tip_rotation =
+            unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
+        problem_.position_weight = fraction(record.position_weight, 1.0);
+        problem_.has_rotation = target_.rotation.has_value();
+        problem_.rotation_weight = fraction(record.rotation_weight, 0.0);
+        if (problem_.rotation_weight == 0.0) problem_.rotation_weight = 1.0;
+        if (problem_.has_rotation) {
+            const glm::dquat wanted(*target_.rotation);
+            if (!(std::abs(glm::length(wanted) - 1.0) < 1e-2)) return false;
+            problem_.target_rotation = glm::conjugate(rigid_rotation(base_)) * glm::normalize(wanted);
+        } else if (problem_.position_weight == 0.0) {
+            problem_.position_weight = 1.0;
+        }
+        const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
+        problem_.tolerance =
+            tolerance > 0.0f ? std::max(double{tolerance} / (problem_.scale * base_scale()), 1e-9) : 1e-4;
+        constexpr std::uint16_t kMostIterations = 1000;  // whatever a file says
+        problem_.iterations =
+            options_.iterations != 0 ? options_.iterations : std::min(record.iterations, kMostIterations);
+        gather_pole();
+        wanted_ = problem_.target;
+        find_reach();
+        problem_.place();
+        if (is_uneven_) match_bones();
+        const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
+                           glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
+                           glm::dot(problem_.pole, problem_.pole) + problem_.pole_angle;
+        return std::isfinite(sum);
+    }
+
+    void find_reach() {
+        const glm::dvec3 way = wanted_ - problem_.origin;
+        const double distance = std::sqrt(glm::dot(way, way));
+        constexpr double kStraight = 1e-6;  // chain lengths: no bend that would be seen
+        is_far_ = distance > problem_.reach - kStraight;
+        problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
+    }
+
+    void gather_pole() {
+        const ChainRecord& record = chain_.record;
+        problem_.pole_angle = record.pole_angle;
+        const glm::dvec3 direction(record.pole_vector[0], record.pole_vector[1], record.pole_vector[2]);
+        problem_.has_pole = true;
+        if (options_.pole) {
+            problem_.pole = to_base(*options_.pole);
+        } else if (chain_.pole != kNone) {
+            problem_.pole = to_base(glm::dvec3(bendy::joint_to_model(pose_, chain_.pole)[3]));
+        } else if (direction != glm::dvec3(0.0)) {
+            constexpr double kFar = 1e3;  // chain lengths: a direction is a point far away
+            problem_.pole = problem_.origin + kFar * direction;
+        } else {
+            problem_.has_pole = false;
+        }
+    }
+
+    /// Metres of model space for one of the base's space, where its axes differ those of the longest.
+    [[nodiscard]] double base_scale() const {
+        const glm::dvec3 x(base_[0]), y(base_[1]), z(base_[2]);
+        const double scale = std::sqrt(std::max({glm::dot(x, x), glm::dot(y, y), glm::dot(z, z)}));
+        return scale > 0.0 ? scale : 1.0;
+    }
+
+    [[nodiscard]] glm::dvec3 tip_offset() const {
+        const auto& offset = chain_.record.tip_offset;
+        return {offset[0], offset[1], offset[2]};
+    }
+
+    static glm::dmat3 scale_and_shear(const JointTransform& transform, const glm::vec3& shear) {
+        return {glm::dvec3(transform.scale.x, 0.0, 0.0), glm::dvec3(shear.x, transform.scale.y, 0.0),
+                glm::dvec3(shear.y, shear.z, transform.scale.z)};
+    }
+
+    static bool is_uneven(const JointTransform& transform, const glm::vec3& shear) {
+        constexpr float kSame = 1e-6f;
+        const glm::vec3& s = transform.scale;
+        return shear != glm::vec3(0.0f) || std::abs(s.x - s.y) > kSame * std::abs(s.x) ||
+               std::abs(s.x - s.z) > kSame * std::abs(s.x) || s.x < 0.0f;
+    }
+
+    static double mean_scale(const glm::vec3& scale) {
+        if (scale.x == scale.y && scale.x == scale.z) return std::abs(scale.x);
+        return (std::abs(double{scale.x}) + std::abs(scale.y) + std::abs(scale.z)) / 3.0;
+    }
+
+    static glm::dquat unit(const glm::dquat& q) {
+        const double length = glm::length(q);
+        return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    }
+
+    static double fraction(float value, double otherwise) {
+        return std::isnan(value) ? otherwise : std::clamp(double{value}, 0.0, 1.0);
+    }
+
+    std::uint32_t solve() {
+        const Solver chosen = solver();
+        if (chosen == Solver::aim) return solve_aim(problem_);
+        if (is_far_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
+        switch (chosen) {
+            case Solver::pull:
+                return solve_pull(problem_);
+            case Solver::ccd:
+                return finish(solve_ccd(problem_));
+            case Solver::fabrik:
+                return finish(solve_fabrik(problem_));
+            case Solver::two_bone:
+                return two_bone();
+            default:
+                return solve_least_squares(problem_);
+        }
+    }
+
+    std::uint32_t two_bone() {
+        const glm::dvec3 target = problem_.target;
+        soften_target(problem_);
+        const std::uint32_t iterations = finish(solve_two_bone(problem_));
+        problem_.target = target;
+        return iterations;
+    }
+
+    /// Where a solver stops short of a target within reach, least squares goes on from there.
+    std::uint32_t finish(std::uint32_t iterations) {
+        if (problem_.is_out_of_reach || problem_.is_reached()) return iterations;
+        return iterations + solve_least_squares(problem_);
+    }
+
+    /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds
+    /// only about where they are. Gives the links the bones that they have now; false if the tip is within tolerance.
+    bool correct_bones() {
+        if (!is_uneven_ || problem_.is_out_of_reach) return false;
+        match_bones();
+        return !problem_.is_reached();
+    }
+
+    void match_bones() {
+        glm::dmat4 matrix(1.0);
+        glm::dvec3 position = problem_.origin;
+        problem_.reach = 0.0;
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            IkLink& link = links_[i];
+            matrix = matrix * link_to_parent(link);
+            const bool is_last = i + 1 == links_.size();
+            const glm::dvec3 offset =
+                is_last ? tip_offset() : glm::dvec3(std::as_const(pose_).local()[links_[i + 1].joint].translation);
+            const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(offset, 1.0)) / problem_.scale;
+            link.bone = glm::conjugate(link.global) * (end - position);
+            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            problem_.reach += link.bone_length;
+            position = end;
+        }
+        find_reach();
+        problem_.place();
+    }
+
+    [[nodiscard]] glm::dmat4 link_to_parent(const IkLink& link) const {
+        JointTransform transform = std::as_const(pose_).local()[link.joint];
+        transform.rotation = glm::quat(link.local);
+        return to_matrix(transform, model_.joints()[link.joint].shear);
+    }
+
+    [[nodiscard]] glm::dvec3 true_tip() const {
+        if (!is_uneven_) return problem_.tip;
+        glm::dmat4 matrix(1.0);
+        for (const IkLink& link : links_) matrix = matrix * link_to_parent(link);
+        return glm::dvec3(matrix * glm::dvec4(tip_offset(), 1.0)) / problem_.scale;
+    }
+
+    /// Makes the bones longer or shorter, all alike, as far as the chain may.
+    void fit_length() {
+        const glm::dvec3 way = problem_.target - problem_.origin;
+        const glm::dvec3 reached = problem_.tip - problem_.origin;
+        const double is = std::sqrt(glm::dot(reached, reached));
+        if (is < 1e-9) return;
+        const double wanted = std::sqrt(glm::dot(way, way)) / is;
+        stretch_ = std::clamp(wanted, 1.0 - fraction(chain_.record.compress, 0.0),
+                              1.0 + std::max(0.0, double{chain_.record.stretch}));
+        // The tip's offset is inside the effector and stays as it is.
+        for (std::size_t i = 0; i + 1 < links_.size(); ++i) {
+            links_[i].bone *= stretch_;
+            links_[i].bone_length *= stretch_;
+        }
+        problem_.reach *= stretch_;
+        problem_.is_out_of_reach = problem_.is_out_of_reach && wanted > stretch_;
+        is_far_ = is_far_ && problem_.is_out_of_reach;
+        problem_.place();
+    }
+
+    /// Writes the links' rotations into the pose.
+    void scatter() {
+        const double influence =
+            std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
+        const std::span<JointTransform> local = pose_.change_local();
+        for (const IkLink& link : links_) {
+            JointTransform& joint = local[link.joint];
+            const glm::dquat mixed = influence == 1.0
+                                         ? link.local
+                                         : between(glm::normalize(glm::dquat(joint.rotation)), link.local, influence);
+            joint.rotation = glm::quat(glm::normalize(mixed));
+            if (stretch_ != 1.0 && link.joint != chain_.start)
+                joint.translation *= static_cast<float>(1.0 + influence * (stretch_ - 1.0));
+        }
+    }
+
+    void measure(ReachResult& result) const {
+        const glm::dvec3 left = wanted_ - true_tip();
+        const double distance = std::sqrt(glm::dot(left, left));
+        const glm::dvec3 in_model = glm::dmat3(base_) * (left * problem_.scale);
+        result.distance = static_cast<float>(std::sqrt(glm::dot(in_model, in_model)));
+        if (solver() == Solver::aim) {
+            const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
+            const glm::dvec3 turn = to_vector(between(forward, problem_.target - problem_.tip));
+            result.angle = static_cast<float>(std::sqrt(glm::dot(turn, turn)));
+            result.status = result.angle <= problem_.tolerance ? ReachStatus::aimed : ReachStatus::not_reached;
+            return;
+        }
+        result.angle = static_cast<float>(problem_.rotation_error());
+        const bool is_there = problem_.position_weight == 0.0 || distance <= problem_.tolerance;
+        const bool is_turned = problem_.rotation_error() <= problem_.tolerance;
+        if (is_there && is_turned) {
+            result.status = ReachStatus::reached;
+        } else {
+            result.status = problem_.is_out_of_reach ? ReachStatus::out_of_reach : ReachStatus::not_reached;
+        }
+    }
+
+    const Chain& chain_;
+    const ReachTarget& target_;
+    Pose& pose_;
+    const Model& model_;
+    const ReachOptions& options_;
+    std::span<IkLink> links_;
+    IkProblem problem_;
+    glm::dmat4 base_{1.0};
+    glm::dmat4 inverse_base_{1.0};
+    glm::dvec3 wanted_{0};  ///< the target, not softened
+    double stretch_ = 1.0;
+    double longest_ = 0.0;    ///< of a chain that scales its axes differently: no pose is longer; chain lengths
+    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot
+    bool is_uneven_ = false;  ///< a link before the last scales its axes differently
+};
+
+namespace {
+
+bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
+    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
+    return joint != kNone;
+}
+
+/// See ReachOptions::carry_target.
+void carry_target(const Chain& chain, Pose& pose) {
+    const Model& model = pose.model();
+    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
+        is_at_or_below(model, chain.start, chain.target)) {
+        return;
+    }
+    const auto& offset = chain.record.tip_offset;
+    const glm::dvec4 tip = joint_to_model(pose, chain.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const std::uint32_t parent = model.joints()[chain.target].parent;
+    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : joint_to_model(pose, parent);
+    if (std::abs(glm::determinant(space)) < 1e-30) return;
+    pose.change_local()[chain.target].translation = glm::vec3(glm::inverse(space) * tip);
+}
+
+}  // namespace
+
+ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
+    const bool is_number = std::isfinite(target.position.x + target.position.y + target.position.z);
+    if (chain == nullptr || !is_number) return {};
+    const auto quick = reach_quickly(*chain, target, pose, options);
+    const ReachResult result = quick ? *quick : reach_at_length(*chain, target, pose, options);
+    if (options.carry_target && result.status != ReachStatus::refused) carry_target(*chain, pose);
+    return result;
+}
+
+ReachResult reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
+    return Reach(chain, target, pose, options).run();
+}
+
+glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
+    return Reach::joint_to_model(pose, joint);
+}
+
+void reach_all(Pose& pose) {
+    const Model& model = pose.model();
+    for (const std::uint32_t number : model.chain_order()) {
+        const Chain& chain = model.chains()[number];
+        if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
+        const glm::dmat4 followed = joint_to_model(pose, chain.target);
+        ReachTarget target{glm::vec3(followed[3])};
+        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rigid_rotation(followed));
+        ReachOptions options;
+        options.influence = chain.record.influence;
+        reach(&chain, target, pose, options);
+    }
+}
+
+}  // namespace bendy

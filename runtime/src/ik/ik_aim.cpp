@@ -1,0 +1,51 @@
+#include "ik_problem.h"
+#include "math/rotation.h"
+
+#include <bendy/format/trig.h>
+
+#include <cmath>
+
+// Looking at a target: the tip's Z axis is turned towards it. Each joint does its share of what is left, the last one
+// all of it, so that a neck and a head turn together.
+namespace bendy {
+namespace {
+
+/// The turn from where the tip looks to where it should.
+glm::dvec3 turn_left(const IkProblem& problem) {
+    return to_vector(between(problem.tip_global * glm::dvec3(0.0, 0.0, 1.0), problem.target - problem.tip));
+}
+
+/// The turn about the line of sight that brings the tip's Y axis up to the pole.
+glm::dvec3 roll_left(const IkProblem& problem) {
+    const glm::dvec3 forward = problem.tip_global * glm::dvec3(0.0, 0.0, 1.0);
+    const auto across = [&](const glm::dvec3& v) { return v - forward * glm::dot(forward, v); };
+    const glm::dvec3 up = across(problem.tip_global * glm::dvec3(0.0, 1.0, 0.0));
+    const glm::dvec3 wanted = across(problem.pole - problem.tip);
+    const double y = glm::dot(forward, glm::cross(up, wanted));
+    return forward * (trig::atan2(y, glm::dot(up, wanted)) + problem.pole_angle);
+}
+
+}  // namespace
+
+std::uint32_t solve_aim(IkProblem& problem) {
+    const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 20;
+    const std::size_t links = problem.links.size();
+    for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
+        const glm::dvec3 left = turn_left(problem);
+        const glm::dvec3 roll = problem.has_pole ? roll_left(problem) : glm::dvec3(0.0);
+        if (glm::dot(left, left) + glm::dot(roll, roll) <= problem.tolerance * problem.tolerance) return iteration;
+        for (std::size_t i = 0; i < links; ++i) {
+            if (problem.links[i].is_fixed) continue;
+            const double share = iteration == 0 ? 1.0 / static_cast<double>(links - i) : 1.0;
+            turn_link(problem, i, share * turn_left(problem));
+            problem.place(i);
+            if (problem.has_pole) {
+                turn_link(problem, i, share * roll_left(problem));
+                problem.place(i);
+            }
+        }
+    }
+    return most;
+}
+
+}  // namespace bendy

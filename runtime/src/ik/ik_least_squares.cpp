@@ -1,0 +1,296 @@
+#include "ik_problem.h"
+#include "math/nearest_rotation.h"
+#include "math/rotation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+// Damped least squares: Levenberg and Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
+// Jacobian transpose, pseudoinverse and damped least squares methods", 2004). A direction in which a joint's constraint
+// stops it is taken from that joint and the step is solved anew, so that the other joints do its part. When it is
+// stuck short of the target it begins again elsewhere, and the best end counts.
+namespace bendy {
+namespace {
+
+constexpr std::size_t kMost = 6;
+using Vector = std::array<double, kMost>;
+using Matrix = std::array<Vector, kMost>;
+
+/// y of (A + damping) y = e, A symmetric with no negative eigenvalue, its first `size` rows; by Cholesky's
+/// decomposition.
+Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
+    for (std::size_t j = 0; j < size; ++j) {
+        double diagonal = A[j][j] + damping;
+        for (std::size_t k = 0; k < j; ++k) diagonal -= A[j][k] * A[j][k];
+        A[j][j] = std::sqrt(std::max(diagonal, 1e-30));
+        for (std::size_t i = j + 1; i < size; ++i) {
+            double sum = A[i][j];
+            for (std::size_t k = 0; k < j; ++k) sum -= A[i][k] * A[j][k];
+            A[i][j] = sum / A[j][j];
+        }
+    }
+    Vector y = e;
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t k = 0; k < i; ++k) y[i] -= A[i][k] * y[k];
+        y[i] /= A[i][i];
+    }
+    for (std::size_t i = size; i-- > 0;) {
+        for (std::size_t k = i + 1; k < size; ++k) y[i] -= A[k][i] * y[k];
+        y[i] /= A[i][i];
+    }
+    return y;
+}
+
+class LeastSquares {
+public:
+    explicit LeastSquares(IkProblem& problem)
+        : problem_(problem),
+          size_(problem.has_rotation ? 6 : 3),
+          position_(std::sqrt(problem.position_weight)),
+          rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {}
+
+    /// From where the links are, until it is reached or stuck. Returns the iterations.
+    std::uint32_t descend(std::uint32_t most) {
+        double damping = 1e-2;
+        double cost = problem_.cost();
+        for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
+            if (problem_.is_reached()) return iteration;
+            try_step(damping);
+            for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+            problem_.place();
+            const double now = problem_.cost();
+            constexpr double kStuck = 1e-3;  // of the cost
+            const bool is_better = now < cost;
+            const bool is_stuck = cost - now < kStuck * cost;
+            if (is_better) {
+                cost = now;
+                damping = std::max(damping * 0.3, 1e-9);
+            } else {
+                for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+                problem_.place();
+                damping *= 8.0;
+            }
+            if (is_stuck && (is_better || damping > 10.0)) return iteration + 1;
+        }
+        return most;
+    }
+
+private:
+    /// Fills the links' trial with a step.
+    void try_step(double damping) {
+        for (IkLink& link : problem_.links) {
+            const glm::dmat3 axes = glm::mat3_cast(link.global * link.frame);
+            const glm::dvec3 squares = link.freedom * link.freedom;
+            link.mobility =
+                glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
+        }
+        // In a short chain few joints can do a stopped one's part, and they may be stopped in turn.
+        constexpr std::size_t kShort = 4;
+        const int rounds = problem_.links.size() <= kShort ? 3 : 2;
+        for (int round = 0; round < rounds; ++round) {
+            const Vector y = solve(gather(), errors(), size_, damping);
+            if (!apply(y)) return;
+        }
+    }
+
+    [[nodiscard]] Vector errors() const {
+        const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
+        Vector e{p.x, p.y, p.z};
+        if (size_ == 6) {
+            const glm::dvec3 r = rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
+            e[3] = r.x;
+            e[4] = r.y;
+            e[5] = r.z;
+        }
+        return e;
+    }
+
+    /// J mobility J^T, J of each link: a turn w moves the tip by cross(w, arm), and turns it by w.
+    [[nodiscard]] Matrix gather() const {
+        glm::dmat3 pp(0.0);
+        glm::dmat3 pr(0.0);
+        glm::dmat3 rr(0.0);
+        for (const IkLink& link : problem_.links) {
+            if (link.is_fixed) continue;
+            const glm::dvec3 arm = problem_.tip - link.position;
+            // [arm]x, columns: cross(arm, axis); J = -[arm]x.
+            const glm::dmat3 cross_arm(glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x),
+                                       glm::dvec3(arm.y, -arm.x, 0.0));
+            const glm::dmat3 left = cross_arm * link.mobility;
+            pp -= left * cross_arm;  // [arm]x is its own transpose, negated
+            if (size_ == 6) {
+                pr -= left;
+                rr += link.mobility;
+            }
+        }
+        Matrix A{};
+        for (int column = 0; column < 3; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                const auto i = static_cast<std::size_t>(row);
+                const auto j = static_cast<std::size_t>(column);
+                A[i][j] = position_ * position_ * pp[column][row];
+                A[i][j + 3] = position_ * rotation_ * pr[column][row];
+                A[j + 3][i] = A[i][j + 3];
+                A[i + 3][j + 3] = rotation_ * rotation_ * rr[column][row];
+            }
+        }
+        return A;
+    }
+
+    /// Turns every link by mobility J^T y into its trial. True if a constraint stopped a link in a direction in which
+    /// it was free so far: that direction is then taken from its mobility.
+    bool apply(const Vector& y) {
+        const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
+        const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);
+        bool is_stopped = false;
+        glm::dquat parent(1.0, 0.0, 0.0, 0.0);
+        for (IkLink& link : problem_.links) {
+            link.trial = link.local;
+            if (!link.is_fixed) {
+                const glm::dvec3 arm = problem_.tip - link.position;
+                glm::dvec3 turn = link.mobility * (glm::cross(arm, p) + r);
+                const double size = std::sqrt(glm::dot(turn, turn));
+                constexpr double kLongest = 1.0;  // radians: beyond it the derivative says nothing
+                if (size > kLongest) turn *= kLongest / size;
+                const glm::dquat rotation = from_vector(turn);
+                link.trial =
+                    softly_legal_local(link, glm::normalize(glm::conjugate(parent) * (rotation * link.global)));
+                if (link.constraint != nullptr && size > 0.0)
+                    is_stopped = take_stopped_direction(link, parent, rotation) || is_stopped;
+            }
+            parent = link.global;
+        }
+        return is_stopped;
+    }
+
+    static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation) {
+        const glm::dquat done = upper_half(parent * link.trial * glm::conjugate(link.global));
+        // Half the rotation vectors, nearly.
+        const glm::dvec3 turn(rotation.x, rotation.y, rotation.z);
+        const glm::dvec3 stopped = turn - glm::dvec3(done.x, done.y, done.z);
+        const double size = glm::dot(stopped, stopped);
+        constexpr double kPart = 0.05;  // of the turn
+        if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
+        const glm::dvec3 moved = link.mobility * stopped;
+        const double weight = glm::dot(stopped, moved);
+        if (weight <= 1e-12 * size) return false;
+        link.mobility -= glm::outerProduct(moved, moved) / weight;
+        return true;
+    }
+
+    IkProblem& problem_;
+    std::size_t size_;
+    double position_, rotation_;  ///< roots of the weights
+};
+
+/// Numbers in [-1, 1] from a counter: the same on every machine.
+class Dice {
+public:
+    double next() {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
+        return static_cast<double>(static_cast<std::int64_t>(state_) >> 11) * 0x1p-52;
+    }
+
+private:
+    std::uint64_t state_ = 1;
+};
+
+/// Three unit axes across each other, in base space, in which a chain and its mirror image have the same numbers for
+/// mirrored turns: made of the chain's bends at rest, what its constraints allow, its pole, and where the target lies.
+/// How the joints' own axes are laid counts nothing. Turns are axial vectors, and so is what follows.
+glm::dmat3 turn_axes(const IkProblem& problem) {
+    glm::dvec3 bends(0.0);
+    glm::dquat global(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 tip = problem.origin;
+    glm::dvec3 before(0.0);
+    for (const IkLink& link : problem.links) {
+        if (link.constraint != nullptr) {
+            bends += global * (link.rest_frame * (link.freedom * preferred_side(*link.constraint)));
+        }
+        global = global * link.rest_frame * glm::conjugate(link.frame);
+        const glm::dvec3 bone = global * link.bone;
+        bends += glm::cross(before, bone);
+        if (link.bone_length > 0.0) before = bone / link.bone_length;
+        tip += bone;
+    }
+    const glm::dvec3 reached = tip - problem.origin;
+    if (problem.has_pole) bends += glm::cross(problem.pole - problem.origin, reached);
+    const glm::dvec3 aside = glm::cross(problem.target - problem.origin, reached);
+    const double size = std::sqrt(glm::dot(bends, bends));
+    constexpr double kClear = 1e-3;
+    if (!(size > kClear && std::isfinite(size))) return glm::dmat3(1.0);
+    const glm::dvec3 x = bends / size;
+    const glm::dvec3 across = aside - x * glm::dot(x, aside);
+    const double rest = std::sqrt(glm::dot(across, across));
+    if (!(rest > kClear)) return glm::dmat3(1.0);
+    const glm::dvec3 y = across / rest;
+    return {x, y, glm::cross(x, y)};
+}
+
+/// Another beginning: first the preferred pose, then that brought near by the closed form, then any legal one.
+void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axes, Dice& dice) {
+    constexpr std::uint32_t kPreferred = 2;  // attempts
+    glm::dquat parent(1.0, 0.0, 0.0, 0.0);   // at rest
+    for (IkLink& link : problem.links) {
+        const glm::dquat rest = parent * link.rest_frame;
+        parent = rest * glm::conjugate(link.frame);
+        if (link.is_fixed) continue;
+        glm::dvec3 turn(0.0);  // about the frame's axes
+        if (attempt < kPreferred) {
+            if (link.constraint == nullptr) continue;
+            const auto& preferred = link.constraint->record.preferred;
+            turn = {preferred[0], preferred[1], preferred[2]};
+        } else {
+            // One after another: in which order arguments are computed is the compiler's choice.
+            for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
+            turn = glm::conjugate(rest) * (axes * turn);
+        }
+        link.local = legal_local(
+            link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));
+    }
+    problem.place();
+    if (attempt == kPreferred - 1) solve_two_bone(problem);
+}
+
+}  // namespace
+
+std::uint32_t solve_least_squares(IkProblem& problem) {
+    const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
+    constexpr std::size_t kLong = 256;  // a rope that is stuck stays so, and each restart costs as much as the first
+    const bool is_hopeless = problem.is_out_of_reach || problem.links.size() > kLong;
+    const std::uint32_t restarts = is_hopeless ? 0 : problem.options->restarts;
+    LeastSquares method(problem);
+    std::uint32_t iterations = method.descend(most);
+    if (problem.is_reached()) return iterations;
+    double best = problem.cost();
+    problem.save();
+    const auto descend = [&] {
+        iterations += method.descend(most);
+        // Of two ends as near as each other the first counts: rounding must not choose between them.
+        constexpr double kNearer = 0.99;
+        if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
+        best = problem.cost();
+        problem.save();
+    };
+    // The closed form from the best place so far: it slides along a limit in one step where descending creeps.
+    const auto bend_best = [&] {
+        problem.restore();
+        solve_two_bone(problem);
+        descend();
+    };
+    if (restarts > 0) bend_best();
+    const glm::dmat3 axes = restarts > 0 ? turn_axes(problem) : glm::dmat3(1.0);
+    Dice dice;
+    for (std::uint32_t attempt = 0; attempt < restarts && !problem.is_reached(); ++attempt) {
+        begin_anew(problem, attempt, axes, dice);
+        descend();
+    }
+    constexpr int kLast = 4;
+    for (int i = 0; i < kLast && restarts > 0 && !problem.is_reached(); ++i) bend_best();
+    problem.restore();
+    return iterations;
+}
+
+}  // namespace bendy

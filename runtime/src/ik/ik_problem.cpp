@@ -1,0 +1,181 @@
+#include "ik_problem.h"
+
+#include "math/nearest_rotation.h"
+#include "math/rotation.h"
+
+#include <bendy/format/trig.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+template <class Legal>
+glm::dquat through_limits(const IkLink& link, const glm::dquat& local, const Legal& legal) {
+    const glm::dquat R = glm::conjugate(link.rest_frame) * local * link.frame;
+    const glm::dquat inside = legal(R);
+    return inside == R ? local : glm::normalize(link.rest_frame * inside * glm::conjugate(link.frame));
+}
+
+}  // namespace
+
+void IkProblem::place(std::size_t first) {
+    glm::dquat global = first == 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0) : links[first - 1].global;
+    glm::dvec3 position = first == 0 ? origin : links[first - 1].position + global * links[first - 1].bone;
+    for (std::size_t i = first; i < links.size(); ++i) {
+        IkLink& link = links[i];
+        global = global * link.local;
+        link.global = global;
+        link.position = position;
+        position += global * link.bone;
+    }
+    tip = position;
+    tip_global = global * tip_rotation;
+}
+
+void IkProblem::place_next(std::size_t link) {
+    const IkLink& before = links[link];
+    const glm::dvec3 end = before.position + before.global * before.bone;
+    if (link + 1 == links.size()) {
+        tip = end;
+        tip_global = before.global * tip_rotation;
+    } else {
+        links[link + 1].position = end;
+        links[link + 1].global = before.global * links[link + 1].local;
+    }
+}
+
+glm::dquat IkProblem::parent_global(std::size_t link) const {
+    return link == 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0) : links[link - 1].global;
+}
+
+double IkProblem::distance() const {
+    const glm::dvec3 left = target - tip;
+    return std::sqrt(glm::dot(left, left));
+}
+
+double IkProblem::rotation_error() const {
+    return has_rotation ? angle_between(tip_global, target_rotation) : 0.0;
+}
+
+bool IkProblem::is_reached() const {
+    return (position_weight == 0.0 || distance() <= tolerance) && (!has_rotation || rotation_error() <= tolerance);
+}
+
+double IkProblem::cost() const {
+    const double p = distance();
+    const double r = rotation_error();
+    return position_weight * p * p + (has_rotation ? rotation_weight * r * r : 0.0);
+}
+
+void IkProblem::save() {
+    for (IkLink& link : links) link.saved = link.local;
+}
+
+void IkProblem::restore() {
+    for (IkLink& link : links) link.local = link.saved;
+    place();
+}
+
+glm::dquat legal_local(const IkLink& link, const glm::dquat& local) {
+    if (link.constraint == nullptr) return local;
+    const Constraint& c = *link.constraint;
+    return through_limits(
+        link, local, [&](const glm::dquat& R) { return quick_legal_rotation(c.model, c.euler_order, c.shape, R); });
+}
+
+glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local) {
+    if (link.constraint == nullptr) return local;
+    const Constraint& c = *link.constraint;
+    return through_limits(link, local,
+                          [&](const glm::dquat& R) { return nearest_rotation(c.model, c.euler_order, c.shape, R); });
+}
+
+glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
+    if (link.constraint == nullptr || !link.constraint->has_soft_zone) return legal_local(link, local);
+    const Constraint& c = *link.constraint;
+    return through_limits(link, local, [&](const glm::dquat& R) {
+        const glm::dquat before = glm::conjugate(link.rest_frame) * link.local * link.frame;
+        const auto depth = [&](const glm::dquat& rotation) {
+            return angle_between(quick_legal_rotation(c.model, c.euler_order, c.inner, rotation), rotation);
+        };
+        const double in_zone = depth(R);
+        const bool goes_deeper = in_zone > 0.0 && in_zone > depth(before);
+        return quick_legal_rotation(c.model, c.euler_order, c.shape, goes_deeper ? between(before, R, 0.5) : R);
+    });
+}
+
+glm::dvec3 preferred_side(const Constraint& constraint) {
+    const auto& preferred = constraint.record.preferred;
+    const glm::dvec3 said(preferred[0], preferred[1], preferred[2]);
+    if (said != glm::dvec3(0.0)) return said;
+    const LimitShape& shape = constraint.shape;
+    const auto middle = [&](std::size_t axis) {
+        return shape.angles.at(axis).half < trig::kPi ? shape.angles.at(axis).middle : 0.0;
+    };
+    const auto swing = [&](std::size_t side) {  // free: infinite, and then as far as half a turn
+        return std::min(shape.swing_high.at(side), 1.0) - std::min(shape.swing_low.at(side), 1.0);
+    };
+    switch (constraint.model) {
+        case LimitModel::hinge:
+            return {middle(0), 0.0, 0.0};
+        case LimitModel::swing_twist_ellipse:
+        case LimitModel::swing_twist_pyramid:
+            return {middle(0), swing(0), swing(1)};
+        case LimitModel::euler_box:
+            return {middle(0), middle(1), middle(2)};
+        default:
+            return glm::dvec3(0.0);
+    }
+}
+
+glm::dvec3 only_axis(const Constraint& constraint) {
+    const LimitShape& shape = constraint.shape;
+    const auto has_width = [&](std::size_t side) {
+        constexpr double kNarrow = 1e-6;  // radians
+        return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
+    };
+    switch (constraint.model) {
+        case LimitModel::hinge:
+            return {1.0, 0.0, 0.0};
+        case LimitModel::swing_twist_ellipse:
+        case LimitModel::swing_twist_pyramid:
+            if (has_width(0) == has_width(1)) return glm::dvec3(0.0);
+            return {0.0, has_width(0) ? 1.0 : 0.0, has_width(1) ? 1.0 : 0.0};
+        default:
+            return glm::dvec3(0.0);
+    }
+}
+
+glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector) {
+    const glm::dquat axes = link.global * link.frame;
+    return axes * (link.freedom * (glm::conjugate(axes) * vector));
+}
+
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation) {
+    IkLink& l = problem.links[link];
+    const bool is_whole = l.freedom == glm::dvec3(1.0);
+    const glm::dquat turn = is_whole ? rotation : from_vector(freed(l, to_vector(rotation)));
+    const glm::dquat parent = problem.parent_global(link);
+    const glm::dquat before = l.global;
+    l.local = softly_legal_local(l, glm::normalize(glm::conjugate(parent) * (turn * l.global)));
+    l.global = parent * l.local;
+    return l.global * glm::conjugate(before);
+}
+
+glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector) {
+    return turn_link(problem, link, from_vector(vector));
+}
+
+void point_at_target(IkProblem& problem) {
+    for (std::size_t i = 0; i < problem.links.size(); ++i) {
+        const IkLink& link = problem.links[i];
+        if (link.is_fixed || link.bone_length == 0.0) continue;
+        turn_link(problem, i, between(link.global * link.bone, problem.target - link.position));
+        problem.place_next(i);
+    }
+    problem.place();
+}
+
+}  // namespace bendy

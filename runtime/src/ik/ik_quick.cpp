@@ -1,0 +1,368 @@
+#include "ik_quick.h"
+
+#include "ik_problem.h"
+#include "math/nearest_rotation.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+// Inlined even where a compiler finds that too much: calls cost as much as what they do.
+#define BENDY_INLINE [[gnu::always_inline]] inline
+
+BENDY_INLINE double squared(const glm::dvec3& v) {
+    return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+BENDY_INLINE double squared(const glm::dquat& q) {
+    return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+}
+
+BENDY_INLINE glm::dvec3 vector_of(const glm::dquat& q) {
+    return {q.x, q.y, q.z};
+}
+
+/// The vector turned by a unit quaternion.
+BENDY_INLINE glm::dvec3 turned(const glm::dquat& q, const glm::dvec3& v) {
+    const glm::dvec3 u = vector_of(q);
+    const glm::dvec3 across = glm::cross(u, v) * 2.0;
+    return v + across * q.w + glm::cross(u, across);
+}
+
+/// The same rotation as unit x, y and z axes; the sign is that nearest to `like`.
+BENDY_INLINE glm::dquat rotation_of(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z,
+                                    const glm::dquat& like) {
+    const glm::dquat q = glm::quat_cast(glm::dmat3(x, y, z));
+    return q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0 ? -q : q;
+}
+
+/// A direction seen along another: the unit vector across both, which make a plane.
+BENDY_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dvec3& normal) {
+    constexpr double kClear = 1e-12;
+    normal = glm::cross(a, b);
+    const double size = squared(normal);
+    if (!(size > kClear * squared(a) * squared(b))) return false;
+    normal *= 1.0 / std::sqrt(size);
+    return true;
+}
+
+/// False for a quaternion without a direction, and for what is no number.
+BENDY_INLINE bool normalize(glm::dquat& q) {
+    const double length = squared(q);
+    constexpr double kLeast = 1e-200, kMost = 1e200;
+    if (!(length > kLeast && length < kMost)) return false;
+    q = q * (1.0 / std::sqrt(length));
+    return true;
+}
+
+/// A joint's rotation made unit; false if it is farther from that than rounding takes it.
+BENDY_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotation) {
+    const glm::dquat q(joint.rotation);
+    const double off = squared(q) - 1.0;
+    constexpr double kMost = 1e-5;
+    rotation = q * (1.0 - 0.5 * off);
+    return std::abs(off) < kMost;
+}
+
+/// One scale for all axes, and no shear.
+BENDY_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
+    const glm::vec3& scale = transform.scale;
+    return scale.x == scale.y && scale.x == scale.z && scale.x > 0.0f && joint.shear == glm::vec3(0.0f);
+}
+
+/// The point of model space as the base's space has it; not finite where the base is flat.
+BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& point) {
+    const glm::dvec3 x(base[0]), y(base[1]), z(base[2]);
+    const glm::dvec3 way = point - glm::dvec3(base[3]);
+    const glm::dvec3 across = glm::cross(y, z);
+    const double volume = 1.0 / glm::dot(x, across);
+    return glm::dvec3(glm::dot(way, across), glm::dot(way, glm::cross(z, x)), glm::dot(way, glm::cross(x, y))) * volume;
+}
+
+/// A joint's constraint while the chain is solved.
+class Limit {
+public:
+    BENDY_INLINE Limit(const Model& model, std::uint32_t joint, const ReachOptions& options)
+        : constraint_(options.obey_constraints ? model.ik_constraint(joint) : nullptr),
+          rest_(&model.joints()[joint].rest) {}
+
+    BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
+    BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == LimitModel::hinge; }
+    [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
+    /// Whether it says nothing but which rotations there are.
+    BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
+    /// The hinge's axis in the parent's space, for a unit rotation.
+    [[nodiscard]] glm::dvec3 axis(const glm::dquat& local) const {
+        return turned(local, turned(constraint_->frame, {1.0, 0.0, 0.0}));
+    }
+
+    enum class Side : std::uint8_t { inside, edge, outside };
+    /// Where a unit rotation lies; the edge is what rounding could take to either side.
+    BENDY_INLINE Side side(const glm::dquat& local) const { return is_there() ? find_side(local) : Side::inside; }
+    BENDY_INLINE bool holds(const glm::dquat& local) const { return side(local) == Side::inside; }
+
+private:
+    [[nodiscard]] bool says_rotations_only() const {
+        return constraint_->model != LimitModel::locked && !constraint_->has_soft_zone &&
+               constraint_->stiffness == glm::dvec3(0.0);
+    }
+    [[nodiscard]] Side find_side(const glm::dquat& local) const {
+        const glm::dquat& frame = constraint_->frame;
+        const glm::dquat rest = glm::normalize(glm::dquat(rest_->rotation));
+        const glm::dquat R = glm::conjugate(rest * frame) * local * frame;
+        const glm::dquat legal =
+            quick_legal_rotation(constraint_->model, constraint_->euler_order, constraint_->shape, R);
+        const double off = 4.0 * squared(vector_of(glm::conjugate(legal) * R));  // angle squared
+        constexpr double kInside = 1e-7, kOutside = 2e-6;
+        if (off < kInside * kInside) return Side::inside;
+        return off > kOutside * kOutside ? Side::outside : Side::edge;
+    }
+
+    const Constraint* constraint_;
+    const JointTransform* rest_;
+};
+
+/// What the chain bends or rolls towards, seen from its start, in the base's space; false if it has no pole.
+BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dmat4& base,
+                            const glm::dvec3& origin, glm::dvec3& pole) {
+    const auto& vector = chain.record.pole_vector;
+    pole = {vector[0], vector[1], vector[2]};
+    if (options.pole) {
+        pole = from_model(base, *options.pole) - origin;
+    } else if (chain.pole != kNone) {
+        pole = from_model(base, glm::dvec3(joint_to_model(pose, chain.pole)[3])) - origin;
+    } else {
+        return pole != glm::dvec3(0.0);
+    }
+    return true;
+}
+
+/// In lengths of the base's space, as `length` is.
+BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, const glm::dmat4& base,
+                                 double length) {
+    const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
+    constexpr double kOfLength = 1e-4, kLeast = 1e-9;
+    if (!(tolerance > 0.0f)) return kOfLength * length;
+    const double scale =
+        std::max({squared(glm::dvec3(base[0])), squared(glm::dvec3(base[1])), squared(glm::dvec3(base[2]))});
+    return std::max(double{tolerance} / std::sqrt(scale), kLeast * length);
+}
+
+/// How long a vector of the base's space is in model space, metres.
+BENDY_INLINE float length_in_model(const glm::dmat4& base, const glm::dvec3& v) {
+    return static_cast<float>(std::sqrt(squared(glm::dmat3(base) * v)));
+}
+
+/// How the middle joint bends: the rest of the chain turns about a unit axis, in the start's axes.
+struct Bend {
+    glm::dvec3 bone;    ///< start to middle
+    glm::dvec3 axis;    ///< of the turn
+    glm::dvec3 across;  ///< middle to tip, what turns of it
+    glm::dvec3 along;   ///< and what stays
+    double b, c;        ///< bone on `across` as it is turned by an angle: b cos + c sin
+    double wanted;      ///< what that must be
+    double most;        ///< b^2 + c^2
+    double opening;     ///< sqrt(most - wanted^2): to either side of where the chain is straight
+};
+
+struct Turn {
+    double cosine, sine;
+};
+
+/// To one side, -1 or 1.
+BENDY_INLINE Turn turn_to(const Bend& bend, double side) {
+    const double share = 1.0 / bend.most;
+    return {(bend.b * bend.wanted + side * bend.c * bend.opening) * share,
+            (bend.c * bend.wanted - side * bend.b * bend.opening) * share};
+}
+
+/// False where the chain is straight or cannot be as long as `distance`, squared.
+BENDY_INLINE bool find_bend(const Limit& limit, const glm::dquat& local, const glm::dvec3& rest, double distance,
+                            Bend& bend) {
+    const double sizes = squared(bend.bone) * squared(rest);
+    constexpr double kStraight = 1e-8;
+    double along = 0.0;
+    bend.across = rest;
+    bend.along = glm::dvec3(0.0);
+    if (limit.is_hinge()) {
+        bend.axis = limit.axis(local);
+        bend.along = bend.axis * glm::dot(rest, bend.axis);
+        bend.across = rest - bend.along;
+        along = glm::dot(bend.bone, bend.along);
+        bend.b = glm::dot(bend.bone, bend.across);
+        bend.c = glm::dot(bend.bone, glm::cross(bend.axis, bend.across));
+        bend.most = bend.b * bend.b + bend.c * bend.c;
+    } else {
+        const glm::dvec3 normal = glm::cross(bend.bone, rest);
+        const double size = squared(normal);
+        if (!(size > kStraight * sizes)) return false;
+        bend.c = -std::sqrt(size);
+        bend.axis = normal * (-1.0 / bend.c);
+        bend.b = glm::dot(bend.bone, rest);
+        bend.most = sizes;
+    }
+    bend.wanted = 0.5 * (distance - squared(bend.bone) - squared(rest)) - along;
+    const double left = bend.most - bend.wanted * bend.wanted;
+    if (!(bend.most > kStraight * sizes && left > kStraight * bend.most)) return false;
+    bend.opening = std::sqrt(left);
+    return true;
+}
+
+/// The middle joint's rotation before the turn as it is after it; false if that is half around.
+BENDY_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const glm::dquat& before, glm::dquat& after) {
+    after = glm::dquat(1.0 + turn.cosine, bend.axis * turn.sine) * before;
+    constexpr double kHalfAround = 1e-9;
+    return 1.0 + turn.cosine > kHalfAround && normalize(after);
+}
+
+/// The smaller turn, or a hinge's other one; false if the limits leave no side, or no clear one.
+BENDY_INLINE bool bend_middle(const Limit& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
+    const glm::dquat before = local;
+    turn = turn_to(bend, -1.0);
+    if (!limit.is_there()) return turn_middle(bend, turn, before, local);
+    Turn other = turn;
+    if (limit.is_hinge()) other = turn_to(bend, 1.0);
+    constexpr double kSame = 1e-6;
+    const double gain = other.cosine - turn.cosine;
+    if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
+    if (!turn_middle(bend, turn, before, local)) return false;
+    const Limit::Side side = limit.side(local);
+    if (side != Limit::Side::outside) return side == Limit::Side::inside;
+    turn = other;
+    return limit.is_hinge() && turn_middle(bend, turn, before, local) && limit.holds(local);
+}
+
+/// The start's rotation with the tip, at `reached` in the start's axes, in the way's direction by the smallest turn.
+BENDY_INLINE bool aim_start(const glm::dvec3& reached, const glm::dvec3& way, double distance, glm::dquat& rotation) {
+    const glm::dvec3 from = turned(rotation, reached);  // as long as the way
+    const glm::dquat turn(distance + glm::dot(from, way), glm::cross(from, way));
+    rotation = turn * rotation;
+    constexpr double kOpposite = 1e-9;
+    return turn.w > kOpposite * distance && normalize(rotation);
+}
+
+std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget& target, Pose& pose,
+                                          const ReachOptions& options) {
+    const Model& model = pose.model();
+    const auto joints = model.joints();
+    const auto local = std::as_const(pose).local();
+    const std::uint32_t tip = chain.effector;
+    const std::uint32_t middle = joints[tip].parent;
+    const std::uint32_t start = chain.start;
+    glm::dquat upper, lower, end;
+    const bool is_plain = is_even(local[start], joints[start]) && is_even(local[middle], joints[middle]) &&
+                          read_rotation(local[start], upper) && read_rotation(local[middle], lower) &&
+                          read_rotation(local[tip], end);
+    if (!is_plain) return std::nullopt;
+    const Limit upper_limit(model, start, options);
+    const Limit lower_limit(model, middle, options);
+    const Limit end_limit(model, tip, options);
+    const bool is_legal = upper_limit.is_plain() && lower_limit.is_plain() && end_limit.is_plain() &&
+                          !upper_limit.is_hinge() && upper_limit.holds(upper) && lower_limit.holds(lower) &&
+                          end_limit.holds(end);
+    if (!is_legal) return std::nullopt;
+
+    const glm::dmat4 base = joint_to_model(pose, joints[start].parent);
+    const glm::dvec3 origin(local[start].translation);
+    const glm::dvec3 way = from_model(base, target.position) - origin;
+    const double distance = squared(way);
+    const double scale = local[start].scale.x;
+    Bend bend;
+    bend.bone = scale * glm::dvec3(local[middle].translation);
+    const glm::dvec3 rest = turned(lower, scale * local[middle].scale.x * glm::dvec3(local[tip].translation));
+    Turn turn{};
+    if (!find_bend(lower_limit, lower, rest, distance, bend) || !bend_middle(lower_limit, bend, lower, turn))
+        return std::nullopt;
+    const glm::dvec3 reached =
+        bend.bone + bend.along + bend.across * turn.cosine + glm::cross(bend.axis, bend.across) * turn.sine;
+
+    glm::dvec3 pole;
+    if (!find_pole(chain, pose, options, base, origin, pole)) {
+        if (!aim_start(reached, way, distance, upper)) return std::nullopt;
+    } else {
+        // From the tip's direction and the side of the knee to the target's direction and the side of the pole.
+        glm::dvec3 from_z = -bend.axis, to_z;
+        if (chain.record.pole_angle != 0.0f || !find_normal(way, pole, to_z) ||
+            (lower_limit.is_hinge() && !find_normal(reached, bend.bone, from_z)))
+            return std::nullopt;
+        const double unit = 1.0 / std::sqrt(distance);
+        const glm::dvec3 from_x = reached * unit, to_x = way * unit;
+        const glm::dvec3 from_y = glm::cross(from_z, from_x), to_y = glm::cross(to_z, to_x);
+        upper = rotation_of(to_x * from_x.x + to_y * from_y.x + to_z * from_z.x,
+                            to_x * from_x.y + to_y * from_y.y + to_z * from_z.y,
+                            to_x * from_x.z + to_y * from_y.z + to_z * from_z.z, upper);
+    }
+    if (!upper_limit.holds(upper)) return std::nullopt;
+
+    const double length = std::sqrt(squared(bend.bone)) + std::sqrt(squared(rest));
+    const double left = std::abs(std::sqrt(squared(reached)) - std::sqrt(distance));  // the direction is right
+    if (!(left <= tolerance_of(chain, options, base, length)) || !(squared(upper) > 0.5)) return std::nullopt;
+    const auto changed = pose.change_local();
+    changed[start].rotation = glm::quat(upper);
+    changed[middle].rotation = glm::quat(lower);
+    return ReachResult{ReachStatus::reached, length_in_model(base, way * (left / std::sqrt(distance))), 0.0f, 1};
+}
+
+std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& target, Pose& pose,
+                                     const ReachOptions& options) {
+    const Model& model = pose.model();
+    const std::uint32_t joint = chain.start;
+    const JointTransform& transform = std::as_const(pose).local()[joint];
+    const Limit limit(model, joint, options);
+    const auto& turned_tip = chain.record.tip_rotation;
+    glm::dquat rotation;
+    glm::dquat tip(turned_tip[3], turned_tip[0], turned_tip[1], turned_tip[2]);
+    constexpr double kOdd = 1e4;  // of a squared length: what is no rotation is for the long way
+    const bool is_plain = read_rotation(transform, rotation) && limit.is_plain() && !limit.is_hinge() &&
+                          limit.holds(rotation) && squared(tip) < kOdd && kOdd * squared(tip) > 1.0 && normalize(tip);
+    if (!is_plain) return std::nullopt;
+    const glm::dmat4 base = joint_to_model(pose, model.joints()[joint].parent);
+    const glm::dvec3 origin(transform.translation);
+    const glm::dvec3 way = from_model(base, target.position) - origin;
+    const double distance = std::sqrt(squared(way));
+    const glm::dvec3 ahead = way * (1.0 / distance);
+    const glm::dvec3 forward = turned(rotation, turned(tip, {0.0, 0.0, 1.0}));
+    const glm::dquat turn(1.0 + glm::dot(forward, ahead), glm::cross(forward, ahead));
+    const double tolerance = tolerance_of(chain, options, base, 1.0);
+    // What looks at the target already stays as it is; behind the back there is no nearest way round.
+    constexpr double kOpposite = 1e-4;
+    if (!(squared(vector_of(turn)) > 4.0 * tolerance * tolerance && turn.w > kOpposite)) return std::nullopt;
+    glm::dvec3 pole;
+    if (!find_pole(chain, pose, options, base, origin, pole)) {
+        rotation = turn * rotation;
+        if (!normalize(rotation)) return std::nullopt;
+    } else {
+        glm::dvec3 aside;
+        // Limits may stop the turn before the roll makes it legal.
+        if (limit.is_there() || chain.record.pole_angle != 0.0f || !find_normal(pole, way, aside)) return std::nullopt;
+        const glm::dquat look = rotation_of(aside, glm::cross(ahead, aside), ahead, rotation * tip);
+        rotation = look * glm::conjugate(tip);
+    }
+    if (!limit.holds(rotation) || !(squared(rotation) > 0.5)) return std::nullopt;
+    pose.change_local()[joint].rotation = glm::quat(rotation);
+    return ReachResult{ReachStatus::aimed, length_in_model(base, way), 0.0f, 1};
+}
+
+#undef BENDY_INLINE
+
+}  // namespace
+
+std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
+                                         const ReachOptions& options) {
+    constexpr std::uint32_t kTwoBones = 3;  // links, the effector counted
+    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver;
+    const bool is_aim = solver == Solver::aim && chain.links == 1;
+    const bool is_two_bone = (solver == Solver::any || solver == Solver::two_bone) && chain.links == kTwoBones;
+    const ChainRecord& record = chain.record;
+    const bool is_plain = options.influence == 1.0f && options.softness == 0.0f && !target.rotation &&
+                          !(record.stretch > 0.0f) && !(record.compress > 0.0f) && std::isfinite(record.pole_angle) &&
+                          record.tip_offset == std::array{0.0f, 0.0f, 0.0f};
+    if (!is_plain || !(is_aim || is_two_bone) || !pose.model().chain_weights(chain).empty()) return std::nullopt;
+    return is_aim ? reach_aim(chain, target, pose, options) : reach_two_bone(chain, target, pose, options);
+}
+
+}  // namespace bendy

@@ -1,0 +1,228 @@
+#include "ik_problem.h"
+#include "math/rotation.h"
+
+#include <bendy/format/trig.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Two bones in closed form: the middle joint turns until the tip is as far from the start as the target is, then the
+// start turns the tip to the target, and about the line between them until the bend looks to the pole.
+namespace bendy {
+namespace {
+
+constexpr double kSameTurn = 1e-6;  // radians, and cosines: what rounding could take to either side
+
+double length_of(const glm::dvec3& v) {
+    return std::sqrt(glm::dot(v, v));
+}
+
+/// The link that bends: the one that parts the chain most evenly.
+std::size_t find_middle(const IkProblem& problem) {
+    std::size_t middle = 0;
+    double best = 0.0;
+    for (std::size_t i = 1; i < problem.links.size(); ++i) {
+        const glm::dvec3& position = problem.links[i].position;
+        const double shorter = std::min(length_of(position - problem.origin), length_of(problem.tip - position));
+        if (problem.links[i].is_fixed || shorter <= best) continue;
+        best = shorter;
+        middle = i;
+    }
+    return middle;
+}
+
+/// The axis about which the middle joint bends, not of unit length.
+glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::dvec3& u, const glm::dvec3& v) {
+    if (middle.constraint != nullptr && middle.constraint->model == LimitModel::hinge)
+        return middle.global * (middle.frame * glm::dvec3(1.0, 0.0, 0.0));
+    const double size = length_of(u) * length_of(v);
+    glm::dvec3 axis = glm::cross(u, v);
+    constexpr double kStraight = 1e-6;
+    if (length_of(axis) > kStraight * size) return axis;
+    if (problem.has_pole) {
+        axis = glm::cross(problem.pole - problem.origin, u);
+        if (length_of(axis) > kStraight * length_of(u)) return axis;
+    }
+    // A straight chain bends the way its joint prefers, else about the more crosswise of its axes.
+    const glm::dquat axes = middle.global * middle.frame;
+    if (middle.constraint != nullptr) {
+        axis = axes * preferred_side(*middle.constraint);
+        axis -= u * (glm::dot(axis, u) / glm::dot(u, u));
+        if (length_of(axis) > kStraight) return axis;
+    }
+    const glm::dvec3 x = glm::cross(u, axes * glm::dvec3(1.0, 0.0, 0.0));
+    const glm::dvec3 z = glm::cross(u, axes * glm::dvec3(0.0, 0.0, 1.0));
+    return glm::dot(x, x) > glm::dot(z, z) ? glm::cross(x, u) : glm::cross(z, u);
+}
+
+/// How far a turn of the link would take it outside its constraint, radians.
+double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& turn) {
+    const IkLink& l = problem.links[link];
+    if (l.constraint == nullptr) return 0.0;
+    const glm::dquat local = glm::conjugate(problem.parent_global(link)) * turn * l.global;
+    return angle_between(legal_local(l, local), local);
+}
+
+struct MiddleTurn {
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    double illegality = 0.0;  ///< radians
+};
+
+/// The turn of the middle joint about `axis` that takes the tip as far from the start as `distance`, or as near to that
+/// as it gets.
+MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
+    const IkLink& link = problem.links[middle];
+    const glm::dvec3 u = link.position - problem.origin;
+    const glm::dvec3 v = problem.tip - link.position;
+    const double size = length_of(axis);
+    if (size < 1e-12) return {};
+    const glm::dvec3 h = axis / size;
+    // |u + turned v| = distance:  along + b cos(f) + c sin(f) = wanted, f the turn about h.
+    const double wanted = 0.5 * (distance * distance - glm::dot(u, u) - glm::dot(v, v));
+    const double along = glm::dot(u, h) * glm::dot(v, h);
+    const glm::dvec3 across = v - h * glm::dot(v, h);
+    const double b = glm::dot(u, across);
+    const double c = glm::dot(u, glm::cross(h, across));
+    const double most = std::sqrt(b * b + c * c);
+    if (most < 1e-12) return {};
+    // f is the opening to one side or the other of where the chain is straight; as cosine and sine.
+    const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
+    const double sine = std::sqrt(1.0 - open * open);
+    const auto turn = [&](double side) {
+        const glm::dvec2 f((b * open + side * c * sine) / most, (c * open - side * b * sine) / most);
+        // Half of it, the short way.
+        const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
+        return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
+    };
+    const MiddleTurn one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
+    const MiddleTurn other{turn(1.0), illegality(problem, middle, turn(1.0))};
+    const double excess = one.illegality - other.illegality;
+    const bool is_smaller = std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w
+                                                                            : hinge_prefers_back(link.constraint);
+    return excess > kSameTurn || (excess > -kSameTurn && is_smaller) ? other : one;
+}
+
+/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
+void bend(IkProblem& problem, std::size_t middle, double distance) {
+    IkLink& link = problem.links[middle];
+    const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
+    MiddleTurn best = find_middle_turn(problem, middle, axis, distance);
+    if (best.illegality > kSameTurn) {
+        // From rest the way that the constraint allows most.
+        const glm::dquat before = link.local;
+        link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
+        problem.place(middle);
+        const glm::dvec3 preferred = link.global * (link.frame * preferred_side(*link.constraint));
+        const MiddleTurn other = find_middle_turn(problem, middle, preferred, distance);
+        if (other.illegality < best.illegality && preferred != glm::dvec3(0.0)) {
+            best = other;
+        } else {
+            link.local = before;
+            problem.place(middle);
+        }
+    }
+    turn_link(problem, middle, best.turn);
+    problem.place(middle);
+}
+
+/// The turn about `axis`, the line from start to target, that takes the bend, at `knee` from the start, to the pole.
+glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm::dvec3& axis) {
+    const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(axis, v); };
+    const glm::dvec3 bend = across(knee);
+    glm::dvec3 pole = across(problem.pole - problem.origin);
+    if (length_of(bend) < 1e-9 || length_of(pole) < 1e-9) return {1.0, 0.0, 0.0, 0.0};
+    if (problem.pole_angle != 0.0) pole = from_vector(axis * problem.pole_angle) * pole;
+    const glm::dquat turn = between(bend, pole);
+    return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
+}
+
+/// The turn about `axis`, of all around, that takes the start least outside its constraint: of the legal ones the
+/// smallest, to either side, so that a mirrored chain turns the other way.
+glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const glm::dvec3& axis) {
+    constexpr int kTurns = 24;
+    constexpr double kStep = 2.0 * trig::kPi / kTurns;
+    constexpr double kLegal = 1e-9;  // radians
+    const auto badness = [&](double angle) { return illegality(problem, 0, from_vector(axis * angle) * aimed); };
+    double best = 0.0;
+    double least = illegality(problem, 0, aimed);
+    const auto consider = [&](double angle) {
+        const double here = badness(angle);
+        if (here >= least) return;
+        least = here;
+        best = angle;
+    };
+    /// The smallest legal turn of this side, the one before `legal` on the ring being illegal.
+    const auto edge = [&](double legal) {
+        double illegal = legal - std::copysign(kStep, legal);
+        constexpr double kNear = 1e-6;
+        while (std::abs(legal - illegal) > kNear) {
+            const double middle = 0.5 * (legal + illegal);
+            (badness(middle) > kLegal ? illegal : legal) = middle;
+        }
+        return legal;
+    };
+    for (int i = 1; i <= kTurns / 2 && least > kLegal; ++i) {
+        const double there = badness(kStep * i);
+        const double back = badness(-kStep * i);
+        if (there <= kLegal || back <= kLegal) {
+            constexpr double kMore = 4.0;  // than half a turn
+            const double one = there <= kLegal ? edge(kStep * i) : kMore;
+            const double other = back <= kLegal ? edge(-kStep * i) : -kMore;
+            best = one <= -other ? one : other;
+            least = 0.0;
+        } else {
+            consider(there <= back ? kStep * i : -kStep * i);
+        }
+    }
+    for (double step = 0.5 * kStep; step > 1e-7 && least > kLegal; step *= 0.5) {
+        const double middle = best;
+        consider(middle - step);
+        consider(middle + step);
+    }
+    return best == 0.0 ? aimed : from_vector(axis * best) * aimed;
+}
+
+}  // namespace
+
+bool hinge_prefers_back(const Constraint* constraint) {
+    return constraint != nullptr && constraint->model == LimitModel::hinge && preferred_side(*constraint).x < 0.0;
+}
+
+void soften_target(IkProblem& problem) {
+    const std::size_t middle = find_middle(problem);
+    const glm::dvec3 way = problem.target - problem.origin;
+    const double distance = length_of(way);
+    if (middle == 0 || !(distance > 1e-12)) return;
+    const glm::dvec3& knee = problem.links[middle].position;
+    const double full = length_of(knee - problem.origin) + length_of(problem.tip - knee);
+    const double zone = full * std::clamp(double{problem.options->softness}, 0.0, 1.0);
+    const double hard = full - zone;
+    if (!(zone > 0.0) || distance <= hard) return;
+    const double past = (distance - hard) / zone;
+    problem.target = problem.origin + way * ((hard + zone * past / (1.0 + past)) / distance);
+}
+
+std::uint32_t solve_two_bone(IkProblem& problem) {
+    const std::size_t middle = find_middle(problem);
+    if (middle == 0) return solve_ccd(problem);  // there are no two bones
+    const glm::dvec3& knee = problem.links[middle].position;
+    const double distance = length_of(problem.target - problem.origin);
+    bend(problem, middle, distance);
+    const glm::dvec3 way = problem.target - problem.origin;
+    glm::dquat aim = between(problem.tip - problem.origin, way);
+    if (distance > 1e-12) {
+        const glm::dvec3 axis = way / distance;
+        if (problem.has_pole) aim = pole_turn(problem, aim * (knee - problem.origin), axis) * aim;
+        if (problem.links[0].constraint != nullptr) aim = best_swivel(problem, aim, axis);
+    }
+    turn_link(problem, 0, aim);
+    problem.place();
+    const std::size_t last = problem.links.size() - 1;
+    if (problem.has_rotation && last > middle && problem.links[last].bone_length == 0.0) {
+        turn_link(problem, last, problem.target_rotation * glm::conjugate(problem.tip_global));
+        problem.place(last);
+    }
+    return 1;
+}
+
+}  // namespace bendy

@@ -1,0 +1,71 @@
+#include <bendy/runtime/kernels.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+
+namespace bendy {
+namespace {
+
+constexpr std::array<std::string_view, 5> kNames{"plain", "sse4", "avx2", "neon", "wasm"};
+
+struct Available {
+    std::array<Kernel, kNames.size()> kernels{};
+    std::size_t count = 0;
+    void add(Kernel kernel) { kernels[count++] = kernel; }
+};
+
+Available find_available() {
+    Available found;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) found.add(Kernel::avx2);
+    if (__builtin_cpu_supports("sse4.1") != 0) found.add(Kernel::sse4);
+#elif defined(__aarch64__)
+    found.add(Kernel::neon);
+#elif defined(__wasm_simd128__)
+    found.add(Kernel::wasm);
+#endif
+    found.add(Kernel::plain);
+    return found;
+}
+
+Kernel first_choice() {
+    const char* const wanted = std::getenv("BENDY_KERNEL");
+    if (wanted != nullptr) {
+        for (const Kernel kernel : kernels()) {
+            if (kernel_name(kernel) == wanted) return kernel;
+        }
+    }
+    return kernels().front();
+}
+
+std::atomic<Kernel>& chosen() {
+    static std::atomic<Kernel> kernel = first_choice();
+    return kernel;
+}
+
+}  // namespace
+
+std::span<const Kernel> kernels() {
+    static const Available available = find_available();
+    return std::span(available.kernels).first(available.count);
+}
+
+std::string_view kernel_name(Kernel kernel) {
+    return kNames[static_cast<std::size_t>(kernel)];
+}
+
+Kernel kernel() {
+    return chosen().load(std::memory_order_relaxed);
+}
+
+bool set_kernel(Kernel kernel) {
+    const auto available = kernels();
+    if (std::find(available.begin(), available.end(), kernel) == available.end()) return false;
+    chosen().store(kernel, std::memory_order_relaxed);
+    return true;
+}
+
+}  // namespace bendy

@@ -1,0 +1,30 @@
+#include "plan/skin_block.h"
+
+#if defined(__AVX2__)
+
+#include <immintrin.h>
+
+namespace bendy {
+namespace skin_with_avx2 {
+namespace {
+
+#include "lanes_avx2.h"
+
+#include "skin_lanes.h"
+
+#include "dual_lanes.h"
+
+}  // namespace
+}  // namespace skin_with_avx2
+
+void skin_avx2(const SkinBlock& block) {
+    skin_with_avx2::skin_lanes(block);
+}
+
+void dual_avx2(const DualBlock& block) {
+    skin_with_avx2::dual_lanes(block);
+}
+
+}  // namespace bendy
+
+#endif

@@ -1,0 +1,510 @@
+// The body of the skinning kernels, included after lanes.h by one source for each instruction set, which also defines
+// between(lanes, least, most), inverse_roots_of(lanes) of numbers that are neither zero nor subnormal nor infinite,
+// stream(to, numbers) and end_streams(), and is compiled with that set's options.
+//
+// A chunk of vertices at a time, in two steps: first the blended matrix of each group of kLanes vertices and what it
+// makes of them, a lane a vertex; then lengths, and the way back to the caller's layout. Each step is one long chain
+// for a group; in small loops the processor has several groups at work.
+
+// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+
+template <class Numbers>
+struct MatrixOf {
+    Numbers at[3][4];
+};
+using Matrix = MatrixOf<Lanes>;
+
+constexpr std::size_t kChunk = 64;  // vertices, a multiple of kLanes
+
+/// A group's attributes on their way; directions are not of unit length yet.
+struct Moved {
+    Three positions, normals, tangents;
+    Lanes sides;
+};
+
+using Signs = decltype(Lanes{} < Lanes{});
+
+/// The sign bit where a number is below zero.
+inline Signs signs_of(Lanes lanes) {
+    return (lanes < 0.0f) & reinterpret_cast<Signs>(splat(-0.0f));
+}
+inline Lanes turned(Lanes lanes, Signs signs) {
+    return reinterpret_cast<Lanes>(reinterpret_cast<Signs>(lanes) ^ signs);
+}
+inline Three turned(const Three& v, Signs signs) {
+    return {turned(v.x, signs), turned(v.y, signs), turned(v.z, signs)};
+}
+
+template <bool streams, class Numbers>
+inline void put(float* to, const Numbers& numbers) {
+    if constexpr (streams) {
+        stream(to, numbers);
+    } else {
+        __builtin_memcpy(to, &numbers, sizeof numbers);
+    }
+}
+
+template <bool streams>
+inline void store_packed(const Three& v, float* to) {
+    const Lanes xy = shuffle<0, 2, 0, 2>(v.x, v.y);
+    const Lanes yz = shuffle<1, 3, 1, 3>(v.y, v.z);
+    const Lanes zx = shuffle<0, 2, 1, 3>(v.z, v.x);
+    const Lanes a = shuffle<0, 2, 0, 2>(xy, zx);
+    const Lanes b = shuffle<0, 2, 1, 3>(yz, xy);
+    const Lanes c = shuffle<1, 3, 1, 3>(zx, yz);
+#if BENDY_LANES == 8
+    put<streams>(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
+    put<streams>(to + 8, __builtin_shufflevector(c, a, 0, 1, 2, 3, 12, 13, 14, 15));
+    put<streams>(to + 16, __builtin_shufflevector(b, c, 4, 5, 6, 7, 12, 13, 14, 15));
+#else
+    put<streams>(to, quad_of<0>(a));
+    put<streams>(to + 4, quad_of<0>(b));
+    put<streams>(to + 8, quad_of<0>(c));
+#endif
+}
+
+/// `kept` of each four numbers at `stride`.
+template <int kept, bool streams>
+inline void store_apart(Lanes x, Lanes y, Lanes z, Lanes w, float* to, std::size_t stride) {
+    const auto put_vertex = [](float* vertex, Quad quad) {
+        if constexpr (kept == 4) {
+            put<streams>(vertex, quad);
+        } else {
+            __builtin_memcpy(vertex, &quad, kept * sizeof(float));
+        }
+    };
+    Lanes vertices[4];
+    transpose(x, y, z, w, vertices);
+    for (const Lanes& vertex : vertices) {
+        put_vertex(to, quad_of<0>(vertex));
+#if BENDY_LANES == 8
+        put_vertex(to + 4 * stride, quad_of<1>(vertex));
+#endif
+        to += stride;
+    }
+}
+
+/// What is known of a block before it runs: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if that
+/// is found out as it goes), that outputs are packed, and that they go past the caches.
+template <int kWanted, bool kPacked, bool kStreams>
+struct Form {
+    static constexpr int wanted = kWanted;
+    static constexpr bool packed = kPacked;
+    static constexpr bool streams = kStreams;
+};
+using AnyForm = Form<0, false, false>;
+
+template <class F>
+inline void store_three(const Three& v, const SkinOutput& out, std::size_t vertex) {
+    if constexpr (F::packed) {
+        store_packed<F::streams>(v, out.data + 3 * vertex);
+    } else if (out.stride == 3) {
+        store_packed<false>(v, out.data + 3 * vertex);
+    } else {
+        store_apart<3, false>(v.x, v.y, v.z, v.z, out.data + out.stride * vertex, out.stride);
+    }
+}
+
+template <class F, int kPart>
+inline bool wants(const SkinOutput& out) {
+    return F::wanted != 0 ? (F::wanted & kPart) != 0 : out.data != nullptr;
+}
+
+/// Of unit length. What has no length that floats can square stays as short as it is: zero stays zero.
+inline Three normalised(const Three& v) {
+    constexpr float kLeast = 1.17549435e-38f;
+    constexpr float kMost = 3.40282347e+38f;
+    const Lanes squares = v.x * v.x + (v.y * v.y + v.z * v.z);
+    const Lanes scale = inverse_roots_of(between(squares, splat(kLeast), splat(kMost)));
+    return {v.x * scale, v.y * scale, v.z * scale};
+}
+
+inline Three cross(const Lanes* a, const Lanes* b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Lanes dot(const Lanes* a, const Three& b) {
+    return a[0] * b.x + (a[1] * b.y + a[2] * b.z);
+}
+
+/// The first step of a group of kLanes vertices.
+template <class F>
+inline __attribute__((always_inline)) void move(const Matrix& matrix, const SkinBlock& block, std::size_t vertex,
+                                                Moved& moved) {
+    const auto& m = matrix.at;
+    if (wants<F, 1>(block.out_positions)) {
+        const Three v = load_three(block.positions + 3 * vertex);
+        moved.positions = {m[0][0] * v.x + (m[0][1] * v.y + (m[0][2] * v.z + m[0][3])),
+                           m[1][0] * v.x + (m[1][1] * v.y + (m[1][2] * v.z + m[1][3])),
+                           m[2][0] * v.x + (m[2][1] * v.y + (m[2][2] * v.z + m[2][3]))};
+    }
+    if (!wants<F, 2>(block.out_normals) && !wants<F, 4>(block.out_tangents)) return;
+    const Three area = cross(m[1], m[2]);
+    const Signs signs = signs_of(dot(m[0], area));
+    if (wants<F, 2>(block.out_normals)) {
+        // By the inverse transpose but for its length: the cofactors, which a matrix without an inverse has, too. Their
+        // rows are crosses of the matrix's; two of the three triple products have the cross of row 0 and the vector.
+        const Three v = load_three(block.normals + 3 * vertex);
+        const Lanes normal[3] = {v.x, v.y, v.z};
+        const Three across = cross(m[0], normal);
+        moved.normals = turned({dot(normal, area), dot(m[2], across), -dot(m[1], across)}, signs);
+    }
+    if (wants<F, 4>(block.out_tangents)) {
+        Lanes v[4];
+        load_four(block.tangents + 4 * vertex, v);
+        const Three tangent{v[0], v[1], v[2]};
+        moved.tangents = {dot(m[0], tangent), dot(m[1], tangent), dot(m[2], tangent)};
+        moved.sides = turned(v[3], signs);
+    }
+}
+
+/// The second step of those of the attributes `parts` (1, 2, 4) that are wanted.
+template <class F, int parts>
+inline __attribute__((always_inline)) void finish(const Moved* moved, const SkinBlock& block, std::size_t vertex,
+                                                  std::size_t count) {
+    for (const std::size_t end = vertex + count; vertex < end; vertex += kLanes, ++moved) {
+        if ((parts & 1) != 0 && wants<F, 1>(block.out_positions))
+            store_three<F>(moved->positions, block.out_positions, vertex);
+        if ((parts & 2) != 0 && wants<F, 2>(block.out_normals))
+            store_three<F>(normalised(moved->normals), block.out_normals, vertex);
+        if ((parts & 4) != 0 && wants<F, 4>(block.out_tangents)) {
+            const Three t = normalised(moved->tangents);
+            const std::size_t stride = F::packed ? 4 : block.out_tangents.stride;
+            store_apart<4, F::streams>(t.x, t.y, t.z, moved->sides, block.out_tangents.data + stride * vertex, stride);
+        }
+    }
+}
+
+/// What the chunk after the next one wants of a group. The processor foresees that by itself, but not across pages.
+template <class F>
+inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
+    const auto fetch = [&](const float* from, std::size_t numbers) {
+        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk));
+        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk) + 16);
+    };
+    fetch(block.positions, 3);
+    if (wants<F, 2>(block.out_normals)) fetch(block.normals, 3);
+    if (wants<F, 4>(block.out_tangents)) fetch(block.tangents, 4);
+}
+
+/// Whole groups, `count` vertices of them from `vertex` on; matrix_of(vertex) is a group's.
+template <class F, class Blend>
+inline __attribute__((always_inline)) void transform(const SkinBlock& block, std::size_t vertex, std::size_t count,
+                                                     const Blend& matrix_of) {
+    Moved moved[kChunk / kLanes];
+    if constexpr (F::wanted == 0) __builtin_memset(&moved, 0, sizeof moved);
+    for (std::size_t k = 0; k < count; k += kLanes) {
+        if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
+        move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
+    }
+    if constexpr (F::streams) {  // one attribute after another, so that whole cache lines are written
+        finish<F, 1>(moved, block, vertex, count);
+        finish<F, 2>(moved, block, vertex, count);
+        finish<F, 4>(moved, block, vertex, count);
+    } else {
+        finish<F, 7>(moved, block, vertex, count);
+    }
+}
+
+/// Fewer than kLanes vertices: with copies around them that are as long as a group.
+__attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBlock& block, std::size_t vertex) {
+    const std::size_t count = block.vertices - vertex;
+    float positions[3 * kLanes]{};
+    float normals[3 * kLanes]{};
+    float tangents[4 * kLanes]{};
+    SkinBlock copy = block;
+    const auto bring = [&](float* to, const float*& from, SkinOutput& out, std::size_t numbers) {
+        if (out.data == nullptr) return;
+        __builtin_memcpy(to, from + numbers * vertex, numbers * count * sizeof(float));
+        from = to;
+        out = {to, numbers};
+    };
+    bring(positions, copy.positions, copy.out_positions, 3);
+    bring(normals, copy.normals, copy.out_normals, 3);
+    bring(tangents, copy.tangents, copy.out_tangents, 4);
+    transform<AnyForm>(copy, 0, kLanes, [&](std::size_t) -> const Matrix& { return matrix; });
+    const auto take = [&](const float* from, const SkinOutput& out, std::size_t numbers) {
+        if (out.data == nullptr) return;
+        for (std::size_t k = 0; k < count; ++k)
+            __builtin_memcpy(out.data + (vertex + k) * out.stride, from + k * numbers, numbers * sizeof(float));
+    };
+    take(positions, block.out_positions, 3);
+    take(normals, block.out_normals, 3);
+    take(tangents, block.out_tangents, 4);
+}
+
+/// All of a block's vertices.
+template <class F, class Blend>
+inline __attribute__((always_inline)) void transform_all(const SkinBlock& block, const Blend& matrix_of) {
+    std::size_t vertex = 0;
+    while (block.vertices - vertex >= kLanes) {
+        const std::size_t left = block.vertices - vertex;
+        const std::size_t count = left < kChunk ? left - left % kLanes : kChunk;
+        transform<F>(block, vertex, count, matrix_of);
+        vertex += count;
+    }
+    if (vertex < block.vertices) transform_last(matrix_of(vertex), block, vertex);
+}
+
+/// What is blended for each vertex, on a cache line of its own; matrices as rows.
+struct Rows {
+    alignas(64) float of[kChunk][16];
+};
+
+/// To a row: sum(weight * matrix) over `used` influences.
+struct MatrixSum {
+    const PaletteMatrix* palette;
+
+    template <class Bone>
+    inline __attribute__((always_inline)) void operator()(const Bone* bones, const float* weights, std::size_t used,
+                                                          float* to) const {
+        const float* matrix = &palette[bones[0]].rows[0][0];
+#if BENDY_LANES == 8
+        Lanes weight = splat(weights[0]);
+        Lanes upper = weight * load_lanes(matrix);
+        Quad lower = quad_of<0>(weight) * load_quad(matrix + 8);
+        for (std::size_t k = 1; k < used; ++k) {
+            matrix = &palette[bones[k]].rows[0][0];
+            weight = splat(weights[k]);
+            upper += weight * load_lanes(matrix);
+            lower += quad_of<0>(weight) * load_quad(matrix + 8);
+        }
+        __builtin_memcpy(to, &upper, sizeof upper);
+        store_quad(to + 8, lower);
+#else
+        Quad a = weights[0] * load_quad(matrix);
+        Quad b = weights[0] * load_quad(matrix + 4);
+        Quad c = weights[0] * load_quad(matrix + 8);
+        for (std::size_t k = 1; k < used; ++k) {
+            matrix = &palette[bones[k]].rows[0][0];
+            a += weights[k] * load_quad(matrix);
+            b += weights[k] * load_quad(matrix + 4);
+            c += weights[k] * load_quad(matrix + 8);
+        }
+        store_quad(to, a);
+        store_quad(to + 4, b);
+        store_quad(to + 8, c);
+#endif
+    }
+};
+
+template <std::size_t used, class Sum, class Bone>
+inline void blend_group(const Sum& sum, const Bone* bones, const float* weights, std::size_t influences,
+                        float (*rows)[16]) {
+    for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
+}
+
+/// The last of four influences, from 1, that any vertex of a group has.
+inline std::size_t last_of_four(const float* weights, std::size_t influences) {
+    using Bits = unsigned __attribute__((vector_size(16)));
+    Bits any{};
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        Bits bits;
+        __builtin_memcpy(&bits, weights + k * influences, sizeof bits);
+        any |= bits;
+    }
+    if (any[3] != 0) return 4;
+    if (any[2] != 0) return 3;
+    return any[1] != 0 ? 2 : 1;
+}
+
+/// A group, each vertex with as many influences as the group has.
+template <class Sum, class Bone>
+inline void blend_any(const Sum& sum, const Bone* bones, const float* weights, std::size_t influences,
+                      float (*rows)[16]) {
+    std::size_t used = influences;
+    if (influences == 4 || (influences == 8 && last_of_four(weights + 4, 8) == 1)) {
+        used = last_of_four(weights, influences);
+        if (influences == 8) {
+            for (std::size_t k = 0; k < kLanes; ++k) {
+                if (weights[k * 8 + 4] != 0.0f) used = 8;
+            }
+        }
+    }
+    switch (used) {
+        case 1:
+            return blend_group<1>(sum, bones, weights, influences, rows);
+        case 2:
+            return blend_group<2>(sum, bones, weights, influences, rows);
+        case 3:
+            return blend_group<3>(sum, bones, weights, influences, rows);
+        case 4:
+            return blend_group<4>(sum, bones, weights, influences, rows);
+        default:
+            break;
+    }
+    for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
+}
+
+/// The `count` vertices from `vertex` on.
+template <class Sum, class Bone>
+__attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& block, const Bone* bones,
+                                           std::size_t vertex, std::size_t count, Rows& rows) {
+    std::size_t k = 0;
+    for (; count - k >= kLanes; k += kLanes) {
+        const std::size_t at = (vertex + k) * block.influences;
+        blend_any(sum, bones + at, block.weights + at, block.influences, rows.of + k);
+    }
+    for (; k < count; ++k) {
+        const std::size_t at = (vertex + k) * block.influences;
+        sum(bones + at, block.weights + at, block.influences, rows.of[k]);
+    }
+    if (count % kLanes != 0) __builtin_memset(rows.of + count, 0, (kLanes - count % kLanes) * sizeof rows.of[0]);
+}
+
+/// Four numbers of each row of a group, from `from` in the first one on.
+inline void turn_four(const float* from, Lanes* to) {
+    transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64),
+              to);
+}
+
+inline Matrix turn(const float (*rows)[16]) {
+    Matrix matrix;
+    for (std::size_t row = 0; row < 3; ++row) turn_four(&rows[0][4 * row], matrix.at[row]);
+    return matrix;
+}
+
+/// Chunk after chunk: blend(vertex, count) fills rows, and matrix_of(k) is that of the group from row k on.
+template <class F, class Blend, class MatrixOfRow>
+inline __attribute__((always_inline)) void transform_chunks(const SkinBlock& block, const Blend& blend,
+                                                            const MatrixOfRow& matrix_of) {
+    for (std::size_t vertex = 0; vertex < block.vertices;) {
+        const std::size_t count = block.vertices - vertex < kChunk ? block.vertices - vertex : kChunk;
+        const std::size_t whole = count - count % kLanes;
+        blend(vertex, count);
+        transform<F>(block, vertex, whole, [&](std::size_t at) { return matrix_of(at - vertex); });
+        if (whole < count) transform_last(matrix_of(whole), block, vertex + whole);
+        vertex += count;
+    }
+}
+
+template <class F, class Bone>
+void skin_blended(const SkinBlock& block, const Bone* bones) {
+    Rows rows;
+    transform_chunks<F>(
+        block,
+        [&](std::size_t vertex, std::size_t count) {
+            blend_chunk(MatrixSum{block.palette}, block, bones, vertex, count, rows);
+        },
+        [&](std::size_t k) { return turn(rows.of + k); });
+}
+
+template <class F>
+void skin_rigid(const SkinBlock& block) {
+    Matrix matrix;
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t column = 0; column < 4; ++column)
+            matrix.at[row][column] = splat(block.palette->rows[row][column]);
+    }
+    transform_all<F>(block, [&](std::size_t) -> const Matrix& { return matrix; });
+}
+
+#if BENDY_LANES == 8
+
+inline Eight load_eight(const float* from) {
+    Eight eight;
+    __builtin_memcpy(&eight, from, sizeof eight);
+    return eight;
+}
+
+/// sum(weight * matrix) for eight vertices at once, of `count` bones that they share.
+inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const PaletteMatrix* palette,
+                                                                   const std::uint16_t* bones, const float* weights,
+                                                                   std::size_t count) {
+    const float* matrix = &palette[bones[0]].rows[0][0];
+    Eight weight = load_eight(weights);
+    Eight m00 = weight * matrix[0], m01 = weight * matrix[1], m02 = weight * matrix[2], m03 = weight * matrix[3];
+    Eight m10 = weight * matrix[4], m11 = weight * matrix[5], m12 = weight * matrix[6], m13 = weight * matrix[7];
+    Eight m20 = weight * matrix[8], m21 = weight * matrix[9], m22 = weight * matrix[10], m23 = weight * matrix[11];
+    for (std::size_t k = 1; k < count; ++k) {
+        matrix = &palette[bones[k]].rows[0][0];
+        weight = load_eight(weights + 8 * k);
+        m00 += weight * matrix[0];
+        m01 += weight * matrix[1];
+        m02 += weight * matrix[2];
+        m03 += weight * matrix[3];
+        m10 += weight * matrix[4];
+        m11 += weight * matrix[5];
+        m12 += weight * matrix[6];
+        m13 += weight * matrix[7];
+        m20 += weight * matrix[8];
+        m21 += weight * matrix[9];
+        m22 += weight * matrix[10];
+        m23 += weight * matrix[11];
+    }
+    return {{{m00, m01, m02, m03}, {m10, m11, m12, m13}, {m20, m21, m22, m23}}};
+}
+
+/// As turned from lists of single vertices: for groups that share too many bones.
+__attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t vertex, Matrix& matrix) {
+    Rows rows;
+    const std::size_t count = block.vertices - vertex < kLanes ? block.vertices - vertex : kLanes;
+    if (block.bones16 != nullptr) {
+        blend_chunk(MatrixSum{block.palette}, block, block.bones16, vertex, count, rows);
+    } else {
+        blend_chunk(MatrixSum{block.palette}, block, block.bones8, vertex, count, rows);
+    }
+    matrix = turn(rows.of);
+}
+
+inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
+    const std::uint32_t* const first = block.plan_first + vertex / 8;
+    if (first[1] != first[0]) {
+        return blend_shared(block.palette, block.plan_bones + first[0], block.plan_weights + std::size_t{8} * first[0],
+                            first[1] - first[0]);
+    }
+    Matrix matrix;
+    blend_apart(block, vertex, matrix);
+    return matrix;
+}
+#endif
+
+template <class F>
+void skin_as(const SkinBlock& block) {
+#if BENDY_LANES == 8
+    if (block.plan_first != nullptr)
+        return transform_all<F>(block, [&](std::size_t vertex) { return blend_planned(block, vertex); });
+#endif
+    if (block.bones8 != nullptr) {
+        skin_blended<F>(block, block.bones8);
+    } else if (block.bones16 != nullptr) {
+        skin_blended<F>(block, block.bones16);
+    } else {
+        skin_rigid<F>(block);
+    }
+}
+
+inline bool is_packed(const SkinOutput& out, std::size_t numbers) {
+    return out.data == nullptr || out.stride == numbers;
+}
+inline bool is_aligned(const SkinOutput& out) {
+    return reinterpret_cast<std::uintptr_t>(out.data) % 16 == 0;
+}
+
+template <bool streams>
+void skin_packed(const SkinBlock& block, int wanted) {
+    switch (wanted) {
+        case 1:
+            return skin_as<Form<1, true, streams>>(block);
+        case 3:
+            return skin_as<Form<3, true, streams>>(block);
+        case 7:
+            return skin_as<Form<7, true, streams>>(block);
+        default:
+            return skin_as<AnyForm>(block);
+    }
+}
+
+void skin_lanes(const SkinBlock& block) {
+    const int wanted = (block.out_positions.data != nullptr ? 1 : 0) | (block.out_normals.data != nullptr ? 2 : 0) |
+                       (block.out_tangents.data != nullptr ? 4 : 0);
+    if (!is_packed(block.out_positions, 3) || !is_packed(block.out_normals, 3) || !is_packed(block.out_tangents, 4))
+        return skin_as<AnyForm>(block);
+    if (block.streams && is_aligned(block.out_positions) && is_aligned(block.out_normals) &&
+        is_aligned(block.out_tangents)) {
+        skin_packed<true>(block, wanted);
+        end_streams();
+        return;
+    }
+    skin_packed<false>(block, wanted);
+}
+// NOLINTEND(misc-definitions-in-headers)

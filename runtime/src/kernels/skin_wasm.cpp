@@ -1,0 +1,30 @@
+#include "plan/skin_block.h"
+
+#if defined(__wasm_simd128__)
+
+#include <wasm_simd128.h>
+
+namespace bendy {
+namespace skin_with_wasm {
+namespace {
+
+#include "lanes_wasm.h"
+
+#include "skin_lanes.h"
+
+#include "dual_lanes.h"
+
+}  // namespace
+}  // namespace skin_with_wasm
+
+void skin_wasm(const SkinBlock& block) {
+    skin_with_wasm::skin_lanes(block);
+}
+
+void dual_wasm(const DualBlock& block) {
+    skin_with_wasm::dual_lanes(block);
+}
+
+}  // namespace bendy
+
+#endif

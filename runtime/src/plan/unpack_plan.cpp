@@ -1,0 +1,139 @@
+#include "unpack_plan.h"
+
+#include "unpack_plain.h"
+
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy {
+namespace {
+
+static_assert(UnpackGroup::kLanes == kPackedGroup &&
+              UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
+static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
+
+/// Floats from a joint's transform to one of its properties.
+std::uint32_t place_in_joint(TrackPath path) {
+    if (path == TrackPath::rotation) return offsetof(JointTransform, rotation) / sizeof(float);
+    if (path == TrackPath::translation) return offsetof(JointTransform, translation) / sizeof(float);
+    return offsetof(JointTransform, scale) / sizeof(float);
+}
+
+UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, const JointTransform& rest) {
+    JointTransform joint = rest;
+    set_unpacked(group, track, 0.0, joint);
+    const std::uint32_t place = group.joints[track] * kJointFloats + place_in_joint(group.kind.path);
+    if (group.kind.path == TrackPath::rotation) {
+        const glm::quat& q = joint.rotation;
+        return {place, 4, {q.x, q.y, q.z, q.w}};
+    }
+    const glm::vec3& v = group.kind.path == TrackPath::translation ? joint.translation : joint.scale;
+    return {place, 3, {v.x, v.y, v.z, 0.0f}};
+}
+
+/// Rest values by lane; rotations of unit length.
+glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
+    if (path == TrackPath::translation) return {rest.translation, 0.0f};
+    if (path == TrackPath::scale) return {rest.scale, 0.0f};
+    const glm::dvec4 q(rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w);
+    const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    return square > 0.0 ? glm::vec4(q / std::sqrt(square)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+}
+
+UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> rest) {
+    UnpackGroup group;
+    group.is_rotation = walked.kind.path == TrackPath::rotation;
+    group.components = walked.kind.components;
+    group.count = walked.count;
+    for (std::uint32_t lane = 0; lane < kPackedGroup; ++lane) {
+        const std::uint32_t joint = walked.joints[lane < walked.count ? lane : walked.count - 1];
+        group.places[lane] = joint * kJointFloats + place_in_joint(walked.kind.path);
+        const glm::vec4 at_rest = rest_of(walked.kind.path, rest[joint]);
+        for (int c = 0; c < 4; ++c) group.rest[c][lane] = at_rest[c];
+    }
+    return group;
+}
+
+/// Where the group's bases stand, and its steps.
+/// \param first   track of the list
+/// \param tables  of the list, from the segment's
+void place_group(const PackedList& list, std::uint32_t first, std::uint32_t tables, UnpackGroup& group) {
+    group.base_bytes = list.base_bytes;
+    group.bases = tables + group.components * list.count + first * list.base_bytes;
+    group.stride = list.count * list.base_bytes;
+    for (std::uint32_t c = 0; c < group.components; ++c) {
+        for (std::uint32_t lane = 0; lane < group.count; ++lane) {
+            const std::byte code = list.steps[std::size_t{c} * list.count + first + lane];
+            group.steps[c][lane] = packed_step(static_cast<std::uint8_t>(code));
+        }
+    }
+}
+
+/// \param widths  of the lanes that hold a track
+/// \param bit     where the first number stands in a frame; where the next component does
+UnpackWindows windows_of(Bytes widths, std::uint32_t& bit) {
+    UnpackWindows windows;
+    for (std::size_t lane = 0; lane < kPackedGroup; ++lane) {
+        constexpr std::size_t kHalf = kPackedGroup / 2;
+        if (lane == 0) windows.low = bit / 8;
+        if (lane == kHalf) windows.high = bit / 8;
+        const std::uint32_t width = lane < widths.size() ? std::to_integer<std::uint32_t>(widths[lane]) : 0;
+        windows.bytes[lane] = static_cast<std::uint8_t>(bit / 8 - (lane < kHalf ? windows.low : windows.high));
+        windows.left[lane] = static_cast<std::uint8_t>(32 - bit % 8 - width);
+        windows.right[lane] = static_cast<std::uint8_t>(32 - width);
+        bit += width;
+    }
+    return windows;
+}
+
+void add_windows(const PackedView& packed, const PackedSegment& segment, std::vector<UnpackWindows>& windows) {
+    std::uint32_t bit = 0;
+    std::uint64_t tables = segment.tables;
+    for (std::size_t k = 0; k < kPackedLists; ++k) {
+        if (!kPackedKinds[k].animated) continue;
+        const PackedList& list = packed.lists[k];
+        const std::uint64_t numbers = std::uint64_t{list.count} * kPackedKinds[k].components;
+        const Bytes widths = packed.payload.subspan(tables, numbers);
+        for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
+            const std::uint32_t count = std::min(kPackedGroup, list.count - first);
+            for (std::size_t c = 0; c < kPackedKinds[k].components; ++c)
+                windows.push_back(windows_of(widths.subspan(c * list.count + first, count), bit));
+        }
+        tables += numbers * (1 + list.base_bytes);
+    }
+}
+
+}  // namespace
+
+UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTransform> rest) {
+    UnpackPlan plan;
+    plan.packed = &packed;
+    PackedWalk walk(packed, 0);
+    std::uint32_t tables = 0;
+    PackedGroup group;
+    for (std::size_t k = 0; k < kPackedLists; ++k) {
+        const PackedList& list = packed.lists[k];
+        for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
+            walk.next(group);
+            if (!group.kind.animated) {
+                for (std::uint32_t track = 0; track < group.count; ++track)
+                    plan.constants.push_back(constant_of(group, track, rest[group.joints[track]]));
+                continue;
+            }
+            plan.groups.push_back(group_of(group, rest));
+            place_group(list, first, tables, plan.groups.back());
+        }
+        if (kPackedKinds[k].animated) tables += kPackedKinds[k].components * list.count * (1 + list.base_bytes);
+    }
+    for (std::uint32_t s = 0; s < packed.segments; ++s) {
+        const PackedSegment segment = packed_segment(packed, s * packed.record.segment_frames);
+        plan.segments.push_back({segment.tables, segment.frames, segment.stride, plan.windows.size()});
+        add_windows(packed, segment, plan.windows);
+    }
+    return plan;
+}
+
+}  // namespace bendy

@@ -1,0 +1,161 @@
+#include <bendy/runtime/root_motion.h>
+
+#include <bendy/runtime/sample.h>
+
+#include "math/rigid_part.h"
+#include "math/rotation.h"
+#include "unpack.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy {
+namespace {
+
+/// The part of a rotation that goes about the y axis.
+glm::dquat yaw_of(const glm::dquat& rotation) {
+    const double length = std::sqrt(rotation.w * rotation.w + rotation.y * rotation.y);
+    constexpr double kUpsideDown = 1e-9;
+    if (!(length > kUpsideDown)) return {1.0, 0.0, 0.0, 0.0};
+    return {rotation.w / length, 0.0, rotation.y / length, 0.0};
+}
+
+void set(const TrackView& track, std::span<const float> value, JointTransform& joint) {
+    if (track.path == TrackPath::translation) joint.translation = {value[0], value[1], value[2]};
+    if (track.path == TrackPath::rotation) joint.rotation = glm::quat(value[3], value[0], value[1], value[2]);
+    if (track.path == TrackPath::scale) joint.scale = {value[0], value[1], value[2]};
+}
+
+/// One joint of `sample`, without the others.
+JointTransform sample_joint(const Model& model, const Cycle& cycle, std::uint32_t joint, float seconds) {
+    JointTransform local = model.joints()[joint].rest;
+    for (const TrackView& track : cycle.tracks) {
+        if (track.path == TrackPath::weights || track.target != joint) continue;
+        std::array<float, 4> value{};
+        const auto used = std::span(value).first(track.components);
+        sample_track(track, cycle, seconds, used);
+        set(track, used, local);
+    }
+    if (!cycle.packed || cycle.packed->record.joints > model.joints().size()) return local;
+    const PackedView& packed = *cycle.packed;
+    const bool is_animated = packed.animates(joint, TrackPath::rotation) ||
+                             packed.animates(joint, TrackPath::translation) || packed.animates(joint, TrackPath::scale);
+    if (!is_animated) return local;
+    const PackedMoment moment = packed_moment(packed, seconds);
+    PackedWalk walk(packed, moment.frame);
+    for (PackedGroup group; walk.next(group);) {
+        for (std::uint32_t track = 0; track < group.count; ++track) {
+            if (group.joints.at(track) == joint) set_unpacked(group, track, moment.fraction, local);
+        }
+    }
+    return local;
+}
+
+}  // namespace
+
+glm::dmat4 RootMotion::matrix() const {
+    glm::dmat4 matrix(glm::mat3_cast(rotation));
+    matrix[3] = glm::dvec4(translation, 1.0);
+    return matrix;
+}
+
+RootMotion then(const RootMotion& before, const RootMotion& motion) {
+    return {before.translation + before.rotation * motion.translation,
+            glm::normalize(before.rotation * motion.rotation)};
+}
+
+RootMotion inverse(const RootMotion& motion) {
+    const glm::dquat back = glm::conjugate(motion.rotation);
+    return {back * -motion.translation, back};
+}
+
+RootMotion blend(const RootMotion& motion, const RootMotion& other, double weight) {
+    return {motion.translation + weight * (other.translation - motion.translation),
+            between(motion.rotation, other.rotation, weight)};
+}
+
+RootMotion repeat(const RootMotion& motion, std::uint64_t times) {
+    RootMotion all;
+    RootMotion power = motion;  // 1, 2, 4, ... of it
+    for (; times != 0; times >>= 1u) {
+        if (times % 2 == 1) all = then(all, power);
+        power = then(power, power);
+    }
+    return all;
+}
+
+RootPath::RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes)
+    : model_(&model), axes_(axes), chosen_(axes.x ? 1.0 : 0.0, axes.y ? 1.0 : 0.0, axes.z ? 1.0 : 0.0) {
+    if (joint >= model.joints().size()) return;
+    for (std::uint32_t at = joint; at != kNone; at = model.parents()[at]) path_.push_back(at);
+    std::reverse(path_.begin(), path_.end());
+    glm::dmat4 rest(1.0);
+    for (const std::uint32_t at : path_) rest *= to_matrix(model.joints()[at].rest, model.joints()[at].shear);
+    rest_position_ = glm::dvec3(rest[3]);
+    rest_rotation_ = rigid_rotation(rest);
+}
+
+RootMotion RootPath::motion_of(const glm::dmat4& root) const {
+    RootMotion motion;
+    if (axes_.turn != RootTurn::none) {
+        motion.rotation = glm::normalize(rigid_rotation(root) * glm::conjugate(rest_rotation_));
+        if (axes_.turn == RootTurn::yaw) motion.rotation = yaw_of(motion.rotation);
+    }
+    // So that undoing it brings the chosen numbers of the position to those at rest.
+    motion.translation = chosen_ * glm::dvec3(root[3]) - motion.rotation * (chosen_ * rest_position_);
+    return motion;
+}
+
+RootMotion RootPath::at(const Cycle& cycle, double seconds) const {
+    if (path_.empty() || std::isnan(seconds)) return {};
+    glm::dmat4 root(1.0);
+    for (const std::uint32_t joint : path_) {
+        const JointTransform local = sample_joint(*model_, cycle, joint, static_cast<float>(seconds));
+        root *= to_matrix(local, model_->joints()[joint].shear);
+    }
+    return motion_of(root);
+}
+
+RootMotion RootPath::between(const Cycle& cycle, double from, double to) const {
+    return then(inverse(at(cycle, from)), at(cycle, to));
+}
+
+RootMotion RootPath::along(const Cycle& cycle, const Stretch& stretch) const {
+    return stretch.from == stretch.to ? RootMotion{} : between(cycle, stretch.from, stretch.to);
+}
+
+RootMotion RootPath::over(const Cycle& cycle, const Walk& walk) const {
+    RootMotion all = along(cycle, walk.first);
+    if (walk.turns) {  // there and back is nowhere
+        if (walk.passes % 2 == 1) all = then(all, along(cycle, walk.pass));
+    } else if (walk.passes != 0) {
+        all = then(all, repeat(along(cycle, walk.pass), walk.passes));
+    }
+    return then(all, along(cycle, walk.last));
+}
+
+RootMotion RootPath::take_out(Pose& pose) const {
+    if (path_.empty()) return {};
+    const auto joints = model_->joints();
+    glm::dmat4 above(1.0);
+    for (std::size_t k = 0; k + 1 < path_.size(); ++k)
+        above *= to_matrix(pose.local()[path_[k]], joints[path_[k]].shear);
+    const std::uint32_t joint = path_.back();
+    const glm::dmat4 root = above * to_matrix(pose.local()[joint], joints[joint].shear);
+    if (!(std::abs(glm::determinant(glm::dmat3(above))) > 0.0)) return {};
+    const RootMotion motion = motion_of(root);
+    const RootMotion back = inverse(motion);
+    const glm::dquat turn = rigid_rotation(above);
+    JointTransform& local = pose.change_local()[joint];
+    const glm::dvec3 to = back.translation + back.rotation * glm::dvec3(root[3]);
+    local.translation = glm::dvec3(glm::inverse(above) * glm::dvec4(to, 1.0));
+    local.rotation = glm::normalize(glm::conjugate(turn) * back.rotation * turn * glm::dquat(local.rotation));
+    return motion;
+}
+
+}  // namespace bendy

@@ -1,0 +1,294 @@
+#include <bendy/runtime/sample.h>
+
+#include "kernels/pose_kernels.h"
+#include "plan/pose_plan.h"
+#include "unpack.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy {
+namespace {
+
+/// The keys around a time, and how far between them it lies.
+struct Interval {
+    std::size_t left = 0;
+    std::size_t right = 0;  // left itself where nothing is to be interpolated
+    double fraction = 0.0;  // [0, 1)
+    double seconds = 0.0;   // from left to right
+};
+
+/// The first time after `seconds`. Most tracks' keys are evenly spread: then it is where it should be, and no search is
+/// needed.
+std::span<const float>::iterator first_after(std::span<const float> times, float seconds) {
+    const float length = times.back() - times.front();
+    const float guess = (seconds - times.front()) / length * static_cast<float>(times.size() - 1);
+    if (guess >= 0.0f && guess < static_cast<float>(times.size() - 1)) {
+        auto left = static_cast<std::size_t>(guess);
+        if (left > 0 && times[left] > seconds) --left;  // rounding, or nearly even
+        if (left + 2 < times.size() && times[left + 1] <= seconds) ++left;
+        if (times[left] <= seconds && times[left + 1] > seconds)
+            return times.begin() + static_cast<std::ptrdiff_t>(left) + 1;
+    }
+    return std::upper_bound(times.begin(), times.end(), seconds);
+}
+
+Interval timed_interval(std::span<const float> times, float seconds) {
+    const auto after = first_after(times, seconds);
+    if (after == times.begin()) return {};
+    const auto left = static_cast<std::size_t>(after - times.begin()) - 1;
+    if (after == times.end() || times[left] == seconds) return {left, left};
+    const double length = double{times[left + 1]} - times[left];
+    return {left, left + 1, (double{seconds} - times[left]) / length, length};
+}
+
+Interval frame_interval(const TrackView& track, const Cycle& cycle, float seconds) {
+    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+    const double last = track.keys - 1.0;
+    if (!(frame > 0.0)) return {};
+    if (frame >= last) return {track.keys - std::size_t{1}, track.keys - std::size_t{1}};
+    const double whole = std::floor(frame);
+    const auto left = static_cast<std::size_t>(whole);
+    if (frame == whole) return {left, left};
+    return {left, left + 1, frame - whole, 1.0 / cycle.frame_rate};
+}
+
+// sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
+// for Computing SLERP (2011). Within 1e-11 for `away` below kNear.
+constexpr double kNear = 0.15;
+constexpr int kTerms = 8;
+struct SlerpTerms {
+    std::array<double, kTerms> flat{}, curved{};  // i / (2i + 1) and 1 / (i (2i + 1)), i from 1
+};
+constexpr SlerpTerms make_terms() {
+    SlerpTerms terms;
+    for (std::size_t k = 0; k < terms.flat.size(); ++k) {
+        const double i = static_cast<double>(k) + 1.0;
+        terms.flat[k] = i / (2.0 * i + 1.0);
+        terms.curved[k] = 1.0 / (i * (2.0 * i + 1.0));
+    }
+    return terms;
+}
+constexpr SlerpTerms kSlerp = make_terms();
+
+double slerp_weight(double u, double away) {
+    const double square = u * u;
+    double sum = 1.0;
+    for (std::size_t k = kTerms; k-- > 0;) sum = 1.0 + sum * (away * (kSlerp.flat[k] - kSlerp.curved[k] * square));
+    return u * sum;
+}
+
+void slerp(std::span<const float> a, std::span<const float> b, double u, std::span<float> out) {
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) dot += double{a[c]} * b[c];
+    const double sign = dot < 0.0 ? -1.0 : 1.0;
+    const double away = 1.0 - std::abs(dot);
+    if (away >= 0.0 && away < kNear) {  // all but the fastest turns from one key to the next
+        const double by_a = slerp_weight(1.0 - u, away);
+        const double by_b = sign * slerp_weight(u, away);
+        for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(by_a * a[c] + by_b * b[c]);
+        return;
+    }
+    const double angle = std::acos(std::min(1.0, std::abs(dot)));
+    double weight_a = 1.0 - u;
+    double weight_b = u;
+    constexpr double kStraight = 1e-6;  // below it sin(angle) is angle and slerp is linear
+    if (angle >= kStraight) {
+        weight_a = std::sin(angle * (1.0 - u)) / std::sin(angle);
+        weight_b = std::sin(angle * u) / std::sin(angle);
+    }
+    for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(weight_a * a[c] + sign * weight_b * b[c]);
+}
+
+void hermite(std::span<const float> left, std::span<const float> right, const Interval& at, std::span<float> out) {
+    const std::size_t n = out.size();  // a key is in-tangent, value, out-tangent, n numbers each
+    const double u = at.fraction;
+    const double u2 = u * u;
+    const double u3 = u2 * u;
+    for (std::size_t c = 0; c < n; ++c) {
+        const double value = (2.0 * u3 - 3.0 * u2 + 1.0) * left[n + c] +
+                             at.seconds * (u3 - 2.0 * u2 + u) * left[2 * n + c] +
+                             (-2.0 * u3 + 3.0 * u2) * right[n + c] + at.seconds * (u3 - u2) * right[c];
+        out[c] = static_cast<float>(value);
+    }
+}
+
+void normalise(std::span<float> q) {
+    double square = 0.0;
+    for (const float c : q) square += double{c} * c;
+    if (!(square > 0.0)) return;
+    const double length = std::sqrt(square);
+    for (float& c : q) c = static_cast<float>(c / length);
+}
+
+void set_joint(const TrackView& track, std::span<const float> value, JointTransform& joint) {
+    switch (track.path) {
+        case TrackPath::translation:
+            joint.translation = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::rotation:
+            joint.rotation = glm::quat(value[3], value[0], value[1], value[2]);
+            break;
+        case TrackPath::scale:
+            joint.scale = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::weights:
+            break;
+    }
+}
+
+Interval find_interval(const TrackView& track, const Cycle& cycle, float seconds) {
+    return track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
+}
+
+void sample_between(const TrackView& track, const Interval& at, std::span<float> value) {
+    assert(value.size() == track.components);
+    const std::size_t n = value.size();
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    const std::size_t per_key = cubic ? 3 * n : n;
+    const auto key = [&](std::size_t k) { return track.values.subspan(k * per_key, per_key); };
+    const auto key_value = [&](std::size_t k) { return key(k).subspan(cubic ? n : 0, n); };
+
+    if (at.left == at.right || track.interpolation == Interpolation::step) {
+        std::copy_n(key_value(at.left).begin(), n, value.begin());
+        if (cubic && track.path == TrackPath::rotation) normalise(value);
+        return;
+    }
+    if (cubic) {
+        hermite(key(at.left), key(at.right), at, value);
+        if (track.path == TrackPath::rotation) normalise(value);
+        return;
+    }
+    const auto left = key_value(at.left);
+    const auto right = key_value(at.right);
+    if (track.path == TrackPath::rotation) {
+        slerp(left, right, at.fraction, value);
+        return;
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+        value[c] = static_cast<float>((1.0 - at.fraction) * left[c] + at.fraction * right[c]);
+    }
+}
+
+}  // namespace
+
+void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value) {
+    sample_between(track, find_interval(track, cycle, seconds), value);
+}
+
+FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds) {
+    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+    const std::uint32_t intervals = play.closed ? play.frames : play.frames - 1;
+    const std::uint32_t end = play.closed ? play.first : play.first + intervals;
+    if (!(frame > 0.0)) return {play.first, play.first};
+    if (frame >= intervals) return {end, end};
+    const double whole = std::floor(frame);
+    const auto left = static_cast<std::uint32_t>(whole);
+    const std::uint32_t right = left + 1 == play.frames ? 0 : left + 1;
+    return {play.first + left, play.first + right, static_cast<float>(frame - whole)};
+}
+
+/// The work on a pose.
+class Sampling {
+public:
+    Sampling(const Cycle& cycle, float seconds, Pose& pose)
+        : cycle_(cycle),
+          seconds_(seconds),
+          model_(pose.model()),
+          local_(pose.change_local()),
+          weights_(pose.change_target_weights()) {}
+
+    void run() const {
+        for (const PlayView& play : cycle_.plays) sample_frames(play);
+        const PoseKernels* const kernels = pose_kernels();
+        const std::size_t number = model_.number_of(cycle_);
+        if (number >= model_.cycles().size()) {  // of another model
+            sample_tracks();
+            if (cycle_.packed) unpack_plain({&*cycle_.packed, {}, {}, {}, {}}, seconds_, local_);
+            return;
+        }
+        const SamplePlan& plan = model_.pose_plan().cycles[number];
+        if (kernels == nullptr) {
+            sample_tracks();
+        } else {
+            for (const SampleLine& line : plan.lines) sample_line(line, kernels->sample);
+        }
+        if (cycle_.packed) unpack(plan.packed, seconds_, local_);
+    }
+
+private:
+    void sample_frames(const PlayView& play) const {
+        if (play.pool >= model_.pools().size()) return;  // a cycle of another model
+        const Pool& pool = model_.pools()[play.pool];
+        if (play.first + play.frames > pool.frames()) return;
+        const FrameMix mix = mix_frames(play, cycle_, seconds_);
+        const auto add = [&](std::uint32_t frame, float weight) {
+            if (frame == 0) return;  // the pool's own streams have what the others leave
+            weights_[model_.first_target(play.pool) + pool.first_frame + frame - 1] += weight;
+        };
+        add(mix.left, 1.0f - mix.fraction);
+        add(mix.right, mix.fraction);
+    }
+
+    void sample_tracks() const {
+        // Neighbouring tracks mostly share their times.
+        const TrackView* same = nullptr;
+        Interval at;
+        for (const TrackView& track : cycle_.tracks) {
+            if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
+                at = find_interval(track, cycle_, seconds_);
+            same = &track;
+            sample_one(track, at);
+        }
+    }
+
+    void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
+        const Interval at = find_interval(*line.clock, cycle_, seconds_);
+        for (const TrackView* track : line.others) sample_one(*track, at);
+        if (line.rotations.empty() && line.vectors.empty()) return;
+        SampleBlock block{line.rotations.data(),
+                          line.rotations.size(),
+                          line.vectors.data(),
+                          line.vectors.size(),
+                          at.left,
+                          static_cast<float>(at.fraction),
+                          &local_.front().rotation.x};
+        if (at.left + 1 == line.clock->keys) {  // the last key: from the one before it all the way
+            block.left = at.left - 1;
+            block.fraction = 1.0f;
+        }
+        kernel(block);
+    }
+
+    void sample_one(const TrackView& track, const Interval& at) const {
+        if (track.path == TrackPath::weights) {
+            if (track.target >= model_.pools().size()) return;  // a cycle of another model
+            if (track.components != model_.pools()[track.target].targets.size()) return;
+            const std::size_t first = model_.first_target(track.target);
+            sample_between(track, at, weights_.subspan(first, track.components));
+            return;
+        }
+        if (track.target >= local_.size()) return;
+        std::array<float, 4> value{};
+        sample_between(track, at, std::span(value).first(track.components));
+        set_joint(track, value, local_[track.target]);
+    }
+
+    const Cycle& cycle_;
+    float seconds_;
+    const Model& model_;
+    std::span<JointTransform> local_;
+    std::span<float> weights_;
+};
+
+bool sample(const Cycle* cycle, float seconds, Pose& pose) {
+    pose.set_rest();
+    if (cycle == nullptr || std::isnan(seconds)) return false;
+    Sampling(*cycle, seconds, pose).run();
+    return true;
+}
+
+}  // namespace bendy

@@ -1,0 +1,111 @@
+#include <bendy/runtime/blend.h>
+
+#include "kernels/pose_kernels.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace bendy {
+namespace {
+
+bool can_blend(const Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
+    return &pose.model() == &other.model() && std::isfinite(weight) &&
+           (mask.empty() || mask.size() == pose.local().size());
+}
+
+BlendBlock block_of(std::span<JointTransform> local, const Pose& other, float weight, std::span<const float> mask) {
+    return {local.size(), &local.front().rotation.x, &other.local().front().rotation.x, weight,
+            mask.empty() ? nullptr : mask.data()};
+}
+
+/// towards * weight + q * (1 - weight), the short way round.
+glm::dquat mix(const glm::dquat& q, const glm::dquat& towards, double weight) {
+    const glm::dquat sum = q * (1.0 - weight) + towards * (glm::dot(q, towards) < 0.0 ? -weight : weight);
+    return glm::normalize(sum);
+}
+
+void mix_plain(const BlendBlock& block, std::span<JointTransform> local, std::span<const JointTransform> other) {
+    for (std::size_t joint = 0; joint < local.size(); ++joint) {
+        const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
+        JointTransform& to = local[joint];
+        const JointTransform& from = other[joint];
+        to.rotation = mix(glm::dquat(to.rotation), glm::dquat(from.rotation), weight);
+        to.translation = (1.0 - weight) * glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
+        to.scale = (1.0 - weight) * glm::dvec3(to.scale) + weight * glm::dvec3(from.scale);
+    }
+}
+
+void add_plain(const BlendBlock& block, std::span<JointTransform> local, std::span<const JointTransform> difference) {
+    for (std::size_t joint = 0; joint < local.size(); ++joint) {
+        const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
+        JointTransform& to = local[joint];
+        const JointTransform& from = difference[joint];
+        to.rotation = glm::dquat(to.rotation) * mix(glm::dquat(1, 0, 0, 0), glm::dquat(from.rotation), weight);
+        to.translation = glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
+        to.scale = glm::dvec3(to.scale) * ((1.0 - weight) + weight * glm::dvec3(from.scale));
+    }
+}
+
+}  // namespace
+
+bool blend(Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
+    if (!can_blend(pose, other, weight, mask)) return false;
+    const std::span<float> targets = pose.change_target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k)
+        targets[k] = (1.0f - weight) * targets[k] + weight * other.target_weights()[k];
+    const std::span<JointTransform> local = pose.change_local();
+    if (local.empty()) return true;
+    const BlendBlock block = block_of(local, other, weight, mask);
+    if (const PoseKernels* kernels = pose_kernels()) {
+        kernels->mix(block);
+    } else {
+        mix_plain(block, local, other.local());
+    }
+    return true;
+}
+
+bool make_additive(Pose& pose, const Pose& reference) {
+    if (!can_blend(pose, reference, 1.0f, {})) return false;
+    const std::span<float> targets = pose.change_target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] -= reference.target_weights()[k];
+    const std::span<JointTransform> local = pose.change_local();
+    for (std::size_t joint = 0; joint < local.size(); ++joint) {
+        JointTransform& to = local[joint];
+        const JointTransform& from = reference.local()[joint];
+        to.rotation = glm::normalize(glm::conjugate(glm::dquat(from.rotation)) * glm::dquat(to.rotation));
+        to.translation -= from.translation;
+        for (int c = 0; c < 3; ++c) to.scale[c] = from.scale[c] == 0.0f ? 1.0f : to.scale[c] / from.scale[c];
+    }
+    return true;
+}
+
+bool add(Pose& pose, const Pose& difference, float weight, std::span<const float> mask) {
+    if (!can_blend(pose, difference, weight, mask)) return false;
+    const std::span<float> targets = pose.change_target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * difference.target_weights()[k];
+    const std::span<JointTransform> local = pose.change_local();
+    if (local.empty()) return true;
+    const BlendBlock block = block_of(local, difference, weight, mask);
+    if (const PoseKernels* kernels = pose_kernels()) {
+        kernels->add(block);
+    } else {
+        add_plain(block, local, difference.local());
+    }
+    return true;
+}
+
+std::vector<float> mask_below(const Model& model, std::uint32_t joint, float inside, float outside) {
+    std::vector<float> mask(model.joints().size(), outside);
+    if (joint >= mask.size()) return mask;
+    mask[joint] = inside;
+    std::vector<bool> is_below(mask.size());
+    is_below[joint] = true;
+    for (std::size_t below = joint + std::size_t{1}; below < mask.size(); ++below) {  // parents come first
+        const std::uint32_t parent = model.parents()[below];
+        is_below[below] = parent != kNone && is_below[parent];
+        if (is_below[below]) mask[below] = inside;
+    }
+    return mask;
+}
+
+}  // namespace bendy

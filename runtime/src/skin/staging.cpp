@@ -1,0 +1,157 @@
+#include "staging.h"
+
+#include "model/frame_shape.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace bendy {
+namespace {
+
+/// The stream from element `first` on.
+StreamView part_of(const StreamView& stream, std::size_t first, std::size_t count) {
+    StreamView part = stream;
+    const std::size_t bytes = std::size_t{stream.components} * component_size(stream.type);
+    part.data = stream.data.subspan(first * bytes, count * bytes);
+    part.elements = static_cast<std::uint32_t>(count);
+    return part;
+}
+
+/// Adds a target's displacements to vertices [first, first + vectors).
+template <class Vector>
+void shift(const TargetView& target, const StreamView& shifts, float weight, std::size_t first,
+           std::span<Vector> vectors) {
+    if (target.is_frame()) return add_frame(*target.places, shifts, weight, first, vectors);
+    auto entry = static_cast<std::uint32_t>(first);
+    if (target.vertices) {  // they ascend
+        std::uint32_t last = shifts.elements;
+        for (entry = 0; entry < last;) {
+            const std::uint32_t middle = entry + (last - entry) / 2;
+            if (target.vertices->index(middle, 0) < first) {
+                entry = middle + 1;
+            } else {
+                last = middle;
+            }
+        }
+    }
+    const auto plain = view_at<glm::vec3>(shifts.data, 0, shifts.elements);
+    const bool is_plain = shifts.type == ComponentType::f32;
+    for (; entry < shifts.elements; ++entry) {
+        const std::size_t at = (target.vertices ? target.vertices->index(entry, 0) : entry) - first;
+        if (at >= vectors.size()) return;
+        const glm::vec3 displacement = is_plain ? plain[entry] : shifts.vec3(entry);
+        for (int c = 0; c < 3; ++c) vectors[at][c] += weight * displacement[c];
+    }
+}
+
+template <class T>
+void widen(const StreamView& weights, std::size_t first, std::size_t count, std::span<float> out) {
+    const std::size_t n = weights.components;
+    const std::span<const T> from = weights.as<T>().subspan(first * n, count * n);
+    if (weights.boxes.empty()) {
+        constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
+        for (std::size_t at = 0; at < from.size(); ++at) out[at] = static_cast<float>(from[at]) / kLargest;
+        return;
+    }
+    for (std::size_t at = 0; at < from.size(); at += n) {
+        for (std::size_t c = 0; c < n; ++c)
+            out[at + c] = weights.boxes[c].minimum + weights.boxes[c].step * static_cast<float>(from[at + c]);
+    }
+}
+
+SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
+    return {out.data == nullptr ? nullptr : out.data + vertices * out.stride, out.stride};
+}
+
+}  // namespace
+
+Staging::Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted)
+    : pool_(pool), plan_(plan), target_weights_(weights), positions_(pool.positions) {
+    const auto is_active = [](float weight) { return weight != 0.0f; };
+    is_shifted_ = std::any_of(weights.begin(), weights.end(), is_active);
+    rest_share_ = is_shifted_ ? rest_share(pool, weights) : 1.0f;
+    const auto in_place = [&](const std::optional<StreamView>& stream, const SkinOutput& out) {
+        return out.data == nullptr || (stream && stream->type == ComponentType::f32 && !is_shifted_);
+    };
+    positions_in_place_ = in_place(positions_, wanted.out_positions);
+    normals_in_place_ = in_place(pool.normals, wanted.out_normals);
+    tangents_in_place_ = in_place(pool.tangents, wanted.out_tangents);
+    if (plan_ != nullptr && plan_->first.empty()) plan_ = nullptr;
+    weights_in_place_ =
+        !pool.weights || pool.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
+    capacity_ = std::numeric_limits<std::size_t>::max();
+    if (!positions_in_place_ || !normals_in_place_ || !tangents_in_place_) capacity_ = kVertices;
+    if (weights_in_place_) return;
+    capacity_ = std::min(kVertices, kNumbers / pool.weights->components);
+    if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
+    if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
+}
+
+template <class Vector>
+const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
+                            std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const {
+    constexpr auto kNumbersEach = static_cast<std::size_t>(Vector::length());
+    if (in_place) return stream->as<float>().data() + first * kNumbersEach;
+    assert(count * kNumbersEach <= scratch.size());
+    const std::span<Vector> vectors(reinterpret_cast<Vector*>(scratch.data()), count);  // NOLINT(*-reinterpret-cast)
+    if (!stream) {
+        std::fill(vectors.begin(), vectors.end(), Vector(0.0f));
+        if (shifts != &TargetView::positions) return scratch.data();  // displacements of nothing
+    } else {
+        part_of(*stream, first, count).decode(vectors);
+    }
+    if (have_frames(pool_, shifts)) lighten(rest_share_, vectors);
+    for (std::size_t k = 0; k < pool_.targets.size(); ++k) {
+        const TargetView& target = pool_.targets[k];
+        if (target_weights_[k] != 0.0f && target.*shifts)
+            shift(target, *(target.*shifts), target_weights_[k], first, vectors);
+    }
+    return scratch.data();
+}
+
+void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block) {
+    const std::size_t count = block.vertices;
+    block.out_positions = moved_on(wanted.out_positions, first);
+    block.out_normals = moved_on(wanted.out_normals, first);
+    block.out_tangents = moved_on(wanted.out_tangents, first);
+    if (wanted.out_positions.data != nullptr) {
+        block.positions =
+            bring<glm::vec3>(positions_, &TargetView::positions, first, count, positions_in_place_, positions_scratch_);
+    }
+    if (wanted.out_normals.data != nullptr) {
+        block.normals =
+            bring<glm::vec3>(pool_.normals, &TargetView::normals, first, count, normals_in_place_, normals_scratch_);
+    }
+    if (wanted.out_tangents.data != nullptr) {
+        block.tangents = bring<glm::vec4>(pool_.tangents, &TargetView::tangents, first, count, tangents_in_place_,
+                                          tangents_scratch_);
+    }
+    if (!pool_.bones) return;
+    const StreamView& bones = *pool_.bones;
+    const StreamView& weights = *pool_.weights;
+    const std::size_t at = first * bones.components;
+    block.influences = bones.components;
+    if (bones.type == ComponentType::u8) {
+        block.bones8 = bones.as<std::uint8_t>().data() + at;
+    } else {
+        block.bones16 = bones.as<std::uint16_t>().data() + at;
+    }
+    if (plan_ != nullptr) {
+        assert(first % SkinPlan::kGroup == 0);
+        block.plan_first = plan_->first.data() + first / SkinPlan::kGroup;
+        block.plan_bones = plan_->bones.data();
+        block.plan_weights = plan_->weights.empty() ? nullptr : plan_->weights.front().of;
+        if (plan_->is_complete) return;
+    }
+    block.weights = weights_scratch_.data();
+    if (weights_in_place_) {
+        block.weights = weights.as<float>().data() + at;
+    } else if (weights.type == ComponentType::u8) {
+        widen<std::uint8_t>(weights, first, count, weights_scratch_);
+    } else {
+        widen<std::uint16_t>(weights, first, count, weights_scratch_);
+    }
+}
+
+}  // namespace bendy

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <bendy/runtime/model.h>
+
+#include "plan/skin_block.h"
+#include "plan/skin_plan.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace bendy {
+
+/// A pool's vertices as kernels want them: where the file has plain floats and no inbetweening target moves them, in
+/// place; else decoded and moved, a few at a time, so that they are still in the nearest cache when they are skinned.
+class Staging {
+public:
+    /// `wanted`: only its outputs are looked at. `weights`: of the pool's targets. `plan`: null if the kernel has no
+    /// use for it.
+    Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted);
+
+    /// How many vertices fill() takes at most.
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    /// Points a block's sources and outputs at `block.vertices` vertices from `first` on. Those pointers hold until the
+    /// next call.
+    void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
+
+private:
+    static constexpr std::size_t kVertices = 128;
+    static constexpr std::size_t kNumbers = 4096;  // at least 1 vertex of kMaxInfluences
+
+    [[nodiscard]] bool is_in_place(const std::optional<StreamView>& stream, bool is_shifted) const;
+    template <class Vector>
+    const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
+                       std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const;
+
+    const Pool& pool_;
+    const SkinPlan* plan_;
+    std::span<const float> target_weights_;
+    std::optional<StreamView> positions_;
+    bool is_shifted_ = false;  // some target has a weight
+    float rest_share_ = 1.0f;  // of the pool's own streams, beside its frames
+    bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
+    std::size_t capacity_ = 0;
+    std::array<float, 3 * kVertices> positions_scratch_;
+    std::array<float, 3 * kVertices> normals_scratch_;
+    std::array<float, 4 * kVertices> tangents_scratch_;
+    std::array<float, kNumbers> weights_scratch_;
+};
+
+}  // namespace bendy
