@@ -94,10 +94,10 @@ class FileNames(unittest.TestCase):
         self.run_in_folder("convert", "-q", "狐.glb", "-o", "狐.bendy")
         self.run_in_folder("edit", "狐.bendy", "-o", "бег.bendy", "--rename", "cycle:*=далее *")
         (self.folder / "имена.json").write_text('{"*": "x *"}', encoding="utf-8")
-        self.run_in_folder("edit", "狐.bendy", "-o", "狐.bendy", "--merge", "бег.bendy", "--rename-joints", "имена.json")
+        self.run_in_folder("edit", "狐.bendy", "-i", "--merge", "бег.bendy", "--rename-joints", "имена.json")
         self.run_in_folder("validate", "狐.bendy")
         self.assertIn("далее".encode(), self.run_in_folder("inspect", "狐.bendy").stdout)
-        result = self.run_in_folder("edit", "狐.bendy", "-o", "狐.bendy", "--merge", "нет.bendy", status=1)
+        result = self.run_in_folder("edit", "狐.bendy", "-i", "--merge", "нет.bendy", status=1)
         self.assertIn("нет.bendy".encode(), result.stderr)
 
     def test_what_is_not_there_is_named(self):
@@ -121,7 +121,10 @@ class FileNames(unittest.TestCase):
     def test_a_file_is_replaced(self):
         self.put("狐")
         (self.folder / "狐.bendy").write_bytes(b"old")
-        self.run_in_folder("convert", "-q", "狐.glb")
+        result = self.run_in_folder("convert", "-q", "狐.glb", status=1)
+        self.assertIn("狐.bendy".encode(), result.stderr)
+        self.run_in_folder("convert", "-q", "--force", "狐.glb")
+        self.run_in_folder("convert", "-q", "狐.glb")  # its own output
         self.run_in_folder("validate", "狐.bendy")
         self.assertEqual(self.names(), ["狐.bendy", "狐.glb"])
 

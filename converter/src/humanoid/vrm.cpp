@@ -1,17 +1,14 @@
 #include "vrm.h"
 
+#include "json_text.h"
 #include "limb_chains.h"
 #include "rest_frames.h"
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <utility>
 
 namespace bendy::converter {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Fills a humanoid from JSON, bone by bone.
 class Reader {

@@ -1,8 +1,8 @@
 #include "articulations.h"
 
-#include <bendy/format/constraint.h>
+#include "json_text.h"
 
-#include <nlohmann/json.hpp>
+#include <bendy/format/constraint.h>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +20,6 @@
 
 namespace bendy::converter {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr const char* kName = "AGI_articulations";
 
