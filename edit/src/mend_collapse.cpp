@@ -14,7 +14,7 @@ void pad(Buffer& payload) {
 }
 
 /// A pool's part of LODD: its vertices that stay, by the numbers that they had.
-struct Part {
+struct MeshPart {
     const PoolCollapseView* before = nullptr;
     std::uint32_t place = 0;  // in the rows
     std::span<const std::uint32_t> now;
@@ -27,7 +27,7 @@ struct Part {
     [[nodiscard]] std::uint32_t number(std::uint32_t vertex) const { return now.empty() ? vertex : now[vertex]; }
 };
 
-void put_targets(const Part& part, Buffer& payload) {
+void put_targets(const MeshPart& part, Buffer& payload) {
     const PoolCollapseView& before = *part.before;
     for (std::uint32_t v = before.base; v < before.vertices; ++v) {
         if (!part.stays(v)) continue;
@@ -57,7 +57,7 @@ void put_targets(const Part& part, Buffer& payload) {
 
 void mend_collapse(const CollapseView& collapse, const Staying::Object& staying, const ObjectNumbers& numbers,
                    Rewrite& rewrite) {
-    std::vector<Part> parts;
+    std::vector<MeshPart> parts;
     bool is_changed = false;
     for (std::uint32_t place = 0; place < collapse.pools.size(); ++place) {
         const PoolCollapseView& before = collapse.pools[place];
@@ -66,7 +66,7 @@ void mend_collapse(const CollapseView& collapse, const Staying::Object& staying,
             is_changed = true;
             continue;
         }
-        Part part{&before, place, numbers.vertices[before.pool], {}};
+        MeshPart part{&before, place, numbers.vertices[before.pool], {}};
         if (!part.now.empty()) {
             part.staying_below.push_back(0);
             for (const std::uint32_t now : part.now)
@@ -81,7 +81,7 @@ void mend_collapse(const CollapseView& collapse, const Staying::Object& staying,
     record.pools = static_cast<std::uint32_t>(parts.size());
     record.levels = collapse.levels;
     append(payload, record);
-    for (const Part& part : parts) {
+    for (const MeshPart& part : parts) {
         PoolCollapseRecord pool;
         pool.pool = numbers.pools[part.before->pool];
         pool.base = part.count(part.before->base);
@@ -90,10 +90,10 @@ void mend_collapse(const CollapseView& collapse, const Staying::Object& staying,
     }
     for (std::uint32_t level = 0; level < collapse.levels; ++level) {
         append(payload, collapse.error(level));
-        for (const Part& part : parts) append(payload, part.count(collapse.alive(level, part.place)));
+        for (const MeshPart& part : parts) append(payload, part.count(collapse.alive(level, part.place)));
     }
     pad(payload);
-    for (const Part& part : parts) put_targets(part, payload);
+    for (const MeshPart& part : parts) put_targets(part, payload);
     rewrite.replace(collapse.chunk, payload);
 }
 

@@ -57,7 +57,7 @@ std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
     return links;
 }
 
-glm::vec3 unit_axis(int number) {
+glm::vec3 unit_vector(int number) {
     glm::vec3 axis(0.0f);
     axis[number] = 1.0f;
     return axis;
@@ -250,7 +250,7 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     int across = (along + 2) % 3;
     if (std::abs(glm::dot(axes[across], nearer)) > std::abs(glm::dot(axes[facing], nearer))) std::swap(facing, across);
     const auto signed_axis = [&](int axis, const glm::vec3& towards) {
-        return glm::dot(axes[axis], towards) < 0.0f ? -unit_axis(axis) : unit_axis(axis);
+        return glm::dot(axes[axis], towards) < 0.0f ? -unit_vector(axis) : unit_vector(axis);
     };
     const glm::vec3 turn = direction.y * signed_axis(across, right) - direction.x * signed_axis(facing, nearer) +
                            direction.z * signed_axis(along, axes * bone);

@@ -125,9 +125,9 @@ private:
     std::string place_;
 };
 
-class Keeper {
+class ExtensionKeeper {
 public:
-    Keeper(const Document& document, const Skeleton& skeleton)
+    ExtensionKeeper(const Document& document, const Skeleton& skeleton)
         : document_(document), renumberer_(skeleton, document.report) {}
 
     /// The extensions of the root or of a node as JSON text, or empty.
@@ -176,7 +176,7 @@ private:
 }  // namespace
 
 void keep_extensions(const Document& document, const Skeleton& skeleton, Scene& scene) {
-    Keeper keeper(document, skeleton);
+    ExtensionKeeper keeper(document, skeleton);
     scene.extensions = keeper.keep(document.json, {}, false);
     for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
         if (skeleton.instance_of_joint[joint] != kNone) continue;

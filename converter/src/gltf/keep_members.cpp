@@ -11,9 +11,9 @@
 namespace bendy::converter::gltf {
 namespace {
 
-class Keeper {
+class MemberKeeper {
 public:
-    Keeper(const Document& document, const Skeleton& skeleton, Scene& scene)
+    MemberKeeper(const Document& document, const Skeleton& skeleton, Scene& scene)
         : document_(document),
           root_(document.json),
           skeleton_(skeleton),
@@ -150,7 +150,7 @@ private:
 }  // namespace
 
 void keep_members(const Document& document, const Skeleton& skeleton, Scene& scene) {
-    Keeper(document, skeleton, scene).run();
+    MemberKeeper(document, skeleton, scene).run();
 }
 
 void report_left_out(const Document& document, const Skeleton& skeleton) {

@@ -21,14 +21,14 @@ namespace {
 // ---------------------------------------------------------------------------------------------- layout
 
 /// What two primitives must have in common to be parts of one mesh.
-struct Layout {
+struct MeshLayout {
     bool normals = false;
     bool tangents = false;
     std::vector<std::tuple<std::string, std::uint32_t, std::uint32_t>> streams;  ///< name, set, components; all kinds
     std::uint32_t influences = 0;
     std::size_t targets = 0;
 
-    explicit Layout(const Mesh& mesh)
+    explicit MeshLayout(const Mesh& mesh)
         : normals(!mesh.normals.empty()),
           tangents(!mesh.tangents.empty()),
           influences(mesh.influences),
@@ -41,7 +41,7 @@ struct Layout {
         add(mesh.attributes, "a");
     }
 
-    friend bool operator<(const Layout& a, const Layout& b) {
+    friend bool operator<(const MeshLayout& a, const MeshLayout& b) {
         return std::tie(a.normals, a.tangents, a.influences, a.targets, a.streams) <
                std::tie(b.normals, b.tangents, b.influences, b.targets, b.streams);
     }
@@ -158,7 +158,7 @@ private:
         report_skinning(primitive, vertices.mesh, place);
         own.count = vertices.mesh.positions.size();
         own.draco_indices = std::move(vertices.draco_indices);
-        const auto [group, is_new] = groups_.emplace(Layout(vertices.mesh), templates_.size());
+        const auto [group, is_new] = groups_.emplace(MeshLayout(vertices.mesh), templates_.size());
         own.entry = group->second;
         if (is_new) templates_.emplace_back();
         Template& entry = templates_[own.entry];
@@ -205,7 +205,7 @@ private:
     std::string place_;
     bool skinned_;
     std::size_t target_count_ = 0;
-    std::map<Layout, std::size_t> groups_;
+    std::map<MeshLayout, std::size_t> groups_;
     std::map<Source, Placed> placed_;
     std::vector<Template> templates_;
 };

@@ -52,9 +52,9 @@ std::vector<glm::vec4> as_vec4(const std::vector<float>& values) {
     return vectors;
 }
 
-class Reader {
+class PrimitiveReader {
 public:
-    Reader(const Document& document, const tinygltf::Primitive& primitive, const Json& json, std::string place)
+    PrimitiveReader(const Document& document, const tinygltf::Primitive& primitive, const Json& json, std::string place)
         : document_(document), primitive_(primitive), place_(std::move(place)) {
         if (const Json* extension = find_draco(json); extension != nullptr) {
             draco_ = decode_draco(document, primitive, *extension, place_);
@@ -330,7 +330,7 @@ bool has_positions(const tinygltf::Primitive& primitive, const Json& json) {
 
 Vertices read_vertices(const Document& document, const tinygltf::Primitive& primitive, const Json& json, bool skinned,
                        const std::string& place) {
-    return Reader(document, primitive, json, place).read(skinned);
+    return PrimitiveReader(document, primitive, json, place).read(skinned);
 }
 
 Part read_part(const Document& document, const tinygltf::Primitive& primitive, const Json& json,

@@ -14,7 +14,7 @@
 namespace bendy::converter::x {
 namespace {
 
-constexpr std::size_t kHeaderSize = 16;
+constexpr std::size_t kCompressedHeader = 16;
 constexpr std::size_t kVariant = 8;  // where `tzip` or `bzip` is
 constexpr std::size_t kLargestBlock = 32'768;
 constexpr std::string_view kSignature = "CK";
@@ -62,14 +62,14 @@ std::uint32_t number_at(std::string_view file, std::size_t at, std::size_t size)
 }  // namespace
 
 bool is_compressed(std::string_view file) {
-    return file.size() >= kHeaderSize && file.starts_with("xof ") && file.substr(kVariant + 1, 3) == "zip" &&
+    return file.size() >= kCompressedHeader && file.starts_with("xof ") && file.substr(kVariant + 1, 3) == "zip" &&
            (file[kVariant] == 't' || file[kVariant] == 'b');
 }
 
 std::string decompress(std::string_view file, Budget& budget) {
-    std::string plain(file.substr(0, kHeaderSize));
+    std::string plain(file.substr(0, kCompressedHeader));
     plain.replace(kVariant, 4, file[kVariant] == 't' ? "txt " : "bin ");
-    std::size_t at = kHeaderSize;
+    std::size_t at = kCompressedHeader;
     if (file.size() - at < 4) fail("byte 16", "expected the size of the data, found the end of the file");
     const std::uint32_t size = number_at(file, at, 4);  // header included
     at += 4;
@@ -93,7 +93,7 @@ std::string decompress(std::string_view file, Budget& budget) {
         }
         budget.take(block.size(), 1, place);
         plain += block;
-        before = std::string_view(plain).substr(kHeaderSize);
+        before = std::string_view(plain).substr(kCompressedHeader);
         before.remove_prefix(before.size() - std::min(before.size(), kLargestBlock));
         at += compressed;
     }
