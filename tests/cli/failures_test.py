@@ -50,8 +50,6 @@ class Failures(unittest.TestCase):
 
     def bendy(self, *arguments, fail=None, at=1, how="error", **options):
         environment = dict(os.environ)
-        if arguments[0] == "render":
-            environment["ASAN_OPTIONS"] = "detect_leaks=0"  # OpenGL drivers leak
         if fail:
             environment |= {"LD_PRELOAD": LIBRARY, "BENDY_FAIL": fail, "BENDY_FAIL_AT": str(at), "BENDY_FAIL_HOW": how}
         return subprocess.run([BENDY, *(SOURCE / one if isinstance(one, Path) else one for one in arguments)],
