@@ -134,7 +134,8 @@ def main():
     kernels = []
     for folder, text in lists.items():
         targets = kernel_targets(text)
-        for name in cmake_list(text, "SOURCES"):
+        # Kernels last: what they share with other sources lies before them.
+        for name in sorted(cmake_list(text, "SOURCES"), key=lambda name: name in targets):
             if WRITES_FILES.fullmatch(name):
                 continue
             instructions = targets.get(name)

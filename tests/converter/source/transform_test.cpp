@@ -10,8 +10,6 @@
 namespace bendy::converter {
 namespace {
 
-using namespace gltf;
-
 /// T * R * U, column-major, in double.
 std::array<double, 16> compose(const Transform& t) {
     const double x = t.rotation.x;
