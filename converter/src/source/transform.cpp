@@ -113,7 +113,7 @@ Transform decompose(const std::array<double, 16>& m) {
 }
 
 UnitQuaternion make_unit(const std::array<double, 4>& q) {
-    constexpr double kRounding = 3e-7;
+    constexpr double kUnitRounding = 3e-7;
     UnitQuaternion unit;
     const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
     unit.length = 0.0;
@@ -122,7 +122,7 @@ UnitQuaternion make_unit(const std::array<double, 4>& q) {
     double sum = 0.0;
     for (const double component : q) sum += (component / largest) * (component / largest);
     unit.length = largest * std::sqrt(sum);
-    const double factor = std::abs(unit.length - 1.0) <= kRounding ? 1.0 : 1.0 / unit.length;
+    const double factor = std::abs(unit.length - 1.0) <= kUnitRounding ? 1.0 : 1.0 / unit.length;
     if (std::isfinite(factor)) {
         for (int i = 0; i < 4; ++i) unit.value[i] = static_cast<float>(q[static_cast<std::size_t>(i)] * factor);
     }
