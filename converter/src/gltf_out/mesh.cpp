@@ -82,7 +82,7 @@ struct Drawn {
 class MeshExporter {
 public:
     MeshExporter(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots, Buffer& buffer,
-             Report& report)
+                 Report& report)
         : scene_(scene),
           node_members_(node_members),
           nodes_(nodes),
