@@ -86,9 +86,9 @@ void Outputs::writes(const fs::path& output, NamedBy named, Content content) {
         fail(output_name(output), "is a terminal, and the result is binary: give -o FILE, or a pipe");
 }
 
-void Outputs::writes_beside(const fs::path& output, const fs::path& main) {
+void Outputs::writes_beside(const fs::path& output, const fs::path& beside) {
     fail_if(claim(output, NamedBy::user), output);
-    if (!force_ && is_there(output) && !(was_written_by_bendy(main) && refers_to(main, output)))
+    if (!force_ && is_there(output) && !(was_written_by_bendy(beside) && refers_to(beside, output)))
         fail(output_name(output), kForeign);
 }
 

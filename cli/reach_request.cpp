@@ -165,8 +165,9 @@ std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vec
     ReachOptions options;
     options.solver = find_solver(request.solver);
     options.obey_constraints = !request.ignore_limits;
-    std::vector<ReachResult> results;
     options.carry_target = true;
+    std::vector<ReachResult> results;
+    results.reserve(goals.size());
     for (const ReachGoal& goal : goals) results.push_back(reach(goal.chain, goal.target, pose, options));
     return results;
 }
