@@ -30,7 +30,8 @@ struct BatchPlan {
 /// A file goes to `folder` under its name; the files in a folder, and in the folders below it, to their places below
 /// `folder`: those whose names end as list_readable_suffixes() says. Where `folder` is empty, each goes beside its
 /// input. All with the extension .bendy. Links to folders are not followed. Prints a warning for a folder without such
-/// files. \param rig  a file that is read besides; may be empty
+/// files.
+/// \param rig  a file that is read besides; may be empty
 BatchPlan plan_batch(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder,
                      const std::filesystem::path& rig);
 

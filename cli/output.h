@@ -37,8 +37,8 @@ public:
     [[nodiscard]] std::string claim(const std::filesystem::path& output, NamedBy named);
     /// The same; prints why not and throws Failed. A terminal takes no binary.
     void writes(const std::filesystem::path& output, NamedBy named, Content content);
-    /// For a file whose name follows from that of `beside`, such as fox.bin beside fox.gltf: replaces only what a
-    /// `main` that bendy wrote refers to.
+    /// For a file whose name follows from that of `beside`, such as fox.bin beside fox.gltf: replaces an existing file
+    /// only if bendy wrote `beside` and it refers to that file.
     void writes_beside(const std::filesystem::path& output, const std::filesystem::path& beside);
 
     /// Writes an output that was noted. Fails where any of them has turned out to be an input since.

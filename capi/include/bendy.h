@@ -320,7 +320,7 @@ typedef struct bendy_reach_options {
     uint32_t ignore_constraints; /* 1: joints may turn past their limits */
     uint32_t has_pole;           /* 1: `pole` counts; 0: the chain's own pole */
     float pole[3];               /* two-bone, aim: a point in model space to bend towards */
-    uint32_t carry_target;       /* 1: then the joint that the chain follows is moved to the tip, with all below it */
+    uint32_t carry_target;       /* 1: afterwards, the joint that the chain follows moves to the tip */
 } bendy_reach_options;
 
 #define BENDY_REACH_OPTIONS_INIT \

@@ -20,7 +20,7 @@ struct Inner {
 };
 
 /// The members that the specification gives an object. `known` lists `extras` and `name` where the Scene holds them,
-/// and `extensions` where other code reports what becomes of them.
+/// and `extensions` where other code reports the ones it drops.
 struct Shape {
     std::string_view known;  ///< names, separated by spaces
     std::span<const Inner> inner = {};

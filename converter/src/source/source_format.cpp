@@ -26,7 +26,8 @@ constexpr std::string_view kCollada =
     "export it as glTF 2.0 from Blender 4 (File > Import > Collada, then File > Export > glTF 2.0), or convert it with "
     "COLLADA2GLTF";
 constexpr std::string_view kOtherTool = "export it as glTF 2.0 from the program that made it";
-constexpr std::string_view kNotInThisBuild = "build it with BENDY_X_FILES and BENDY_MD2";
+constexpr std::string_view kBuildWithX = "build it with BENDY_X_FILES=ON";
+constexpr std::string_view kBuildWithMd2 = "build it with BENDY_MD2=ON";
 constexpr std::string_view kArchive = "unpack it, and convert the model that is in it";
 
 constexpr FileKind kFbxFile{"an FBX file", std::nullopt, kFbx};
@@ -35,8 +36,8 @@ constexpr FileKind kBlendFile{"a Blender file", std::nullopt, kBlend};
 constexpr FileKind kColladaFile{"a COLLADA file", std::nullopt, kCollada};
 constexpr FileKind kPlyFile{"a PLY file", std::nullopt, kMeshOnly};
 constexpr FileKind kZipFile{"a ZIP archive", std::nullopt, kArchive};
-constexpr FileKind kXFile{"a DirectX X-file", std::nullopt, kNotInThisBuild};
-constexpr FileKind kMd2File{"a Quake II model", std::nullopt, kNotInThisBuild};
+constexpr FileKind kXFile{"a DirectX X-file", std::nullopt, kBuildWithX};
+constexpr FileKind kMd2File{"a Quake II model", std::nullopt, kBuildWithMd2};
 
 constexpr std::size_t kKindBytes = 4096;
 

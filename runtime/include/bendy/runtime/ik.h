@@ -35,8 +35,9 @@ struct ReachOptions {
     std::uint32_t restarts = 8;     ///< least squares: other beginnings that it tries when it is stuck
     std::optional<glm::vec3> pole;  ///< two-bone, aim: point in model space; default: the chain's pole joint or vector
     bool obey_constraints = true;
-    /// Then moves the joint that the chain follows to the tip, with all below it: where a foot is no child of the leg,
-    /// it stays at the leg's end. Nothing moves if the chain follows no joint, or one in, above or below the chain.
+    /// Afterwards, moves the joint that the chain follows to the tip, with everything below it: a foot that is not a
+    /// child of its leg stays at the leg's end. Has no effect if the chain follows no joint, or one that is in, above
+    /// or below the chain.
     bool carry_target = false;
 };
 

@@ -10,7 +10,7 @@
 namespace BENDY_PUBLIC bendy {
 
 enum class Kernel : std::uint8_t {
-    plain,  ///< one number at a time; every other one is held against it
+    plain,  ///< one number at a time; the reference that the others are tested against
     sse4,   ///< four lanes, SSE 4.1
     avx2,   ///< eight lanes, AVX2 and FMA
     neon,   ///< four lanes, 64-bit ARM
