@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Builds everything, converts an example character, shows its chunk tree, and poses it in the middle of its walk.
+# Builds the program, converts an example character, shows its chunk tree, and poses it in the middle of its walk.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh build
 cmake --preset release -DBENDY_TESTS=OFF >/dev/null
-cmake --build --preset release
+cmake --build --preset release --target bendy
 
 bendy=build/release/cli/bendy
 mkdir -p out
