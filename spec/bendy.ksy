@@ -1,7 +1,7 @@
-# The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io): compile it to a reader in some dozen
-# languages, or look at a file with it in the Kaitai Web IDE. The grammar, not the meaning: what numbers a valid file may
-# hold stands on the pages beside this file, and sums are not checked here. tests/spec/check_spec.py holds it against the
-# tables of those pages.
+# The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io). Compile it to a reader in one of a dozen
+# languages, or use it to inspect a file in the Kaitai Web IDE. It describes the grammar only: the pages beside this file
+# say which numbers a valid file may hold, and sums are not checked. tests/spec/check_spec.py compares it with the tables
+# of those pages.
 meta:
   id: bendy
   title: Bendy animated character
@@ -35,7 +35,7 @@ types:
   chunk:
     doc: "A header, a payload, and zeros up to the next multiple of 16."
     params:
-      - {id: is_named, type: bool, doc: "ids mean something here: all containers above are known ones"}
+      - {id: is_named, type: bool, doc: "whether ids have a meaning here: all containers above are known"}
     seq:
       - {id: header, type: header}
       - {id: chunks, type: chunks(is_known_container), size: header.size, if: header.is_container}
@@ -66,9 +66,9 @@ types:
     seq:
       - {id: list, type: chunk(is_named), repeat: eos}
   payload:
-    doc: "A leaf's payload. That of an encoded leaf is read once it is decoded: give the bytes to payload(its id)."
+    doc: "A leaf's payload. An encoded payload must be decoded first: pass the decoded bytes to payload(its id)."
     params:
-      - {id: kind, type: str, doc: "the chunk's id; coded for an encoded leaf, empty where ids mean nothing"}
+      - {id: kind, type: str, doc: "the chunk's id; coded for an encoded leaf, empty where ids have no meaning"}
     seq:
       - id: body
         size-eos: true
@@ -182,7 +182,7 @@ types:
       - {id: record, type: palette_record}
       - {id: joints, type: u4, repeat: expr, repeat-expr: record.entries}
       - {id: zeros, size: (4 - record.entries % 4) % 4 * 4}
-      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the one from which they follow"}
+      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the single matrix from which they are derived"}
   matrix:
     seq:
       - {id: values, type: f4, repeat: expr, repeat-expr: 16, doc: "column by column"}
@@ -192,7 +192,7 @@ types:
       - {id: pools, type: pool_collapse_record, repeat: expr, repeat-expr: record.pools}
       - {id: levels, type: collapse_level(record.pools), repeat: expr, repeat-expr: record.levels}
       - {id: zeros, size: (16 - record.levels * (record.pools + 1) * 4 % 16) % 16}
-      - {id: rest, size-eos: true, doc: "of each pool: targets, zeros, joined bits, zeros; as many as its VINF has vertices: see collapses"}
+      - {id: rest, size-eos: true, doc: "for each mesh: targets, zeros, joined bits, zeros; their number depends on the vertices in its VINF: see collapses"}
   collapse_level:
     params:
       - {id: pools, type: u4}
@@ -200,7 +200,7 @@ types:
       - {id: error, type: f4, doc: "metres"}
       - {id: alive, type: u4, repeat: expr, repeat-expr: pools, doc: "vertices of each pool"}
   collapses:
-    doc: "What follows the levels, for each pool; count is its vertices less its base, which another chunk says."
+    doc: "The data after the levels, for each mesh; count is its number of vertices minus its base, which is in another chunk."
     params:
       - {id: count, type: u4}
       - {id: target_type, type: u1, enum: component_type}
@@ -242,7 +242,7 @@ types:
     doc: "chunks/PACK.md."
     seq:
       - {id: record, type: pack_record}
-      - {id: masks, type: 'mask(record.lists >> _index & 1 != 0 ? record.joints : 0)', repeat: expr, repeat-expr: 8, doc: "which joints a list has tracks of"}
+      - {id: masks, type: 'mask(record.lists >> _index & 1 != 0 ? record.joints : 0)', repeat: expr, repeat-expr: 8, doc: "the joints for which a list has tracks"}
       - {id: steps, type: 'step_list(masks[_index].tracks * (_index / 2 == 2 ? 1 : 3))', repeat: expr, repeat-expr: 8}
       - {id: constant_bases, type: 'base_list(masks[_index * 2].tracks * (_index == 2 ? 1 : 3), record.wide >> _index * 2 & 1 != 0)', repeat: expr, repeat-expr: 4, doc: "of lists 0, 2, 4, 6"}
       - {id: times, type: f4, repeat: expr, repeat-expr: record.frames, if: record.frame_rate == 0}
@@ -289,7 +289,7 @@ types:
       - {id: number, type: u4}
     seq:
       - {id: lists, type: segment_list(_index * 2 + 1), repeat: expr, repeat-expr: 4, doc: "of lists 1, 3, 5, 7"}
-      - {id: frames, size: '(bits + 7) / 8', repeat: expr, repeat-expr: last - first + 1, doc: "numbers of so many bits each as their width says"}
+      - {id: frames, size: '(bits + 7) / 8', repeat: expr, repeat-expr: last - first + 1, doc: "numbers, each with the number of bits that its width gives"}
     instances:
       first: {value: number * _parent.record.segment_frames, doc: "frame"}
       last: {value: 'number + 1 == _parent.segment_count ? _parent.record.frames - 1 : first + _parent.record.segment_frames', doc: "frame"}
