@@ -1,7 +1,7 @@
-# The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io): compile it to a reader in some dozen
-# languages, or look at a file with it in the Kaitai Web IDE. The grammar, not the meaning: what numbers a valid file may
-# hold stands on the pages beside this file, and sums are not checked here. tests/spec/check_spec.py holds it against the
-# tables of those pages.
+# The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io). Compile it to a reader in one of a dozen
+# languages, or use it to inspect a file in the Kaitai Web IDE. It describes the grammar only: the pages beside this file
+# say which numbers a valid file may hold, and sums are not checked. tests/spec/check_spec.py compares it with the tables
+# of those pages.
 meta:
   id: bendy
   title: Bendy animated character
@@ -35,7 +35,7 @@ types:
   chunk:
     doc: "A header, a payload, and zeros up to the next multiple of 16."
     params:
-      - {id: is_named, type: bool, doc: "ids mean something here: all containers above are known ones"}
+      - {id: is_named, type: bool, doc: "whether ids have a meaning here: all containers above are known"}
     seq:
       - {id: header, type: header}
       - {id: chunks, type: chunks(is_known_container), size: header.size, if: header.is_container}
@@ -66,9 +66,9 @@ types:
     seq:
       - {id: list, type: chunk(is_named), repeat: eos}
   payload:
-    doc: "A leaf's payload. That of an encoded leaf is read once it is decoded: give the bytes to payload(its id)."
+    doc: "A leaf's payload. An encoded payload must be decoded first: pass the decoded bytes to payload(its id)."
     params:
-      - {id: kind, type: str, doc: "the chunk's id; coded for an encoded leaf, empty where ids mean nothing"}
+      - {id: kind, type: str, doc: "the chunk's id; coded for an encoded leaf, empty where ids have no meaning"}
     seq:
       - id: body
         size-eos: true
@@ -182,7 +182,7 @@ types:
       - {id: record, type: palette_record}
       - {id: joints, type: u4, repeat: expr, repeat-expr: record.entries}
       - {id: zeros, size: (4 - record.entries % 4) % 4 * 4}
-      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the one from which they follow"}
+      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the single matrix from which they are derived"}
   matrix:
     seq:
       - {id: values, type: f4, repeat: expr, repeat-expr: 16, doc: "column by column"}
@@ -192,7 +192,7 @@ types:
       - {id: pools, type: pool_collapse_record, repeat: expr, repeat-expr: record.pools}
       - {id: levels, type: collapse_level(record.pools), repeat: expr, repeat-expr: record.levels}
       - {id: zeros, size: (16 - record.levels * (record.pools + 1) * 4 % 16) % 16}
-      - {id: rest, size-eos: true, doc: "of each pool: targets, zeros, joined bits, zeros; as many as its VINF has vertices: see collapses"}
+      - {id: rest, size-eos: true, doc: "for each mesh: targets, zeros, joined bits, zeros; their number depends on the vertices in its VINF: see collapses"}
   collapse_level:
     params:
       - {id: pools, type: u4}
@@ -200,7 +200,7 @@ types:
       - {id: error, type: f4, doc: "metres"}
       - {id: alive, type: u4, repeat: expr, repeat-expr: pools, doc: "vertices of each pool"}
   collapses:
-    doc: "What follows the levels, for each pool; count is its vertices less its base, which another chunk says."
+    doc: "The data after the levels, for each mesh; count is its number of vertices minus its base, which is in another chunk."
     params:
       - {id: count, type: u4}
       - {id: target_type, type: u1, enum: component_type}
@@ -242,7 +242,7 @@ types:
     doc: "chunks/PACK.md."
     seq:
       - {id: record, type: pack_record}
-      - {id: masks, type: 'mask(record.lists >> _index & 1 != 0 ? record.joints : 0)', repeat: expr, repeat-expr: 8, doc: "which joints a list has tracks of"}
+      - {id: masks, type: 'mask(record.lists >> _index & 1 != 0 ? record.joints : 0)', repeat: expr, repeat-expr: 8, doc: "the joints for which a list has tracks"}
       - {id: steps, type: 'step_list(masks[_index].tracks * (_index / 2 == 2 ? 1 : 3))', repeat: expr, repeat-expr: 8}
       - {id: constant_bases, type: 'base_list(masks[_index * 2].tracks * (_index == 2 ? 1 : 3), record.wide >> _index * 2 & 1 != 0)', repeat: expr, repeat-expr: 4, doc: "of lists 0, 2, 4, 6"}
       - {id: times, type: f4, repeat: expr, repeat-expr: record.frames, if: record.frame_rate == 0}
@@ -289,7 +289,7 @@ types:
       - {id: number, type: u4}
     seq:
       - {id: lists, type: segment_list(_index * 2 + 1), repeat: expr, repeat-expr: 4, doc: "of lists 1, 3, 5, 7"}
-      - {id: frames, size: '(bits + 7) / 8', repeat: expr, repeat-expr: last - first + 1, doc: "numbers of so many bits each as their width says"}
+      - {id: frames, size: '(bits + 7) / 8', repeat: expr, repeat-expr: last - first + 1, doc: "numbers, each with the number of bits that its width gives"}
     instances:
       first: {value: number * _parent.record.segment_frames, doc: "frame"}
       last: {value: 'number + 1 == _parent.segment_count ? _parent.record.frames - 1 : first + _parent.record.segment_frames', doc: "frame"}
@@ -315,38 +315,38 @@ types:
   version_record:
     seq:
       - {id: signature, size: 8, doc: "42 45 4E 44 59 0D 0A 1A: BENDY, CR, LF, Ctrl-Z"}
-      - {id: major, type: u2, doc: "major version: a reader refuses another one than its own"}
-      - {id: minor, type: u2, doc: "minor version: later ones only add what may be skipped"}
+      - {id: major, type: u2, doc: "major version; a reader refuses any that it does not know"}
+      - {id: minor, type: u2, doc: "minor version; later ones only add what readers may skip"}
       - {id: objects, type: u4, doc: "number of OBJE chunks"}
-      - {id: joints, type: u4, doc: "number of SKIN chunks, all objects"}
-      - {id: pools, type: u4, doc: "number of VECT chunks, all objects"}
-      - {id: vertices, type: u8, doc: "sum of the pools' vertices"}
-      - {id: cycles, type: u4, doc: "number of CYCL chunks, all objects"}
-      - {id: materials, type: u4, doc: "number of MATE chunks, local ones included"}
+      - {id: joints, type: u4, doc: "number of SKIN chunks in all objects"}
+      - {id: pools, type: u4, doc: "number of VECT chunks in all objects"}
+      - {id: vertices, type: u8, doc: "total number of vertices of all meshes"}
+      - {id: cycles, type: u4, doc: "number of CYCL chunks in all objects"}
+      - {id: materials, type: u4, doc: "number of MATE chunks, including local ones"}
       - {id: textures, type: u4, doc: "number of TEXT chunks"}
       - {id: reserved, type: u4, doc: "zero"}
-      - {id: generator, size: 32, type: str, if: not _io.eof, doc: "name and version of the writing program, UTF-8, zeros to the end"}
+      - {id: generator, size: 32, type: str, if: not _io.eof, doc: "name and version of the program that wrote the file, UTF-8, padded with zeros"}
   bound_record:
     seq:
-      - {id: max_error, type: f4, doc: "metres: no point of the skin is further from where the source has it"}
-      - {id: measured_error, type: f4, doc: "metres: the largest distance that the writer has met"}
-      - {id: height, type: f4, doc: "metres: the character's height at rest"}
+      - {id: max_error, type: f4, doc: "metres: no point of the skin is farther than this from its position in the source"}
+      - {id: measured_error, type: f4, doc: "metres: the largest distance that the writer measured"}
+      - {id: height, type: f4, doc: "metres: the character's height in the rest pose"}
   sampler_record:
     seq:
       - {id: mag_filter, type: u1, enum: filter, doc: "0 unspecified, 1 nearest, 2 linear"}
-      - {id: min_filter, type: u1, enum: filter, doc: "0 to 2 as mag_filter, then 3 nearest and 4 linear with nearest mipmap, 5 nearest and 6 linear with linear mipmap"}
+      - {id: min_filter, type: u1, enum: filter, doc: "0 to 2 as for mag_filter; with the nearest mipmap: 3 nearest, 4 linear; linear between mipmaps: 5 nearest, 6 linear"}
       - {id: wrap_s, type: u1, enum: wrap, doc: "0 repeat, 1 clamp to edge, 2 mirrored repeat"}
-      - {id: wrap_t, type: u1, enum: wrap, doc: "as wrap_s"}
+      - {id: wrap_t, type: u1, enum: wrap, doc: "as for wrap_s"}
   same_record:
     seq:
-      - {id: texture, type: u4, doc: "TEXT number, counted through HEAD"}
-      - {id: image, type: u4, doc: "image number inside that TEXT; must be an IMAG or LINK"}
+      - {id: texture, type: u4, doc: "TEXT number in HEAD"}
+      - {id: image, type: u4, doc: "image number in that TEXT; must be an IMAG or a LINK"}
   texture_use_record:
     seq:
-      - {id: texture, type: u4, doc: "TEXT number; 0xFFFFFFFF none"}
+      - {id: texture, type: u4, doc: "TEXT number; 0xFFFFFFFF: none"}
       - {id: coords, type: u4, doc: "set number of the texture coordinates"}
-      - {id: offset, type: f4, repeat: expr, repeat-expr: 2, doc: "added to the coordinates after rotation and scale"}
-      - {id: scale, type: f4, repeat: expr, repeat-expr: 2, doc: "factors of the coordinates"}
+      - {id: offset, type: f4, repeat: expr, repeat-expr: 2, doc: "added to the coordinates after scale and rotation"}
+      - {id: scale, type: f4, repeat: expr, repeat-expr: 2, doc: "scale factors of the coordinates"}
       - {id: rotation, type: f4, doc: "radians, counter-clockwise about the origin"}
       - {id: reserved, type: u4, doc: "zero"}
   surface_record:
@@ -360,12 +360,12 @@ types:
       - {id: alpha_cutoff, type: f4, doc: "for alpha mode 1"}
       - {id: alpha_mode, type: u1, enum: alpha_mode, doc: "0 opaque, 1 mask, 2 blend"}
       - {id: double_sided, type: u1, doc: "0 or 1"}
-      - {id: unlit, type: u1, doc: "0 or 1: base colour only, as KHR_materials_unlit"}
+      - {id: unlit, type: u1, doc: "0 or 1; 1: only the base colour is used, as in KHR_materials_unlit"}
       - {id: reserved, size: 13, doc: "zero"}
-      - {id: base_colour_texture, type: texture_use_record, doc: "sRGB, alpha linear"}
-      - {id: metallic_roughness_texture, type: texture_use_record, doc: "green roughness, blue metallic; linear"}
+      - {id: base_colour_texture, type: texture_use_record, doc: "colour in sRGB, alpha linear"}
+      - {id: metallic_roughness_texture, type: texture_use_record, doc: "green: roughness, blue: metallic; linear"}
       - {id: normal_texture, type: texture_use_record, doc: "tangent space, linear"}
-      - {id: occlusion_texture, type: texture_use_record, doc: "red; linear"}
+      - {id: occlusion_texture, type: texture_use_record, doc: "red: occlusion; linear"}
       - {id: emissive_texture, type: texture_use_record, doc: "sRGB"}
   rest_record:
     seq:
@@ -376,131 +376,131 @@ types:
   limit_record:
     seq:
       - {id: model, type: u1, enum: limit_model, doc: "0 free, 1 locked, 2 hinge, 3 swing-twist ellipse, 4 swing-twist pyramid, 5 Euler box, 6 largest angle"}
-      - {id: euler_order, type: u1, enum: euler_order, doc: "of an Euler box, the axis that turns first named first: 0 XYZ, 1 XZY, 2 YXZ, 3 YZX, 4 ZXY, 5 ZYX; else 0"}
-      - {id: scope, type: u1, enum: limit_scope, doc: "0 every pose, 1 the IK solver only, 2 every pose but the IK solver's"}
-      - {id: flags, type: u1, doc: "1 approximated, 2 proposed, 4 the rest pose lies outside; their sum"}
-      - {id: soft_zone, type: f4, doc: "radians inside the limits in which steps towards them are halved; 0 none"}
-      - {id: frame, type: f4, repeat: expr, repeat-expr: 4, doc: "C, unit quaternion x y z w: its X is the twist or hinge axis, Y and Z the swing axes, in the joint's rest space"}
+      - {id: euler_order, type: u1, enum: euler_order, doc: "for an Euler box, the axes in the order of their rotations: 0 XYZ, 1 XZY, 2 YXZ, 3 YZX, 4 ZXY, 5 ZYX; otherwise 0"}
+      - {id: scope, type: u1, enum: limit_scope, doc: "0 every pose, 1 only the IK solver, 2 every pose except the IK solver's"}
+      - {id: flags, type: u1, doc: "sum of 1 approximated, 2 proposed, 4 rest pose outside"}
+      - {id: soft_zone, type: f4, doc: "radians: width of the zone inside the limits in which an IK solver halves steps towards them; 0: none"}
+      - {id: frame, type: f4, repeat: expr, repeat-expr: 4, doc: "C, unit quaternion x y z w in the joint's rest space: its X is the twist or hinge axis, its Y and Z the swing axes"}
       - {id: rotation_min, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame; -infinity: free"}
       - {id: rotation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame; infinity: free"}
       - {id: translation_min, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; -infinity: free"}
       - {id: translation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; infinity: free"}
-      - {id: stiffness, type: f4, repeat: expr, repeat-expr: 3, doc: "0 to 1 about X, Y, Z of the frame: how much an IK solver spares the axis; 1 locks it"}
-      - {id: preferred, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame: where a solver that is stuck begins anew, and which way a straight chain bends"}
+      - {id: stiffness, type: f4, repeat: expr, repeat-expr: 3, doc: "0 to 1 about X, Y, Z of the frame: how much an IK solver resists turning about the axis; 1 locks it"}
+      - {id: preferred, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame: where a solver restarts when it is stuck, and which way a straight chain bends"}
   pull_record:
     seq:
-      - {id: chain, type: u4, doc: "IKCH number inside the object"}
-      - {id: weight, type: f4, doc: "0 to 1: how much the joint moves for the chain; a joint without PULL has 1"}
+      - {id: chain, type: u4, doc: "IKCH number in the object"}
+      - {id: weight, type: f4, doc: "0 to 1: how much the joint moves for the chain; a joint without PULL has weight 1"}
   chain_record:
     seq:
-      - {id: start, type: u4, doc: "the first joint that turns: the effector itself or one above it"}
-      - {id: effector, type: u4, doc: "the joint that reaches"}
-      - {id: target, type: u4, doc: "the joint to be reached; 0xFFFFFFFF none"}
-      - {id: pole, type: u4, doc: "the joint that the chain bends towards; 0xFFFFFFFF none"}
+      - {id: start, type: u4, doc: "the first joint that turns: the effector or one of its ancestors"}
+      - {id: effector, type: u4, doc: "the joint that carries the tip"}
+      - {id: target, type: u4, doc: "the joint to reach; 0xFFFFFFFF: none"}
+      - {id: pole, type: u4, doc: "the joint that the chain bends towards; 0xFFFFFFFF: none"}
       - {id: solver, type: u1, enum: solver, doc: "0 the reader's choice, 1 pull, 2 two-bone, 3 CCD, 4 FABRIK, 5 aim, 6 damped least squares"}
-      - {id: flags, type: u1, doc: "1 approximated, 2 proposed; their sum"}
-      - {id: iterations, type: u2, doc: "at most; 0 the solver's own number"}
-      - {id: priority, type: u1, doc: "of several chains the higher is kept better: it is solved later"}
+      - {id: flags, type: u1, doc: "sum of 1 approximated, 2 proposed"}
+      - {id: iterations, type: u2, doc: "maximum number of iterations; 0: the solver's default"}
+      - {id: priority, type: u1, doc: "chains with a higher priority are solved later and override the others"}
       - {id: reserved, size: 3, doc: "zero"}
-      - {id: tolerance, type: f4, doc: "metres from the target that count as reached; 0 the solver's own"}
-      - {id: pole_vector, type: f4, repeat: expr, repeat-expr: 3, doc: "where there is no pole joint, the direction to bend towards, in the space of start's parent; zeros none"}
+      - {id: tolerance, type: f4, doc: "metres: the target counts as reached within this distance; 0: the solver's default"}
+      - {id: pole_vector, type: f4, repeat: expr, repeat-expr: 3, doc: "if there is no pole joint, the direction to bend towards, in the space of start's parent; zeros: none"}
       - {id: pole_angle, type: f4, doc: "radians from the pole to the bend, about the line from start to target"}
-      - {id: tip_offset, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the effector to the tip that reaches, in the effector's space"}
-      - {id: tip_rotation, type: f4, repeat: expr, repeat-expr: 4, doc: "unit quaternion x y z w: the tip's axes in the effector's space"}
-      - {id: position_weight, type: f4, doc: "0 to 1: how much the target's position counts"}
-      - {id: rotation_weight, type: f4, doc: "0 to 1: how much the target's orientation counts"}
-      - {id: influence, type: f4, doc: "0 to 1: how much of the solution a player mixes in when it runs the file's chains; 0 off at first"}
-      - {id: stretch, type: f4, doc: "0 or more: by how much of its length the chain may grow to reach"}
-      - {id: compress, type: f4, doc: "0 to 1: by how much of its length the chain may shrink"}
+      - {id: tip_offset, type: f4, repeat: expr, repeat-expr: 3, doc: "metres: position of the tip in the effector's space"}
+      - {id: tip_rotation, type: f4, repeat: expr, repeat-expr: 4, doc: "unit quaternion x y z w: orientation of the tip in the effector's space"}
+      - {id: position_weight, type: f4, doc: "0 to 1: weight of the target's position"}
+      - {id: rotation_weight, type: f4, doc: "0 to 1: weight of the target's orientation"}
+      - {id: influence, type: f4, doc: "0 to 1: how much of the solution is blended in when a player runs the file's chains; 0: initially off"}
+      - {id: stretch, type: f4, doc: "0 or more: the fraction of its length by which the chain may grow to reach the target"}
+      - {id: compress, type: f4, doc: "0 to 1: the fraction of its length by which the chain may shrink"}
   polygon_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number inside the object"}
-      - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF none"}
-      - {id: first, type: u4, doc: "first entry in the pool's INDX"}
-      - {id: count, type: u4, doc: "entries: a multiple of 3, 2 or 1 by topology"}
+      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF: none"}
+      - {id: first, type: u4, doc: "first entry in the mesh's INDX"}
+      - {id: count, type: u4, doc: "number of entries: a multiple of 3, 2 or 1, depending on topology"}
       - {id: topology, type: u1, enum: topology, doc: "0 triangles, 1 lines, 2 points"}
       - {id: reserved, size: 3, doc: "zero"}
   joints_record:
     seq:
-      - {id: joints, type: u4, doc: "number of SKIN chunks of the object; then as many RestRecords of 52 bytes"}
-      - {id: polygons, type: u4, doc: "number of polygon ranges, which follow: u32 joint, then a PolygonRecord of 20 bytes"}
+      - {id: joints, type: u4, doc: "number of SKIN chunks in the object; as many RestRecords of 52 bytes follow"}
+      - {id: polygons, type: u4, doc: "number of submeshes, which follow the rest transforms: u32 joint and a PolygonRecord, 24 bytes each"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
   pool_record:
     seq:
-      - {id: vertices, type: u4, doc: "number of vertices; every stream has as many elements"}
-      - {id: joint, type: u4, doc: "the joint that carries the pool; 0xFFFFFFFF none"}
+      - {id: vertices, type: u4, doc: "number of vertices; every stream has this many elements"}
+      - {id: joint, type: u4, doc: "the joint that carries the mesh; 0xFFFFFFFF: none"}
   target_record:
     seq:
-      - {id: rest_weight, type: f4, doc: "weight when no cycle animates it"}
+      - {id: rest_weight, type: f4, doc: "weight when no clip animates it"}
   cycle_record:
     seq:
-      - {id: start, type: f4, doc: "seconds: the earliest key"}
-      - {id: end, type: f4, doc: "seconds: the latest key; the cycle's length is end - start"}
+      - {id: start, type: f4, doc: "seconds: time of the earliest key"}
+      - {id: end, type: f4, doc: "seconds: time of the latest key; the length of the clip is end - start"}
       - {id: frame_rate, type: f4, doc: "frames per second of PLAY and of tracks with fixed frames; 0 if there are none"}
-      - {id: loop, type: u1, doc: "0 plays once, 1 repeats"}
+      - {id: loop, type: u1, doc: "0: play once, 1: repeat"}
       - {id: reserved, size: 3, doc: "zero"}
   marker_record:
     seq:
-      - {id: seconds, type: f4, doc: "seconds, on the cycle's own time: from start to end"}
-      - {id: name_end, type: u4, doc: "byte of the names behind its name's last; the name begins where the one before ends"}
+      - {id: seconds, type: f4, doc: "seconds on the time line of the clip, from start to end"}
+      - {id: name_end, type: u4, doc: "offset in the names of the first byte after this marker's name; the name begins where the previous one ends"}
   markers_record:
     seq:
-      - {id: markers, type: u4, doc: "number of MarkerRecords, which follow this record; behind them the names, UTF-8, without gaps"}
+      - {id: markers, type: u4, doc: "number of MarkerRecords, which follow this record; the names follow them, UTF-8, without gaps"}
       - {id: reserved, type: u4, doc: "zero"}
   pack_record:
     seq:
       - {id: frames, type: u4, doc: "number of frames, 1 or more; 2 or more if a track is animated"}
       - {id: start, type: f4, doc: "seconds: the time of frame 0"}
-      - {id: frame_rate, type: f4, doc: "frames per second; 0: a table has the frames' times"}
-      - {id: joints, type: u2, doc: "joints that the lists' bits cover"}
-      - {id: segment_frames, type: u2, doc: "frames from one segment's first to the next one's; 0: there is one segment"}
+      - {id: frame_rate, type: f4, doc: "frames per second; 0: a table holds the times of the frames"}
+      - {id: joints, type: u2, doc: "number of joints that the bit masks of the lists cover"}
+      - {id: segment_frames, type: u2, doc: "frames from the start of one segment to the start of the next; 0: one segment"}
       - {id: lists, type: u1, doc: "bit k: list k has tracks"}
-      - {id: wide, type: u1, doc: "bit k: list k's bases have 4 bytes, not 2"}
+      - {id: wide, type: u1, doc: "bit k: the bases of list k have 4 bytes instead of 2"}
       - {id: reserved, size: 2, doc: "zero"}
   play_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number inside the object"}
-      - {id: first, type: u4, doc: "frame at the cycle's start; 0 the pool's own streams, k frame k - 1 of its FRMS"}
+      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: first, type: u4, doc: "frame at the clip's start; 0: the mesh's own streams, k: frame k - 1 of its FRMS"}
       - {id: frames, type: u4, doc: "number of frames, 1 or more; frame k is at start + k / frame_rate"}
-      - {id: closed, type: u1, doc: "1: the first frame follows on the last one, another 1 / frame_rate later; else 0"}
+      - {id: closed, type: u1, doc: "1: the first frame follows the last one after another 1 / frame_rate; otherwise 0"}
       - {id: reserved, size: 3, doc: "zero"}
   track_record:
     seq:
-      - {id: target, type: u4, doc: "joint number, or for weights pool number"}
+      - {id: target, type: u4, doc: "joint number; for weights, mesh number"}
       - {id: path, type: u1, enum: track_path, doc: "0 translation, 1 rotation, 2 scale, 3 weights"}
       - {id: interpolation, type: u1, enum: interpolation, doc: "0 step, 1 linear, 2 cubic"}
-      - {id: components, type: u2, doc: "numbers per value: 3, 4, 3, or the pool's number of targets"}
+      - {id: components, type: u2, doc: "numbers per value: 3, 4, 3, or the mesh's number of morph targets"}
       - {id: keys, type: u4, doc: "number of keys, 1 or more"}
       - {id: first_time, type: u4, doc: "index into TIME; 0xFFFFFFFF: fixed frames, key k is at start + k / frame_rate"}
-      - {id: first_value, type: u8, doc: "index into KEYV, in numbers"}
+      - {id: first_value, type: u8, doc: "index into KEYV, counted in numbers"}
   stream_record:
     seq:
       - {id: component_type, type: u1, enum: component_type, doc: "0 u8, 1 i8, 2 u16, 3 i16, 4 u32, 5 f32"}
-      - {id: normalised, type: u1, enum: numbers, doc: "1: integers stand for 0 to 1, or -1 to 1 if signed; 2: for minimum + step * integer; 3: for an entry of the pool's NLST"}
+      - {id: normalised, type: u1, enum: numbers, doc: "what integers represent: 0 themselves; 1 a fraction, 0 to 1, or -1 to 1 if signed; 2 minimum + step * integer; 3 an entry of the mesh's NLST"}
       - {id: components, type: u2, doc: "numbers per element, 1 or more"}
-      - {id: elements, type: u4, doc: "number of elements; they follow this record without gaps"}
-      - {id: set, type: u4, doc: "number of the set, for TEXC and COLR; else zero"}
+      - {id: elements, type: u4, doc: "number of elements, which follow this record without gaps"}
+      - {id: set, type: u4, doc: "set number of a TEXC or COLR; otherwise zero"}
       - {id: reserved, type: u4, doc: "zero"}
   palette_record:
     seq:
-      - {id: entries, type: u4, doc: "number of entries; then joints u32[entries], zeros up to 16 bytes, inverse bind matrices f32[16][entries]"}
-      - {id: derived, type: u4, doc: "1: one matrix f32[16] stands in place of all, from which and the rest pose they follow; else 0"}
+      - {id: entries, type: u4, doc: "number of entries; joints u32[entries], zeros up to a multiple of 16 bytes and inverse bind matrices f32[16][entries] follow"}
+      - {id: derived, type: u4, doc: "1: a single matrix f32[16] is stored, from which all matrices are derived with the rest pose; otherwise 0"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
   pool_collapse_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number inside the object; ascending"}
-      - {id: base, type: u4, doc: "vertices that never collapse: the pool's first"}
-      - {id: target_type, type: u1, enum: component_type, doc: "of the targets: 2 u16, 4 u32"}
+      - {id: pool, type: u4, doc: "VECT number in the object; ascending"}
+      - {id: base, type: u4, doc: "number of vertices that never collapse: the first ones of the mesh"}
+      - {id: target_type, type: u1, enum: component_type, doc: "type of the collapse targets: 2 u16, 4 u32"}
       - {id: reserved, size: 7, doc: "zero"}
   collapse_record:
     seq:
       - {id: pools, type: u4, doc: "number of PoolCollapseRecords, which follow this record"}
-      - {id: levels, type: u4, doc: "number of rows of the table of levels, which follows them"}
+      - {id: levels, type: u4, doc: "number of rows in the table of levels, which follows them"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
   image_record:
     seq:
       - {id: media, type: u1, enum: media_type, doc: "0 other, 1 PNG, 2 JPEG, 3 KTX2, 4 WebP, 5 AVIF"}
-      - {id: reserved, size: 15, doc: "zero; the image's bytes follow this record"}
+      - {id: reserved, size: 15, doc: "zero; the image data follows this record"}
 enums:
   component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}
   numbers: {0: plain, 1: normalised, 2: boxed, 3: listed}

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes text.schema.json, the JSON Schema of the text twin, from the tables of chunks and records.
+"""Writes text.schema.json, the JSON Schema of the text form, from the tables of chunks and records.
 
-    make_text_schema.py [--check]      --check: only say whether the file is what would be written
+    make_text_schema.py [--check]      --check: only check whether the file is up to date
 """
 
 import json
@@ -45,7 +45,7 @@ def array(kind):
 
 
 def record(records, struct, members=(), is_in_array=False):
-    """The object of a record, with further members: (name, schema)."""
+    """The object of a record, with additional members: (name, schema)."""
     _, shortest, fields = records[struct]
     properties, required = {}, []
     for name, kind, count, offset, what in fields:
@@ -58,12 +58,12 @@ def record(records, struct, members=(), is_in_array=False):
             required.append(name)
     properties.update(members)
     if not is_in_array:
-        properties["more"] = {"description": "bytes behind what the other members say", **ref("digits")}
+        properties["more"] = {"description": "the bytes after those that the other members represent", **ref("digits")}
     return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
 
 
 def leaf_forms(records):
-    """What a leaf's content is, by id."""
+    """The schema of a leaf's content, by id."""
     forms = {name: {"type": "string"} for name in TEXTS}
     of_chunk = {chunk: struct for struct, (chunk, _, _) in records.items()}
     for chunk, struct in of_chunk.items():
@@ -88,7 +88,7 @@ def leaf_forms(records):
     forms["JNTS"] = record(records, "JointsRecord", {"rests": {"type": "array", "items": ref("RestRecord")},
                                                      "ranges": {"type": "array", "items": ref("JointPolygons")}})
     forms["LODD"] = record(records, "CollapseRecord", {"collapses": {"type": "array", "items": ref("PoolCollapseRecord")},
-                                                       "table": {"description": "of each level: error, vertices alive of each pool",
+                                                       "table": {"description": "for each level: error, vertices alive of each mesh",
                                                                  "type": "array", "items": {"anyOf": [ref("f32"), ref("u32")]}}})
     forms["LODD"]["patternProperties"] = {"^targets_[0-9]+$": array("u32"), "^joined_[0-9]+$": array("u8")}
     forms["IMAG"] = record(records, "ImageRecord", {"image": ref("digits")})
@@ -103,11 +103,11 @@ def schema():
     chunks, records = read_tables()
     forms = leaf_forms(records)
     definitions = {kind: number(kind) for kind in (*TYPES, "f32")}
-    definitions["digits"] = {"description": "bytes, two hexadecimal digits each: a string, or several that follow one another",
+    definitions["digits"] = {"description": "bytes, two hexadecimal digits each: a string, or several strings to be concatenated",
                              "anyOf": [ref("digitString"), {"type": "array", "items": ref("digitString")}]}
     definitions["digitString"] = {"type": "string", "pattern": "^([0-9A-Fa-f]{2})*$"}
     definitions["bytes"] = {"type": "object", "properties": {"hex": ref("digits")}, "required": ["hex"], "additionalProperties": False}
-    definitions["any"] = {"description": "a container's chunks; a leaf's bytes; null where there are only encoded ones",
+    definitions["any"] = {"description": "the chunks of a container; the bytes of a leaf; null if only encoded bytes are present",
                           "anyOf": [ref("chunks"), ref("bytes"), {"type": "null"}]}
     definitions["chunks"] = {"type": "array", "items": ref("chunk")}
     properties = {}
@@ -117,8 +117,8 @@ def schema():
         if has_form:
             definitions[letters] = forms[letters]
     properties["required"] = {"description": "a reader that does not know this chunk must refuse the file", "type": "boolean"}
-    properties["codec"] = {"description": "how the chunk is encoded: spec/codecs.md", "type": "integer", "minimum": 1, "maximum": 255}
-    properties["encoded"] = {"description": "the encoded bytes; kept if they still decode to the content", **ref("digits")}
+    properties["codec"] = {"description": "how the leaf is encoded: see spec/codecs.md", "type": "integer", "minimum": 1, "maximum": 255}
+    properties["encoded"] = {"description": "the encoded bytes; used if they still decode to the content", **ref("digits")}
     definitions["chunk"] = {
         "type": "object", "properties": properties, "additionalProperties": ref("any"),
         "propertyNames": {"pattern": "^([A-Z0-9]{4}|required|codec|encoded)$"}, "minProperties": 1, "maxProperties": 4,
@@ -131,9 +131,9 @@ def schema():
     definitions["JointPolygons"] = polygons
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "The text twin of a bendy file: see text.md",
+        "title": "The text form of a Bendy file: see text.md",
         "type": "object",
-        "properties": {"$schema": {"type": "string"}, "bendy_text": {"description": "version of this form", "const": 1},
+        "properties": {"$schema": {"type": "string"}, "bendy_text": {"description": "version of the text form", "const": 1},
                        "HEAD": ref("chunks"), "required": {"type": "boolean"}},
         "required": ["bendy_text", "HEAD"],
         "additionalProperties": False,
@@ -147,7 +147,7 @@ def main():
     if sys.argv[1:] == ["--check"]:
         if path.exists() and path.read_text() == text:
             return 0
-        print(f"{path} is not what {Path(__file__).name} writes")
+        print(f"{path} is not up to date: run {Path(__file__).name}")
         return 1
     path.write_text(text)
     return 0

@@ -158,7 +158,7 @@ TEST(CheckGrammar, NamesTheChunkThatIsMissing) {
         ASSERT_EQ(faults.list().size(), 1u) << row.id;
         EXPECT_EQ(faults.list()[0].code, ErrorCode::kChunkMissing);
         EXPECT_EQ(chunk_path(file, faults.list()[0].offset), expected);
-        EXPECT_EQ(describe(faults.list()[0]), "the container lacks a chunk that it must have: " + row.id);
+        EXPECT_EQ(describe(faults.list()[0]), "the container lacks a required chunk: " + row.id);
     }
 }
 

@@ -168,15 +168,15 @@ TEST(Describe, FillsInTheNumbers) {
     EXPECT_EQ(describe(fault(ErrorCode::kChunkTooLong, 96, 48)),
               "the chunk's payload of 96 bytes does not fit the 48 bytes left in its container");
     EXPECT_EQ(describe(fault(ErrorCode::kRecordTooShort, 3, ~std::uint64_t{0})),
-              "the record has 3 bytes, at least 18446744073709551615 are needed");
+              "the record is too short: expected at least 18446744073709551615 bytes, found 3");
 }
 
 TEST(Describe, ShowsSumsAndFlagsInHexadecimalAndIdsInLetters) {
     EXPECT_EQ(describe(fault(ErrorCode::kSumMismatch, 0xdeadbeef)),
-              "the integrity sum does not match the content: it should be 0xdeadbeef");
+              "the checksum does not match the content: expected 0xdeadbeef");
     EXPECT_EQ(describe(fault(ErrorCode::kReservedFlags, 0xfc)), "reserved flag bits are set: 0xfc");
     EXPECT_EQ(describe(fault(ErrorCode::kChunkMissing, FourCC("PIVO").value)),
-              "the container lacks a chunk that it must have: PIVO");
+              "the container lacks a required chunk: PIVO");
 }
 
 TEST(Describe, SaysWhatTheSystemSaid) {
@@ -200,7 +200,8 @@ TEST(Describe, LeavesNoMarkUnfilled) {
 TEST(Describe, AddsPathAndOffset) {
     const Buffer file = sample_file();
     EXPECT_EQ(describe_with_place(fault(ErrorCode::kSignature), file),
-              "the VERS signature is wrong: the file was damaged as text, or is none of ours (HEAD/VERS, offset 16)");
+              "the signature in VERS is wrong: the file was damaged by a text-mode transfer, or is not a Bendy file "
+              "(HEAD/VERS, offset 16)");
     EXPECT_EQ(describe_with_place(fault(ErrorCode::kNotABendyFile), {}),
               "this is not a bendy file: it does not start with a HEAD chunk (offset 16)");
     EXPECT_EQ(describe_with_place(fault(ErrorCode::kCannotOpen, ENOENT), file),
