@@ -10,7 +10,7 @@ MAY_USE = {
     "format": set(),
     "runtime": {"format"},
     "capi": {"format", "runtime"},
-    "converter": {"format", "edit"},
+    "converter": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},

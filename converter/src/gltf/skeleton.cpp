@@ -6,7 +6,7 @@
 #include "losses.h"
 #include "source/transform.h"
 
-#include <bendy/edit/names.h>
+#include <bendy/format/names.h>
 
 #include <algorithm>
 #include <array>
@@ -67,7 +67,7 @@ std::optional<std::size_t> choose_scene(const Document& document, const std::opt
         std::vector<std::string_view> names;
         names.reserve(scenes.size());
         for (const auto& scene : scenes) names.emplace_back(scene.name);
-        fail("scenes", edit::no_such_name("scene", *option, names));
+        fail("scenes", no_such_name("scene", *option, names));
     }
     if (scenes.empty()) return std::nullopt;
     return document.model.defaultScene >= 0 ? static_cast<std::size_t>(document.model.defaultScene) : 0;
