@@ -2,7 +2,7 @@
 
 #include "evaluate.h"
 #include "failure.h"
-#include "rig/joint_index.h"
+#include "rig/joint_key.h"
 
 #include <bendy/format/names.h>
 
