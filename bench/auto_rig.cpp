@@ -14,8 +14,7 @@
 #include "humanoid/auto_rig.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_gltf.h>
-#include <bendy/converter/import_x.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 

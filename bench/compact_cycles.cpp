@@ -2,7 +2,7 @@
 // [--unit METRES] FILE...; --unit is what one unit of the files after it is taken for.
 #include "compact/pack_cycles.h"
 
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/packed_cycle.h>
 
 #include <chrono>

@@ -5,7 +5,7 @@
 #include "plan/unpack_plan.h"
 #include "play/unpack.h"
 
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 
 #include <benchmark/benchmark.h>
 

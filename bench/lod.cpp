@@ -6,7 +6,7 @@
 // Two-sided Hausdorff distance, from samples: every vertex and 20,000 points spread by area, on either surface. At rest
 // and in three poses of the cycles.
 
-#include "collapse/closest_point.h"
+#include "collapse/distances.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>

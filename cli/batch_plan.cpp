@@ -4,7 +4,7 @@
 #include "output.h"
 #include "problem.h"
 
-#include <bendy/converter/readable_files.h>
+#include <bendy/converter/source_format.h>
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include "batch_plan.h"
 
-#include <bendy/converter/file_stamp.h>
+#include <bendy/converter/report.h>
 
 #include <filesystem>
 #include <map>

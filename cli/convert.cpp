@@ -16,7 +16,7 @@
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
-#include <bendy/converter/readable_files.h>
+#include <bendy/converter/source_format.h>
 #include <bendy/runtime.h>
 
 #include <algorithm>

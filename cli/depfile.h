@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/converter/file_stamp.h>
+#include <bendy/converter/report.h>
 
 #include <filesystem>
 #include <string>

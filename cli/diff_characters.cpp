@@ -7,7 +7,7 @@
 #include "progress_bar.h"
 
 #include <bendy/converter/compare_characters.h>
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import.h>
 #include <bendy/converter/write_rig.h>
 
 #include <iomanip>

@@ -7,8 +7,7 @@
 #include "problem.h"
 #include "warnings.h"
 
-#include <bendy/converter/export_gltf.h>
-#include <bendy/converter/export_x.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime/model.h>
 

@@ -2,7 +2,7 @@
 
 #include "problem.h"
 
-#include <bendy/edit/names.h>
+#include <bendy/format/names.h>
 
 #include <charconv>
 #include <string_view>
@@ -20,7 +20,7 @@ const Cycle& find_cycle(const std::string& clip, const std::filesystem::path& fi
 
     std::vector<std::string_view> names;
     for (const Cycle& cycle : model.cycles()) names.push_back(cycle.name);
-    fail(file, printable(edit::no_such_name("clip", clip, names)));
+    fail(file, printable(no_such_name("clip", clip, names)));
 }
 
 }  // namespace bendy::cli

@@ -5,7 +5,6 @@
 #include "warnings.h"
 
 #include <bendy/converter/convert.h>
-#include <bendy/converter/readable_files.h>
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 

@@ -6,7 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <bendy/edit/names.h>
+#include <bendy/format/names.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -37,7 +37,7 @@ std::string enumerate(const std::vector<std::string>& words) {
 }
 
 std::string suggest(const std::vector<std::string>& words, const std::string& wanted) {
-    return bendy::edit::did_you_mean(std::vector<std::string_view>(words.begin(), words.end()), wanted);
+    return bendy::did_you_mean(std::vector<std::string_view>(words.begin(), words.end()), wanted);
 }
 
 std::vector<std::string> commands_of(const CLI::App& program) {

@@ -2,7 +2,7 @@
 
 #include "problem.h"
 
-#include <bendy/edit/names.h>
+#include <bendy/format/names.h>
 #include <bendy/runtime/local_to_model.h>
 
 #include <CLI/Error.hpp>
@@ -67,7 +67,7 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
     for (const Chain& chain : chains.first(std::min(kShown, chains.size())))
         known += (known.empty() ? "" : ", ") + chain_label(model, chain);
     if (chains.size() > kShown) known += ", ...";
-    const std::string suggestion = printable(edit::did_you_mean(names, name));
+    const std::string suggestion = printable(did_you_mean(names, name));
     fail(file, "there is no IK chain \"" + printable(name) + '"' + suggestion +
                    (suggestion.empty() ? "; there " : " There ") + (chains.size() == 1 ? "is " : "are ") +
                    std::to_string(chains.size()) + ": " + known);

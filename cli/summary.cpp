@@ -6,7 +6,7 @@
 #include "problem.h"
 #include "terminal_text.h"
 
-#include <bendy/converter/compact_report.h>
+#include <bendy/converter/report.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/pose.h>

@@ -1,16 +1,17 @@
 #include "evaluate.h"
 
 #include "frame_shapes.h"
+#include "space.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace bendy::converter {
 namespace {
 
-using Numbers = std::vector<double>;
 using Quaternion = std::array<double, 4>;  // x y z w
 
 double length_of(const double* numbers, std::size_t count) {
@@ -58,14 +59,14 @@ double hermite(double value, double out_tangent, double in_tangent, double next,
            u * u * (3.0 - 2.0 * u) * next - u * u * rest * seconds * in_tangent;
 }
 
-struct Local {
+struct Placement {
     glm::dvec3 translation;
     Quaternion rotation;
     glm::dvec3 scale;
 };
 
 /// T * R * U, see Transform.
-glm::dmat4 to_matrix(const Local& local, const glm::dvec3& shear) {
+glm::dmat4 to_matrix(const Placement& local, const glm::dvec3& shear) {
     const auto [x, y, z, w] = local.rotation;
     const glm::dvec3 r0(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y));
     const glm::dvec3 r1(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x));
@@ -74,8 +75,8 @@ glm::dmat4 to_matrix(const Local& local, const glm::dvec3& shear) {
             glm::dvec4(shear.y * r0 + shear.z * r1 + local.scale.z * r2, 0.0), glm::dvec4(local.translation, 1.0)};
 }
 
-std::vector<Local> rest_locals(const Scene& scene) {
-    std::vector<Local> locals;
+std::vector<Placement> rest_locals(const Scene& scene) {
+    std::vector<Placement> locals;
     locals.reserve(scene.joints.size());
     for (const Joint& joint : scene.joints) {
         const glm::vec4& r = joint.rest.rotation;
@@ -87,13 +88,13 @@ std::vector<Local> rest_locals(const Scene& scene) {
 void rest_weights(const Scene& scene, EvaluatedPose& pose) {
     pose.target_weights.resize(scene.meshes.size());
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-        Numbers& weights = pose.target_weights[mesh];
+        std::vector<double>& weights = pose.target_weights[mesh];
         weights.clear();
         for (const Target& target : scene.meshes[mesh].targets) weights.push_back(target.rest_weight);
     }
 }
 
-void to_model_space(const Scene& scene, const std::vector<Local>& locals, EvaluatedPose& pose) {
+void to_model_space(const Scene& scene, const std::vector<Placement>& locals, EvaluatedPose& pose) {
     pose.joints.resize(scene.joints.size());
     for (std::size_t joint = 0; joint < locals.size(); ++joint) {
         const glm::dmat4 local = to_matrix(locals[joint], glm::dvec3(scene.joints[joint].rest.shear));
@@ -104,7 +105,7 @@ void to_model_space(const Scene& scene, const std::vector<Local>& locals, Evalua
 
 }  // namespace
 
-void evaluate_track(const Track& track, double seconds, Numbers& value) {
+void evaluate_track(const Track& track, double seconds, std::vector<double>& value) {
     const std::size_t n = track.components;
     const bool cubic = track.interpolation == Interpolation::cubic;
     const std::size_t per_key = cubic ? 3 * n : n;
@@ -148,8 +149,8 @@ void evaluate_rest(const Scene& scene, EvaluatedPose& pose) {
 
 void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedPose& pose) {
     rest_weights(scene, pose);
-    std::vector<Local> locals = rest_locals(scene);
-    Numbers value;
+    std::vector<Placement> locals = rest_locals(scene);
+    std::vector<double> value;
     for (const Track& track : cycle.tracks) {
         evaluate_track(track, seconds, value);
         switch (track.path) {
@@ -169,7 +170,7 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
     }
     for (const Play& play : cycle.plays) {
         const FramePair pair = frames_at(cycle, play, seconds);
-        Numbers& weights = pose.target_weights[play.mesh];
+        std::vector<double>& weights = pose.target_weights[play.mesh];
         const auto add = [&](std::uint32_t frame, double weight) {
             if (frame != 0) weights[first_frame(scene.meshes[play.mesh]) + frame - 1] += weight;
         };
@@ -179,7 +180,7 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
     to_model_space(scene, locals, pose);
 }
 
-std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& target_weights,
+std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& target_weights,
                                           const std::vector<glm::dmat4>& joints) {
     std::vector<glm::dvec3> vertices(mesh.positions.begin(), mesh.positions.end());
     for (std::size_t number = 0; number < target_weights.size(); ++number) {
@@ -205,6 +206,66 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const Numbers& targe
         vertices[vertex] = glm::dvec3(sum);
     }
     return vertices;
+}
+
+std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most, std::size_t most_of_cycle) {
+    constexpr std::size_t kMostMatrices = std::size_t{1} << 20U;
+    std::vector<EvaluatedPose> poses(1);
+    evaluate_rest(scene, poses.front());
+    most = std::min(most, kMostMatrices / std::max<std::size_t>(scene.joints.size(), 1));
+    const std::size_t cycles = std::min(scene.cycles.size(), most);
+    for (std::size_t c = 0; c < cycles; ++c) {
+        const CycleSpan span = span_of(scene.cycles[c]);
+        const std::size_t count = std::clamp<std::size_t>(most / cycles, 1, most_of_cycle);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double share = count == 1 ? 0.5 : static_cast<double>(k) / static_cast<double>(count - 1);
+            evaluate(scene, scene.cycles[c], span.at(share), poses.emplace_back());
+        }
+    }
+    return poses;
+}
+
+namespace {
+
+/// The height, or the largest side of what has none to speak of; 0 if empty.
+double height_of(const Box<glm::dvec3>& box) {
+    if (box.is_empty()) return 0.0;
+    constexpr double kFlat = 1e-3;  // of the largest side
+    const glm::dvec3 size = box.high - box.low;
+    const double largest = std::max({size.x, size.y, size.z});
+    return size.y > kFlat * largest ? size.y : largest;
+}
+
+void add_origins(const EvaluatedPose& pose, Box<glm::dvec3>& box) {
+    for (const glm::dmat4& joint : pose.joints) box.add(glm::dvec3(joint[3]));
+}
+
+double height_of_joints(const Scene& scene, EvaluatedPose& pose) {
+    if (scene.joints.empty()) return 0.0;
+    Box<glm::dvec3> box;
+    add_origins(pose, box);
+    if (height_of(box) > 0.0) return height_of(box);
+    constexpr int kSamples = 32;  // of a clip
+    for (const Cycle& cycle : scene.cycles) {
+        const CycleSpan span = span_of(cycle);
+        for (int k = 0; k <= kSamples; ++k) {
+            evaluate(scene, cycle, span.at(static_cast<double>(k) / kSamples), pose);
+            add_origins(pose, box);
+        }
+    }
+    return height_of(box) > 0.0 ? height_of(box) : 1.0;
+}
+
+}  // namespace
+
+double height_at_rest(const Scene& scene) {
+    EvaluatedPose rest;
+    evaluate_rest(scene, rest);
+    Box<glm::dvec3> box;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const glm::dvec3& posed : evaluate_vertices(mesh, {}, rest.joints)) box.add(posed);
+    }
+    return box.is_empty() ? height_of_joints(scene, rest) : height_of(box);
 }
 
 }  // namespace bendy::converter

@@ -5,11 +5,14 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
+#include <limits>
 #include <vector>
+
+namespace bendy::converter {
 
 // What a Scene looks like at a time, in double precision and by glTF's rules alone: it shares no code with the runtime,
 // so that each can be held against the other. No function of libm but the square root: the same everywhere.
-namespace bendy::converter {
 
 struct EvaluatedPose {
     std::vector<glm::dmat4> joints;                   ///< joint to model space
@@ -30,5 +33,20 @@ void evaluate_track(const Track& track, double seconds, std::vector<double>& val
 /// \param target_weights  one per target, or none: not displaced
 std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& target_weights,
                                           const std::vector<glm::dmat4>& joints);
+
+/// Poses to estimate by: the rest pose, then every cycle at times spread evenly from its first key to its last.
+/// \param most           of all cycles together; large skeletons get fewer, so that they take some 130 MB at most
+/// \param most_of_cycle  of one cycle
+std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most,
+                                        std::size_t most_of_cycle = std::numeric_limits<std::size_t>::max());
+
+/// How far from a joint, as a share of the character's height, its turning and stretching are measured where no skin
+/// shows them.
+constexpr double kJointReach = 0.03;
+
+/// Metres: the height of the character's skin at rest; the largest side of what is flat. Of a scene without a vertex
+/// the size of its skeleton: of its joints' origins at rest or, where these lie at one point, over its clips; 1 for one
+/// whose joints never leave that point.
+double height_at_rest(const Scene& scene);
 
 }  // namespace bendy::converter

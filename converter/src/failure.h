@@ -1,8 +1,11 @@
 #pragma once
 
 #include <bendy/converter/report.h>
+#include <bendy/format/result.h>
 
 #include <cstddef>
+#include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,5 +32,20 @@ std::string key(const std::string& name);
 
 /// A name from the source, fit to stand in a one-line message: control characters escaped, long ones cut.
 std::string quote(std::string_view name);
+
+/// What `work` returns, a T or a Result of it; what it throws becomes the error. For public functions, which throw
+/// nothing.
+template <class T, class Work>
+Result<T, ImportError> without_throwing(const Work& work) {
+    try {
+        return work();
+    } catch (const Failure& failure) {
+        return failure.error;
+    } catch (const std::bad_alloc&) {
+        return ImportError{{}, "not enough memory"};
+    } catch (const std::exception& error) {
+        return ImportError{{}, std::string("unexpected: ") + error.what()};
+    }
+}
 
 }  // namespace bendy::converter

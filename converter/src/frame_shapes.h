@@ -9,8 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-// Frames among a mesh's targets hold shapes; whoever wants displacements takes them from here.
 namespace bendy::converter {
+
+// Frames among a mesh's targets hold shapes; whoever wants displacements takes them from here.
 
 /// Where among the mesh's targets its frames begin.
 inline std::uint32_t first_frame(const Mesh& mesh) {
@@ -65,5 +66,31 @@ inline FramePair frames_at(const Cycle& cycle, const Play& play, double seconds)
 
 /// The same as timed keys: one for each frame, and for closed ones another of the first at the end.
 Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play);
+
+/// From the first to the last key of the tracks, packed ones apart; zeros where there are none.
+inline CycleSpan span_of_keys(const Cycle& cycle) {
+    CycleSpan span;
+    bool is_first = true;
+    for (const Track& track : cycle.tracks) {
+        span.start = is_first ? track.times.front() : std::min(span.start, track.times.front());
+        span.end = is_first ? track.times.back() : std::max(span.end, track.times.back());
+        is_first = false;
+    }
+    for (const Play& play : cycle.plays) {
+        const auto end = static_cast<float>(cycle.frame_start + length_of(cycle, play));
+        span.start = is_first ? cycle.frame_start : std::min(span.start, cycle.frame_start);
+        span.end = is_first ? end : std::max(span.end, end);
+        is_first = false;
+    }
+    return span;
+}
+
+/// When the clip begins and ends: with its first and last key, or as it states.
+inline CycleSpan span_of(const Cycle& cycle) {
+    const CycleSpan keys = span_of_keys(cycle);
+    if (!cycle.stated_span) return keys;
+    if (cycle.tracks.empty() && cycle.plays.empty()) return *cycle.stated_span;
+    return {std::min(keys.start, cycle.stated_span->start), std::max(keys.end, cycle.stated_span->end)};
+}
 
 }  // namespace bendy::converter

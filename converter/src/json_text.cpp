@@ -3,7 +3,8 @@
 #include "failure.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
+#include <charconv>
 #include <string>
 
 namespace bendy::converter {
@@ -104,5 +105,19 @@ Value parse_json_text(std::string_view text, Report& report, std::size_t most_le
 
 template Json parse_json_text<Json>(std::string_view text, Report& report, std::size_t most_levels);
 template OrderedJson parse_json_text<OrderedJson>(std::string_view text, Report& report, std::size_t most_levels);
+
+Json json_number(float value) {
+    std::array<char, 64> text{};
+    const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    double shortest = 0.0;
+    std::from_chars(text.data(), end, shortest);
+    return shortest;
+}
+
+Json json_numbers(std::span<const float> values) {
+    Json list = Json::array();
+    for (const float value : values) list.push_back(json_number(value));
+    return list;
+}
 
 }  // namespace bendy::converter

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace bendy::converter {
@@ -22,5 +23,11 @@ inline constexpr std::size_t kMostJsonLevels = 128;
 /// numbers past a double's range, and on nesting deeper than `most_levels`.
 template <class Value>
 Value parse_json_text(std::string_view text, Report& report, std::size_t most_levels = kMostJsonLevels);
+
+/// A float as the shortest decimal number that reads back as the same float.
+Json json_number(float value);
+
+/// A list of such numbers.
+Json json_numbers(std::span<const float> values);
 
 }  // namespace bendy::converter

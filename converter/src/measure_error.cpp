@@ -2,13 +2,12 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
-#include "size_at_rest.h"
+#include "space.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -19,21 +18,6 @@ namespace {
 constexpr double kSamplesPerSecond = 240.0;
 constexpr double kMostSamples = 100'800.0;  // of one cycle: 7 minutes
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The upper three rows of a matrix whose fourth is 0 0 0 1.
-struct Affine {
-    glm::dmat3 linear{1.0};
-    glm::dvec3 shift{0.0};
-
-    Affine() = default;
-    explicit Affine(const glm::dmat4& matrix) : linear(matrix), shift(matrix[3]) {}
-    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& point) const {
-        return {linear[0].x * point.x + linear[1].x * point.y + linear[2].x * point.z + shift.x,
-                linear[0].y * point.x + linear[1].y * point.y + linear[2].y * point.z + shift.y,
-                linear[0].z * point.x + linear[1].z * point.y + linear[2].z * point.z + shift.z};
-    }
-    friend bool operator==(const Affine& a, const Affine& b) { return a.linear == b.linear && a.shift == b.shift; }
-};
 
 struct Influence {
     std::uint32_t entry = 0;
@@ -102,7 +86,7 @@ public:
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
         glm::dvec3 sum(0.0);
         for (const Influence& influence : influences(vertex))
-            sum += influence.weight * (matrices_[influence.entry] * positions_[vertex]);
+            sum += influence.weight * matrices_[influence.entry](positions_[vertex]);
         return sum;
     }
 
@@ -131,23 +115,6 @@ private:
     std::vector<Influence> influences_;
     std::vector<std::vector<Displacement>> targets_;
     std::vector<double> weights_;
-};
-
-struct Box {
-    glm::dvec3 low{kInfinity};
-    glm::dvec3 high{-kInfinity};
-
-    void add(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
-    [[nodiscard]] std::array<glm::dvec3, 8> corners() const {
-        std::array<glm::dvec3, 8> all{};
-        for (unsigned i = 0; i < 8; ++i)
-            all[i] = {(i & 1u) != 0 ? high.x : low.x, (i & 2u) != 0 ? high.y : low.y, (i & 4u) != 0 ? high.z : low.z};
-        return all;
-    }
 };
 
 /// What is no number is larger than any.
@@ -283,10 +250,11 @@ private:
         largest_difference_ = 0.0;
         spread_ = 0.0;
         centre_ = glm::dvec3(0.0);
-        const auto first = std::find_if(boxes_.begin(), boxes_.end(), [](const Box& box) { return !box.is_empty(); });
+        const auto first =
+            std::find_if(boxes_.begin(), boxes_.end(), [](const Box<glm::dvec3>& box) { return !box.is_empty(); });
         if (first == boxes_.end()) return;
         centre_ =
-            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())] * ((first->low + first->high) * 0.5);
+            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())]((first->low + first->high) * 0.5);
         for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
             if (boxes_[bone].is_empty()) continue;
             const Affine& p = exact_.matrices()[bone];
@@ -295,8 +263,8 @@ private:
             double largest = 0.0;
             // Distances are convex: over a box they are largest at a corner.
             for (const glm::dvec3& corner : boxes_[bone].corners()) {
-                const glm::dvec3 there = q * corner;
-                raise(largest, glm::distance(p * corner, there));
+                const glm::dvec3 there = q(corner);
+                raise(largest, glm::distance(p(corner), there));
                 raise(spread_, glm::distance(there, centre_));
             }
             bone_differences_[bone] = largest;
@@ -324,7 +292,7 @@ private:
     bool has_bounds_ = false;
     std::vector<Difference> differences_;
     Difference worst_case_;
-    std::vector<Box> boxes_;  // of each bone: the vertices that it moves, in mesh space
+    std::vector<Box<glm::dvec3>> boxes_;  // of each bone: the vertices that it moves, in mesh space
     std::vector<double> bone_differences_;
     double largest_difference_ = 0.0;
     double stretch_ = 0.0;
@@ -487,6 +455,26 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
         }
     }
     return comparison.worst();
+}
+
+std::string quoted_name(std::string_view name, std::uint32_t number) {
+    return name.empty() ? '#' + std::to_string(number) : '"' + std::string(name) + '"';
+}
+
+std::string place_of(const Scene& scene, const MeasuredError& error) {
+    std::string place;
+    if (error.mesh != kNone) {
+        place = "mesh " + quoted_name(scene.meshes[error.mesh].name, error.mesh) + ", vertex " +
+                std::to_string(error.vertex);
+    } else if (error.joint != kNone) {
+        place = "joint " + quoted_name(scene.joints[error.joint].name, error.joint);
+    } else {
+        return {};
+    }
+    if (error.cycle == kNone) return place + ", at rest";
+    std::string seconds = std::to_string(error.seconds);
+    seconds.resize(seconds.size() - 3);  // milliseconds
+    return place + ", cycle " + quoted_name(scene.cycles[error.cycle].name, error.cycle) + " at " + seconds + " s";
 }
 
 }  // namespace bendy::converter

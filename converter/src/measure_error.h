@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace bendy::converter {
@@ -31,5 +33,11 @@ using VertexMaps = std::span<const std::vector<std::uint32_t>>;
 /// \param progress  is told the part that is done, 0 to 1; may be empty
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps = {},
                             const std::function<void(double)>& progress = {});
+
+/// `"Hips"`, or `#3` of what has no name.
+std::string quoted_name(std::string_view name, std::uint32_t number);
+
+/// Where an error was met, in words: `mesh "Body", vertex 3, cycle "Walk" at 0.250 s`; empty if nowhere.
+std::string place_of(const Scene& scene, const MeasuredError& error);
 
 }  // namespace bendy::converter

@@ -1,5 +1,7 @@
 #include "rest_frames.h"
 
+#include "space.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -16,12 +18,6 @@ bool is_finite(const glm::dvec3& v) {
 Rotation rotation_of(const Transform& rest) {
     const glm::vec4& q = rest.rotation;
     return to_rotation({q.x, q.y, q.z, q.w});
-}
-
-glm::dmat3 stretch_of(const Transform& rest) {
-    const glm::dvec3 scale(rest.scale);
-    const glm::dvec3 shear(rest.shear);
-    return {{scale.x, 0.0, 0.0}, {shear.x, scale.y, 0.0}, {shear.y, shear.z, scale.z}};
 }
 
 /// The inverse; nothing for a matrix without volume, or as good as none.
@@ -73,7 +69,7 @@ RestFrames::RestFrames(const Scene& scene) {
             placed.axes = parent.space * placed.axes;
             placed.depth = parent.depth + 1;
         }
-        placed.space = placed.axes * stretch_of(joint.rest);
+        placed.space = placed.axes * stretch(glm::dvec3(joint.rest.scale), joint.rest.shear);
         joints_.push_back(placed);
     }
     for (auto number = static_cast<std::uint32_t>(joints_.size()); number-- > 0;) {

@@ -1,53 +1,9 @@
 #include <bendy/edit/names.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <numeric>
 #include <system_error>
 
 namespace bendy::edit {
-namespace {
-
-constexpr std::size_t kLongest = 64;  // names that are compared letter by letter
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), lower);
-    return out;
-}
-
-/// How many letters must be added, left out or changed (Levenshtein), both at most kLongest long.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::array<std::size_t, kLongest + 1> row{};
-    for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t k = 0; k < b.size(); ++k) {
-            const std::size_t changed = diagonal + (a[i] == b[k] ? 0 : 1);
-            diagonal = row[k + 1];
-            row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-/// Smaller is more alike; at most kLongest, or it is not alike.
-std::size_t unlikeness(const std::string& wanted, const std::string& name) {
-    const bool holds = name.find(wanted) != std::string::npos || wanted.find(name) != std::string::npos;
-    const std::size_t longer = std::max(name.size(), wanted.size());
-    const std::size_t steps = distance(wanted, name);
-    if (steps * 2 <= longer) return steps;
-    if (holds && std::min(name.size(), wanted.size()) >= 3) return longer / 2 + 1;
-    return kLongest + 1;
-}
-
-}  // namespace
 
 bool matches(std::string_view pattern, std::string_view name) {
     std::size_t p = 0;
@@ -72,34 +28,6 @@ bool matches(std::string_view pattern, std::string_view name) {
     return p == pattern.size();
 }
 
-std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted) {
-    if (wanted.empty() || wanted.size() > kLongest) return {};
-    const std::string asked = lowered(wanted);
-    std::string_view nearest;
-    std::size_t best = kLongest + 1;
-    for (const std::string_view name : names) {
-        if (name.empty() || name.size() > kLongest) continue;
-        const std::size_t found = unlikeness(asked, lowered(name));
-        if (found >= best) continue;
-        best = found;
-        nearest = name;
-    }
-    return nearest;
-}
-
-std::string list_names(std::span<const std::string_view> names, std::span<const std::size_t> numbers,
-                       std::size_t most) {
-    std::string list;
-    const std::size_t shown = std::min(numbers.size(), numbers.size() == most + 1 ? most + 1 : most);
-    for (std::size_t k = 0; k < shown; ++k) {
-        const std::string_view name = names[numbers[k]];
-        if (k != 0) list += k + 1 == numbers.size() ? " and " : ", ";
-        list += name.empty() ? '#' + std::to_string(numbers[k]) : '"' + std::string(name) + '"';
-    }
-    if (shown < numbers.size()) list += " and " + std::to_string(numbers.size() - shown) + " more";
-    return list;
-}
-
 Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
                                                      std::string_view kind) {
     std::vector<std::size_t> found;
@@ -120,23 +48,6 @@ Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string
         if (!found.empty()) return found;
     }
     return Problem{no_such_name(kind, wanted, names)};
-}
-
-std::string did_you_mean(std::span<const std::string_view> names, std::string_view wanted) {
-    const std::string_view nearest = nearest_name(names, wanted);
-    return nearest.empty() ? std::string() : "; did you mean \"" + std::string(nearest) + "\"?";
-}
-
-std::string no_such_name(std::string_view kind, std::string_view wanted, std::span<const std::string_view> names) {
-    constexpr std::size_t kFew = 8;
-    const std::string suggestion = did_you_mean(names, wanted);
-    std::string message = "there is no " + std::string(kind) + " \"" + std::string(wanted) + '"' + suggestion;
-    if (names.empty()) return message + "; there are none";
-    if (!suggestion.empty() && names.size() > kFew) return message;
-    std::vector<std::size_t> all(names.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return message + (suggestion.empty() ? "; there " : " There ") + (all.size() == 1 ? "is " : "are ") +
-           list_names(names, all);
 }
 
 }  // namespace bendy::edit

@@ -10,22 +10,42 @@ MAY_USE = {
     "format": set(),
     "runtime": {"format"},
     "capi": {"format", "runtime"},
-    "converter": {"format", "edit"},
+    "converter": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},
     "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
 }
-# Rooms of runtime/src, and those that each may use beside its own.
+# Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
+# in no room, all of them may use.
 ROOMS = {
-    "math": set(),
-    "plan": {"math"},
-    "kernels": {"math", "plan"},
-    "model": {"math", "plan"},
-    "pose": {"math", "plan", "kernels", "model"},
-    "play": {"math", "plan", "kernels", "pose"},
-    "ik": {"math", "model", "pose"},
-    "skin": {"math", "plan", "kernels", "model", "pose"},
+    "runtime": {
+        "math": set(),
+        "plan": {"math"},
+        "kernels": {"math", "plan"},
+        "model": {"math", "plan"},
+        "pose": {"math", "plan", "kernels", "model"},
+        "play": {"math", "plan", "kernels", "pose"},
+        "ik": {"math", "model", "pose"},
+        "skin": {"math", "plan", "kernels", "model", "pose"},
+    },
+    "converter": {
+        "": set(),
+        "source": set(),
+        "humanoid": set(),
+        "rig": {"source"},
+        "passes": {"source", "rig", "humanoid"},
+        "collapse": {"passes"},
+        "compact": {"source", "passes"},
+        "compare": {"collapse"},
+        "bendy_file": {"source", "rig", "passes"},
+        "gltf": {"source", "rig"},
+        "gltf_out": {"source", "rig", "passes", "gltf"},
+        "x": {"source", "rig"},
+        "x_out": {"source", "passes", "x"},
+        "md2": {"source"},
+        "convert": {"source", "rig", "passes", "collapse", "compact"},
+    },
 }
 # header: the folders that may include it
 PRIVATE = {
@@ -69,11 +89,12 @@ def faults_of(source: Path):
                 project = re.match(r"bendy/(\w+)(?:\.h|/)", header)
                 if project and project.group(1) != folder and project.group(1) not in allowed:
                     faults.append(f"{place}: {folder} may not use {project.group(1)}")
-                room = header.split("/")[0]
-                if folder == "runtime" and room in ROOMS:
-                    own = name.removeprefix("runtime/src/").split("/")[0]
-                    if room != own and room not in ROOMS[own]:
-                        faults.append(f"{place}: {own} may not use {room}")
+                room = header.split("/")[0] if "/" in header else ""
+                rooms = ROOMS.get(folder, {})
+                if room in rooms and name.startswith(f"{folder}/src/"):
+                    own = "/".join(name.split("/")[2:-1])
+                    if room not in ("", own) and room not in rooms[own]:
+                        faults.append(f"{place}: {own or 'src'} may not use {room}")
                     continue
                 if folder in ("format", "runtime") and "/" in header and not header.startswith(EMBEDDABLE_MAY_USE):
                     faults.append(f"{place}: {folder} may use the C++ library and GLM only")

@@ -1,13 +1,13 @@
 // An outside witness: assimp opens the X-files that we write, and its world positions are held against evaluate(),
 // which knows nothing of X-files.
 #include "converter/posed_scene.h"
-#include "cycle_span.h"
 #include "evaluate.h"
+#include "frame_shapes.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/convert.h>
-#include <bendy/converter/export_x.h>
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

@@ -1,4 +1,4 @@
-#include "passes/assign_polygons.h"
+#include "passes/mesh_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "passes/collapse_vertices.h"
+#include "collapse/collapse_vertices.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/validate.h>

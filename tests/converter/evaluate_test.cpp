@@ -4,8 +4,7 @@
 #include "format/sample_file.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

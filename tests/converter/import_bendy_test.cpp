@@ -1,6 +1,6 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/convert.h>
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/file.h>
 #include <bendy/format/marker.h>
 

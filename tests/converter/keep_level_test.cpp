@@ -1,4 +1,4 @@
-#include "passes/keep_level.h"
+#include "passes/mesh_order.h"
 
 #include "failure.h"
 

@@ -1,4 +1,4 @@
-#include "passes/narrow.h"
+#include "stored_numbers.h"
 
 #include <gtest/gtest.h>
 

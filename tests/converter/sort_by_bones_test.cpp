@@ -1,4 +1,4 @@
-#include "passes/sort_by_bones.h"
+#include "passes/mesh_order.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "check.h"
 #include "memory_file.h"
 
-#include <bendy/converter/export_gltf.h>
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 #include <bendy/runtime/lod.h>
 
 #include <cstddef>

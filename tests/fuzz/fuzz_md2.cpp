@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_md2.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
 #include <cstddef>

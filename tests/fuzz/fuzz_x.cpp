@@ -3,8 +3,8 @@
 #include "check.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/export_x.h>
-#include <bendy/converter/import_x.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
 #include <cstddef>

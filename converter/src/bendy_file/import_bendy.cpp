@@ -1,27 +1,166 @@
-#include <bendy/converter/import_bendy.h>
-
-#include "bendy_file/left_out.h"
 #include "bendy_file/mesh.h"
-#include "bendy_file/source_facts.h"
-#include "cycle_span.h"
 #include "failure.h"
-#include "rig/parse_markers.h"
-#include "without_throwing.h"
+#include "frame_shapes.h"
+#include "rig/markers.h"
 
+#include <bendy/converter/import.h>
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
 #include <bendy/format/check_sums.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
+#include <bendy/format/records.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace bendy::converter {
 namespace {
+
+using Member = std::pair<std::string_view, std::string_view>;  // key and value, as they stand in the text
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// The members of an object. `text` is valid JSON that starts with a brace.
+std::vector<Member> members_of(std::string_view text) {
+    std::vector<Member> members;
+    std::size_t depth = 0;
+    std::size_t start = 1;  // of the key or the value that we are in
+    std::string_view name;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            in_string = c != '"';
+            continue;
+        }
+        const bool ends_value = depth == 1 && (c == ',' || c == '}');
+        if (ends_value && !name.empty()) members.emplace_back(name, trimmed(text.substr(start, i - start)));
+        if (ends_value) {
+            name = {};
+            start = i + 1;
+        }
+        if (depth == 1 && c == ':') {
+            name = trimmed(text.substr(start, i - start));
+            start = i + 1;
+        }
+        in_string = c == '"';
+        if (c == '{' || c == '[') ++depth;
+        if (c == '}' || c == ']') --depth;
+    }
+    return members;
+}
+
+/// Takes apart what build_chunks writes into HEAD's EXTR, {"asset": ..., "extras": ...}: the values' text as it stands.
+/// Other JSON is kept whole as the source's extras.
+void read_source_facts(std::string_view text, Scene& scene, Report& report) {
+    if (text.empty()) return;
+    const std::string_view json = trimmed(text);
+    if (!nlohmann::json::accept(json.begin(), json.end()))
+        return report.warn("the file's own data is no JSON, it is left out", "HEAD/EXTR");
+    std::vector<Member> members;
+    if (json.front() == '{') members = members_of(json);
+    const auto is_fact = [](const Member& member) {
+        return member.first == R"("asset")" || member.first == R"("extras")";
+    };
+    const bool are_facts = !members.empty() && members.size() <= 2 &&
+                           std::all_of(members.begin(), members.end(), is_fact) &&
+                           members.front().first <= members.back().first &&
+                           (members.size() == 1 || members.front().first != members.back().first);
+    if (!are_facts) {
+        scene.source_extras = json;
+        return report.warn("the file's own data is kept as the member \"extras\" of what is written", "HEAD/EXTR");
+    }
+    for (const auto& [name, value] : members) (name == R"("asset")" ? scene.asset : scene.source_extras) = value;
+}
+
+/// What the importer makes something of. A list of its own: a chunk that a later version knows is named as left out
+/// until somebody reads it here.
+constexpr std::array kRead{
+    FourCC("HEAD"), FourCC("VERS"), FourCC("TEXT"), FourCC("SAMP"), FourCC("IMAG"), FourCC("LINK"), FourCC("SAME"),
+    FourCC("MATE"), FourCC("SURF"), FourCC("EXTN"), FourCC("OBJE"), FourCC("NAME"), FourCC("EXTR"), FourCC("SKIN"),
+    FourCC("PIVO"), FourCC("REST"), FourCC("LIMT"), FourCC("PULL"), FourCC("POLY"), FourCC("IKCH"), FourCC("KINF"),
+    FourCC("VECT"), FourCC("VINF"), FourCC("PALT"), FourCC("TARG"), FourCC("TINF"), FourCC("POSI"), FourCC("NORM"),
+    FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"), FourCC("BONE"), FourCC("WGHT"), FourCC("USER"), FourCC("VALS"),
+    FourCC("INDX"), FourCC("CYCL"), FourCC("CINF"), FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV"), FourCC("PACK"),
+    FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK"), FourCC("MORE"), FourCC("FRMS"),
+    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY")};
+
+/// Bytes that are read of a leaf which is one record; 0: of another kind.
+std::uint64_t record_size(FourCC id) {
+    constexpr std::array<std::pair<FourCC, std::uint64_t>, 11> kSizes{{{FourCC("VERS"), sizeof(VersionRecord)},
+                                                                       {FourCC("SAMP"), sizeof(SamplerRecord)},
+                                                                       {FourCC("SAME"), sizeof(SameRecord)},
+                                                                       {FourCC("SURF"), sizeof(SurfaceRecord)},
+                                                                       {FourCC("REST"), sizeof(RestRecord)},
+                                                                       {FourCC("LIMT"), sizeof(LimitRecord)},
+                                                                       {FourCC("PULL"), sizeof(PullRecord)},
+                                                                       {FourCC("KINF"), sizeof(ChainRecord)},
+                                                                       {FourCC("VINF"), sizeof(PoolRecord)},
+                                                                       {FourCC("TINF"), sizeof(TargetRecord)},
+                                                                       {FourCC("CINF"), sizeof(CycleRecord)}}};
+    for (const auto& [known, size] : kSizes) {
+        if (known == id) return size;
+    }
+    return 0;
+}
+
+struct LeftOut {
+    std::uint32_t first = 0;  // chunk number
+    std::uint64_t count = 0;
+};
+
+/// Names the chunks that import_bendy does not read, and records that are longer than this version knows.
+void warn_of_left_out(const ChunkTree& tree, Report& report) {
+    constexpr std::size_t kNamed = 50;  // ids; a hostile file may have a million
+    std::map<std::uint32_t, LeftOut> unread;
+    std::map<std::uint32_t, LeftOut> longer;
+    for (std::uint32_t number = 0; number < tree.chunks().size();) {
+        const Chunk& chunk = tree[number];
+        const bool is_read = std::find(kRead.begin(), kRead.end(), chunk.id) != kRead.end();
+        const std::uint64_t size = record_size(chunk.id);
+        if (!is_read || (size != 0 && !chunk.is_container() && tree.payload(number).size() > size)) {
+            const auto [place, is_new] = (is_read ? longer : unread).try_emplace(chunk.id.value, LeftOut{number, 0});
+            ++place->second.count;
+        }
+        number = is_read ? number + 1 : chunk.end;
+    }
+    const auto name = [&](const std::map<std::uint32_t, LeftOut>& list, const std::string& what) {
+        std::size_t named = 0;
+        for (const auto& [id, found] : list) {
+            if (named++ < kNamed) {
+                const std::string path = chunk_path(tree.bytes(), tree[found.first].offset);
+                report.warn(what + FourCC(id).letters().data(), path, found.count);
+            } else {
+                report.warn(what + "other kinds", {}, found.count);
+            }
+        }
+    };
+    name(unread, "chunk that is not read is left out: ");
+    name(longer, "fields of a later version are left out: ");
+}
 
 template <int N, std::size_t Size>
 glm::vec<N, float> to_vec(const std::array<float, Size>& numbers) {

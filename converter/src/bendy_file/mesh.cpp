@@ -1,13 +1,12 @@
 #include "bendy_file/mesh.h"
 
-#include "passes/assign_polygons.h"
+#include "passes/mesh_order.h"
 
 #include <bendy/format/diagnostics.h>
 
 #include <algorithm>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace bendy::converter {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "source/budget.h"
+#include "source/source_file.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>

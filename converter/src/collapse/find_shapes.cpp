@@ -1,7 +1,7 @@
 #include "collapse/find_shapes.h"
 
+#include "evaluate.h"
 #include "frame_shapes.h"
-#include "sample_poses.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace bendy::converter {

@@ -1,19 +1,164 @@
 #include "collapse/original.h"
 
-#include "collapse/closest_point.h"
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
 namespace bendy::converter {
 namespace {
 
+// How far, in extents of the mesh, a point may be off before it is as bad as another normal, colour or coordinate.
+constexpr float kNormal = 0.0015f;  // a normal that differs by 1
+constexpr float kColour = 0.005f;   // a colour that differs by 1
+constexpr float kSlide = 0.02f;     // a texture that slides by 1 extent
+constexpr std::size_t kMostCoords = 2;
+constexpr std::size_t kMostColours = 1;
+/// A mesh with fewer vertices gets further samples, up to so many in all.
+constexpr std::size_t kFewestSamples = 6000;
+
+float area_of(std::span<const glm::vec3> places, const std::array<std::uint32_t, 3>& v) {
+    return 0.5f * glm::length(glm::cross(places[v[1]] - places[v[0]], places[v[2]] - places[v[0]]));
+}
+
+/// Extents of the mesh per unit of texture coordinates, on average.
+float texture_scale(const Surface& surface, std::span<const glm::vec3> shape, const Stream& stream) {
+    double surface_area = 0.0;
+    double texture_area = 0.0;
+    const auto coords = [&](std::uint32_t v) {
+        return glm::vec2(stream.values[std::size_t{v} * 2], stream.values[std::size_t{v} * 2 + 1]);
+    };
+    for (const Surface::Triangle& triangle : surface.triangles) {
+        surface_area += area_of(shape, triangle.vertices);
+        const glm::vec2 a = coords(triangle.vertices[1]) - coords(triangle.vertices[0]);
+        const glm::vec2 b = coords(triangle.vertices[2]) - coords(triangle.vertices[0]);
+        texture_area += 0.5f * std::abs(a.x * b.y - a.y * b.x);
+    }
+    const double scale = std::sqrt(surface_area / texture_area);
+    return std::isfinite(scale) ? static_cast<float>(scale) : 0.0f;
+}
+
+class Sampler {
+public:
+    Sampler(const Surface& surface, std::span<const std::vector<glm::vec3>> places, const Appearance& appearance)
+        : surface_(surface), places_(places), appearance_(appearance), samples_(places.size()) {
+        samples_.places.reserve(std::max<std::size_t>(surface.points(), kFewestSamples));
+        samples_.components = appearance.components;
+        samples_.first.assign(surface.triangles.size(), kNone);
+    }
+
+    Samples run() {
+        add_vertices();
+        add_inner();
+        return std::move(samples_);
+    }
+
+private:
+    void add(std::uint32_t triangle, const glm::vec3& weights) {
+        const auto& v = surface_.triangles[triangle].vertices;
+        samples_.places.add([&](std::size_t s) {
+            return weights.x * places_[s][v[0]] + weights.y * places_[s][v[1]] + weights.z * places_[s][v[2]];
+        });
+        for (std::uint32_t k = 0; k < appearance_.components; ++k) {
+            samples_.appearance.push_back(weights.x * appearance_.of(v[0])[k] + weights.y * appearance_.of(v[1])[k] +
+                                          weights.z * appearance_.of(v[2])[k]);
+        }
+        samples_.next.push_back(kNone);
+        samples_.hold(triangle, static_cast<std::uint32_t>(samples_.next.size() - 1));
+    }
+
+    void add_vertices() {
+        std::vector<bool> is_done(surface_.points());
+        for (std::uint32_t triangle = 0; triangle < surface_.triangles.size(); ++triangle) {
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t point = surface_.triangles[triangle].points[static_cast<std::size_t>(k)];
+                if (is_done[point]) continue;
+                is_done[point] = true;
+                glm::vec3 weights(0.0f);
+                weights[k] = 1.0f;
+                add(triangle, weights);
+            }
+        }
+    }
+
+    void add_inner() {
+        const std::size_t done = samples_.next.size();
+        if (done >= kFewestSamples) return;
+        double whole = 0.0;
+        for (const Surface::Triangle& triangle : surface_.triangles) whole += area_of(places_[0], triangle.vertices);
+        if (!(whole > 0.0)) return;
+        const double per_area = static_cast<double>(kFewestSamples - done) / whole;
+        double owed = 0.0;
+        float u = 0.5f;  // Roberts' R2 sequence: even, and the same in each run
+        float v = 0.5f;
+        for (std::uint32_t triangle = 0; triangle < surface_.triangles.size(); ++triangle) {
+            owed += per_area * area_of(places_[0], surface_.triangles[triangle].vertices);
+            while (owed >= 1.0) {
+                owed -= 1.0;
+                u += 0.7548776662f;
+                v += 0.5698402909f;
+                u -= u >= 1.0f ? 1.0f : 0.0f;
+                v -= v >= 1.0f ? 1.0f : 0.0f;
+                const bool folds = u + v > 1.0f;
+                const float x = folds ? 1.0f - u : u;
+                const float y = folds ? 1.0f - v : v;
+                add(triangle, {1.0f - x - y, x, y});
+            }
+        }
+    }
+
+    const Surface& surface_;
+    std::span<const std::vector<glm::vec3>> places_;
+    const Appearance& appearance_;
+    Samples samples_;
+};
+
+}  // namespace
+
+Appearance make_appearance(const Mesh& mesh, const Surface& surface, std::span<const glm::vec3> shape) {
+    struct Source {
+        const float* values;
+        std::uint32_t components;
+        float scale;
+    };
+    std::vector<Source> sources;
+    if (!mesh.normals.empty()) sources.push_back({&mesh.normals.front().x, 3, kNormal});
+    for (std::size_t k = 0; k < std::min(mesh.texture_coords.size(), kMostCoords); ++k) {
+        const Stream& stream = mesh.texture_coords[k];
+        if (stream.components != 2 || stream.values.empty()) continue;
+        sources.push_back({stream.values.data(), 2, kSlide * texture_scale(surface, shape, stream)});
+    }
+    for (std::size_t k = 0; k < std::min(mesh.colours.size(), kMostColours); ++k) {
+        if (mesh.colours[k].values.empty()) continue;
+        sources.push_back({mesh.colours[k].values.data(), mesh.colours[k].components, kColour});
+    }
+    Appearance appearance;
+    for (const Source& source : sources) appearance.components += source.components;
+    appearance.values.reserve(std::size_t{appearance.components} * mesh.positions.size());
+    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        for (const Source& source : sources) {
+            for (std::uint32_t k = 0; k < source.components; ++k)
+                appearance.values.push_back(source.scale * source.values[vertex * source.components + k]);
+        }
+    }
+    return appearance;
+}
+
+Samples make_samples(const Surface& surface, std::span<const std::vector<glm::vec3>> places,
+                     const Appearance& appearance) {
+    return Sampler(surface, places, appearance).run();
+}
+
+namespace {
+
 constexpr std::uint32_t kLeaf = 4;  // triangles
 
-float outside(const glm::vec3& low, const glm::vec3& high, const glm::vec3& place) {
-    const glm::vec3 out = glm::max(glm::max(low - place, place - high), glm::vec3(0.0f));
+float outside(const Box<glm::vec3>& box, const glm::vec3& place) {
+    const glm::vec3 out = glm::max(glm::max(box.low - place, place - box.high), glm::vec3(0.0f));
     return glm::dot(out, out);
 }
 
@@ -59,33 +204,27 @@ void Original::build() {
 }
 
 int Original::longest_side(std::uint32_t first, std::uint32_t count) const {
-    glm::vec3 low(std::numeric_limits<float>::max());
-    glm::vec3 high(std::numeric_limits<float>::lowest());
-    for (std::uint32_t k = first; k < first + count; ++k) {
-        low = glm::min(low, centre(order_[k]));
-        high = glm::max(high, centre(order_[k]));
-    }
-    const glm::vec3 size = high - low;
+    Box<glm::vec3> box;
+    for (std::uint32_t k = first; k < first + count; ++k) box.add(centre(order_[k]));
+    const glm::vec3 size = box.high - box.low;
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
 void Original::fit_boxes() {
     for (const std::vector<glm::vec3>& places : places_) {
-        std::vector<Box>& boxes = boxes_.emplace_back(nodes_.size());
+        std::vector<Box<glm::vec3>>& boxes = boxes_.emplace_back(nodes_.size());
         for (std::size_t number = nodes_.size(); number-- > 0;) {
             const Node& node = nodes_[number];
-            Box& box = boxes[number];
+            Box<glm::vec3>& box = boxes[number];
             if (node.count == 0) {
-                box.low = glm::min(boxes[number + 1].low, boxes[node.right].low);
-                box.high = glm::max(boxes[number + 1].high, boxes[node.right].high);
+                for (const std::uint32_t child : {static_cast<std::uint32_t>(number) + 1, node.right}) {
+                    box.add(boxes[child].low);
+                    box.add(boxes[child].high);
+                }
                 continue;
             }
-            box.low = box.high = places[triangles_[order_[node.first]][0]];
             for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-                for (const std::uint32_t vertex : triangles_[order_[k]]) {
-                    box.low = glm::min(box.low, places[vertex]);
-                    box.high = glm::max(box.high, places[vertex]);
-                }
+                for (const std::uint32_t vertex : triangles_[order_[k]]) box.add(places[vertex]);
             }
         }
     }
@@ -94,7 +233,7 @@ void Original::fit_boxes() {
 float Original::distance_squared(std::size_t shape, const glm::vec3& place, float enough, std::uint32_t& near) const {
     if (nodes_.empty()) return 0.0f;
     const std::vector<glm::vec3>& places = places_[shape];
-    const std::vector<Box>& boxes = boxes_[shape];
+    const std::vector<Box<glm::vec3>>& boxes = boxes_[shape];
     const auto distance_to = [&](std::uint32_t triangle) {
         const auto& v = triangles_[triangle];
         return closest_point(place, places[v[0]], places[v[1]], places[v[2]]).distance_squared;
@@ -112,8 +251,8 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
         if (next.distance >= best) continue;
         const Node& node = nodes_[next.node];
         if (node.count == 0) {
-            Open left{outside(boxes[next.node + 1].low, boxes[next.node + 1].high, place), next.node + 1};
-            Open right{outside(boxes[node.right].low, boxes[node.right].high, place), node.right};
+            Open left{outside(boxes[next.node + 1], place), next.node + 1};
+            Open right{outside(boxes[node.right], place), node.right};
             if (right.distance < left.distance) std::swap(left, right);
             if (right.distance < best) open[size++] = right;
             if (left.distance < best) open[size++] = left;

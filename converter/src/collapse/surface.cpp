@@ -1,5 +1,7 @@
 #include "collapse/surface.h"
 
+#include "space.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,21 +18,13 @@ constexpr float kSamePlace = 5e-6f;
 /// Of vertices at one rest position that lie apart in other shapes, so many places are told apart.
 constexpr std::size_t kMostPlaces = 8;
 
-float extent_of(const Shape& shape) {
-    if (shape.empty()) return 0.0f;
-    glm::vec3 low = shape.front();
-    glm::vec3 high = low;
-    for (const glm::vec3& p : shape) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return glm::length(high - low);
-}
-
 /// Numbers each place; vertices at one place get one number, by their order.
 std::vector<std::uint32_t> weld(const Mesh& mesh, std::span<const Shape> shapes) {
     std::vector<float> tolerances;
-    for (const Shape& shape : shapes) tolerances.push_back(kSamePlace * extent_of(shape));
+    for (const Shape& shape : shapes) {
+        const Box<glm::vec3> box = box_of(shape);
+        tolerances.push_back(kSamePlace * glm::length(box.high - box.low));
+    }
     const auto lies_at = [&](std::uint32_t a, std::uint32_t b) {
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             if (!(glm::distance(shapes[s][a], shapes[s][b]) <= tolerances[s])) return false;
@@ -199,6 +193,36 @@ std::vector<bool> find_borders(const Surface& surface) {
         is_border[edges[i].second] = true;
     }
     return is_border;
+}
+
+void lock_shared_borders(std::span<const std::vector<Shape>> shapes, std::span<Surface> surfaces) {
+    if (surfaces.size() < 2) return;
+    struct BorderPoint {
+        float x, y, z;
+        std::size_t mesh;
+        std::uint32_t point;
+        [[nodiscard]] auto place() const { return std::tie(x, y, z); }
+    };
+    std::vector<BorderPoint> borders;
+    for (std::size_t mesh = 0; mesh < surfaces.size(); ++mesh) {
+        const std::vector<bool> is_border = find_borders(surfaces[mesh]);
+        for (std::uint32_t point = 0; point < is_border.size(); ++point) {
+            if (!is_border[point]) continue;
+            const glm::vec3 p = shapes[mesh].front()[surfaces[mesh].vertex_of(point)] + 0.0f;
+            borders.push_back({p.x, p.y, p.z, mesh, point});
+        }
+    }
+    std::sort(borders.begin(), borders.end(), [](const BorderPoint& a, const BorderPoint& b) {
+        return std::tie(a.x, a.y, a.z, a.mesh, a.point) < std::tie(b.x, b.y, b.z, b.mesh, b.point);
+    });
+    for (std::size_t first = 0; first < borders.size();) {
+        std::size_t end = first;
+        while (end < borders.size() && borders[end].place() == borders[first].place()) ++end;
+        const bool is_shared = borders[first].mesh != borders[end - 1].mesh;
+        for (; first < end; ++first) {
+            if (is_shared) surfaces[borders[first].mesh].is_locked[borders[first].point] = true;
+        }
+    }
 }
 
 }  // namespace bendy::converter

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <bendy/converter/scene.h>
-
 #include "collapse/find_shapes.h"
+
+#include <bendy/converter/scene.h>
 
 #include <array>
 #include <cstdint>
@@ -46,5 +46,9 @@ Surface make_surface(const Mesh& mesh, std::span<const Shape> shapes);
 
 /// Points at the border: on an edge with one triangle.
 std::vector<bool> find_borders(const Surface& surface);
+
+/// Locks points on the borders of two meshes that lie at one place at rest: each mesh has a sequence of its own, and a
+/// gap would open between them.
+void lock_shared_borders(std::span<const std::vector<Shape>> shapes, std::span<Surface> surfaces);
 
 }  // namespace bendy::converter

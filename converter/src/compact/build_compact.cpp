@@ -2,24 +2,110 @@
 
 #include "compact/compact_geometry.h"
 #include "compact/pack_cycles.h"
-#include "cycle_span.h"
-#include "error_place.h"
+#include "evaluate.h"
+#include "frame_shapes.h"
 #include "measure_error.h"
-#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/chunk_writer.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 
 namespace bendy::converter {
+namespace {
+
+struct Unit {
+    std::string_view name;
+    double factor;
+    bool is_share;
+};
+constexpr std::array<Unit, 5> kUnits{
+    {{"mm", 1e-3, false}, {"cm", 1e-2, false}, {"um", 1e-6, false}, {"m", 1.0, false}, {"%", 1e-2, true}}};
+
+std::string quoted(std::string_view text) {
+    return '"' + std::string(text) + '"';
+}
+
+}  // namespace
+
+Result<ErrorBound, std::string> parse_error_bound(std::string_view text) {
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failure != std::errc())
+        return quoted(text) + " is no error bound; write a length, as 0.1mm, or a share, as 0.005%";
+    std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    while (unit.starts_with(' ')) unit.remove_prefix(1);
+    if (unit.empty()) {
+        const std::string number(text);
+        return quoted(text) + " has no unit; write " + number + "mm, " + number + "cm, " + number + "m, " + number +
+               "um, or " + number + "% of the character's height";
+    }
+    for (const Unit& known : kUnits) {
+        if (unit != known.name) continue;
+        if (!(value > 0.0) || !std::isfinite(value)) return quoted(text) + " is not above zero";
+        return ErrorBound{value * known.factor, known.is_share};
+    }
+    return quoted(unit) + " is no unit of " + quoted(text) + "; the units are mm, cm, m, um and %";
+}
+
+namespace {
+
+struct KindOfChunk {
+    FourCC id;
+    std::string_view kind;
+};
+/// A chunk is of the first of these that it or one of its containers is, nearest first.
+constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk{FourCC("JNTS"), "skeleton"},
+                            KindOfChunk{FourCC("JNAM"), "skeleton"}, KindOfChunk{FourCC("IKCH"), "skeleton"},
+                            KindOfChunk{FourCC("PALT"), "PALT"},     KindOfChunk{FourCC("POSI"), "POSI"},
+                            KindOfChunk{FourCC("NORM"), "NORM"},     KindOfChunk{FourCC("TANG"), "TANG"},
+                            KindOfChunk{FourCC("TEXC"), "TEXC"},     KindOfChunk{FourCC("COLR"), "COLR"},
+                            KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
+                            KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
+                            KindOfChunk{FourCC("FRMS"), "frames"},   KindOfChunk{FourCC("NLST"), "NORM"},
+                            KindOfChunk{FourCC("CYCL"), "cycles"},   KindOfChunk{FourCC("TEXT"), "textures"},
+                            KindOfChunk{FourCC("HEAD"), "other"}};
+
+}  // namespace
+
+std::vector<ByteCount> count_bytes(Bytes file) {
+    std::vector<ByteCount> counts;
+    std::array<std::size_t, kKinds.size()> place{};
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+        const auto known = std::find_if(counts.begin(), counts.end(),
+                                        [&](const ByteCount& count) { return count.kind == kKinds[k].kind; });
+        place[k] = static_cast<std::size_t>(known - counts.begin());
+        if (known == counts.end()) counts.push_back({std::string(kKinds[k].kind), 0});
+    }
+    const auto tree = read_chunk_tree(file);
+    if (!tree) return counts;
+    std::vector<std::size_t> kind_of(tree->chunks().size(), counts.size() - 1);
+    for (std::uint32_t number = 0; number < kind_of.size(); ++number) {
+        const Chunk& chunk = (*tree)[number];
+        const auto known =
+            std::find_if(kKinds.begin(), kKinds.end(), [&](const KindOfChunk& k) { return k.id == chunk.id; });
+        const std::string_view above = number == 0 ? std::string_view() : counts[kind_of[chunk.parent]].kind;
+        const bool in_target = above == "targets" || above == "frames";
+        if (known != kKinds.end() && !in_target) {
+            kind_of[number] = place[static_cast<std::size_t>(known - kKinds.begin())];
+        } else if (number != 0) {
+            kind_of[number] = kind_of[chunk.parent];
+        }
+        counts[kind_of[number]].bytes += kChunkHeaderSize + (chunk.is_container() ? 0 : padded(chunk.size));
+    }
+    return counts;
+}
+
 namespace {
 
 // Of the bound, what positions, weights and targets may use up, and what cycles may. The two seldom meet at one point

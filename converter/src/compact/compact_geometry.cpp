@@ -1,19 +1,19 @@
 #include "compact/compact_geometry.h"
 
-#include "compact/image_size.h"
-#include "compact/largest_stretch.h"
-#include "compact/merge_vertices.h"
 #include "compact/quantise.h"
+#include "evaluate.h"
 #include "frame_shapes.h"
-#include "passes/narrow.h"
-#include "rest_record.h"
-#include "sample_poses.h"
+#include "rest_frames.h"
+#include "source/image_bytes.h"
 
 #include <bendy/format/bind_palette.h>
 
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_double3.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +23,28 @@
 
 namespace bendy::converter {
 namespace {
+
+/// The largest factor by which the matrix lengthens a vector.
+double largest_stretch(const glm::dmat4& matrix) {
+    // Power iteration on M^T M from three starts; each gives a lower bound that soon is tight.
+    const glm::dmat3 linear(matrix);
+    const glm::dmat3 square = glm::transpose(linear) * linear;
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 v(0.3, 0.4, 0.5);
+        v[axis] = 1.0;
+        double length = 0.0;
+        for (int turn = 0; turn < 24; ++turn) {
+            v /= std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+            v = square * v;
+            length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+            if (!(length > 0.0) || !std::isfinite(length)) break;
+        }
+        largest = std::max(largest, length);
+    }
+    constexpr double kSpare = 1.001;
+    return std::sqrt(largest) * kSpare;
+}
 
 constexpr unsigned kDirectionBits = 8;
 constexpr double kCoordSteps = 4096.0;  // over the larger side of a set's range

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compact/stored_stream.h"
+#include "stored_numbers.h"
 
 #include <bendy/converter/scene.h>
 
@@ -38,5 +38,12 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
 
 /// True if something else has settled the order of a mesh's vertices: its sequence of collapses.
 bool is_order_fixed(const Mesh& mesh);
+
+/// Merges vertices that are alike in every stream, bone and displacement, to the bit.
+void merge_vertices(Mesh& mesh, CompactMesh& compact);
+
+/// Orders the triangles of each range of assign_polygons so that neighbours follow one another, and the vertices as
+/// they are used first; the mesh's parts become these ranges. Lines and points keep their order.
+void order_for_codecs(Mesh& mesh, CompactMesh& compact);
 
 }  // namespace bendy::converter

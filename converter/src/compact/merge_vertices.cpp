@@ -1,6 +1,5 @@
-#include "compact/merge_vertices.h"
-
-#include "passes/assign_polygons.h"
+#include "compact/compact_geometry.h"
+#include "passes/mesh_order.h"
 
 #include <bendy/format/codec.h>
 

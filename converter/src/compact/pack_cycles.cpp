@@ -1,10 +1,8 @@
 #include "compact/pack_cycles.h"
 
 #include "compact/grid.h"
-#include "compact/measure.h"
 #include "compact/quantise_cycle.h"
-#include "compact/thin_grid.h"
-#include "cycle_span.h"
+#include "frame_shapes.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_cycle.h>
@@ -13,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <functional>
 #include <optional>
 #include <set>
 #include <utility>

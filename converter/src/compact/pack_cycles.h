@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compact/probes.h"
+#include "compact/measure.h"
 
 #include <bendy/converter/scene.h>
 

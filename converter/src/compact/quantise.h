@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compact/stored_stream.h"
+#include "stored_numbers.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

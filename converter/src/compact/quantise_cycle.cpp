@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -165,15 +164,14 @@ private:
     void open_property(const Track& track) {
         Property& property = plans_[track.target][index(track.path)];
         property.state = State::animated;
-        glm::dvec3 low(std::numeric_limits<double>::infinity());
-        glm::dvec3 high = -low;
+        Box<glm::dvec3> box;
         double uneven = 0.0;
         for (std::size_t f = 0; f < grid_.frames; ++f) {
             const glm::dvec3 v = relative(f, track.target, track.path);
-            low = glm::min(low, v);
-            high = glm::max(high, v);
+            box.add(v);
             uneven = std::max({uneven, std::abs(v.x - v.y), std::abs(v.x - v.z)});
         }
+        const auto& [low, high] = box;
         property.middle = 0.5 * (low + high);
         property.half = 0.5 * (high - low);
         if (low == high || grid_.frames < 2) property.state = State::constant;

@@ -1,13 +1,11 @@
 #pragma once
 
-#include "compact/affine.h"
 #include "compact/grid.h"
+#include "space.h"
 
 #include <bendy/converter/scene.h>
 #include <bendy/format/packed_cycle.h>
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace bendy::converter {

@@ -1,15 +1,11 @@
 #include <bendy/converter/compare_characters.h>
 
 #include "collapse/find_shapes.h"
-#include "compact/affine.h"
-#include "compare/looks.h"
-#include "compare/match_names.h"
-#include "compare/match_polygons.h"
-#include "cycle_span.h"
-#include "error_place.h"
+#include "compare/match.h"
 #include "evaluate.h"
+#include "frame_shapes.h"
 #include "measure_error.h"
-#include "size_at_rest.h"
+#include "space.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

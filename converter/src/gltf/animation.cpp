@@ -1,12 +1,10 @@
-#include "animation.h"
-
 #include "accessor.h"
 #include "failure.h"
-#include "rig/parse_markers.h"
+#include "parts.h"
+#include "rig/markers.h"
 #include "source/transform.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -1,15 +1,83 @@
 #pragma once
 
-#include "buffers.h"
 #include "check_json.h"
-#include "source/budget.h"
+#include "source/source_file.h"
 #include "tinygltf.h"
 
 #include <bendy/converter/report.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace bendy::converter::gltf {
+
+/// The two parts of a source file. `json` and `bin` look into `bytes`.
+struct Container {
+    std::vector<std::byte> bytes;
+    std::string_view json;
+    std::span<const std::byte> bin;  ///< the BIN chunk's data
+    bool is_glb = false;
+    bool has_bin = false;  ///< a BIN chunk is there, perhaps of no length
+};
+
+/// Tells .glb from .gltf by the first bytes and takes the first apart. Fails with an empty place.
+Container open_container(std::vector<std::byte> bytes);
+
+/// How EXT_meshopt_compression or KHR_meshopt_compression stores a view.
+struct CompressedView {
+    std::size_t buffer = 0;
+    std::uint64_t offset = 0;  ///< bytes
+    std::uint64_t length = 0;  ///< bytes
+    std::size_t stride = 0;    ///< bytes per decoded element
+    std::size_t count = 0;     ///< decoded elements
+    std::string mode;
+    std::string filter;
+    std::string place;  ///< JSON path
+};
+
+/// The bytes behind bufferViews. Buffers are loaded at once (BIN chunk, data URI, file beside the source) and every
+/// view is checked against its buffer; compressed views are decoded when they are first asked for.
+class Buffers {
+public:
+    /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error
+    /// only when something reads it (fallback buffers of meshopt compression have none).
+    Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget,
+            Report& report);
+
+    /// The decoded bytes of a view; `index` must be in range.
+    std::span<const std::byte> view(std::size_t index, Budget& budget);
+
+    /// Bytes from one element to the next, or nothing: tightly packed.
+    [[nodiscard]] std::optional<std::size_t> stride(std::size_t index) const;
+
+private:
+    struct Buffer {
+        std::vector<std::byte> owned;
+        std::span<const std::byte> bytes;
+        bool has_data = false;
+    };
+    struct View {
+        std::size_t buffer = 0;
+        std::uint64_t offset = 0;
+        std::uint64_t length = 0;
+        std::optional<std::size_t> stride;
+        std::optional<CompressedView> compressed;
+        std::vector<std::byte> decoded;
+        bool is_decoded = false;
+    };
+
+    [[nodiscard]] std::span<const std::byte> slice(std::size_t buffer, std::uint64_t offset, std::uint64_t length,
+                                                   const std::string& place) const;
+
+    std::vector<Buffer> buffers_;
+    std::vector<View> views_;
+};
 
 /// A source file, opened and checked: what all parts of the importer read from. The structure comes from `model`;
 /// extensions, extras, images and the indices of primitives from `json`, where elements have the same numbers.

@@ -1,29 +1,21 @@
-#include <bendy/converter/import_gltf.h>
-
-#include "animation.h"
-#include "buffers.h"
 #include "check_json.h"
-#include "container.h"
 #include "document.h"
 #include "extensions.h"
 #include "failure.h"
-#include "image.h"
-#include "keep_extensions.h"
-#include "keep_members.h"
-#include "material.h"
-#include "mesh.h"
-#include "skeleton.h"
-#include "source/read_file.h"
+#include "parts.h"
+#include "source/source_file.h"
 #include "source_generator.h"
 #include "tinygltf.h"
 
-#include <algorithm>
+#include <bendy/converter/import.h>
+
 #include <exception>
 #include <new>
 #include <string>
 #include <utility>
 
 namespace bendy::converter {
+
 namespace gltf {
 namespace {
 

@@ -1,16 +1,14 @@
-#include "mesh.h"
-
 #include "accessor.h"
 #include "draco.h"
 #include "failure.h"
 #include "further_members.h"
+#include "parts.h"
 #include "primitive.h"
 #include "source/influences.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>

@@ -11,7 +11,6 @@
 #include <limits>
 #include <new>
 #include <string>
-#include <utility>
 
 namespace bendy::converter::gltf {
 namespace {

@@ -1,11 +1,7 @@
-#include "gltf_out/animation.h"
-
-#include "cycle_span.h"
-#include "error_place.h"
 #include "failure.h"
 #include "frame_shapes.h"
-#include "gltf_out/members.h"
-#include "gltf_out/skeleton.h"
+#include "gltf_out/parts.h"
+#include "measure_error.h"
 
 #include <algorithm>
 #include <array>

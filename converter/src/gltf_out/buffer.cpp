@@ -1,6 +1,6 @@
 #include "gltf_out/buffer.h"
 
-#include "passes/narrow.h"
+#include "stored_numbers.h"
 
 #include <bendy/format/records.h>
 
@@ -11,7 +11,6 @@
 #include <cstring>
 #include <functional>
 #include <string_view>
-#include <utility>
 
 namespace bendy::converter::gltf_out {
 namespace {
@@ -50,8 +49,8 @@ void add_bounds(Json& accessor, std::span<const float> values, std::uint32_t com
         least = std::min(least, values[i]);
         most = std::max(most, values[i]);
     }
-    accessor["min"] = numbers(low);
-    accessor["max"] = numbers(high);
+    accessor["min"] = json_numbers(low);
+    accessor["max"] = json_numbers(high);
 }
 
 std::size_t hash_of(Bytes bytes) {
@@ -87,20 +86,6 @@ std::vector<std::byte> encode(std::span<const std::uint32_t> values, Code code) 
 }
 
 }  // namespace
-
-Json number(float value) {
-    std::array<char, 64> text{};
-    const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    double shortest = 0.0;
-    std::from_chars(text.data(), end, shortest);
-    return shortest;
-}
-
-Json numbers(std::span<const float> values) {
-    Json list = Json::array();
-    for (const float value : values) list.push_back(number(value));
-    return list;
-}
 
 std::uint32_t Buffer::add_view(Bytes bytes, std::size_t element, Use use) {
     std::vector<std::byte> strided;

@@ -13,12 +13,6 @@
 
 namespace bendy::converter::gltf_out {
 
-/// A float as the shortest decimal number that reads back as the same float.
-Json number(float value);
-
-/// A list of such numbers.
-Json numbers(std::span<const float> values);
-
 /// The one buffer of a glTF file, with its views and accessors. Equal accessors are stored once.
 class Buffer {
 public:

@@ -1,28 +1,20 @@
-#include <bendy/converter/export_gltf.h>
-
 #include "failure.h"
 #include "gltf/source_generator.h"
-#include "gltf_out/animation.h"
 #include "gltf_out/buffer.h"
-#include "gltf_out/instancing.h"
-#include "gltf_out/material.h"
-#include "gltf_out/members.h"
-#include "gltf_out/mesh.h"
-#include "gltf_out/skeleton.h"
-#include "passes/keep_level.h"
+#include "gltf_out/parts.h"
+#include "passes/mesh_order.h"
 #include "passes/move_links.h"
-#include "rig/rig_in_extras.h"
-#include "source/uri.h"
-#include "without_throwing.h"
+#include "rig/parse_rig.h"
+#include "source/source_file.h"
 
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
 
-#include <algorithm>
 #include <limits>
 #include <set>
 #include <string>

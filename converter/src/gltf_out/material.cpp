@@ -1,8 +1,5 @@
-#include "gltf_out/material.h"
-
 #include "failure.h"
-#include "gltf_out/members.h"
-#include "gltf_out/skeleton.h"
+#include "gltf_out/parts.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -17,7 +14,7 @@ namespace {
 
 template <class Vector>
 Json list_of(const Vector& vector) {
-    return numbers({glm::value_ptr(vector), static_cast<std::size_t>(Vector::length())});
+    return json_numbers({glm::value_ptr(vector), static_cast<std::size_t>(Vector::length())});
 }
 
 Json write_use(const TextureUse& use) {
@@ -26,7 +23,7 @@ Json write_use(const TextureUse& use) {
     const TextureUse usual;
     Json transform = Json::object();
     if (use.offset != usual.offset) transform["offset"] = list_of(use.offset);
-    if (use.rotation != usual.rotation) transform["rotation"] = number(use.rotation);
+    if (use.rotation != usual.rotation) transform["rotation"] = json_number(use.rotation);
     if (use.scale != usual.scale) transform["scale"] = list_of(use.scale);
     if (!transform.empty()) written["extensions"]["KHR_texture_transform"] = std::move(transform);
     return written;
@@ -34,7 +31,7 @@ Json write_use(const TextureUse& use) {
 
 /// What is as glTF has it when nothing is said is not said.
 void add_number(Json& object, const char* member, float value, float usual) {
-    if (value != usual) object[member] = number(value);
+    if (value != usual) object[member] = json_number(value);
 }
 
 const char* alpha_name(AlphaMode mode) {

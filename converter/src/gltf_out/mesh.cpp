@@ -1,23 +1,57 @@
-#include "gltf_out/mesh.h"
-
 #include "failure.h"
 #include "frame_shapes.h"
-#include "gltf_out/members.h"
-#include "gltf_out/skeleton.h"
-#include "gltf_out/unit_vectors.h"
+#include "gltf_out/parts.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <span>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter::gltf_out {
 namespace {
+
+constexpr double kTolerance = 0.00674;  // the validator's
+
+bool make_unit(glm::vec3& vector) {
+    const glm::dvec3 exact(vector);
+    const double length = glm::length(exact);
+    if (std::abs(length - 1.0) <= kTolerance) return false;
+    vector = length > 0.0 && std::isfinite(length) ? glm::vec3(exact / length) : glm::vec3(0.0f, 0.0f, 1.0f);
+    return true;
+}
+
+/// glTF demands unit vectors; those that are none by more than Khronos' validator lets pass are normalised, and those
+/// without a direction point along +Z. The others keep their bits. \return how many were changed
+std::uint64_t make_unit(std::vector<glm::vec3>& normals) {
+    std::uint64_t changed = 0;
+    for (glm::vec3& normal : normals) changed += make_unit(normal) ? 1 : 0;
+    return changed;
+}
+
+/// The same for xyz; w, the handedness, becomes 1 or -1.
+std::uint64_t make_unit(std::vector<glm::vec4>& tangents) {
+    std::uint64_t changed = 0;
+    for (glm::vec4& tangent : tangents) {
+        glm::vec3 direction(tangent);
+        const float hand = tangent.w < 0.0f ? -1.0f : 1.0f;
+        const bool is_changed = make_unit(direction) || tangent.w != hand;
+        if (!is_changed) continue;
+        tangent = glm::vec4(direction, hand);
+        ++changed;
+    }
+    return changed;
+}
 
 constexpr std::uint32_t kSetSize = 4;         // influences in one of glTF's attributes
 constexpr std::uint32_t kMostMissing = 8;     // sets of texture coordinates or colours
@@ -141,7 +175,7 @@ private:
         name_targets(mesh, first, place);
         const auto is_set = [](const Target& target) { return target.rest_weight != 0.0f; };
         if (std::any_of(first.targets.begin(), first.targets.end(), is_set)) {
-            for (const Target& target : first.targets) mesh["weights"].push_back(number(target.rest_weight));
+            for (const Target& target : first.targets) mesh["weights"].push_back(json_number(target.rest_weight));
         }
         for (const std::uint32_t number : drawn.meshes) write_primitives(scene_.meshes[number], number, mesh);
         nodes_[drawn.node]["mesh"] = out_.meshes.size();

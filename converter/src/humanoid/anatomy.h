@@ -10,7 +10,6 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace bendy::converter {

@@ -1,7 +1,7 @@
 #include "clip_rotations.h"
 
-#include "cycle_span.h"
 #include "evaluate.h"
+#include "frame_shapes.h"
 #include "rest_frames.h"
 
 #include <bendy/format/trig.h>

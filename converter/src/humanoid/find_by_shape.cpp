@@ -1,6 +1,6 @@
 #include "find_by_shape.h"
 
-#include "bound_joints.h"
+#include "find_humanoid.h"
 
 #include <glm/geometric.hpp>
 

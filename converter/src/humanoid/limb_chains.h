@@ -7,7 +7,6 @@
 #include <bendy/converter/scene.h>
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bendy::converter {

@@ -5,7 +5,6 @@
 #include "rest_frames.h"
 
 #include <string>
-#include <utility>
 
 namespace bendy::converter {
 namespace {

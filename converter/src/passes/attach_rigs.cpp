@@ -3,13 +3,8 @@
 #include "failure.h"
 #include "humanoid/auto_rig.h"
 #include "humanoid/vrm.h"
-#include "rig/articulations.h"
-#include "rig/attach_extras.h"
-#include "rig/attach_markers.h"
 #include "rig/attach_rig.h"
-#include "rig/rig_in_extras.h"
 
-#include <algorithm>
 #include <unordered_set>
 
 namespace bendy::converter {

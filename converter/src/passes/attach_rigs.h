@@ -1,9 +1,9 @@
 #pragma once
 
+#include "rig/parse_rig.h"
+
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
-
-#include "rig/rig.h"
 
 #include <optional>
 

@@ -2,9 +2,9 @@
 
 #include "evaluate.h"
 #include "failure.h"
-#include "rig/joint_index.h"
+#include "rig/joint_key.h"
 
-#include <bendy/edit/names.h>
+#include <bendy/format/names.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -182,7 +182,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     Flags joints = joints_of_skins(scene);
     if (!skeleton.empty()) {
         auto below = joints_below(scene, skeleton);
-        if (!below) return ImportError{"skeleton", edit::no_such_name("joint", skeleton, names_of(scene))};
+        if (!below) return ImportError{"skeleton", no_such_name("joint", skeleton, names_of(scene))};
         joints = *std::move(below);
     } else if (!has_any(joints)) {
         joints = joints_without_meshes(scene);

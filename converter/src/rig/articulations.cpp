@@ -1,5 +1,4 @@
-#include "articulations.h"
-
+#include "attach_rig.h"
 #include "json_text.h"
 
 #include <bendy/format/constraint.h>

@@ -1,18 +1,13 @@
-#include "attach_extras.h"
-
-#include "blender_chain.h"
-#include "blender_limits.h"
+#include "attach_rig.h"
+#include "blender.h"
 #include "failure.h"
 #include "fields.h"
-#include "parse_chain.h"
-#include "parse_limit.h"
+#include "parse_rig.h"
 #include "rest_frames.h"
 
 #include <glm/gtc/quaternion.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <unordered_map>
 
 namespace bendy::converter {

@@ -6,7 +6,6 @@
 #include <bendy/format/constraint.h>
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "effort.h"
-#include "joint_index.h"
-#include "rig.h"
+#include "joint_key.h"
+#include "parse_rig.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
@@ -32,5 +31,22 @@ Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex
 
 /// Sets the flag and warns where the rest pose lies outside.
 void flag_rest_outside(LimitRecord& limit, const std::string& joint, const std::string& place, Report& report);
+
+/// Gives a scene the constraints and chains that its extras speak of: rig_joint and rig_ik of nodes, rig_ik of the
+/// scene (spec/rig.md), but for what is claimed already, and claims them. The extras stay as they are. What is wrong in
+/// them is named in `report` and left out.
+void attach_extras(Scene& scene, const JointIndex& index, Claims& claims, Report& report);
+
+/// Gives joints that name an articulation of AGI_articulations (in Joint::extensions and Scene::extensions), have no
+/// limits and are not `claimed`, one limit of its stages. A joint moves as its stages say and no other way. What a
+/// limit cannot say (scale, several turns about one axis, translation after rotation) is approximated or named in
+/// `report`; malformed articulations are named by JSON path and left out. \param claimed  by joint: somebody has said
+/// that it has no limits; empty: nobody has
+void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& report);
+
+/// Gives the scene's cycles the markers of a source, in place of their own; a complete one that says anything of
+/// markers leaves no others. An entry that no cycle takes is named in `report`. Fails at the JSON path of a marker
+/// outside its cycle, and of a second entry for one cycle.
+void attach_markers(Scene& scene, const Rig& rig, Report& report);
 
 }  // namespace bendy::converter

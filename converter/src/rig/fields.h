@@ -1,6 +1,5 @@
 #pragma once
 
-#include "angle.h"
 #include "json_text.h"
 
 #include <bendy/format/records.h>
@@ -8,12 +7,33 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bendy::converter {
+
+/// In what unit a source gives angles: rig files for people in degrees, extras in radians.
+enum class AngleUnit : bool { radians, degrees };
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+/// Both readers and writers of degrees use this, so that what was written comes back to the bit.
+constexpr double to_radians(double degrees) {
+    return degrees * kRadiansPerDegree;
+}
+
+// The words of rig files for the records' enumerations, in the enumerations' order.
+
+inline constexpr std::array<std::string_view, kLimitModels> kModelNames{
+    "free", "locked", "hinge", "swing_twist_ellipse", "swing_twist_pyramid", "euler_box", "largest_angle"};
+inline constexpr std::array<std::string_view, kEulerOrders> kOrderNames{"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
+inline constexpr std::array<std::string_view, kLimitScopes> kScopeNames{"every_pose", "ik_only", "all_but_ik"};
+inline constexpr std::array<std::string_view, kSolvers> kSolverNames{"any",    "pull", "two_bone",     "ccd",
+                                                                     "fabrik", "aim",  "least_squares"};
+inline constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 
 /// The members of a JSON object, read one by one with their checks. Every reader fails at the member's path, and leaves
 /// its target alone where the member is not there.

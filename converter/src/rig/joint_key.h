@@ -1,13 +1,32 @@
 #pragma once
 
-#include "effort.h"
+#include "failure.h"
+
+#include <bendy/converter/scene.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace bendy::converter {
+
+/// Bounds the work of matching: a small hostile file can set any number of globs against any number of joints.
+class Effort {
+public:
+    static constexpr std::uint64_t kMost = 400'000'000;  ///< steps: a character compared is one
+
+    /// Counts `steps`, or fails with an empty place.
+    void take(std::uint64_t steps) {
+        if (steps > left_) fail({}, "its keys, chains and weights take too long to match with so many joints");
+        left_ -= steps;
+    }
+
+private:
+    std::uint64_t left_ = kMost;
+};
 
 /// The characters of UTF-8 text; a byte that is none counts as one.
 std::u32string characters_of(std::string_view utf8);
@@ -39,5 +58,28 @@ bool parse_joint_number(std::string_view text, std::uint64_t& number);
 
 /// A name as a key that means it and nothing else.
 std::string escape_joint_name(std::string_view name);
+
+/// Finds joints of a scene by name, and tells who is above whom. The scene's joints must stay as they are.
+class JointIndex {
+public:
+    explicit JointIndex(const Scene& scene);
+
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(ends_.size()); }
+    /// The joints of a name, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> named(std::string_view name) const;
+    /// The first joint of a name at or below `top` if there is one, else the first of all; kNone if there is none.
+    [[nodiscard]] std::uint32_t find(std::string_view name, std::uint32_t top = kNone) const;
+    /// The joint that `#12` or a name means; kNone if there is none.
+    [[nodiscard]] std::uint32_t find_key(std::string_view key) const;
+    /// In pre-order a joint's descendants are [joint, end).
+    [[nodiscard]] std::uint32_t end(std::uint32_t joint) const { return ends_[joint]; }
+    [[nodiscard]] bool is_above(std::uint32_t joint, std::uint32_t other) const {
+        return joint <= other && other < ends_[joint];
+    }
+
+private:
+    std::unordered_map<std::string_view, std::vector<std::uint32_t>> by_name_;
+    std::vector<std::uint32_t> ends_;
+};
 
 }  // namespace bendy::converter

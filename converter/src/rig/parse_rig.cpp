@@ -1,14 +1,171 @@
 #include "parse_rig.h"
 
 #include "failure.h"
-#include "fields.h"
-#include "parse_chain.h"
-#include "parse_limit.h"
-#include "source/read_file.h"
+#include "source/source_file.h"
 
+#include <bendy/format/constraint.h>
+#include <bendy/format/diagnostics.h>
+
+#include <bitset>
 #include <unordered_set>
 
 namespace bendy::converter {
+namespace {
+
+/// Fails where a member is there that means nothing for the model.
+void refuse(Fields& fields, std::string_view key, LimitModel model) {
+    if (fields.find(key) == nullptr) return;
+    fail(fields.place_of(key),
+         "it means nothing for model " + std::string(kModelNames[static_cast<std::size_t>(model)]));
+}
+
+void read_rotation_limits(Fields& fields, LimitModel model, LimitRecord& limit) {
+    if (model == LimitModel::largest_angle) {
+        if (const OrderedJson* angle = fields.find("angle"); angle != nullptr && !angle->is_null()) {
+            fields.read_angle("angle", limit.rotation_max[0]);
+            if (limit.rotation_max[0] < 0.0f) fail(fields.place_of("angle"), "it is less than 0");
+        }
+    } else {
+        refuse(fields, "angle", model);
+    }
+    const std::size_t ranges = model == LimitModel::largest_angle ? 0 : limited_axes(model);
+    const bool is_swing = model == LimitModel::swing_twist_ellipse || model == LimitModel::swing_twist_pyramid;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axis >= ranges) {
+            refuse(fields, kAxisNames[axis], model);
+            continue;
+        }
+        float& low = limit.rotation_min[axis];
+        float& high = limit.rotation_max[axis];
+        fields.read_angle_range(kAxisNames[axis], low, high);
+        if (is_swing && axis != 0 && !(low <= 0.0f && high >= 0.0f))
+            fail(fields.place_of(kAxisNames[axis]), "a swing's range must hold 0");
+    }
+}
+
+void read_translation(Fields& fields, AngleUnit unit, LimitRecord& limit) {
+    const OrderedJson* value = fields.find("translation");
+    if (value == nullptr) return;
+    Fields translation(*value, fields.place_of("translation"), unit);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        translation.read_range(kAxisNames[axis], limit.translation_min[axis], limit.translation_max[axis]);
+    translation.refuse_others();
+}
+
+void read_flag(Fields& fields, std::string_view key, std::uint8_t flag, std::uint8_t& flags) {
+    bool is_set = false;
+    fields.read(key, is_set);
+    if (is_set) flags |= flag;
+}
+
+}  // namespace
+
+void check_limit_at(const LimitRecord& limit, const std::string& place) {
+    LimitRecord admitted = limit;
+    admitted.flags |= kRestOutside;
+    Faults faults;
+    check_limit(admitted, 0, 0, faults);
+    if (!faults.empty()) fail(place, describe(faults.list().front()));
+}
+
+LimitRecord parse_limit(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    Fields fields(value, place, unit);
+    LimitRecord limit;
+    fields.need("model");
+    fields.read_word("model", kModelNames, limit.model);
+    const auto model = static_cast<LimitModel>(limit.model);
+    if (model == LimitModel::euler_box) {
+        fields.read_word("order", kOrderNames, limit.euler_order);
+    } else {
+        refuse(fields, "order", model);
+    }
+    fields.read_word("scope", kScopeNames, limit.scope);
+    fields.read_rotation("frame", limit.frame);
+    read_rotation_limits(fields, model, limit);
+    read_translation(fields, unit, limit);
+    fields.read("stiffness", limit.stiffness, 0.0f, 1.0f);
+    fields.read_angles("preferred", limit.preferred);
+    fields.read_angle("soft_zone", limit.soft_zone);
+    if (limit.soft_zone < 0.0f) fail(fields.place_of("soft_zone"), "it is less than 0");
+    read_flag(fields, "approximated", kApproximated, limit.flags);
+    read_flag(fields, "proposed", kProposed, limit.flags);
+    read_flag(fields, "rest_outside", kRestOutside, limit.flags);
+    fields.refuse_others();
+    check_limit_at(limit, place);
+    return limit;
+}
+
+std::vector<LimitRecord> parse_limits(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    if (!value.is_array()) return {parse_limit(value, place, unit)};
+    std::vector<LimitRecord> limits;
+    std::bitset<kLimitScopes> taken;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const LimitRecord limit = parse_limit(value[i], at(place, i), unit);
+        if (taken[limit.scope])
+            fail(at(place, i), "there is a second constraint of scope " + std::string(kScopeNames[limit.scope]));
+        taken.set(limit.scope);
+        limits.push_back(limit);
+    }
+    return limits;
+}
+
+namespace {
+
+void read_needed(Fields& fields, std::string_view key, std::string& text) {
+    fields.need(key);
+    fields.read(key, text);
+}
+
+void read_weights(Fields& fields, AngleUnit unit, RigChain& chain) {
+    const OrderedJson* value = fields.find("weights");
+    if (value == nullptr) return;
+    Fields weights(*value, fields.place_of("weights"), unit);  // an object, every key once
+    for (const auto& [name, weight] : value->items()) {
+        const std::string place = weights.place_of(name);
+        const float number = to_float(weight, place);
+        if (!(number >= 0.0f && number <= 1.0f)) fail(place, shown(weight) + " is not between 0 and 1");
+        chain.weights.emplace_back(parse_joint_key(name, place), number);
+    }
+}
+
+}  // namespace
+
+RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    Fields fields(value, place, unit);
+    RigChain chain;
+    chain.place = place;
+    ChainRecord& record = chain.record;
+    read_needed(fields, "name", chain.name);
+    read_needed(fields, "start", chain.start);
+    read_needed(fields, "effector", chain.effector);
+    fields.read("target", chain.target);
+    fields.read("pole", chain.pole);
+    fields.read_word("solver", kSolverNames, record.solver);
+    std::uint64_t number = 0;
+    fields.read_integer("iterations", 65535, number);
+    record.iterations = static_cast<std::uint16_t>(number);
+    number = 0;
+    fields.read_integer("priority", 255, number);
+    record.priority = static_cast<std::uint8_t>(number);
+    fields.read("tolerance", record.tolerance, 0.0f);
+    fields.read("pole_vector", record.pole_vector);
+    fields.read_angle("pole_angle", record.pole_angle);
+    fields.read("tip_offset", record.tip_offset);
+    fields.read_rotation("tip_rotation", record.tip_rotation);
+    fields.read("position_weight", record.position_weight, 0.0f, 1.0f);
+    fields.read("rotation_weight", record.rotation_weight, 0.0f, 1.0f);
+    fields.read("influence", record.influence, 0.0f, 1.0f);
+    fields.read("stretch", record.stretch, 0.0f);
+    fields.read("compress", record.compress, 0.0f, 1.0f);
+    read_weights(fields, unit, chain);
+    read_flag(fields, "approximated", kApproximated, record.flags);
+    read_flag(fields, "proposed", kProposed, record.flags);
+    if (const OrderedJson* extras = fields.find("extras"); extras != nullptr && !extras->is_null())
+        chain.extras = extras->dump();
+    fields.refuse_others();
+    return chain;
+}
+
 namespace {
 
 constexpr std::uint64_t kVersion = 1;
@@ -59,6 +216,24 @@ Rig read_rig(const std::filesystem::path& file, Report& report) {
     Rig rig = parse_rig({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, report);
     rig.source = file.filename().string() + ": ";
     return rig;
+}
+
+std::optional<Rig> take_rig_from_extras(Scene& scene, Report& report) {
+    if (scene.extras.find(kRigInExtras) == std::string::npos) return std::nullopt;
+    const std::string place = "scene.extras." + std::string(kRigInExtras);
+    try {
+        auto extras = parse_json_text<Json>(scene.extras, report);
+        if (!extras.is_object() || !extras.contains(kRigInExtras)) return std::nullopt;
+        Rig rig = parse_rig(extras[kRigInExtras].dump(), report);
+        rig.source = place + '.';
+        extras.erase(kRigInExtras);
+        scene.extras = extras.empty() ? std::string() : extras.dump();
+        return rig;
+    } catch (const Failure& failure) {
+        report.warn("rig left out: " + failure.error.message,
+                    failure.error.place.empty() ? place : place + '.' + failure.error.place);
+        return std::nullopt;
+    }
 }
 
 }  // namespace bendy::converter

@@ -1,10 +1,9 @@
 #include <bendy/converter/write_rig.h>
 
-#include "angle.h"
 #include "failure.h"
+#include "fields.h"
 #include "joint_key.h"
 #include "json_text.h"
-#include "names.h"
 
 #include <bendy/format/constraint.h>
 

@@ -3,7 +3,6 @@
 #include <bendy/converter/scene.h>
 
 #include <array>
-#include <cstddef>
 
 namespace bendy::converter {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "source/budget.h"
+#include "source/source_file.h"
 
 #include <string>
 #include <string_view>

@@ -1,14 +1,10 @@
-#include <bendy/converter/import_x.h>
-
 #include "compressed_file.h"
-#include "cycles.h"
 #include "failure.h"
-#include "joints.h"
-#include "materials.h"
-#include "meshes.h"
-#include "read_x_file.h"
-#include "source/read_file.h"
-#include "without_throwing.h"
+#include "object_reader.h"
+#include "parts.h"
+#include "source/source_file.h"
+
+#include <bendy/converter/import.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +12,7 @@
 #include <string>
 
 namespace bendy::converter {
+
 namespace x {
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tokens.h"
+#include "x_file.h"
 
 #include <bendy/converter/report.h>
 
@@ -62,5 +63,27 @@ private:
     Report& report_;
     Token token_;
 };
+
+/// A Mesh whose type has been read, with all below it. Its own materials are appended to `materials`.
+Mesh read_mesh(ObjectReader& in, std::vector<Material>& materials);
+
+/// A Material whose type has been read.
+Material read_material(ObjectReader& in);
+
+/// A BendyName whose type has been read.
+std::string read_name(ObjectReader& in);
+
+/// A BendyConstraint whose type has been read; the record passes check_limit but for the rest pose.
+Constraint read_constraint(ObjectReader& in);
+
+/// A BendyIkChain whose type has been read; every number in its range.
+IkChain read_chain(ObjectReader& in);
+
+/// An AnimationSet whose type has been read.
+AnimationSet read_animation_set(ObjectReader& in);
+
+/// Reads an X-file, text or binary. Indices inside a mesh are in range, counts agree; what refers to frames and
+/// materials by name is not looked up yet. Fails at `line 3, column 7`; what is not known is named in `report`.
+XFile read_x_file(std::string_view file, Report& report);
 
 }  // namespace bendy::converter::x

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rig/names.h"
+#include "rig/fields.h"
 #include "x_file.h"
 
 #include <limits>

@@ -1,10 +1,10 @@
-#include "animation.h"
-
-#include "cycle_span.h"
 #include "evaluate.h"
 #include "failure.h"
-#include "ticks.h"
-#include "x/encoded_text.h"
+#include "frame_shapes.h"
+#include "parts.h"
+#include "x/conventions.h"
+
+#include <bendy/converter/scene.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +16,90 @@
 
 namespace bendy::converter::x_out {
 namespace {
+
+/// Key times of X-files are whole numbers; one file has one number of ticks in a second.
+class Ticks {
+public:
+    /// Cycles that take longer are left out.
+    static constexpr float kLongest = 1e6f;  ///< seconds
+
+    /// Takes a frame rate that gives every key time of the scene back to the bit, if there is one; else as many ticks
+    /// as the longest cycle lets 31 bits count, a power of two, which rounds times that are small beside it only.
+    explicit Ticks(const Scene& scene);
+
+    [[nodiscard]] std::uint32_t per_second() const { return per_second_; }
+    [[nodiscard]] double seconds(std::uint64_t tick) const { return static_cast<double>(tick) / per_second_; }
+    /// The ticks of ascending times from 0 on, strictly ascending.
+    /// \param rounded  counts the times that do not come back
+    [[nodiscard]] std::vector<std::uint64_t> of(const std::vector<float>& times, float shift,
+                                                std::uint64_t& rounded) const;
+
+private:
+    [[nodiscard]] bool is_exact(const Scene& scene) const;
+
+    std::uint32_t per_second_ = 4800;
+};
+
+/// Frame rates that animators use, and what X-files often have.
+constexpr std::array<std::uint32_t, 14> kRates{24,  25,    30,    50,    60,    100,   120,
+                                               240, 1'000, 3'000, 4'800, 6'000, 9'600, 48'000};
+constexpr double kMostTicks = 2147483647.0;
+
+/// By how much a cycle's times are moved, so that none is below 0; seconds.
+float shift_of(const Cycle& cycle) {
+    const float start = span_of(cycle).start;
+    return start < 0.0f ? -start : 0.0f;
+}
+
+bool is_left_out(const Cycle& cycle) {
+    const CycleSpan span = span_of(cycle);
+    return !(span.end + shift_of(cycle) <= Ticks::kLongest);
+}
+
+/// Not below 0, and a time that is not exact may be too large for the type.
+std::uint64_t nearest(double time, std::uint32_t per_second) {
+    return static_cast<std::uint64_t>(std::llround(std::clamp(time * per_second, 0.0, kMostTicks)));
+}
+
+Ticks::Ticks(const Scene& scene) {
+    for (const std::uint32_t rate : kRates) {
+        per_second_ = rate;
+        if (is_exact(scene)) return;
+    }
+    double longest = 1.0;
+    for (const Cycle& cycle : scene.cycles) {
+        if (!is_left_out(cycle)) longest = std::max(longest, double{span_of(cycle).end + shift_of(cycle)});
+    }
+    per_second_ = 1;
+    while (longest * per_second_ * 2 < kMostTicks / 2) per_second_ *= 2;
+}
+
+bool Ticks::is_exact(const Scene& scene) const {
+    std::uint64_t rounded = 0;
+    for (const Cycle& cycle : scene.cycles) {
+        if (is_left_out(cycle)) continue;
+        const float shift = shift_of(cycle);
+        if (double{span_of(cycle).end + shift} * per_second_ > kMostTicks / 2) return false;
+        for (const Track& track : cycle.tracks) {
+            if (track.path == TrackPath::weights) continue;
+            static_cast<void>(of(track.times, shift, rounded));
+            if (rounded != 0) return false;
+        }
+    }
+    return true;
+}
+
+std::vector<std::uint64_t> Ticks::of(const std::vector<float>& times, float shift, std::uint64_t& rounded) const {
+    std::vector<std::uint64_t> ticks;
+    ticks.reserve(times.size());
+    for (const float time : times) {
+        std::uint64_t tick = nearest(double{time} + shift, per_second_);
+        if (!ticks.empty()) tick = std::max(tick, ticks.back() + 1);
+        ticks.push_back(tick);
+        if (static_cast<float>(seconds(tick)) != time + shift) ++rounded;
+    }
+    return ticks;
+}
 
 constexpr double kSamplesPerSecond = 60.0;  ///< of a cubic track
 constexpr double kMostSamples = 64.0;       ///< between two of its keys

@@ -1,23 +1,90 @@
-#include <bendy/converter/export_x.h>
-
-#include "animation.h"
 #include "failure.h"
-#include "frames.h"
-#include "material.h"
-#include "names.h"
-#include "passes/keep_level.h"
+#include "parts.h"
+#include "passes/mesh_order.h"
 #include "passes/move_links.h"
-#include "rig.h"
-#include "templates.h"
-#include "without_throwing.h"
+#include "text.h"
+#include "x/rig_fields.h"
 
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 
+#include <span>
 #include <utility>
 
 namespace bendy::converter {
+namespace {
+
+using x_out::Text;
+
+/// Writes the members of a template as rig_fields.h walks them.
+class Declaration {
+public:
+    explicit Declaration(Text& text) : text_(text) {}
+
+    void word(const char* field, std::span<const std::string_view> /*words*/, std::uint8_t& /*number*/) {
+        declare("STRING", field);
+    }
+    template <class Integer>
+    void integer(const char* field, Integer& /*number*/, std::uint32_t /*most*/) {
+        declare("DWORD", field);
+    }
+    void number(const char* field, float& /*number*/, float /*low*/, float /*high*/) { declare("FLOAT", field); }
+    template <std::size_t N>
+    void numbers(const char* field, std::array<float, N>& /*numbers*/, float /*low*/, float /*high*/) {
+        text_.line("array FLOAT " + std::string(field) + '[' + std::to_string(N) + "];");
+    }
+    void ranges(const char* field, std::array<float, 3>& range) { numbers(field, range, 0.0f, 0.0f); }
+    void text(const char* field, std::string& /*text*/) { declare("STRING", field); }
+    void frame(const char* field, std::string& /*identifier*/) { declare("STRING", field); }
+    void weights(const char* field, std::vector<std::pair<std::string, float>>& /*weights*/) {
+        text_.line("DWORD nWeights;");
+        text_.line("array BendyIkWeight " + std::string(field) + "[nWeights];");
+    }
+
+private:
+    void declare(const char* type, const char* field) { text_.line(std::string(type) + ' ' + field + ';'); }
+
+    Text& text_;
+};
+
+void begin(const char* name, const char* uuid, Text& text) {
+    text.open("template", name);
+    text.line('<' + std::string(uuid) + '>');
+}
+
+void declare(const char* name, const char* uuid, std::initializer_list<const char*> members, Text& text) {
+    begin(name, uuid, text);
+    for (const char* member : members) text.line(member);
+    text.close();
+}
+
+/// The templates that are not in every reader: those for skins, and ours.
+void write_templates(Text& text) {
+    declare("XSkinMeshHeader", "3CF169CE-FF7C-44AB-93C0-F78F62D172E2",
+            {"WORD nMaxSkinWeightsPerVertex;", "WORD nMaxSkinWeightsPerFace;", "WORD nBones;"}, text);
+    declare("SkinWeights", "6F0D123B-BAD2-4167-A0D0-80224F25FABB",
+            {"STRING transformNodeName;", "DWORD nWeights;", "array DWORD vertexIndices[nWeights];",
+             "array FLOAT weights[nWeights];", "Matrix4x4 matrixOffset;"},
+            text);
+    declare("AnimTicksPerSecond", "9E415A43-7BA6-4A73-8743-B73D47E88476", {"DWORD AnimTicksPerSecond;"}, text);
+    declare("BendyName", "4620F87F-D301-478E-A231-778A892284BE", {"STRING name;"}, text);
+    declare("BendyCycle", "37C3E628-EE6E-4EA4-AD94-B4116F6833E4", {"STRING animationSet;", "STRING name;"}, text);
+    begin("BendyConstraint", "E514D09B-AD9F-4A00-915F-E216F5853E17", text);
+    Declaration declaration(text);
+    LimitRecord limit;
+    x::walk_constraint(declaration, limit);
+    text.close();
+    declare("BendyIkWeight", "AB327CA5-4272-42AD-B48F-D0033667B9A7", {"STRING frame;", "FLOAT weight;"}, text);
+    begin("BendyIkChain", "3386D549-B39E-43CE-8A3C-659221E001F4", text);
+    x::IkChain chain;
+    x::walk_chain(declaration, chain);
+    text.close();
+}
+
+}  // namespace
+
 namespace x_out {
 namespace {
 

@@ -1,36 +1,102 @@
-#include "frames.h"
-
 #include "failure.h"
-#include "mesh.h"
-#include "rig.h"
-#include "x/mirror.h"
+#include "parts.h"
+#include "space.h"
+#include "x/conventions.h"
+#include "x/rig_fields.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <array>
+#include <cmath>
+#include <span>
 #include <vector>
 
 namespace bendy::converter::x_out {
 namespace {
 
+/// Writes the fields that rig_fields.h walks, a line each.
+class FieldWriter {
+public:
+    explicit FieldWriter(Text& text) : text_(text) {}
+
+    void word(const char* /*field*/, std::span<const std::string_view> words, std::uint8_t& number) {
+        string(std::string(words[number]));
+    }
+    template <class Integer>
+    void integer(const char* /*field*/, Integer& number, std::uint32_t /*most*/) {
+        text_.line(std::to_string(number) + ';');
+    }
+    void number(const char* /*field*/, float& number, float /*low*/, float /*high*/) {
+        text_.begin_line();
+        text_.add(number).add(";");
+        text_.end_line();
+    }
+    template <std::size_t N>
+    void numbers(const char* /*field*/, std::array<float, N>& numbers, float /*low*/, float /*high*/) {
+        text_.begin_line();
+        for (std::size_t i = 0; i < N; ++i) text_.add(numbers[i]).add(i + 1 < N ? "," : ";");
+        text_.end_line();
+    }
+    void ranges(const char* field, std::array<float, 3>& numbers) {
+        std::array<float, 3> finite = numbers;
+        for (float& number : finite) number = std::isinf(number) ? std::copysign(x::kMost, number) : number;
+        this->numbers(field, finite, 0.0f, 0.0f);
+    }
+    void text(const char* /*field*/, std::string& text) { string(x::encode_text(text)); }
+    void frame(const char* /*field*/, std::string& identifier) { string(identifier); }
+    void weights(const char* /*field*/, std::vector<std::pair<std::string, float>>& weights) {
+        text_.line(std::to_string(weights.size()) + ';');
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            text_.begin_line();
+            text_.add('"' + weights[i].first + "\";").add(weights[i].second).add(i + 1 < weights.size() ? ";," : ";;");
+            text_.end_line();
+        }
+    }
+
+private:
+    void string(const std::string& text) { text_.line('"' + text + "\";"); }
+
+    Text& text_;
+};
+
+}  // namespace
+
+void write_constraints(const Joint& joint, Text& text) {
+    for (LimitRecord limit : joint.limits) {
+        text.open("BendyConstraint");
+        FieldWriter fields(text);
+        x::walk_constraint(fields, limit);
+        text.close();
+    }
+}
+
+void write_chains(const Scene& scene, const Names& names, Text& text) {
+    const auto name_of = [&](std::uint32_t joint) { return joint == kNone ? std::string() : names.joints[joint]; };
+    for (const Chain& source : scene.chains) {
+        x::IkChain chain;
+        chain.name = source.name;
+        chain.start = name_of(source.record.start);
+        chain.effector = name_of(source.record.effector);
+        chain.target = name_of(source.record.target);
+        chain.pole = name_of(source.record.pole);
+        chain.record = source.record;
+        for (const Chain::Weight& weight : source.weights)
+            chain.weights.emplace_back(name_of(weight.joint), weight.weight);
+        chain.extras = source.extras;
+        text.open("BendyIkChain");
+        FieldWriter fields(text);
+        x::walk_chain(fields, chain);
+        text.close();
+    }
+}
+
+namespace {
+
 /// T * R * U (see Transform) in double, mirrored; R from a quaternion that is unit to the last bit of a double, so that
 /// a reader who takes the matrix apart finds the scale that was put in.
 std::array<double, 16> matrix_of(const Transform& rest) {
-    const glm::dvec4 q(rest.rotation);
-    const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(q.w, q.x, q.y, q.z)));
-    const glm::dvec3 scale(rest.scale);
-    const glm::dvec3 shear(rest.shear);
-    const glm::dmat3 upper({scale.x, 0.0, 0.0}, {shear.x, scale.y, 0.0}, {shear.y, shear.z, scale.z});
-    const glm::dmat3 linear = turn * upper;
-    std::array<double, 16> matrix{};
-    for (std::size_t column = 0; column < 3; ++column) {
-        const auto axis = static_cast<int>(column);
-        for (std::size_t row = 0; row < 3; ++row) matrix[4 * column + row] = linear[axis][static_cast<int>(row)];
-        matrix[12 + column] = double{rest.translation[axis]};
-    }
-    matrix[15] = 1.0;
-    return x::mirrored(matrix);
+    return x::mirrored(to_affine(local_of(rest), rest.shear).columns());
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
-#include "material.h"
-
 #include "failure.h"
-#include "source/media_type.h"
-#include "x/display_colour.h"
-#include "x/encoded_text.h"
-#include "x/materials.h"
+#include "parts.h"
+#include "source/image_bytes.h"
+#include "x/conventions.h"
+#include "x/parts.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,6 @@
-#include "mesh.h"
-
 #include "failure.h"
-#include "x/display_colour.h"
-#include "x/mirror.h"
+#include "parts.h"
+#include "x/conventions.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bendy/converter/scene.h>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -9,7 +11,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter::x_out {
 
@@ -60,5 +64,26 @@ private:
     std::string text_;
     std::size_t depth_ = 0;
 };
+
+/// The identifiers by which the file's objects refer to one another: letters, digits and underscores, each once.
+class Names {
+public:
+    explicit Names(const Scene& scene);
+
+    std::vector<std::string> joints;
+    std::vector<std::string> meshes;
+    std::vector<std::string> materials;
+    std::vector<std::string> cycles;
+    std::string no_material;  ///< of what is drawn without one
+
+private:
+    /// \param kind  what a thing without a name is called
+    std::string make(std::string_view name, const char* kind, std::size_t number);
+
+    std::unordered_map<std::string, std::uint32_t> times_;  ///< how often an identifier was wanted
+};
+
+/// BendyName, where an identifier is not what the thing is called.
+void write_name(std::string_view identifier, std::string_view name, Text& text);
 
 }  // namespace bendy::converter::x_out

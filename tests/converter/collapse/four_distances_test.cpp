@@ -1,6 +1,4 @@
-#include "collapse/four_distances.h"
-
-#include "collapse/closest_point.h"
+#include "collapse/distances.h"
 
 #include <gtest/gtest.h>
 

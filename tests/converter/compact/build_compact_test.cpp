@@ -1,12 +1,11 @@
 #include "compact/build_compact.h"
 
 #include "converter/posed_scene.h"
-#include "cycle_span.h"
 #include "evaluate.h"
+#include "frame_shapes.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>

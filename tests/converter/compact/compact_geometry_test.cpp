@@ -1,9 +1,9 @@
 #include "compact/compact_geometry.h"
+#include "evaluate.h"
 #include "measure_error.h"
-#include "size_at_rest.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 

@@ -1,4 +1,4 @@
-#include "compact/encode_leaf.h"
+#include "compact/leaf_writer.h"
 
 #include <bendy/format/codec.h>
 

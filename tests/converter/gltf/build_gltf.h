@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/convert.h>
-#include <bendy/converter/export_gltf.h>
+#include <bendy/converter/export.h>
 
 #include <gtest/gtest.h>
 

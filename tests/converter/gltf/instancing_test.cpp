@@ -1,7 +1,7 @@
 #include "build_gltf.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/export_gltf.h>
+#include <bendy/converter/export.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include "build_gltf.h"
 
-#include "gltf/meshopt_filters.h"
-#include "gltf/meshopt_vertices.h"
+#include "gltf/meshopt.h"
 
 #include <meshoptimizer.h>
 

@@ -1,6 +1,6 @@
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/export_gltf.h>
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 
 #include "converter/posed_scene.h"
 #include "format/sample_file.h"

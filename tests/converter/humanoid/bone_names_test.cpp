@@ -1,4 +1,4 @@
-#include "humanoid/bone_names.h"
+#include "humanoid/humanoid.h"
 
 #include <gtest/gtest.h>
 

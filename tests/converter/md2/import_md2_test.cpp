@@ -1,9 +1,7 @@
-#include "md2/frame_cycles.h"
-#include "md2/quake_normals.h"
+#include "md2/quake2.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/import_md2.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "rig/articulations.h"
+#include "rig/attach_rig.h"
 
 #include "../humanoid/humanoid_gltf.h"
 

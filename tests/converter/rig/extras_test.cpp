@@ -1,8 +1,8 @@
 #include "build_scene.h"
 
 #include "rest_frames.h"
-#include "rig/attach_extras.h"
-#include "rig/euler.h"
+#include "rig/attach_rig.h"
+#include "rig/blender.h"
 
 #include <bendy/format/constraint.h>
 

@@ -1,6 +1,6 @@
 #include "source/importers.h"
 
-#include <bendy/converter/readable_files.h>
+#include <bendy/converter/source_format.h>
 
 #include <gtest/gtest.h>
 

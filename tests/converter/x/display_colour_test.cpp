@@ -1,4 +1,4 @@
-#include "x/display_colour.h"
+#include "x/conventions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/convert.h>
-#include <bendy/converter/export_x.h>
-#include <bendy/converter/import_bendy.h>
-#include <bendy/converter/import_x.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 

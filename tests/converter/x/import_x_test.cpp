@@ -1,5 +1,5 @@
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/import_x.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>

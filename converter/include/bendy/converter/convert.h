@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/converter/error_bound.h>
-#include <bendy/converter/import_gltf.h>
+#include <bendy/converter/import.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/result.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bendy/converter/compact_report.h>
-#include <bendy/converter/file_stamp.h>
+#include <bendy/format/byte_reader.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,42 @@
 #include <vector>
 
 namespace bendy::converter {
+
+/// Bytes of a file by what they are for, headers and padding included.
+struct ByteCount {
+    std::string kind;  ///< skeleton, POSI, ..., indices, targets, cycles, textures, other
+    std::uint64_t bytes = 0;
+};
+
+/// Every kind, in the order in which they are shown; the bytes must be a well-formed file.
+std::vector<ByteCount> count_bytes(Bytes file);
+
+/// What compact encodings have done to a character.
+struct CompactReport {
+    double max_error = 0.0;       ///< metres: what was asked for
+    double height = 0.0;          ///< metres, at rest
+    double measured_error = 0.0;  ///< metres: the worst that was met
+    std::string place;            ///< where: mesh, vertex, pose; empty if nothing moved
+    std::vector<ByteCount> exact, compact;
+};
+
+/// What tells without reading a file whether it is still the same.
+struct FileStamp {
+    bool is_there = false;
+    std::uint64_t size = 0;     ///< bytes
+    std::int64_t modified = 0;  ///< ticks of the file system's clock, as std::filesystem counts them
+
+    bool operator==(const FileStamp&) const = default;
+};
+
+/// Of the file as it is now; of one that cannot be seen: not there.
+FileStamp stamp_of(const std::filesystem::path& file);
+
+/// A file that a conversion has read, or has looked for in vain.
+struct SourceFile {
+    std::filesystem::path file;
+    FileStamp stamp;  ///< from before it was read
+};
 
 /// Why an import failed: what is wrong and where in the source, e.g. place
 /// `meshes[2].primitives[0].attributes.JOINTS_0`.

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace bendy::converter {
+
+/// The media type that an image's first bytes show, or empty.
+std::string media_type_of(std::span<const std::byte> bytes);
+
+/// The longer side of a PNG or JPEG image in pixels; nothing if its bytes do not say.
+std::optional<std::uint32_t> longer_side(const Image& image);
+
+}  // namespace bendy::converter

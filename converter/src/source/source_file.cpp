@@ -1,0 +1,190 @@
+#include "source/source_file.h"
+
+#include <bendy/format/text.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <system_error>
+
+namespace bendy::converter {
+
+std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place, std::uint64_t limit) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) fail(place, "file not found: " + quote(file.filename().string()));
+    // A device or a pipe behind a relative URI would have no end.
+    if (!std::filesystem::is_regular_file(status))
+        fail(place, "not a regular file: " + quote(file.filename().string()));
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    if (error || !stream) fail(place, "cannot read file " + quote(file.filename().string()));
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, limit)));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
+        fail(place, "cannot read file " + quote(file.filename().string()));
+    }
+    return bytes;
+}
+
+namespace {
+
+std::optional<unsigned> hex_digit(char c) {
+    if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
+    if (c >= 'a' && c <= 'f') return static_cast<unsigned>(c - 'a' + 10);
+    if (c >= 'A' && c <= 'F') return static_cast<unsigned>(c - 'A' + 10);
+    return std::nullopt;
+}
+
+constexpr std::array<std::uint8_t, 256> make_base64_table() {
+    std::array<std::uint8_t, 256> table{};
+    for (auto& entry : table) entry = 255;
+    for (std::uint8_t i = 0; i < 26; ++i) {
+        table[static_cast<std::size_t>('A' + i)] = i;
+        table[static_cast<std::size_t>('a' + i)] = static_cast<std::uint8_t>(26 + i);
+    }
+    for (std::uint8_t i = 0; i < 10; ++i) table['0' + std::size_t{i}] = static_cast<std::uint8_t>(52 + i);
+    table['+'] = table['-'] = 62;  // the URL-safe alphabet is met too
+    table['/'] = table['_'] = 63;
+    return table;
+}
+
+std::vector<std::byte> decode_base64(std::string_view text, const std::string& place) {
+    static constexpr auto kTable = make_base64_table();
+    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    std::vector<std::byte> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    unsigned count = 0;  // of valid bits
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::uint8_t value = kTable[static_cast<unsigned char>(text[i])];
+        if (value == 255) {
+            if (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t') continue;
+            fail(place, "data URI: character " + std::to_string(i) + " of the base64 text is none of its alphabet");
+        }
+        bits = (bits << 6 | value) & 0xffffffu;
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            bytes.push_back(static_cast<std::byte>(bits >> count & 0xffu));
+        }
+    }
+    return bytes;
+}
+
+bool ends_with_base64(std::string_view header) {
+    constexpr std::string_view kMark = ";base64";
+    return header.size() >= kMark.size() && header.substr(header.size() - kMark.size()) == kMark;
+}
+
+}  // namespace
+
+std::optional<std::string> percent_decode(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        if (text.size() - i < 3) return std::nullopt;
+        const auto high = hex_digit(text[i + 1]);
+        const auto low = hex_digit(text[i + 2]);
+        if (!high || !low) return std::nullopt;
+        decoded += static_cast<char>(*high * 16 + *low);
+        i += 2;
+    }
+    return decoded;
+}
+
+bool is_data_uri(std::string_view uri) {
+    return uri.substr(0, 5) == "data:";
+}
+
+DataUri decode_data_uri(std::string_view uri, const std::string& place) {
+    uri.remove_prefix(5);
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) fail(place, "data URI without a comma");
+    const std::string_view header = uri.substr(0, comma);
+    uri.remove_prefix(comma + 1);
+
+    DataUri data;
+    data.media_type = header.substr(0, header.find(';'));
+    std::optional<std::string> decoded;
+    if (uri.find('%') != std::string_view::npos || !ends_with_base64(header)) {
+        decoded = percent_decode(uri);
+        if (!decoded) fail(place, "data URI: '%' without two hexadecimal digits");
+        uri = *decoded;
+    }
+    if (ends_with_base64(header)) {
+        data.bytes = decode_base64(uri, place);
+    } else {
+        const auto* first = reinterpret_cast<const std::byte*>(uri.data());
+        data.bytes.assign(first, first + uri.size());
+    }
+    return data;
+}
+
+std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
+                                  const std::string& place) {
+    if (uri.empty()) fail(place, "the URI is empty");
+    if (const std::size_t colon = uri.find(':'); colon != std::string::npos && uri.find('/') > colon) {
+        fail(place, "only files beside the source and data URIs are read, not " + quote(uri));
+    }
+    const auto path_of = [&](const std::string& name) {
+        std::filesystem::path path;
+        try {
+            path = std::u8string(name.begin(), name.end());
+        } catch (const std::system_error&) {  // on Windows, where names are UTF-16
+            fail(place, "the file name is not UTF-8: " + quote(uri));
+        }
+        if (path.is_absolute() || path.has_root_path() || name.find('\0') != std::string::npos) {
+            fail(place, "absolute paths are refused: " + quote(uri));
+        }
+        return source.parent_path() / path;
+    };
+    // Names with a bare '%' exist; and so do files whose real name looks percent-encoded.
+    const auto decoded = percent_decode(uri);
+    auto path = path_of(decoded.value_or(uri));
+    std::error_code ignored;
+    if (decoded && *decoded != uri && !std::filesystem::exists(path, ignored)) {
+        auto literal = path_of(uri);
+        if (std::filesystem::exists(literal, ignored)) return literal;
+    }
+    return path;
+}
+
+std::string uri_of(const std::filesystem::path& path) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    constexpr std::string_view kPlain = "-._~/";
+    std::string uri;
+    for (const char8_t letter : path.generic_u8string()) {
+        const auto code = static_cast<unsigned char>(letter);
+        const auto is_between = [code](char first, char last) { return code >= first && code <= last; };
+        const bool is_plain = is_between('a', 'z') || is_between('A', 'Z') || is_between('0', '9') ||
+                              kPlain.find(static_cast<char>(code)) != std::string_view::npos;
+        if (is_plain) {
+            uri += static_cast<char>(code);
+        } else {
+            uri.append({'%', kHex[code >> 4], kHex[code & 15]});
+        }
+    }
+    return uri;
+}
+
+std::string to_utf8(std::string_view text) {
+    if (is_utf8(text)) return std::string(text);
+    std::string converted;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x80) {
+            converted += c;
+        } else {
+            converted += static_cast<char>(0xc0u | code >> 6);
+            converted += static_cast<char>(0x80u | (code & 0x3fu));
+        }
+    }
+    return converted;
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "failure.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bendy::converter {
+
+/// How many bytes the decoded scene may take. A small hostile file can ask for any amount: one accessor used by every
+/// primitive, one mesh by every node, compressed or implied zeros. So whatever grows the result is charged here first.
+class Budget {
+public:
+    static constexpr std::uint64_t kFloor = std::uint64_t{1} << 30;  ///< bytes that any file may decode to
+    static constexpr std::uint64_t kPerSourceByte = 64;              ///< beyond the floor, for each byte of the source
+
+    void add_source(std::uint64_t bytes) {
+        const std::uint64_t room = UINT64_MAX - left_;
+        left_ += bytes <= room / kPerSourceByte ? bytes * kPerSourceByte : room;
+    }
+
+    /// Charges `count` elements of `size` bytes, or fails at `place`.
+    void take(std::uint64_t count, std::uint64_t size, const std::string& place) {
+        if (size != 0 && count > left_ / size) fail(place, "the decoded data would be implausibly large");
+        left_ -= count * size;
+    }
+
+private:
+    std::uint64_t left_ = kFloor;
+};
+
+/// All bytes of a regular file, at most `limit` of them. Fails at `place`.
+std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place,
+                                 std::uint64_t limit = UINT64_MAX);
+
+/// Nothing if a `%` is not followed by two hexadecimal digits.
+std::optional<std::string> percent_decode(std::string_view text);
+
+bool is_data_uri(std::string_view uri);
+
+struct DataUri {
+    std::string media_type;  ///< without parameters, may be empty
+    std::vector<std::byte> bytes;
+};
+
+/// RFC 2397, base64 or percent-encoded. Fails at `place`.
+DataUri decode_data_uri(std::string_view uri, const std::string& place);
+
+/// The file that a relative URI means, beside `source`. `..` is allowed (exporters write it); absolute paths and
+/// schemes are not: fails at `place`.
+std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
+                                  const std::string& place);
+
+/// A relative path as a URI: percent-encoded where it must be.
+std::string uri_of(const std::filesystem::path& path);
+
+/// UTF-8: text of other encodings is taken for Latin-1.
+std::string to_utf8(std::string_view text);
+
+}  // namespace bendy::converter

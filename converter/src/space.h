@@ -1,0 +1,111 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace bendy::converter {
+
+/// x -> linear * x + origin, in double precision.
+struct Affine {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 origin{0.0};
+
+    Affine() = default;
+    Affine(const glm::dmat3& linear_part, const glm::dvec3& shift) : linear(linear_part), origin(shift) {}
+    /// Of a matrix whose fourth row is 0 0 0 1.
+    explicit Affine(const glm::dmat4& matrix) : linear(matrix), origin(matrix[3]) {}
+
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return linear * point + origin; }
+    friend bool operator==(const Affine& a, const Affine& b) { return a.linear == b.linear && a.origin == b.origin; }
+    /// Column by column, as glTF and X-files have it.
+    [[nodiscard]] std::array<double, 16> columns() const {
+        const glm::dmat3& m = linear;
+        return {m[0].x, m[0].y, m[0].z, 0.0, m[1].x,   m[1].y,   m[1].z,   0.0,
+                m[2].x, m[2].y, m[2].z, 0.0, origin.x, origin.y, origin.z, 1.0};
+    }
+};
+
+inline Affine operator*(const Affine& a, const Affine& b) {
+    return {a.linear * b.linear, a.linear * b.origin + a.origin};
+}
+
+/// A joint's transform relative to its parent, at one moment.
+struct Local {
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 translation{0.0};
+    glm::dvec3 scale{1.0};
+};
+
+/// Sets what a track animates to its value at a time, as evaluate_track gives it. Not for weights.
+inline void set_property(TrackPath path, const std::vector<double>& value, Local& local) {
+    switch (path) {
+        case TrackPath::translation:
+            local.translation = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::rotation: {
+            const double length =
+                std::sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2] + value[3] * value[3]);
+            if (length > 0.0) local.rotation = glm::dquat(value[3], value[0], value[1], value[2]) / length;
+            break;
+        }
+        case TrackPath::scale:
+            local.scale = {value[0], value[1], value[2]};
+            break;
+        case TrackPath::weights:
+            break;
+    }
+}
+
+inline Local local_of(const Transform& rest) {
+    const glm::vec4& q = rest.rotation;
+    return {glm::normalize(glm::dquat(q.w, q.x, q.y, q.z)), glm::dvec3(rest.translation), glm::dvec3(rest.scale)};
+}
+
+/// Scale and shear: see Transform.
+inline glm::dmat3 stretch(const glm::dvec3& scale, const glm::vec3& shear) {
+    return {{scale.x, 0.0, 0.0}, {shear.x, scale.y, 0.0}, {shear.y, shear.z, scale.z}};
+}
+
+inline Affine to_affine(const Local& local, const glm::vec3& shear) {
+    return {glm::mat3_cast(local.rotation) * stretch(local.scale, shear), local.translation};
+}
+
+/// The smallest box round points, its sides along the axes.
+template <class Vector>
+struct Box {
+    Vector low{std::numeric_limits<typename Vector::value_type>::max()};
+    Vector high{std::numeric_limits<typename Vector::value_type>::lowest()};
+
+    void add(const Vector& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
+    [[nodiscard]] std::array<Vector, 8> corners() const {
+        std::array<Vector, 8> all{};
+        for (unsigned i = 0; i < 8; ++i)
+            all[i] = {(i & 1u) != 0 ? high.x : low.x, (i & 2u) != 0 ? high.y : low.y, (i & 4u) != 0 ? high.z : low.z};
+        return all;
+    }
+};
+
+/// Of points; of none the origin.
+inline Box<glm::vec3> box_of(std::span<const glm::vec3> points) {
+    if (points.empty()) return {glm::vec3(0.0f), glm::vec3(0.0f)};
+    Box<glm::vec3> box;
+    for (const glm::vec3& point : points) box.add(point);
+    return box;
+}
+
+}  // namespace bendy::converter
