@@ -50,6 +50,7 @@ if [ "${1:-build}" = cross ]; then
     need /usr/lib/wine/wine64 wine64
 fi
 if [ "${1:-build}" = test ]; then
+    python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need /usr/include/tbb/parallel_for.h libtbb-dev
