@@ -26,9 +26,7 @@ need /usr/include/zlib.h zlib1g-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
 need python3 python3
-need /usr/include/GL/glcorearb.h libgl-dev
-need /usr/include/EGL/egl.h libegl-dev
-need /usr/include/GL/osmesa.h libosmesa6-dev
+need /usr/include/epoxy/egl.h libepoxy-dev
 need /usr/include/GLFW/glfw3.h libglfw3-dev
 need /usr/include/imgui/imgui.h libimgui-dev
 need /usr/include/png.h libpng-dev
