@@ -20,6 +20,7 @@ need /usr/include/tiny_gltf.h libtinygltf-dev
 need /usr/include/nlohmann/json.hpp nlohmann-json3-dev
 need /usr/include/rapidjson/reader.h rapidjson-dev
 need /usr/include/CLI/App.hpp libcli11-dev
+need /usr/include/utf8cpp/utf8.h libutfcpp-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
 need /usr/include/zlib.h zlib1g-dev

@@ -37,6 +37,7 @@ PRIVATE = {
     "rapidjson/": "twin/src/",
     "CLI/": "cli/",
     "epoxy/": "viewer/src/",
+    "utf8cpp/": ("converter/src/", "cli/"),
     "GLFW/": "viewer/src/",
     "imgui.h": "viewer/src/",
     "backends/": "viewer/src/",

@@ -2,6 +2,10 @@
 
 #include <bendy/format/text.h>
 
+#include <utf8cpp/utf8.h>
+
+#include <iterator>
+
 namespace bendy::converter::x {
 namespace {
 
@@ -57,15 +61,7 @@ std::string decode_text(std::string_view text) {
 std::string to_utf8(std::string_view text) {
     if (is_utf8(text)) return std::string(text);
     std::string converted;
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (code < 0x80) {
-            converted += c;
-        } else {
-            converted += static_cast<char>(0xc0u | code >> 6);
-            converted += static_cast<char>(0x80u | (code & 0x3fu));
-        }
-    }
+    for (const char c : text) utf8::unchecked::append(static_cast<unsigned char>(c), std::back_inserter(converted));
     return converted;
 }
 
