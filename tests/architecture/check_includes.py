@@ -14,7 +14,8 @@ MAY_USE = {
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},
-    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
+    "stages": {"format", "runtime"},
+    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin", "stages"},
 }
 # Rooms of runtime/src, and those that each may use beside its own.
 ROOMS = {

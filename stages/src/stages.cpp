@@ -1,4 +1,4 @@
-#include "stages.h"
+#include <bendy/stages/stages.h>
 
 #include <bendy/runtime.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace bendy::cli {
+namespace bendy::stages {
 namespace {
 
 constexpr float kFrame = 1.0f / 60.0f;  // seconds
@@ -149,4 +149,4 @@ void Stages::add_levels() {
     });
 }
 
-}  // namespace bendy::cli
+}  // namespace bendy::stages

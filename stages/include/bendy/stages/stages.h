@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-// What is done with a file from opening it to its vertices on the screen, a step at a time: what `bendy bench` times.
-namespace bendy::cli {
+// What is done with a file from opening it to its vertices on the screen, a step at a time: what `bendy bench` and bench/ time.
+namespace bendy::stages {
 
 struct Stage {
     std::string name;
@@ -66,4 +66,4 @@ private:
     std::vector<Stage> list_;
 };
 
-}  // namespace bendy::cli
+}  // namespace bendy::stages
