@@ -1,60 +1,68 @@
-// bench_open FILE...: what it takes from a file in the page cache to its first pose, beside mapping it and touching
-// every page. By turns in one process; the least, in microseconds.
+// bendy_bench_open FILE... [--benchmark_...]: what it takes from a file in the page cache to its first pose, beside
+// mapping it and touching every page. bench/ratios.py prints how many times touching it takes.
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
-#include "side_by_side.h"
+#include <benchmark/benchmark.h>
 
 #include <cstddef>
 #include <cstdio>
-#include <vector>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 
 namespace {
+
+using namespace bendy;
 
 constexpr std::size_t kPage = 4096;
 
 /// Something of every page, so that none is left out.
-unsigned touch(const char* path) {
+unsigned touch(const std::string& path) {
     unsigned sum = 0;
-    const auto file = bendy::MappedFile::open(path);
+    const auto file = MappedFile::open(path);
     for (std::size_t at = 0; file && at < file->bytes().size(); at += kPage)
         sum += std::to_integer<unsigned>(file->bytes()[at]);
     return sum;
 }
 
-void open(const char* path, bendy::Sums sums, bool poses) {
-    bendy::OpenOptions options;
+void open(const std::string& path, Sums sums, bool poses) {
+    OpenOptions options;
     options.sums = sums;
-    const auto model = bendy::Model::open(path, options);
+    const auto model = Model::open(path, options);
     if (!model || !poses) return;
-    bendy::Pose pose(*model);
-    if (!model->cycles().empty()) bendy::sample(&model->cycles().front(), model->cycles().front().start, pose);
-    bendy::local_to_model(pose);
+    Pose pose(*model);
+    if (!model->cycles().empty()) sample(&model->cycles().front(), model->cycles().front().start, pose);
+    local_to_model(pose);
+}
+
+void add(const std::string& name, std::function<void()> run) {
+#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+    benchmark::RegisterBenchmark(name.c_str(), [run = std::move(run)](benchmark::State& state) {
+        while (state.KeepRunning()) run();
+    })->Unit(benchmark::kMicrosecond);
+#endif
 }
 
 }  // namespace
 
-int main(int count, char** arguments) {
-    std::printf("| file | bytes | touch | open | sums later | first pose | sums later | over touch |\n");
-    std::printf("|---|---|---|---|---|---|---|---|\n");
-    for (int k = 1; k < count; ++k) {
-        const char* const path = arguments[k];
-        const auto model = bendy::Model::open(path);
-        const auto file = bendy::MappedFile::open(path);
-        if (!model || !file) return 1;
-        [[maybe_unused]] static volatile unsigned seen = 0;
-        const std::vector<bendy::cli::Contestant> contestants{
-            {"touch", [path] { seen = touch(path); }},
-            {"open", [path] { open(path, bendy::Sums::checked, false); }},
-            {"open, later", [path] { open(path, bendy::Sums::later, false); }},
-            {"pose", [path] { open(path, bendy::Sums::checked, true); }},
-            {"pose, later", [path] { open(path, bendy::Sums::later, true); }}};
-        constexpr double kNanoseconds = 1000.0;  // in a microsecond
-        const auto timings = bendy::cli::side_by_side(contestants, kNanoseconds);
-        std::printf("| %s | %zu |", path, file->bytes().size());
-        for (const auto& timing : timings) std::printf(" %.0f |", timing.least);
-        std::printf(" %.1f |\n", timings[3].ratio);
-        std::fflush(stdout);
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    for (int k = 1; k < argc; ++k) {
+        const std::string path = argv[k];
+        if (!Model::open(path)) {
+            std::fprintf(stderr, "bendy_bench_open: %s: expected a bendy file\n", argv[k]);
+            return 1;
+        }
+        const std::string name = std::filesystem::path(path).stem().string();
+        add(name + "/touch", [path] { benchmark::DoNotOptimize(touch(path)); });
+        add(name + "/open", [path] { open(path, Sums::checked, false); });
+        add(name + "/open, sums later", [path] { open(path, Sums::later, false); });
+        add(name + "/first pose", [path] { open(path, Sums::checked, true); });
+        add(name + "/first pose, sums later", [path] { open(path, Sums::later, true); });
     }
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
     return 0;
 }

@@ -1,10 +1,9 @@
 // One stage of a file so many times, for tools that count what a program does: bendy_bench_repeat FILE lists the
 // stages, bendy_bench_repeat FILE STAGE TIMES runs the one of that number and says what it deals with. See
 // instructions.sh.
-#include "stages.h"
-
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
+#include <bendy/stages/stages.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -20,9 +19,9 @@ int main(int argc, char** argv) {
         return 1;
     }
     const auto open = [&](const bendy::OpenOptions& options) { return bendy::Model::open(argv[1], options); };
-    const bendy::cli::Stages stages(open, *model, model->cycles().empty() ? nullptr : model->cycles().data());
+    const bendy::stages::Stages stages(open, *model, model->cycles().empty() ? nullptr : model->cycles().data());
     for (std::size_t k = 0; argc == 2 && k < stages.list().size(); ++k) {
-        const bendy::cli::Stage& stage = stages.list()[k];
+        const bendy::stages::Stage& stage = stages.list()[k];
         std::printf("%zu\t%.0f\t%s\t%s\n", k, stage.items, stage.item, stage.name.c_str());
     }
     if (argc == 2) return 0;

@@ -1,97 +1,145 @@
-// bench_scale: what each joint and each vertex costs, from few to very many, on made-up characters. The least of some
-// runs, in nanoseconds per joint or vertex.
+// bendy_bench_scale [--benchmark_...]: what each joint and each vertex costs, from few to very many, on made-up
+// characters. The counters per_joint and per_vertex are seconds.
 #include <bendy/runtime.h>
 
 #include "made_models.h"
 
-#include <algorithm>
-#include <chrono>
+#include <benchmark/benchmark.h>
+
 #include <cstdint>
-#include <cstdio>
-#include <limits>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace {
 
-using bendy::Bytes;
-using bendy::bench::make_character;
+using namespace bendy;
 
-/// Nanoseconds per item, the least of runs that take half a second together.
-template <class Run>
-double least(double items, const Run& run) {
-    using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::milliseconds(500);
-    double best = std::numeric_limits<double>::max();
-    do {
-        const auto start = Clock::now();
-        run();
-        best = std::min(best, std::chrono::duration<double, std::nano>(Clock::now() - start).count());
-    } while (Clock::now() < end);
-    return best / items;
-}
-
-bendy::Result<bendy::Model> open(Bytes bytes, bendy::Sums sums) {
-    bendy::OpenOptions options;
+Result<Model> open(Bytes bytes, Sums sums) {
+    OpenOptions options;
     options.sums = sums;
-    return bendy::Model::from_memory(bytes, options);
+    return Model::from_memory(bytes, options);
 }
 
-bool measure_joints(std::uint32_t joints) {
-    const std::vector<std::byte> bytes = make_character(joints, 0);
-    const auto model = open(bytes, bendy::Sums::checked);
-    if (!model) return false;
-    const bendy::Cycle& cycle = model->cycles().front();
-    bendy::Pose pose(*model);
+struct Character {
+    std::uint32_t joints = 0;
+    std::uint32_t vertices = 0;
+    std::vector<std::byte> bytes;
+    Model model;
+};
+
+/// Made when it is first measured, and kept while it is: the largest takes gigabytes.
+Character& character(std::uint32_t joints, std::uint32_t vertices) {
+    static std::unique_ptr<Character> kept;
+    if (!kept || kept->joints != joints || kept->vertices != vertices) {
+        kept.reset();
+        std::vector<std::byte> bytes = bench::make_character(joints, vertices);
+        auto model = open(bytes, Sums::checked);
+        if (!model) std::abort();  // they are made valid
+        kept = std::make_unique<Character>(Character{joints, vertices, std::move(bytes), *std::move(model)});
+    }
+    return *kept;
+}
+
+using Measure = void (*)(benchmark::State&, Character&);
+
+void open_checked(benchmark::State& state, Character& of) {
+    while (state.KeepRunning()) benchmark::DoNotOptimize(open(of.bytes, Sums::checked).has_value());
+}
+
+void open_later(benchmark::State& state, Character& of) {
+    while (state.KeepRunning()) benchmark::DoNotOptimize(open(of.bytes, Sums::later).has_value());
+}
+
+/// Includes opening, sums later: what a pose plans with a model's first one.
+void open_to_first_pose(benchmark::State& state, Character& of) {
+    while (state.KeepRunning()) {
+        const auto fresh = open(of.bytes, Sums::later);
+        const Pose pose(*fresh);
+        benchmark::DoNotOptimize(&pose);
+    }
+}
+
+void sample_steps(benchmark::State& state, const Model& model, float step) {
+    const Cycle& cycle = model.cycles().front();
+    Pose pose(model);
     float seconds = 0.0f;
-    const auto next = [&](float step) {
+    while (state.KeepRunning()) {
         seconds += step;
         if (seconds > cycle.end) seconds -= cycle.end;
-        bendy::sample(&cycle, seconds, pose);
-    };
-    const double n = joints;
-    const double checked = least(n, [&] { return open(bytes, bendy::Sums::checked).has_value(); });
-    const double later = least(n, [&] { return open(bytes, bendy::Sums::later).has_value(); });
-    const double in_order = least(n, [&] { next(1.0f / 60.0f); });
-    const double at_random = least(n, [&] { next(0.61803399f); });
-    const double to_model = least(n, [&] { bendy::local_to_model(pose); });
-    std::printf("| %u | %.0f | %.0f | %.1f | %.1f | %.1f |\n", joints, checked, later, in_order, at_random, to_model);
-    std::fflush(stdout);
-    return true;
+        sample(&cycle, seconds, pose);
+    }
 }
 
-bool measure_vertices(std::uint32_t vertices) {
-    constexpr std::uint32_t kJoints = 100;
-    const std::vector<std::byte> bytes = make_character(kJoints, vertices);
-    const auto model = open(bytes, bendy::Sums::checked);
-    if (!model) return false;
-    const double n = vertices;
-    const double checked = least(n, [&] { return open(bytes, bendy::Sums::checked).has_value(); });
-    const double later = least(n, [&] { return open(bytes, bendy::Sums::later).has_value(); });
-    const double first_pose = least(n, [&] {
-        const auto fresh = open(bytes, bendy::Sums::later);
-        const bendy::Pose pose(*fresh);
+void next_frame(benchmark::State& state, Character& of) {
+    sample_steps(state, of.model, 1.0f / 60.0f);
+}
+
+void random_time(benchmark::State& state, Character& of) {
+    sample_steps(state, of.model, 0.61803399f);
+}
+
+void to_model(benchmark::State& state, Character& of) {
+    Pose pose(of.model);
+    sample(&of.model.cycles().front(), 0.5f, pose);
+    while (state.KeepRunning()) local_to_model(pose);
+}
+
+void skin_vertices(benchmark::State& state, Character& of, bool with_normals) {
+    Pose pose(of.model);
+    sample(&of.model.cycles().front(), 0.5f, pose);
+    std::vector<glm::vec3> positions(of.vertices);
+    std::vector<glm::vec3> normals(with_normals ? of.vertices : 0);
+    while (state.KeepRunning()) {
+        skin(of.model, pose, {positions, normals, {}});
+        benchmark::ClobberMemory();
+    }
+}
+
+void skin_positions(benchmark::State& state, Character& of) {
+    skin_vertices(state, of, false);
+}
+
+void skin_normals(benchmark::State& state, Character& of) {
+    skin_vertices(state, of, true);
+}
+
+void add(std::uint32_t joints, std::uint32_t vertices, const char* what, Measure measure) {
+    const bool is_skinned = vertices > 0;
+    const std::uint32_t items = is_skinned ? vertices : joints;
+    const std::string unit = is_skinned ? "vertex" : "joint";
+    const std::string name = std::to_string(items) + (is_skinned ? " vertices/" : " joints/") + what;
+#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        measure(state, character(joints, vertices));
+        state.counters["per_" + unit] = benchmark::Counter(static_cast<double>(state.iterations()) * items,
+                                                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     });
-    bendy::Pose pose(*model);
-    bendy::sample(&model->cycles().front(), 0.5f, pose);
-    std::vector<glm::vec3> positions(vertices);
-    std::vector<glm::vec3> normals(vertices);
-    const double skin_positions = least(n, [&] { bendy::skin(*model, pose, {positions, {}, {}}); });
-    const double skin_normals = least(n, [&] { bendy::skin(*model, pose, {positions, normals, {}}); });
-    std::printf("| %u | %.2f | %.2f | %.1f | %.2f | %.2f |\n", vertices, checked, later, first_pose - later,
-                skin_positions, skin_normals);
-    std::fflush(stdout);
-    return true;
+#endif
 }
 
 }  // namespace
 
-int main() {
-    bool is_good = true;
-    std::printf(
-        "| joints | open | sums later | next frame | random time | local to model |\n|---|---|---|---|---|---|\n");
-    for (const std::uint32_t joints : {10u, 100u, 1'000u, 10'000u}) is_good = is_good && measure_joints(joints);
-    std::printf("\n| vertices | open | sums later | first pose | positions | + normals |\n|---|---|---|---|---|---|\n");
-    for (const std::uint32_t vertices : {1'000u, 10'000u, 100'000u, 1'000'000u, 10'000'000u})
-        is_good = is_good && measure_vertices(vertices);
-    return is_good ? 0 : 1;
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    for (const std::uint32_t joints : {10u, 100u, 1'000u, 10'000u}) {
+        add(joints, 0, "open", open_checked);
+        add(joints, 0, "open, sums later", open_later);
+        add(joints, 0, "next frame", next_frame);
+        add(joints, 0, "random time", random_time);
+        add(joints, 0, "local to model", to_model);
+    }
+    constexpr std::uint32_t kJoints = 100;
+    for (const std::uint32_t vertices : {1'000u, 10'000u, 100'000u, 1'000'000u, 10'000'000u}) {
+        add(kJoints, vertices, "open", open_checked);
+        add(kJoints, vertices, "open, sums later", open_later);
+        add(kJoints, vertices, "first pose, opening included", open_to_first_pose);
+        add(kJoints, vertices, "skin positions", skin_positions);
+        add(kJoints, vertices, "skin positions, normals", skin_normals);
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
 }

@@ -3,10 +3,10 @@
 // Single stages: --benchmark_filter=REGEX; two builds or kernels beside each other: BENDY_KERNEL=plain, or `bendy bench
 // --kernel`, which measures by turns.
 #include "made_models.h"
-#include "stages.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
+#include <bendy/stages/stages.h>
 
 #include <benchmark/benchmark.h>
 
@@ -49,10 +49,10 @@ void per_item(benchmark::State& state, const char* item, double items) {
 struct File {
     File(const std::filesystem::path& path, Model opened)
         : model(std::move(opened)),
-          stages([path](const OpenOptions& options) { return Model::open(path, options); }, model,
-                 model.cycles().empty() ? nullptr : model.cycles().data()) {}
+          steps([path](const OpenOptions& options) { return Model::open(path, options); }, model,
+                model.cycles().empty() ? nullptr : model.cycles().data()) {}
     Model model;
-    cli::Stages stages;
+    stages::Stages steps;
 };
 
 // --- crowds
@@ -174,7 +174,7 @@ void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
     }
     files.push_back(std::make_unique<File>(path, *std::move(model)));
     const std::string name = std::filesystem::path(path).stem().string();
-    for (const cli::Stage& stage : files.back()->stages.list()) {
+    for (const stages::Stage& stage : files.back()->steps.list()) {
         add(name + '/' + stage.name, [&stage](auto& state) {
             while (state.KeepRunning()) stage.run();
             per_item(state, stage.item, stage.items);

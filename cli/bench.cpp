@@ -4,10 +4,10 @@
 #include "problem.h"
 #include "progress_bar.h"
 #include "side_by_side.h"
-#include "stages.h"
 
 #include <bendy/runtime.h>
 #include <bendy/runtime/kernels.h>
+#include <bendy/stages/stages.h>
 
 #include <nlohmann/json.hpp>
 
@@ -58,7 +58,7 @@ std::vector<Kernel> chosen_kernels(const BenchArguments& arguments) {
 }
 
 /// One Timing for each kernel, by turns, in nanoseconds per item.
-std::vector<Timing> time_stage(const Stage& stage, const std::vector<Kernel>& kernels, int rounds) {
+std::vector<Timing> time_stage(const stages::Stage& stage, const std::vector<Kernel>& kernels, int rounds) {
     std::vector<Contestant> contestants;
     contestants.reserve(kernels.size());
     for (const Kernel kernel : kernels) {
@@ -82,7 +82,7 @@ std::string brief_time(double nanoseconds) {
 }
 
 struct Row {
-    const Stage* stage;
+    const stages::Stage* stage;
     std::vector<Timing> timings;  // one per kernel
 };
 
@@ -145,12 +145,12 @@ void run(const BenchArguments& arguments) {
         return is_dash(arguments.file) ? Model::from_memory(file.bytes(), options)
                                        : Model::open(arguments.file, options);
     };
-    const Stages stages(open, *model, cycle);
+    const stages::Stages steps(open, *model, cycle);
     std::vector<Row> rows;
     {
         ProgressBar bar("measuring");
-        for (const Stage& stage : stages.list()) {
-            bar.show(rows.size(), stages.list().size());
+        for (const stages::Stage& stage : steps.list()) {
+            bar.show(rows.size(), steps.list().size());
             rows.push_back({&stage, time_stage(stage, kernels, arguments.rounds)});
         }
     }

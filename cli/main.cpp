@@ -83,7 +83,7 @@ std::string missing(const CLI::App& command) {
     return enumerate(places) + (places.size() == 1 ? " is missing" : " are missing");
 }
 
-/// The words of a set such as "{auto,egl,osmesa}" at the end of what CLI11 says of a value outside it.
+/// The words of a set such as "{png,gif,webp}" at the end of what CLI11 says of a value outside it.
 std::string wrong_word(const std::string& what) {
     constexpr std::string_view kBefore = " not in {";
     const std::size_t at = what.rfind(kBefore);

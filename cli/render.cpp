@@ -42,7 +42,6 @@ struct RenderArguments {
     std::string size;
     std::string camera;
     std::string background;
-    std::string context = "auto";
     std::string format;   // empty: as the output's name says
     unsigned frames = 0;  // 0: not said
     bool verbose = false;
@@ -262,9 +261,6 @@ void run(RenderArguments arguments) {
     if (format == "png") check_sheet(arguments);
     if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
-    arguments.render.context = arguments.context == "egl"      ? viewer::ContextKind::egl
-                               : arguments.context == "osmesa" ? viewer::ContextKind::osmesa
-                                                               : viewer::ContextKind::any;
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, outputs);
@@ -315,9 +311,6 @@ void add_render(CLI::App& program) {
     command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
     add_lod(*command, arguments->render.lod);
     command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
-    command->add_option("--context", arguments->context, "where OpenGL comes from")
-        ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
-        ->capture_default_str();
     command->add_flag("-v,--verbose", arguments->verbose, "say which OpenGL draws");
     command->footer(
         "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, with a line to what is to "

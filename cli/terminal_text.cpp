@@ -1,5 +1,7 @@
 #include "terminal_text.h"
 
+#include <utf8cpp/utf8.h>
+
 #include <algorithm>
 #include <array>
 
@@ -25,33 +27,22 @@ std::size_t columns_of_letter(char32_t letter) {
     return is_in(letter, kWide.data(), kWide.data() + kWide.size()) ? 2 : 1;
 }
 
-struct Letter {
-    std::size_t bytes = 1;
-    std::size_t columns = 1;
-};
-
-/// What is no UTF-8 is one column a byte.
-Letter letter_at(std::string_view text, std::size_t at) {
-    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[at + k]); };
-    const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc0 ? 2 : 1;
-    if (bytes == 1 || at + bytes > text.size()) return {};
-    char32_t letter = byte(0) & (0xffu >> (bytes + 1));
-    for (std::size_t k = 1; k < bytes; ++k) {
-        if ((byte(k) & 0xc0u) != 0x80u) return {};
-        letter = letter << 6u | (byte(k) & 0x3fu);
+/// Columns of the letter at `at`, which moves behind it. A byte that is not UTF-8 takes one column.
+std::size_t next_columns(const char*& at, const char* end) {
+    constexpr std::ptrdiff_t kLongest = 4;
+    if (utf8::find_invalid(at, at + std::min(kLongest, end - at)) == at) {
+        ++at;
+        return 1;
     }
-    return {bytes, columns_of_letter(letter)};
+    return columns_of_letter(utf8::unchecked::next(at));
 }
 
 }  // namespace
 
 std::size_t width_of(std::string_view text) {
     std::size_t columns = 0;
-    for (std::size_t at = 0; at < text.size();) {
-        const Letter letter = letter_at(text, at);
-        columns += letter.columns;
-        at += letter.bytes;
-    }
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at != end;) columns += next_columns(at, end);
     return columns;
 }
 
@@ -59,14 +50,14 @@ std::string cut_to(std::string_view text, std::size_t columns) {
     constexpr std::string_view kDots = "...";
     if (columns == 0 || text.size() <= columns || width_of(text) <= columns) return std::string(text);
     if (columns <= kDots.size()) return std::string(kDots.substr(0, columns));
-    std::size_t at = 0;
-    for (std::size_t taken = 0; at < text.size();) {
-        const Letter letter = letter_at(text, at);
-        taken += letter.columns;
+    const char* const end = text.data() + text.size();
+    const char* cut = text.data();
+    std::size_t taken = 0;
+    for (const char* at = cut; at != end; cut = at) {
+        taken += next_columns(at, end);
         if (taken > columns - kDots.size()) break;
-        at += letter.bytes;
     }
-    return std::string(text.substr(0, at)) + std::string(kDots);
+    return std::string(text.data(), cut) + std::string(kDots);
 }
 
 }  // namespace bendy::cli

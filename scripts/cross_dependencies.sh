@@ -10,7 +10,7 @@ system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64}
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
-    nlohmann-json3-dev rapidjson-dev libcli11-dev libtinygltf-dev)
+    nlohmann-json3-dev rapidjson-dev libcli11-dev libtinygltf-dev libutfcpp-dev)
 [ "$(cat "$root/versions" 2>/dev/null)" != "$versions" ] || exit 0
 rm -rf "$root"
 mkdir -p "$root"
@@ -29,7 +29,7 @@ if [ ! -e "$here/apt/sources.list" ]; then
 fi
 
 copy_headers() {
-    for package in libglm-dev nlohmann-json3-dev rapidjson-dev libcli11-dev; do dpkg -L "$package"; done |
+    for package in libglm-dev nlohmann-json3-dev rapidjson-dev libcli11-dev libutfcpp-dev; do dpkg -L "$package"; done |
         sed -nE 's,^/(usr/(include|share/cmake)/.*),\1,p' | tar -C / --no-recursion -T - -c | tar -C "$root" -x
     cp /usr/include/tiny_gltf.h "$root/usr/include"
 }

@@ -20,15 +20,14 @@ need /usr/include/tiny_gltf.h libtinygltf-dev
 need /usr/include/nlohmann/json.hpp nlohmann-json3-dev
 need /usr/include/rapidjson/reader.h rapidjson-dev
 need /usr/include/CLI/App.hpp libcli11-dev
+need /usr/include/utf8cpp/utf8.h libutfcpp-dev
 need /usr/include/meshoptimizer.h libmeshoptimizer-dev
 need /usr/include/zstd.h libzstd-dev
 need /usr/include/zlib.h zlib1g-dev
 need /usr/include/draco/compression/decode.h libdraco-dev
 need pkg-config pkg-config
 need python3 python3
-need /usr/include/GL/glcorearb.h libgl-dev
-need /usr/include/EGL/egl.h libegl-dev
-need /usr/include/GL/osmesa.h libosmesa6-dev
+need /usr/include/epoxy/egl.h libepoxy-dev
 need /usr/include/GLFW/glfw3.h libglfw3-dev
 need /usr/include/imgui/imgui.h libimgui-dev
 need /usr/include/png.h libpng-dev
@@ -50,6 +49,7 @@ if [ "${1:-build}" = cross ]; then
     need /usr/lib/wine/wine64 wine64
 fi
 if [ "${1:-build}" = test ]; then
+    python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need /usr/include/tbb/parallel_for.h libtbb-dev

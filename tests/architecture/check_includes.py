@@ -14,7 +14,8 @@ MAY_USE = {
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},
-    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
+    "stages": {"format", "runtime"},
+    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin", "stages"},
 }
 # Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
 # in no room, all of them may use.
@@ -56,8 +57,8 @@ PRIVATE = {
     "nlohmann/": ("converter/src/", "cli/", "viewer/src/"),
     "rapidjson/": "twin/src/",
     "CLI/": "cli/",
-    "GL/": "viewer/src/",
-    "EGL/": "viewer/src/",
+    "epoxy/": "viewer/src/",
+    "utf8cpp/": ("converter/src/", "cli/"),
     "GLFW/": "viewer/src/",
     "imgui.h": "viewer/src/",
     "backends/": "viewer/src/",

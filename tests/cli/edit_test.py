@@ -4,7 +4,6 @@
     edit_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
-import argparse
 import atexit
 import json
 import os
@@ -12,13 +11,12 @@ import shutil
 import struct
 import sys
 import tempfile
-import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
-import cli_test  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
+from program import SOURCE, Case, main  # noqa: E402
 
 FORMS = {"plain": [], "compact": ["--compact"], "lod": ["--lod"], "lod_compact": ["--lod", "--compact"]}
 PLAIN = {**os.environ, "BENDY_KERNEL": "plain"}
@@ -59,12 +57,12 @@ def glb_with(path, change):
     return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
 
 
-class EditCase(cli_test.Case):
+class EditCase(Case):
     def made(self, name, form="plain"):
         """An example in one form; made once for all tests."""
         path = MADE / f"{name}.{form}.bendy"
         if not path.exists():
-            self.done("convert", "-q", cli_test.SOURCE / "examples" / f"{name}.glb", "-o", path, *FORMS[form])
+            self.done("convert", "-q", SOURCE / "examples" / f"{name}.glb", "-o", path, *FORMS[form])
         return path
 
     def edit(self, path, *arguments, name="edited.bendy"):
@@ -300,7 +298,7 @@ class Rename(EditCase):
 
         for form in ("plain", "compact"):
             nameless = self.folder / "nameless.glb"
-            nameless.write_bytes(glb_with(cli_test.SOURCE / "examples" / "tentacle.glb", forget))
+            nameless.write_bytes(glb_with(SOURCE / "examples" / "tentacle.glb", forget))
             self.done("convert", "-q", nameless, "-o", "nameless.bendy", *FORMS[form])
             path = self.edit("nameless.bendy", "--rename-joint", "#2=Two")
             self.assertEqual([k for k, name in enumerate(self.joints(path)) if name == "Two"], [2])
@@ -340,7 +338,7 @@ class Merge(EditCase):
             if change:
                 change(document)
 
-        source.write_bytes(glb_with(cli_test.SOURCE / "examples" / f"{name}.glb", turn))
+        source.write_bytes(glb_with(SOURCE / "examples" / f"{name}.glb", turn))
         path = self.folder / f"mirrored.{form}.bendy"
         self.done("convert", "-q", source, "-o", path, *FORMS[form])
         return path
@@ -385,7 +383,7 @@ class Merge(EditCase):
 
     def test_gltf_files_are_converted_on_the_way(self):
         source = self.made("mannequin")
-        merged = self.edit(source, "--strip", "cycles", "--merge", cli_test.SOURCE / "examples" / "mannequin.glb")
+        merged = self.edit(source, "--strip", "cycles", "--merge", SOURCE / "examples" / "mannequin.glb")
         self.assertEqual(merged.read_bytes(), source.read_bytes())
 
     def test_an_animation_only_file(self):
@@ -561,7 +559,7 @@ class Differ(EditCase):
             node = next(node for node in document["nodes"] if node.get("name") == "seg_03")
             node["translation"] = [x + 0.001 for x in node["translation"]]
 
-        other.write_bytes(glb_with(cli_test.SOURCE / "examples" / "tentacle.glb", move))
+        other.write_bytes(glb_with(SOURCE / "examples" / "tentacle.glb", move))
         self.done("convert", "-q", other, "-o", "other.bendy", "--compact")
         lines = self.lines(self.made("tentacle", "compact"), "other.bendy", "--tolerance", "1e-4")
         [line] = [line for line in lines if "JNTS" in line]
@@ -583,10 +581,4 @@ class Differ(EditCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", required=True, type=Path)
-    options, rest = parser.parse_known_args()
-    cli_test.BENDY = os.path.abspath(options.bendy)
-    cli_test.SOURCE = options.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
+    main()

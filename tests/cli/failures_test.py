@@ -15,11 +15,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-BENDY = ""
-SOURCE = Path()
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from program import BENDY, REST, SOURCE, has_viewer, main  # noqa: E402
+
 LIBRARY = ""
 SEEDS = Path("tests/seeds")
-HAS_VIEWER = False
+HAS_VIEWER = has_viewer()
 
 # Every command that writes a file, without the file.
 WRITERS = {
@@ -152,21 +154,12 @@ class Failures(unittest.TestCase):
                 self.assertGreater(self.expect_out_of_memory(WRITERS[name], output, 12), 20)
 
 
-def main():
-    global BENDY, SOURCE, LIBRARY, HAS_VIEWER
+if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", type=Path, required=True)
     parser.add_argument("--failing-calls", required=True)
     parser.add_argument("--sanitized", action="store_true", help="malloc cannot be made to fail")
-    arguments, rest = parser.parse_known_args()
-    BENDY, SOURCE, LIBRARY = arguments.bendy, arguments.source, arguments.failing_calls
-    if arguments.sanitized:
+    options, rest = parser.parse_known_args(REST)
+    LIBRARY = options.failing_calls
+    if options.sanitized:
         del Failures.test_each_allocation_that_fails_is_said
-    result = subprocess.run([BENDY, "render", "--help"], capture_output=True, text=True, check=False)
-    HAS_VIEWER = "--size" in result.stdout
-    unittest.main(argv=[sys.argv[0], *rest])
-
-
-if __name__ == "__main__":
-    main()
+    main(rest)

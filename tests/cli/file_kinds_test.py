@@ -4,7 +4,6 @@
     file_kinds_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
-import argparse
 import json
 import os
 import shutil
@@ -17,9 +16,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from md2_file import md2_file  # noqa: E402
-
-BENDY = ""
-SOURCE = Path()
+from program import BENDY, SOURCE, has_viewer, main  # noqa: E402
 
 # Each command with IN where a file goes, once for each place where one goes; GOOD is a bendy file.
 COMMANDS = {
@@ -39,6 +36,7 @@ COMMANDS = {
     "bench": (["bench", "IN", "--rounds", "1"],),
     "view": (),  # needs a display: tests/viewer/view_test.py
 }
+HAS_VIEWER = has_viewer()
 CONVERTS = {"convert", "pose", "render"}  # take what `convert` reads
 
 # Files that `convert` reads, with what they are called.
@@ -204,18 +202,6 @@ class FileKinds(unittest.TestCase):
         shutil.copy(self.folder / "fox.glb", self.folder / name)
         self.addCleanup((self.folder / name).unlink)
         self.assertEqual(len(self.bendy("inspect", name).stderr.splitlines()), 1)
-
-
-def main():
-    global BENDY, SOURCE, HAS_VIEWER
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", type=Path, required=True)
-    arguments, rest = parser.parse_known_args()
-    BENDY, SOURCE = os.path.abspath(arguments.bendy), arguments.source.resolve()
-    result = subprocess.run([BENDY, "render", "--help"], capture_output=True, text=True, check=False)
-    HAS_VIEWER = "--size" in result.stdout
-    unittest.main(argv=[sys.argv[0], *rest])
 
 
 if __name__ == "__main__":

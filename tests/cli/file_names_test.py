@@ -4,9 +4,7 @@
     file_names_test.py --bendy PROGRAM --source SOURCE_DIR     PROGRAM may be a script that runs it in an emulator
 """
 
-import argparse
 import json
-import os
 import shutil
 import struct
 import subprocess
@@ -15,8 +13,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-BENDY = ""
-SOURCE = Path()
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from program import BENDY, SOURCE, main  # noqa: E402
+
 FOLDER = "狐の模型 é"
 NAMES = ("лиса", "狐", "Füchsin é", "\U0001F98A")
 
@@ -130,9 +130,4 @@ class FileNames(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", type=Path, required=True)
-    own, rest = parser.parse_known_args()
-    BENDY, SOURCE = os.path.abspath(own.bendy), own.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
+    main()

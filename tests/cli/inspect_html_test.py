@@ -4,12 +4,10 @@
     inspect_html_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
-import argparse
 import base64
 import hashlib
 import html.parser
 import json
-import os
 import re
 import shutil
 import struct
@@ -23,9 +21,8 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile  # noqa: E402
+from program import BENDY, SOURCE, main  # noqa: E402
 
-BENDY = ""
-SOURCE = Path()
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 RUN = "document.body.id='ran'"
@@ -402,17 +399,6 @@ document.documentElement.dataset.result = JSON.stringify(result);
         dom = self.shown("many", (self.folder / "many.html").read_text())
         self.assertLessEqual(dom.count('role="treeitem"'), 1010)
         self.assertLessEqual(len(re.findall(r'<button class="cell', dom)), 1500)
-
-
-def main():
-    global BENDY, SOURCE  # the test cases find them here
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", required=True, type=Path)
-    options, rest = parser.parse_known_args()
-    BENDY = os.path.abspath(options.bendy)
-    SOURCE = options.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
 
 
 if __name__ == "__main__":

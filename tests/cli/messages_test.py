@@ -4,7 +4,6 @@
     messages_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
-import argparse
 import fcntl
 import json
 import os
@@ -14,31 +13,20 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import termios
 import time
-import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from gltf_file import GltfFile, strange_file  # noqa: E402
+from program import BENDY, SOURCE, Case, main  # noqa: E402
 
-BENDY = ""
-SOURCE = Path()
 COMMANDS = ("convert", "inspect", "validate", "pose", "render", "rig", "diff", "dump", "assemble", "edit", "export", "view", "bench")
 COLOUR = "\x1b["
 
 
-class Case(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.shared = Path(tempfile.mkdtemp(prefix="bendy_messages_"))
-        cls.addClassCleanup(shutil.rmtree, cls.shared)
-
-    def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(dir=self.shared))
-
+class MessageCase(Case):
     def bendy(self, *arguments, **options):
         return subprocess.run([BENDY, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=300,
                               check=False, **options)
@@ -86,7 +74,7 @@ class Case(unittest.TestCase):
         return process.wait(timeout=300), sent.decode().replace("\r\n", "\n")
 
 
-class CommandLine(Case):
+class CommandLine(MessageCase):
     def test_mistyped_commands(self):
         for typed, meant in (("cnvert", "convert"), ("inspct", "inspect"), ("Render", "render"), ("converts", "convert")):
             line, rest = self.refused(2, typed, "a.glb")
@@ -135,7 +123,7 @@ class CommandLine(Case):
             self.assertNotIn("COMMAND", self.bendy(*arguments).stderr)
 
 
-class Names(Case):
+class Names(MessageCase):
     def test_clips(self):
         line, _ = self.refused(1, "pose", self.converted(), "--clip", "Wlak")
         self.assertIn('there is no clip "Wlak"; did you mean "Walk"? There are "Idle" and "Walk"', line)
@@ -166,7 +154,7 @@ class Names(Case):
         self.assertIn(r'did you mean "slide\x09now"?', result.stderr)
 
 
-class Folders(Case):
+class Folders(MessageCase):
     def test_a_missing_folder_is_named_before_the_work(self):
         model, glb = self.converted(), SOURCE / "examples/mannequin.glb"
         for arguments in (("convert", glb), ("pose", model), ("rig", model), ("dump", model), ("export", model),
@@ -189,7 +177,7 @@ class Folders(Case):
         self.assertTrue((self.folder / "new/deep/b.bendy").exists())
 
 
-class Summaries(Case):
+class Summaries(MessageCase):
     def test_inspect_begins_with_what_convert_printed(self):
         said = self.done("convert", SOURCE / "examples/mannequin.glb", "-o", "m.bendy")
         inspected = self.done("inspect", "m.bendy")
@@ -276,7 +264,7 @@ class Summaries(Case):
             self.assertEqual(faces, level["triangles"])
 
 
-class Terminal(Case):
+class Terminal(MessageCase):
     def test_no_line_of_inspect_wraps(self):
         for columns in (40, 79, 200):
             for arguments in (("inspect", self.converted()), ("inspect", self.converted(), "--all")):
@@ -339,7 +327,7 @@ class Terminal(Case):
         self.assertNotIn("converting", self.bendy(*arguments).stderr)
 
 
-class Batches(Case):
+class Batches(MessageCase):
     def setUp(self):
         super().setUp()
         for place in ("a.glb", "b.glb", "deep/c.glb"):
@@ -402,17 +390,6 @@ class Batches(Case):
         self.assertEqual(status, 0)
         self.assertRegex(text, r"\rconverting \[#* *\] \d/3[^\r]*, \d+:\d\d")
         self.assertEqual(len(re.findall(r" -> out/\S+  [\d,]+ bytes", text)), 3)
-
-
-def main():
-    global BENDY, SOURCE  # the test cases find them here
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", required=True, type=Path)
-    options, rest = parser.parse_known_args()
-    BENDY = os.path.abspath(options.bendy)
-    SOURCE = options.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ refuses: each for every subcommand (docs/decisions/0031).
     outputs_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
-import argparse
 import json
 import os
 import pty
@@ -20,7 +19,8 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
-import cli_test  # noqa: E402
+from md2_file import md2_file  # noqa: E402
+from program import BENDY, SOURCE, Case, main  # noqa: E402
 
 FOREIGN = b"of somebody else"
 SIZE = ("--size", "16x16")
@@ -65,15 +65,15 @@ MEANINGS = {".bendy": "convert", ".glb": "export", ".gltf": "export", ".x": "exp
             ".md2": "export", ".dae": "export", ".jpg": "render", ".mp4": "render", ".zip": "export"}
 
 
-class OutputCase(cli_test.Case):
+class OutputCase(Case):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.made = {"glb": cli_test.SOURCE / "examples" / "tentacle.glb"}
+        cls.made = {"glb": SOURCE / "examples" / "tentacle.glb"}
         for kind, line in (("bendy", ("convert", cls.made["glb"])), ("json", ("dump", cls.shared / "in.bendy"))):
             cls.made[kind] = cls.shared / f"in.{kind}"
-            subprocess.run([cli_test.BENDY, *line, "-o", cls.made[kind]], check=True, capture_output=True, timeout=120)
-        probe = subprocess.run([cli_test.BENDY, "render", cls.made["bendy"], "-o", cls.shared / "probe.png", *SIZE],
+            subprocess.run([BENDY, *line, "-o", cls.made[kind]], check=True, capture_output=True, timeout=120)
+        probe = subprocess.run([BENDY, "render", cls.made["bendy"], "-o", cls.shared / "probe.png", *SIZE],
                                capture_output=True, timeout=120, check=False)
         cls.draws = probe.returncode == 0
 
@@ -152,7 +152,7 @@ class InputAsOutput(OutputCase):
             source = self.source(writer)
             before = source.read_bytes()
             with source.open("ab") as stream:
-                result = subprocess.run([cli_test.BENDY, *writer.line(source.name, "-")], cwd=self.folder,
+                result = subprocess.run([BENDY, *writer.line(source.name, "-")], cwd=self.folder,
                                         stdout=stream, stderr=subprocess.PIPE, timeout=120, check=False)
             self.assertEqual(result.returncode, 1)
             self.assertIn(b"standard output: is an input as well as an output", result.stderr)
@@ -429,18 +429,18 @@ class StandardStreams(OutputCase):
     def test_a_pipeline(self):
         line = ('cat "$1" | "$0" convert - -o - | "$0" edit - --strip textures -o - | "$0" dump - | "$0" assemble - '
                 '| "$0" export - | "$0" convert - -q --compact -o - | "$0" validate - && echo good')
-        result = subprocess.run(["sh", "-c", line, cli_test.BENDY, self.made["glb"]], capture_output=True, timeout=120,
+        result = subprocess.run(["sh", "-c", line, BENDY, self.made["glb"]], capture_output=True, timeout=120,
                                 check=False, cwd=self.folder)
         self.assertEqual((result.stdout, self.files()), (b"good\n", []), result.stderr)
         line = '"$0" rig "$2" | "$0" convert "$1" --rig - -o - -q | cmp - "$2"'
-        result = subprocess.run(["sh", "-c", line, cli_test.BENDY, self.made["glb"], self.made["bendy"]],
+        result = subprocess.run(["sh", "-c", line, BENDY, self.made["glb"], self.made["bendy"]],
                                 capture_output=True, timeout=120, check=False, cwd=self.folder)
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, b"", b""))
         rig = self.failed("convert", self.made["glb"], "--rig", "-", "-o", "x.bendy", input=b"{]")
         self.assertTrue(rig.startswith("bendy: error: standard input: "), rig)
 
     def test_every_kind_of_source_comes_by_pipe(self):
-        cli_test.md2_file(self.folder / "m.md2")
+        md2_file(self.folder / "m.md2")
         self.done("export", "-q", self.made["bendy"], "-o", "m.x")
         for name in ("m.md2", "m.x"):
             data = (self.folder / name).read_bytes()
@@ -516,7 +516,7 @@ class StandardStreams(OutputCase):
     def test_a_terminal_takes_no_binary(self):
         for writer in self.writers():
             ours, theirs = pty.openpty()
-            result = subprocess.run([cli_test.BENDY, *writer.line(self.made[writer.kind], "-")], cwd=self.folder,
+            result = subprocess.run([BENDY, *writer.line(self.made[writer.kind], "-")], cwd=self.folder,
                                     stdout=theirs, stderr=subprocess.PIPE, timeout=120, check=False) \
                 if writer.command in ("convert", "export", "assemble", "edit", "render") else None
             os.close(theirs)
@@ -533,7 +533,7 @@ class Suffixes(OutputCase):
         self.assertTrue(commands.startswith("bendy "), text)
         line = commands.replace("bendy edit in.bendy ...", "bendy edit in.bendy --strip cycles")
         script = " && ".join('"$0"' + part[len("bendy"):] for part in line.split(" && "))
-        result = subprocess.run(["sh", "-c", script, cli_test.BENDY], cwd=self.folder, capture_output=True, timeout=120,
+        result = subprocess.run(["sh", "-c", script, BENDY], cwd=self.folder, capture_output=True, timeout=120,
                                 check=False)
         self.assertEqual(result.returncode, 0, (commands, result.stderr))
         return commands
@@ -619,7 +619,7 @@ class Report(OutputCase):
     """`convert --json`; the members are those that docs/convert.md lists."""
 
     def documented(self):
-        text = (cli_test.SOURCE / "docs" / "convert.md").read_text(encoding="utf-8")
+        text = (SOURCE / "docs" / "convert.md").read_text(encoding="utf-8")
         table = text[text.index("| member |") :].split("\n\n")[0]
         return {name: row.split("|")[2].strip() for row in table.splitlines()[2:]
                 for name in re.findall(r"`(\w+)`", row.split("|")[1])}
@@ -641,7 +641,7 @@ class Report(OutputCase):
         return reports
 
     def test_of_a_file(self):
-        source = cli_test.SOURCE / "examples" / "mannequin.glb"
+        source = SOURCE / "examples" / "mannequin.glb"
         [report] = self.report(source, "-o", "m.bendy")
         self.assertEqual(self.told, "")
         self.assertEqual((report["status"], report["input"], report["output"]), ("converted", str(source), "m.bendy"))
@@ -705,10 +705,4 @@ class Report(OutputCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", required=True, type=Path)
-    options, rest = parser.parse_known_args()
-    cli_test.BENDY = os.path.abspath(options.bendy)
-    cli_test.SOURCE = options.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
+    main()

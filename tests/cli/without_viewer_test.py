@@ -1,47 +1,27 @@
-"""The program built without the viewer: what draws says so, all else works."""
-import argparse
-import os
-import pathlib
-import subprocess
+#!/usr/bin/env python3
+"""The program built without the viewer: what draws says so, all else works.
+
+    without_viewer_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
+"""
+
 import sys
-import tempfile
-import unittest
+from pathlib import Path
 
-BENDY = ""
-SOURCE = pathlib.Path()
-
-
-def bendy(*arguments):
-    return subprocess.run([BENDY, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from program import SOURCE, Case, main  # noqa: E402
 
 
-class WithoutViewer(unittest.TestCase):
+class WithoutViewer(Case):
     def test_what_draws_says_so(self):
         for arguments in (["view"], ["view", SOURCE / "examples" / "tentacle.glb"],
                           ["render", SOURCE / "examples" / "tentacle.glb", "-o", "out.png"]):
-            result = bendy(*arguments)
-            self.assertEqual(result.returncode, 1, arguments)
-            self.assertEqual(result.stdout, "")
-            self.assertRegex(result.stderr, r".*built without the viewer \(BENDY_VIEWER=OFF\)")
-        self.assertFalse(pathlib.Path("out.png").exists())
+            self.assertRegex(self.failed(*arguments), r".*built without the viewer \(BENDY_VIEWER=OFF\)")
+        self.assertEqual(self.files(), [])
 
     def test_the_rest_works(self):
-        with tempfile.TemporaryDirectory() as folder:
-            out = pathlib.Path(folder) / "tentacle.bendy"
-            result = bendy("convert", SOURCE / "examples" / "tentacle.glb", "-o", out)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(bendy("validate", out).returncode, 0)
-
-
-def main():
-    global BENDY, SOURCE  # the test cases find them here
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--bendy", required=True)
-    parser.add_argument("--source", required=True, type=pathlib.Path)
-    options, rest = parser.parse_known_args()
-    BENDY = os.path.abspath(options.bendy)
-    SOURCE = options.source.resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "tentacle.bendy")
+        self.done("validate", "tentacle.bendy")
 
 
 if __name__ == "__main__":

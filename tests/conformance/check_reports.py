@@ -16,6 +16,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import make_files  # noqa: E402
+import unpack  # noqa: E402
 
 
 def faults_of(report):
@@ -54,12 +55,11 @@ def main():
     parser.add_argument('--bendy', required=True)
     parser.add_argument('--large', action='store_true')
     arguments = parser.parse_args()
-    count, differences = check(arguments.bendy, make_files.FILES)
-    if arguments.large:
-        with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder:
+        unpack.unpack(folder)
+        if arguments.large:
             make_files.main(['--large', folder])
-            more, different = check(arguments.bendy, pathlib.Path(folder))
-            count, differences = count + more, differences + different
+        count, differences = check(arguments.bendy, pathlib.Path(folder))
     print('%d files, %d differences' % (count, differences))
     return 1 if differences else 0
 

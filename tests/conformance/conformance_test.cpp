@@ -1,64 +1,29 @@
+#include "cases.h"
 #include "fuzz/use_model.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/file.h>
 #include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
-// The library on the files of tests/conformance; check_reports.py is the same for the program.
+// The library on the cases of tests/conformance; check_reports.py is the same for the program.
 namespace bendy {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(BENDY_SOURCE_DIR) / "tests" / "conformance" / "files";
-
-/// Offset, code and path.
-using Fault = std::tuple<std::uint64_t, std::string, std::string>;
-
-struct Case {
-    std::filesystem::path file;
-    bool valid = false;
-    std::set<Fault> faults;
-};
-
-std::vector<Case> read_cases() {
-    std::vector<Case> cases;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder)) {
-        if (entry.path().extension() != ".bendy") continue;
-        Case one;
-        one.file = entry.path();
-        std::ifstream stream(std::filesystem::path(entry.path()).replace_extension(".json"));
-        const nlohmann::json report = nlohmann::json::parse(stream);
-        one.valid = report.at("valid").get<bool>();
-        for (const auto& fault : report.at("faults"))
-            one.faults.emplace(fault.at("offset"), fault.at("code"), fault.at("path"));
-        cases.push_back(std::move(one));
-    }
-    std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.file < b.file; });
-    return cases;
-}
+using conformance::Case;
+using conformance::Fault;
 
 const std::vector<Case>& cases() {
-    static const std::vector<Case> kCases = read_cases();
+    static const std::vector<Case> kCases = conformance::read_cases(BENDY_SOURCE_DIR "/tests/conformance");
     return kCases;
-}
-
-MappedFile open(const Case& one) {
-    Result<MappedFile> file = MappedFile::open(one.file);
-    EXPECT_TRUE(file.has_value()) << one.file;
-    return std::move(*file);
 }
 
 std::string shown(const std::set<Fault>& faults) {
@@ -83,34 +48,32 @@ bool has_object(Bytes bytes) {
 
 TEST(Conformance, EveryFileHasTheFaultsThatItsReportStates) {
     for (const Case& one : cases()) {
-        const MappedFile file = open(one);
         std::set<Fault> found;
-        const Faults faults = validate(file.bytes());
+        const Faults faults = validate(one.bytes);
         for (const Error& fault : faults.list())
-            found.emplace(fault.offset, code_name(fault.code), whole_chunk_path(file.bytes(), fault.offset));
-        EXPECT_EQ(shown(found), shown(one.faults)) << one.file;
+            found.emplace(fault.offset, code_name(fault.code), whole_chunk_path(one.bytes, fault.offset));
+        EXPECT_EQ(shown(found), shown(one.faults)) << one.name;
     }
 }
 
 TEST(Conformance, AReaderTakesWhatIsValidAndRefusesWhatIsMalformedOrUnsupported) {
     unsigned choice = 0;
     for (const Case& one : cases()) {
-        const MappedFile file = open(one);
-        const Result<Model> model = Model::from_memory(file.bytes());
+        const Result<Model> model = Model::from_memory(one.bytes);
         if (model) fuzz::use_model(*model, choice++);
         const bool must_refuse = std::any_of(one.faults.begin(), one.faults.end(), [](const Fault& fault) {
             return class_of(std::get<1>(fault)) != ErrorClass::invalid;
         });
-        EXPECT_FALSE(one.valid && has_object(file.bytes()) && !model.has_value()) << one.file;
-        EXPECT_FALSE(must_refuse && model.has_value()) << one.file;
+        EXPECT_FALSE(one.valid && has_object(one.bytes) && !model.has_value()) << one.name;
+        EXPECT_FALSE(must_refuse && model.has_value()) << one.name;
     }
 }
 
 TEST(Conformance, EveryCodeHasAFile) {
     const std::map<std::string, const char*> elsewhere{
-        {"CANNOT_OPEN", "the system's: file_test.cpp, cli_test.py"},
+        {"CANNOT_OPEN", "the system's: file_test.cpp, tests/cli"},
         {"CANNOT_READ", "the system's: file_test.cpp"},
-        {"CANNOT_WRITE", "the system's: file_test.cpp, cli_test.py"},
+        {"CANNOT_WRITE", "the system's: file_test.cpp, tests/cli"},
         {"UNALIGNED_BUFFER", "the caller's: chunk_reader_test.cpp"},
         {"TOO_DEEP", "its file takes a MiB: made by make_files.py --large"},
         {"TOO_MANY_JOINTS", "its file takes a MiB: made by make_files.py --large"},
@@ -131,9 +94,8 @@ TEST(Conformance, EveryChunkStandsInAValidFile) {
     for (const Case& one : cases()) {
         if (!one.valid) continue;
         ++valid;
-        const MappedFile file = open(one);
-        const Result<ChunkTree> tree = read_chunk_tree(file.bytes());
-        ASSERT_TRUE(tree.has_value()) << one.file;
+        const Result<ChunkTree> tree = read_chunk_tree(one.bytes);
+        ASSERT_TRUE(tree.has_value()) << one.name;
         for (const Chunk& chunk : tree->chunks()) found.emplace(chunk.id.letters().data());
     }
 #define BENDY_CHUNK(id, shape, parents, times, what) EXPECT_TRUE(found.contains(#id)) << #id;

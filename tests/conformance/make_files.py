@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes the conformance files and their reports from descriptions/*.txt.
+"""Makes the conformance files and their reports, one manifest FAMILY.json for each family, from descriptions/*.txt.
 
-    python3 tests/conformance/make_files.py              write files/
-    python3 tests/conformance/make_files.py --check      change nothing; say what differs; exit 1 if anything does
-    python3 tests/conformance/make_files.py --large DIR  write into DIR what is too large to be kept
+    python3 tests/conformance/make_files.py              write the manifests
+    python3 tests/conformance/make_files.py --check      change nothing; print which manifests differ; exit 1 if any does
+    python3 tests/conformance/make_files.py --large DIR  write into DIR the cases that are too large for a manifest, unpacked
 
 Python 3, nothing else.
 """
@@ -16,9 +16,9 @@ import sys
 sys.dont_write_bytecode = True
 import notation  # noqa: E402
 import payloads  # noqa: E402
+import unpack  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-FILES = HERE / 'files'
 
 
 def read_classes():
@@ -27,47 +27,46 @@ def read_classes():
     return dict(re.findall(r'^\| `([A-Z0-9_]+)` \| (\w+) \|', page, re.MULTILINE))
 
 
-def report(file, classes):
-    """What a reader has to say of the file, as JSON text."""
-    faults = [{'code': code, 'class': classes[code], 'path': path, 'offset': offset} for offset, code, path in file.faults]
-    return json.dumps({'file': file.name + '.bendy', 'why': file.why, 'valid': not faults, 'faults': faults},
-                      indent=2, ensure_ascii=False) + '\n'
+def read_cases(large):
+    """family -> cases, as the manifest stores them"""
+    classes = read_classes()
+    families = {}
+    for file in notation.read_all(HERE / 'descriptions', large):
+        faults = [{'code': code, 'class': classes[code], 'path': path, 'offset': offset} for offset, code, path in file.faults]
+        families.setdefault(file.family, []).append(
+            {'name': file.name, 'why': file.why, 'valid': not faults, 'faults': faults, 'bytes': file.data.hex()})
+    return families
 
 
-def made(files, folder, classes):
-    """path -> bytes"""
-    result = {}
-    for file in files:
-        base = folder / file.family / file.name
-        result[base.with_suffix('.bendy')] = file.data
-        result[base.with_suffix('.json')] = report(file, classes).encode('utf-8')
-    return result
+def manifest(family, cases):
+    """The manifest's text: two lines for each case, the report and the bytes."""
+    lines = []
+    for case in sorted(cases, key=lambda case: case['name']):
+        report = json.dumps({key: value for key, value in case.items() if key != 'bytes'}, ensure_ascii=False)
+        lines.append('%s,\n "bytes": "%s"}' % (report[:-1], case['bytes']))
+    return '{"family": "%s", "cases": [\n%s\n]}\n' % (family, ',\n'.join(lines))
 
 
 def main(arguments):
-    classes = read_classes()
     if len(arguments) == 2 and arguments[0] == '--large':
-        for path, data in made(notation.read_all(HERE / 'descriptions', True), pathlib.Path(arguments[1]), classes).items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
+        for family, cases in read_cases(True).items():
+            unpack.write(cases, pathlib.Path(arguments[1]) / family)
         return 0
     if arguments not in ([], ['--check']):
         sys.exit(__doc__)
-    wanted = made(notation.read_all(HERE / 'descriptions', False), FILES, classes)
-    kept = {path for path in FILES.glob('*/*') if path.is_file()}
+    wanted = {HERE / (family + '.json'): manifest(family, cases).encode('utf-8') for family, cases in read_cases(False).items()}
     stale = 0
-    for path in sorted(kept | set(wanted)):
-        if path in kept and path in wanted and path.read_bytes() == wanted[path]:
+    for path in sorted({*HERE.glob('*.json'), *wanted}):
+        if path.exists() and path.read_bytes() == wanted.get(path):
             continue
         stale += 1
-        print('%s is not what make_files.py makes' % path.relative_to(HERE) if arguments else path.relative_to(HERE))
+        print('%s is not what make_files.py makes' % path.name if arguments else path.name)
         if arguments:
             continue
-        if path not in wanted:
+        if path in wanted:
+            path.write_bytes(wanted[path])
+        else:
             path.unlink()
-            continue
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(wanted[path])
     return 1 if arguments and stale else 0
 
 

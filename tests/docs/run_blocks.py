@@ -7,7 +7,7 @@
             its own folder examples, too; every line must exit with 0
     text    after a block that is run: what that prints, "..." for any lines between; elsewhere: something to look at
     cpp, c  compiled with COMMAND and linked with FLAGS; with a main it is run, with mannequin.bendy as its argument,
-            without it is a part of a function, whose names PARTS gives
+            without it is a part of a function, whose names PARTS gives; all parts of a page are compiled in one go
     json    parsed
     python  run, with the examples' Python modules at hand
 
@@ -39,7 +39,14 @@ PARTS = """
 #include <vector>
 struct Character { bendy::Model* model; bendy::Pose* pose; };
 int report(const bendy::Error&);
-int part(const char* path, float seconds, float dt, const glm::vec3& target, const glm::vec3& aim);
+"""
+PART = """namespace part_%d {
+int part([[maybe_unused]] const char* path, [[maybe_unused]] float seconds, [[maybe_unused]] float dt,
+         [[maybe_unused]] const glm::vec3& target, [[maybe_unused]] const glm::vec3& aim) {
+#line %d "%s"
+%s    return 0;
+}
+}
 """
 
 
@@ -97,6 +104,7 @@ class Runner:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
         self.faults, self.not_run, self.ran = [], [], 0
+        self.parts = []  # of functions, compiled at the end of the page
         self.environment = {**os.environ, "PATH": f"{Path(options.bendy).parent}:{os.environ['PATH']}",
                             "LIBGL_ALWAYS_SOFTWARE": "1",
                             "PYTHONPATH": str(Path(options.source) / "examples/python")}
@@ -122,24 +130,31 @@ class Runner:
             self.fault(block, "not what is printed, from this line on:\n    " + missing + "\nprinted:\n" + "\n".join(self.printed))
 
     def run_program(self, block, suffix):
+        if suffix == ".cpp" and "int main(" not in block.text:
+            self.parts.append(block)
+            return
         source = self.folder / f"block{suffix}"
-        text, arguments = block.text, shlex.split(self.options.compile)
-        is_whole = "int main(" in text
-        if not is_whole:
-            includes = "".join(line + "\n" for line in text.splitlines() if line.startswith("#include"))
-            rest = "".join(line + "\n" for line in text.splitlines() if not line.startswith("#include"))
-            text = (includes + PARTS + "int part([[maybe_unused]] const char* path, [[maybe_unused]] float seconds, "
-                    "[[maybe_unused]] float dt, [[maybe_unused]] const glm::vec3& target, "
-                    "[[maybe_unused]] const glm::vec3& aim) {\n" + rest + "return 0;\n}\n")
-        source.write_text(text, encoding="utf-8")
-        program = self.folder / "block"
+        source.write_text(block.text, encoding="utf-8")
+        program, arguments = self.folder / "block", shlex.split(self.options.compile)
         if suffix == ".c":
             arguments = ["cc", "-std=c99", "-Wall", "-Wextra", *[word for word in arguments if word.startswith("-I")]]
-        output = ["-o", str(program)] if is_whole else ["-c", "-o", "/dev/null"]
-        self.run(block, [*arguments, str(source), *output, *(shlex.split(self.options.link) if is_whole else [])])
-        if is_whole and program.exists():
+        self.run(block, [*arguments, str(source), "-o", str(program), *shlex.split(self.options.link)])
+        if program.exists():
             self.printed = self.run(block, [str(program), "mannequin.bendy"]).splitlines()
             program.unlink()
+
+    def compile_parts(self):
+        """Compiles the parts of functions; what the compiler says names the page and its line."""
+        if not self.parts:
+            return
+        lines = [line for block in self.parts for line in block.text.splitlines()]
+        text = "".join(line + "\n" for line in dict.fromkeys(lines) if line.startswith("#include")) + PARTS
+        for block in self.parts:
+            rest = "".join(("" if line.startswith("#include") else line) + "\n" for line in block.text.splitlines())
+            text += PART % (block.line, block.line + 1, block.page, rest)
+        source = self.folder / "parts.cpp"
+        source.write_text(text, encoding="utf-8")
+        self.run(self.parts[0], [*shlex.split(self.options.compile), "-c", str(source), "-o", "/dev/null"])
 
     def run_block(self, block):
         if block.comment:
@@ -190,6 +205,7 @@ def main():
                 if block.language != "text":
                     runner.printed = None
                 runner.run_block(block)
+            runner.compile_parts()
         print(f"{page}: {runner.ran} blocks run")
         faults += runner.faults
         not_run += runner.not_run

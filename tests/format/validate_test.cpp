@@ -243,7 +243,7 @@ const std::vector<Exempt> kExempt{
     {ErrorCode::kCannotRead, "the system's, in file_test.cpp"},
     {ErrorCode::kCannotWrite, "the system's, in file_test.cpp"},
     {ErrorCode::kUnalignedBuffer, "the caller's buffer, in chunk_reader_test.cpp"},
-    {ErrorCode::kFrameRange, "the sample has no frames: tests/conformance/files/frames provokes it in seven ways"},
+    {ErrorCode::kFrameRange, "the sample has no frames: tests/conformance/frames.json provokes it in seven ways"},
     {ErrorCode::kTooManyChunks, "the smallest file with so many takes 32 GiB"},
 };
 

@@ -19,6 +19,21 @@ export function files_below(folder, ...endings) {
         .filter((name) => endings.some((ending) => name.endsWith(ending))).map((name) => path.join(folder, name));
 }
 
+/** Writes the cases of the conformance manifests below a folder; gives the faults that each file's report states. */
+export function unpack_cases(source, folder) {
+    const expected = new Map();
+    for (const manifest of files_below(source, '.json')) {
+        const { family, cases } = JSON.parse(fs.readFileSync(manifest, 'utf8'));
+        fs.mkdirSync(path.join(folder, family), { recursive: true });
+        for (const { name, faults, bytes } of cases) {
+            const file = path.join(folder, family, `${name}.bendy`);
+            fs.writeFileSync(file, Buffer.from(bytes, 'hex'));
+            expected.set(file, faults);
+        }
+    }
+    return expected;
+}
+
 /** Models and the options they are converted with. */
 function conversions(source, corpus) {
     const examples = files_below(path.join(source, 'examples'), '.glb').filter((file) => !file.includes('blender'));

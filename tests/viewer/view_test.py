@@ -7,6 +7,7 @@ With BENDY_NEW_PICTURES=1 the reference pictures are written again: look at them
 """
 
 import argparse
+import functools
 import json
 import math
 import os
@@ -36,20 +37,27 @@ def bendy(*arguments, env=None):
                           env=env or SOFTWARE)
 
 
+@functools.cache
+def prepare():
+    """The folder of all classes with the converted examples, and why no picture can be drawn, if none can."""
+    folder = Path(tempfile.mkdtemp(prefix="bendy-view-"))
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    for name in ("tentacle", "mannequin"):
+        done = bendy("convert", SOURCE / f"examples/{name}.glb", "-o", folder / f"{name}.bendy", "-q")
+        assert done.returncode == 0, done.stderr
+    (folder / "surfaces.gltf").write_text(surfaces(), encoding="utf-8")
+    done = bendy("convert", folder / "surfaces.gltf", "-q")
+    assert done.returncode == 0, done.stderr
+    probe = bendy("render", folder / "tentacle.bendy", "-o", folder / "probe.png", "--size", "8x8")
+    return folder, probe.stderr.strip() if "no OpenGL 3.3 here" in probe.stderr else ""
+
+
 class WithFolder(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="bendy-view-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        for name in ("tentacle", "mannequin"):
-            done = bendy("convert", SOURCE / f"examples/{name}.glb", "-o", cls.folder / f"{name}.bendy", "-q")
-            assert done.returncode == 0, done.stderr
-        (cls.folder / "surfaces.gltf").write_text(surfaces(), encoding="utf-8")
-        done = bendy("convert", cls.folder / "surfaces.gltf", "-q")
-        assert done.returncode == 0, done.stderr
-        probe = bendy("render", cls.folder / "tentacle.bendy", "-o", cls.folder / "probe.png", "--size", "8x8")
-        if "no OpenGL 3.3 here" in probe.stderr:
-            raise unittest.SkipTest(probe.stderr.strip())
+        cls.folder, problem = prepare()
+        if problem:
+            raise unittest.SkipTest(problem)
 
     def render(self, name, *arguments, out="out.png"):
         """The picture as read_png gives it."""
@@ -83,19 +91,7 @@ class Render(WithFolder):
 
     def test_says_which_opengl_draws(self):
         done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "o.png", "--size", "9x9", "-v")
-        self.assertRegex(done.stderr, r"^bendy: drawing with (EGL|OSMesa)[^:]*: .+\n$")
-
-    def test_both_contexts_draw_the_same(self):
-        pictures = []
-        for context in ("egl", "osmesa"):
-            out = self.folder / f"{context}.png"
-            done = bendy("render", self.folder / "mannequin.bendy", "-o", out, "--size", "200x150", "--context", context)
-            if done.returncode:
-                self.skipTest(done.stderr.strip())
-            pictures.append(read_png(out.read_bytes()))
-        mean, far = difference(*pictures)
-        self.assertLess(mean, 0.5)
-        self.assertLess(far, 0.005)
+        self.assertRegex(done.stderr, r"^bendy: drawing with EGL [^:]*: .+\n$")
 
     def test_transparent_background(self):
         width, height, channels, pixels = self.render("tentacle", "--size", "80x60", "--background", "transparent")

@@ -10,15 +10,15 @@ namespace {
 
 void attach(const Renderbuffer& buffer, GLenum place, GLenum format, std::uint32_t width, std::uint32_t height,
             std::uint32_t samples) {
-    gl::BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    gl::RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? static_cast<GLsizei>(samples) : 0, format,
-                                       static_cast<GLsizei>(width), static_cast<GLsizei>(height));
-    gl::FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? static_cast<GLsizei>(samples) : 0, format,
+                                     static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
 }
 
 void check_complete() {
-    const bool is_complete = gl::CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    if (!is_complete || gl::GetError() == GL_OUT_OF_MEMORY)
+    const bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    if (!is_complete || glGetError() == GL_OUT_OF_MEMORY)
         throw ViewerError("the graphics driver cannot make a picture of this size");
 }
 
@@ -48,45 +48,45 @@ Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t samples, b
     : width_(width), height_(height) {
     GLint most = 1;
     GLint largest = 0;
-    gl::GetIntegerv(GL_MAX_SAMPLES, &most);
-    gl::GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (std::max(width, height) > static_cast<std::uint32_t>(largest))
         throw ViewerError("the graphics driver makes pictures up to " + std::to_string(largest) + " pixels wide");
     const std::uint32_t used = std::min(samples, static_cast<std::uint32_t>(std::max(most, 1)));
     const GLenum format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-    gl::BindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
     attach(picture_colour_, GL_COLOR_ATTACHMENT0, format, width, height, 1);
     check_complete();
-    gl::BindFramebuffer(GL_FRAMEBUFFER, samples_.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, samples_.name());
     attach(sample_colour_, GL_COLOR_ATTACHMENT0, format, width, height, used);
     attach(sample_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, used);
     check_complete();
 }
 
 void Frame::bind() const {
-    gl::BindFramebuffer(GL_FRAMEBUFFER, samples_.name());
-    gl::Viewport(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_));
-    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_FRAMEBUFFER, samples_.name());
+    glViewport(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_));
+    glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
 void Frame::resolve() const {
     const auto w = static_cast<GLint>(width_);
     const auto h = static_cast<GLint>(height_);
-    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, samples_.name());
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
-    gl::BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
+    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 Picture Frame::read(bool is_transparent) const {
     resolve();
-    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
     Picture picture = read_pixels();
     if (is_transparent) divide_by_alpha(picture);
     return picture;
 }
 
 Picture Frame::read_window() const {
-    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     Picture picture = read_pixels();
     for (std::size_t at = 3; at < picture.pixels.size(); at += 4) picture.pixels[at] = 255;
     return picture;
@@ -94,9 +94,9 @@ Picture Frame::read_window() const {
 
 Picture Frame::read_pixels() const {
     Picture picture{width_, height_, std::vector<std::uint8_t>(std::size_t{4} * width_ * height_)};
-    gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl::ReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA, GL_UNSIGNED_BYTE,
-                   picture.pixels.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA, GL_UNSIGNED_BYTE,
+                 picture.pixels.data());
     // OpenGL begins at the bottom.
     const auto row = [&](std::uint32_t y) {
         return picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.row_size() * y);
@@ -109,11 +109,11 @@ void Frame::copy_to_window() const {
     resolve();
     const auto w = static_cast<GLint>(width_);
     const auto h = static_cast<GLint>(height_);
-    gl::Disable(GL_FRAMEBUFFER_SRGB);  // what was encoded once is copied as it is
-    gl::BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    gl::BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    gl::BindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDisable(GL_FRAMEBUFFER_SRGB);  // what was encoded once is copied as it is
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 }  // namespace bendy::viewer

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <bendy/viewer/render.h>
-
 #include <functional>
-#include <memory>
 #include <string>
 
 namespace bendy::viewer {
@@ -12,9 +9,9 @@ namespace bendy::viewer {
 /// only.
 class OffscreenContext {
 public:
-    /// The first that works of: EGL without a surface, EGL on a device, EGL on the default display, OSMesa. Throws
-    /// ViewerError with what each said if none does.
-    explicit OffscreenContext(ContextKind kind);
+    /// Takes the first that works: EGL without a surface, EGL on a device, EGL on the default display. Throws
+    /// ViewerError with the reason that each one gave if none works.
+    OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
     OffscreenContext(OffscreenContext&&) = delete;
@@ -26,10 +23,8 @@ public:
 
 private:
     bool try_egl(unsigned platform, const char* name, std::string& tried);
-    bool try_osmesa(std::string& tried);
 
     std::function<void()> close_;
-    std::unique_ptr<unsigned char[]> osmesa_picture_;  // OSMesa wants memory to draw into, used or not
     std::string description_;
 };
 

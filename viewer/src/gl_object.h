@@ -1,7 +1,6 @@
 #pragma once
 
-#include "gl.h"
-
+#include <epoxy/gl.h>
 #include <utility>
 
 namespace bendy::viewer {
@@ -27,13 +26,13 @@ private:
     GLuint name_ = 0;
 };
 
-#define BENDY_GL_OBJECT(Type, plural)                                                           \
-    struct Make##Type {                                                                         \
-        void operator()(GLsizei n, GLuint* names) const { gl::Gen##plural(n, names); }          \
-    };                                                                                          \
-    struct Drop##Type {                                                                         \
-        void operator()(GLsizei n, const GLuint* names) const { gl::Delete##plural(n, names); } \
-    };                                                                                          \
+#define BENDY_GL_OBJECT(Type, plural)                                                         \
+    struct Make##Type {                                                                       \
+        void operator()(GLsizei n, GLuint* names) const { glGen##plural(n, names); }          \
+    };                                                                                        \
+    struct Drop##Type {                                                                       \
+        void operator()(GLsizei n, const GLuint* names) const { glDelete##plural(n, names); } \
+    };                                                                                        \
     using Type = GlObject<Make##Type, Drop##Type>;
 
 BENDY_GL_OBJECT(Buffer, Buffers)

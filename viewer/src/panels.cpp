@@ -1,8 +1,6 @@
 // The window's panels.
 #include "window.h"
 
-#include "gl.h"
-
 #include <bendy/format/diagnostics.h>
 
 #include <backends/imgui_impl_glfw.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl.h"
+#include <epoxy/gl.h>
 
 namespace bendy::viewer {
 
@@ -15,9 +15,9 @@ public:
     Program& operator=(Program&&) = delete;
     ~Program();
 
-    void use() const { gl::UseProgram(name_); }
+    void use() const { glUseProgram(name_); }
     /// Place of a uniform; -1, which OpenGL ignores, if the compiler has dropped it.
-    [[nodiscard]] GLint operator[](const char* uniform) const { return gl::GetUniformLocation(name_, uniform); }
+    [[nodiscard]] GLint operator[](const char* uniform) const { return glGetUniformLocation(name_, uniform); }
 
 private:
     GLuint name_;

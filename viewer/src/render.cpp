@@ -29,7 +29,6 @@ Box box_of(const Model& model, const RenderOptions& options) {
 struct PictureMaker::Parts {
     Parts(const Model& model, const RenderOptions& wanted, const Warn& warn)
         : options(wanted),
-          context(wanted.context),
           frame(wanted.width, wanted.height),
           box(box_of(model, wanted)),
           renderer(model, box, wanted.folder, warn),

@@ -52,17 +52,17 @@ std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
 /// 16 entries a side: as fine as three.js has it.
 void upload_reflectance(GLuint texture) {
     constexpr GLsizei kSide = 16;
-    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    gl::BindTexture(GL_TEXTURE_2D, texture);
-    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
+    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
     for (const GLenum filter : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl::TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
     for (const GLenum wrap : std::array<GLenum, 2>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl::TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
 void set_vector(GLint place, const glm::vec3& v) {
-    gl::Uniform3fv(place, 1, glm::value_ptr(v));
+    glUniform3fv(place, 1, glm::value_ptr(v));
 }
 
 std::vector<glm::vec3> draw_centres(const Model& model) {
@@ -97,11 +97,11 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
       centres_(draw_centres(model)) {
     buffers_.set_level(level_);
     load_textures(warn);
-    gl::BindVertexArray(overlay_layout_.name());
-    gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
+    glBindVertexArray(overlay_layout_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        gl::EnableVertexAttribArray(place);
-        gl::VertexAttribPointer(
+        glEnableVertexAttribArray(place);
+        glVertexAttribPointer(
             place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
             reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
@@ -119,13 +119,13 @@ void Renderer::set_level(float share) {
 void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
                     const glm::vec2& size) {
     const glm::vec4& back = options.background;
-    gl::ClearColor(back.r * back.a, back.g * back.a, back.b * back.a, back.a);
-    gl::DepthMask(GL_TRUE);
-    gl::Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl::Enable(GL_DEPTH_TEST);
-    gl::DepthFunc(GL_LEQUAL);
+    glClearColor(back.r * back.a, back.g * back.a, back.b * back.a, back.a);
+    glDepthMask(GL_TRUE);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
     // The alpha of what was drawn over nothing adds up, so that a picture can be laid over another.
-    gl::BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     buffers_.set_pose(pose);
     buffers_.bind();
     if (options.surface && !options.wireframe) draw_surface(camera);
@@ -135,11 +135,11 @@ void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options
 
 void Renderer::set_skin(const Program& program, const Camera& camera) const {
     program.use();
-    gl::UniformMatrix4fv(program["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
-    gl::Uniform1i(program["palette"], kPaletteUnit);
-    gl::Uniform1i(program["influence_list"], kInfluenceUnit);
-    gl::Uniform1i(program["displacement_list"], kDisplacementUnit);
-    gl::Uniform1i(program["target_weights"], kWeightUnit);
+    glUniformMatrix4fv(program["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
+    glUniform1i(program["palette"], kPaletteUnit);
+    glUniform1i(program["influence_list"], kInfluenceUnit);
+    glUniform1i(program["displacement_list"], kDisplacementUnit);
+    glUniform1i(program["target_weights"], kWeightUnit);
 }
 
 void Renderer::draw_range(const Draw& draw) const {
@@ -147,8 +147,8 @@ void Renderer::draw_range(const Draw& draw) const {
     const std::size_t first = std::size_t{buffers_.first_index(draw.pool)} + draw.first;
     // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
     const auto* place = reinterpret_cast<const void*>(first * sizeof(GLuint));
-    gl::DrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
-                     GL_UNSIGNED_INT, place);
+    glDrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
+                   GL_UNSIGNED_INT, place);
 }
 
 const ShownSurface& Renderer::surface_of(const Draw& draw) const {
@@ -177,50 +177,50 @@ void Renderer::set_material(const Draw& draw) const {
     std::array<bool, 5> is_shown{};
     for (std::size_t k = 0; k < uses.size(); ++k) {
         const auto unit = static_cast<GLuint>(kMaterialUnit + k);
-        gl::ActiveTexture(GL_TEXTURE0 + unit);
+        glActiveTexture(GL_TEXTURE0 + unit);
         const auto texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
         is_shown[k] = texture.has_value();
         const bool is_checked = k == kBaseColour && uses[k].record->texture != kNone;
-        gl::BindTexture(GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
-        gl::Uniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
+        glBindTexture(GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
+        glUniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
         matrices[k] = uv_matrix(*uses[k].record);
         sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, kLastSet));
     }
-    gl::UniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
-    gl::Uniform1iv(surface_["uv_set"], 5, sets.data());
-    gl::Uniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
+    glUniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
+    glUniform1iv(surface_["uv_set"], 5, sets.data());
+    glUniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
     // Without its map a surface has no light of its own, and no bumps.
     const bool is_dark = surface.emissive_texture.texture != kNone && !is_shown[kEmissive];
     set_vector(surface_["emissive"], is_dark ? glm::vec3(0.0f) : glm::make_vec3(surface.emissive.data()));
     set_vector(surface_["dielectric"], shown.dielectric);
-    gl::Uniform1f(surface_["dielectric_at_grazing"], shown.dielectric_at_grazing);
-    gl::Uniform1f(surface_["metallic"], surface.metallic);
-    gl::Uniform1f(surface_["roughness"], surface.roughness);
-    gl::Uniform1f(surface_["normal_scale"], surface.normal_scale);
-    gl::Uniform1f(surface_["occlusion_strength"], surface.occlusion_strength);
-    gl::Uniform1f(surface_["alpha_cutoff"], surface.alpha_cutoff);
-    gl::Uniform1i(surface_["alpha_mode"], surface.alpha_mode);
-    gl::Uniform1i(surface_["double_sided"], surface.double_sided);
-    gl::Uniform1i(surface_["unlit"], surface.unlit);
-    gl::Uniform1i(surface_["has_normal_map"], is_shown[kNormal] ? 1 : 0);
-    gl::Uniform1i(surface_["has_faces"], draw.topology == Topology::triangles ? 1 : 0);
+    glUniform1f(surface_["dielectric_at_grazing"], shown.dielectric_at_grazing);
+    glUniform1f(surface_["metallic"], surface.metallic);
+    glUniform1f(surface_["roughness"], surface.roughness);
+    glUniform1f(surface_["normal_scale"], surface.normal_scale);
+    glUniform1f(surface_["occlusion_strength"], surface.occlusion_strength);
+    glUniform1f(surface_["alpha_cutoff"], surface.alpha_cutoff);
+    glUniform1i(surface_["alpha_mode"], surface.alpha_mode);
+    glUniform1i(surface_["double_sided"], surface.double_sided);
+    glUniform1i(surface_["unlit"], surface.unlit);
+    glUniform1i(surface_["has_normal_map"], is_shown[kNormal] ? 1 : 0);
+    glUniform1i(surface_["has_faces"], draw.topology == Topology::triangles ? 1 : 0);
 }
 
 void Renderer::draw_surface(const Camera& camera) const {
     set_skin(surface_, camera);
     set_vector(surface_["eye"], camera.eye());
     const glm::mat3 to_view(camera.view());
-    gl::UniformMatrix3fv(surface_["to_view"], 1, GL_FALSE, glm::value_ptr(to_view));
+    glUniformMatrix3fv(surface_["to_view"], 1, GL_FALSE, glm::value_ptr(to_view));
     const Lighting lighting = lighting_for(camera);
-    gl::Uniform3fv(surface_["light_direction"], 2, glm::value_ptr(lighting.directions[0]));
-    gl::Uniform2f(surface_["light_irradiance"], lighting.irradiance[0], lighting.irradiance[1]);
-    gl::Uniform1f(surface_["sky"], lighting.sky);
-    gl::Uniform1f(surface_["ground"], lighting.ground);
-    gl::Uniform1f(surface_["environment"], lighting.environment);
-    gl::ActiveTexture(GL_TEXTURE0 + kReflectanceUnit);
-    gl::BindTexture(GL_TEXTURE_2D, reflectance_.name());
-    gl::Uniform1i(surface_["reflectance"], kReflectanceUnit);
-    gl::Uniform1i(surface_["which_faces"], kBothFaces);
+    glUniform3fv(surface_["light_direction"], 2, glm::value_ptr(lighting.directions[0]));
+    glUniform2f(surface_["light_irradiance"], lighting.irradiance[0], lighting.irradiance[1]);
+    glUniform1f(surface_["sky"], lighting.sky);
+    glUniform1f(surface_["ground"], lighting.ground);
+    glUniform1f(surface_["environment"], lighting.environment);
+    glActiveTexture(GL_TEXTURE0 + kReflectanceUnit);
+    glBindTexture(GL_TEXTURE_2D, reflectance_.name());
+    glUniform1i(surface_["reflectance"], kReflectanceUnit);
+    glUniform1i(surface_["which_faces"], kBothFaces);
     struct SeeThrough {
         float distance;
         std::size_t number;
@@ -239,53 +239,53 @@ void Renderer::draw_surface(const Camera& camera) const {
     if (later.empty()) return;
     std::stable_sort(later.begin(), later.end(),
                      [](const SeeThrough& a, const SeeThrough& b) { return a.distance > b.distance; });
-    gl::Enable(GL_BLEND);
-    gl::DepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
     for (const SeeThrough& each : later) {
         set_material(draws[each.number]);
         for (const WhichFaces faces : {kBackFaces, kFrontFaces}) {
-            gl::Uniform1i(surface_["which_faces"], faces);
+            glUniform1i(surface_["which_faces"], faces);
             draw_range(draws[each.number]);
         }
     }
-    gl::DepthMask(GL_TRUE);
-    gl::Disable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
 }
 
 void Renderer::draw_wireframe(const Camera& camera) const {
     constexpr std::array<float, 4> kWire{0.75f, 0.8f, 0.85f, 1.0f};
     set_skin(flat_, camera);
-    gl::Uniform4fv(flat_["flat_colour"], 1, kWire.data());
-    gl::PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glUniform4fv(flat_["flat_colour"], 1, kWire.data());
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (const Draw& draw : level_.draws()) draw_range(draw);
-    gl::PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 void Renderer::draw_numbers(Pose& pose, const Camera& camera, bool behind_surface) {
-    gl::ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    gl::DepthMask(GL_TRUE);
-    gl::Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl::Enable(GL_DEPTH_TEST);
-    gl::DepthFunc(GL_LEQUAL);
-    gl::Disable(GL_FRAMEBUFFER_SRGB);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glDepthMask(GL_TRUE);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDisable(GL_FRAMEBUFFER_SRGB);
     buffers_.set_pose(pose);
     buffers_.bind();
     set_skin(numbers_, camera);
-    gl::Uniform1i(numbers_["depth_only"], 1);
+    glUniform1i(numbers_["depth_only"], 1);
     if (behind_surface) {
         for (const Draw& draw : level_.draws()) draw_range(draw);
     }
-    gl::Uniform1i(numbers_["depth_only"], 0);
-    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers_.vertices()));
+    glUniform1i(numbers_["depth_only"], 0);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers_.vertices()));
 }
 
 void Renderer::draw_list(const std::vector<OverlayVertex>& list) const {
     if (list.empty()) return;
-    gl::BindVertexArray(overlay_layout_.name());
-    gl::BindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
-    gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof(OverlayVertex)), list.data(),
-                   GL_STREAM_DRAW);
-    gl::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(list.size()));
+    glBindVertexArray(overlay_layout_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof(OverlayVertex)), list.data(),
+                 GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(list.size()));
 }
 
 void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
@@ -296,17 +296,17 @@ void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOp
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);
     if (options.marked_joint != kNone) overlay_.add_mark(pose, options.marked_joint, list_);
-    gl::Clear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
+    glClear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
     overlay_program_.use();
-    gl::UniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
-    gl::Uniform2f(overlay_program_["size"], size.x, size.y);
+    glUniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
+    glUniform2f(overlay_program_["size"], size.x, size.y);
     draw_list(list_.solid);
-    gl::Enable(GL_BLEND);
-    gl::DepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
     draw_list(list_.translucent);
     draw_list(list_.lines);
-    gl::DepthMask(GL_TRUE);
-    gl::Disable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
 }
 
 }  // namespace bendy::viewer

@@ -122,15 +122,15 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 void describe_vertices() {
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        gl::EnableVertexAttribArray(place);
-        gl::VertexAttribPointer(
+        glEnableVertexAttribArray(place);
+        glVertexAttribPointer(
             place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
             reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
     const auto integers = [](GLuint place, std::size_t offset) {
-        gl::EnableVertexAttribArray(place);
-        gl::VertexAttribIPointer(place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
-                                 reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): likewise
+        glEnableVertexAttribArray(place);
+        glVertexAttribIPointer(place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                               reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): likewise
     };
     floats(0, 3, offsetof(GpuVertex, position));
     floats(1, 3, offsetof(GpuVertex, normal));
@@ -151,23 +151,23 @@ void put_rows(const glm::mat4& matrix, glm::vec4* out) {
 
 void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     GLint most = 0;
-    gl::GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (bytes / texel_ > static_cast<std::size_t>(most)) {
         throw ViewerError("the character is too large for this graphics driver: " + std::to_string(bytes / texel_) +
                           " entries in a buffer, which takes " + std::to_string(most));
     }
     constexpr std::array<std::byte, 16> kNothing{};  // an empty buffer texture is an error
-    gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-    gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
-                   bytes == 0 ? kNothing.data() : data, usage);
-    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
-    gl::TexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
+    glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
+                 bytes == 0 ? kNothing.data() : data, usage);
+    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
+    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
 }
 
 void BufferTexture::bind(GLuint unit) const {
-    gl::ActiveTexture(GL_TEXTURE0 + unit);
-    gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
 SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
@@ -190,13 +190,13 @@ SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
     }
     rows_.resize(3 * entries);
 
-    gl::BindVertexArray(layout_.name());
-    gl::BindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-    gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(vertices)), vertices.data(), GL_STATIC_DRAW);
+    glBindVertexArray(layout_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(vertices)), vertices.data(), GL_STATIC_DRAW);
     describe_vertices();
     influences_.fill(influences.data(), bytes_of(influences), GL_STATIC_DRAW);
     displacements_.fill(displacements.data(), bytes_of(displacements), GL_STATIC_DRAW);
-    if (gl::GetError() == GL_OUT_OF_MEMORY) throw ViewerError("the graphics driver is out of memory");
+    if (glGetError() == GL_OUT_OF_MEMORY) throw ViewerError("the graphics driver is out of memory");
 }
 
 void SceneBuffers::set_pose(Pose& pose) {
@@ -224,13 +224,13 @@ void SceneBuffers::set_level(const Lod& lod) {
         const auto first = static_cast<std::uint32_t>(model_->first_vertex(pool));
         for (const std::uint32_t index : lod.indices(pool)) indices.push_back(first + index);
     }
-    gl::BindVertexArray(layout_.name());
-    gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-    gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(indices)), indices.data(), GL_STATIC_DRAW);
+    glBindVertexArray(layout_.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes_of(indices)), indices.data(), GL_STATIC_DRAW);
 }
 
 void SceneBuffers::bind() const {
-    gl::BindVertexArray(layout_.name());
+    glBindVertexArray(layout_.name());
     palette_.bind(kPaletteUnit);
     influences_.bind(kInfluenceUnit);
     displacements_.bind(kDisplacementUnit);

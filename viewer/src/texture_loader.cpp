@@ -19,15 +19,15 @@ namespace {
 constexpr std::uint64_t kMostTexels = 1u << 27u;
 
 void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {
-    gl::ActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    gl::BindTexture(GL_TEXTURE_2D, texture);
-    gl::PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl::TexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
-                   static_cast<GLsizei>(picture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
+    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
+                 static_cast<GLsizei>(picture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
 }
 
 void set_parameter(GLenum what, GLint value) {
-    gl::TexParameteri(GL_TEXTURE_2D, what, value);
+    glTexParameteri(GL_TEXTURE_2D, what, value);
 }
 
 GLint wrap_of(std::uint8_t wrap) {
@@ -49,7 +49,7 @@ void set_sampler(const SamplerRecord& sampler) {
     set_parameter(GL_TEXTURE_WRAP_S, wrap_of(sampler.wrap_s));
     set_parameter(GL_TEXTURE_WRAP_T, wrap_of(sampler.wrap_t));
     if (sampler.min_filter == 0 || sampler.min_filter >= static_cast<std::uint8_t>(Filter::nearest_mipmap_nearest))
-        gl::GenerateMipmap(GL_TEXTURE_2D);
+        glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 }  // namespace

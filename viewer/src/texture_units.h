@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl.h"
+#include <epoxy/gl.h>
 
 namespace bendy::viewer {
 

@@ -1,7 +1,5 @@
 #include "window.h"
 
-#include "gl.h"
-
 #include <bendy/format/file.h>
 #include <bendy/viewer/picture_file.h>
 #include <bendy/viewer/viewer_error.h>
@@ -10,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -108,10 +107,9 @@ void Window::open_gl() {
     if (window_ == nullptr) throw ViewerError("no window with OpenGL 3.3: " + last_problem());
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(options_.script.empty() ? 1 : 0);
-    gl::load(glfwGetProcAddress);
     if (options_.verbose) {
-        std::cerr << "bendy: drawing with a window: " << reinterpret_cast<const char*>(gl::GetString(GL_RENDERER))
-                  << ", " << reinterpret_cast<const char*>(gl::GetString(GL_VERSION)) << '\n';
+        std::cerr << "bendy: drawing with a window: " << reinterpret_cast<const char*>(glGetString(GL_RENDERER)) << ", "
+                  << reinterpret_cast<const char*>(glGetString(GL_VERSION)) << '\n';
     }
     glfwGetFramebufferSize(window_, &size_.x, &size_.y);
     glfwSetWindowUserPointer(window_, this);
@@ -329,7 +327,7 @@ void Window::draw_scene() {
     }
     const auto running = timer_.run(Stage::graphics);
     frame_->copy_to_window();
-    gl::Finish();
+    glFinish();
 }
 
 void Window::draw() {
@@ -338,7 +336,7 @@ void Window::draw() {
     draw_scene();
     {
         const auto running = timer_.run(Stage::panels);
-        gl::Viewport(0, 0, size_.x, size_.y);
+        glViewport(0, 0, size_.x, size_.y);
         draw_panels();
     }
     if (!picture_.empty()) save_picture();

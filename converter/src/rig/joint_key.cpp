@@ -1,5 +1,7 @@
 #include "joint_key.h"
 
+#include <utf8cpp/utf8.h>
+
 #include <algorithm>
 #include <charconv>
 #include <system_error>
@@ -9,37 +11,26 @@ namespace {
 
 constexpr std::string_view kSpecial = "*?[\\";
 
-/// Length in bytes of the character at text[at], which is well-formed UTF-8 or taken byte by byte.
-std::size_t length_at(std::string_view text, std::size_t at) {
-    const auto first = static_cast<unsigned char>(text[at]);
-    const std::size_t length = first < 0xc0 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    return length <= text.size() - at ? length : 1;
-}
-
-char32_t character_at(std::string_view text, std::size_t at, std::size_t length) {
-    const auto first = static_cast<unsigned char>(text[at]);
-    if (length == 1) return first;
-    char32_t character = first & (0x7fu >> length);
-    for (std::size_t i = 1; i < length; ++i)
-        character = character << 6 | (static_cast<unsigned char>(text[at + i]) & 0x3fu);
-    return character;
+/// The character at `at`, which moves behind it. A byte that is not UTF-8 is a character of its own.
+char32_t next_character(const char*& at, const char* end) {
+    constexpr std::ptrdiff_t kLongest = 4;
+    if (utf8::find_invalid(at, at + std::min(kLongest, end - at)) == at) return static_cast<unsigned char>(*at++);
+    return utf8::unchecked::next(at);
 }
 
 /// Reads a key character by character.
 class KeyReader {
 public:
-    KeyReader(std::string_view text, const std::string& place) : text_(text), place_(place) {}
+    KeyReader(std::string_view text, const std::string& place)
+        : at_(text.data()), end_(text.data() + text.size()), place_(place) {}
 
-    [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
+    [[nodiscard]] bool at_end() const { return at_ == end_; }
 
     /// The next character; `is_plain` tells a special one from one whose meaning was taken by a backslash.
     char32_t next(bool& is_plain) {
-        is_plain = text_[at_] == '\\';
-        if (is_plain && ++at_ == text_.size()) fail(place_, "it ends in a backslash that stands before nothing");
-        const std::size_t length = length_at(text_, at_);
-        const char32_t character = character_at(text_, at_, length);
-        at_ += length;
-        return character;
+        is_plain = *at_ == '\\';
+        if (is_plain && ++at_ == end_) fail(place_, "it ends in a backslash that stands before nothing");
+        return next_character(at_, end_);
     }
 
     /// What stands between [ and ].
@@ -60,20 +51,17 @@ public:
     }
 
 private:
-    std::string_view text_;
+    const char* at_;
+    const char* end_;
     const std::string& place_;
-    std::size_t at_ = 0;
 };
 
 }  // namespace
 
-std::u32string characters_of(std::string_view utf8) {
+std::u32string characters_of(std::string_view text) {
     std::u32string characters;
-    for (std::size_t at = 0; at < utf8.size();) {
-        const std::size_t length = length_at(utf8, at);
-        characters += character_at(utf8, at, length);
-        at += length;
-    }
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at != end;) characters += next_character(at, end);
     return characters;
 }
 

@@ -29,7 +29,7 @@ private:
 };
 
 /// The characters of UTF-8 text; a byte that is none counts as one.
-std::u32string characters_of(std::string_view utf8);
+std::u32string characters_of(std::string_view text);
 
 /// Which joints a key of a rig means: `#12`, a name, or a glob with `*`, `?` and `[abc]`. `\` takes the special meaning
 /// from the character after it.

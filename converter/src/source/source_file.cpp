@@ -2,9 +2,12 @@
 
 #include <bendy/format/text.h>
 
+#include <utf8cpp/utf8.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace bendy::converter {
@@ -175,15 +178,7 @@ std::string uri_of(const std::filesystem::path& path) {
 std::string to_utf8(std::string_view text) {
     if (is_utf8(text)) return std::string(text);
     std::string converted;
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (code < 0x80) {
-            converted += c;
-        } else {
-            converted += static_cast<char>(0xc0u | code >> 6);
-            converted += static_cast<char>(0x80u | (code & 0x3fu));
-        }
-    }
+    for (const char c : text) utf8::unchecked::append(static_cast<unsigned char>(c), std::back_inserter(converted));
     return converted;
 }
 

@@ -21,9 +21,6 @@ namespace bendy::viewer {
 /// Takes a line about something that cannot be shown as it should be.
 using Warn = std::function<void(const std::string& what)>;
 
-/// Where OpenGL comes from; any: the first that works.
-enum class ContextKind : std::uint8_t { any, egl, osmesa };
-
 /// What is drawn, and how.
 struct DrawOptions {
     bool surface = true;  ///< the character itself
@@ -55,7 +52,6 @@ struct RenderOptions {
     float lod = 1.0f;              ///< share of the triangles
     CameraOptions camera;
     DrawOptions draw;
-    ContextKind context = ContextKind::any;
     std::filesystem::path folder;  ///< of images that the file only names
     /// Changes every pose after the cycle: limits, IK. May be empty.
     std::function<void(Pose&)> adjust;

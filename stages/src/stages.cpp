@@ -1,0 +1,152 @@
+#include <bendy/stages/stages.h>
+
+#include <bendy/runtime.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace bendy::stages {
+namespace {
+
+constexpr float kFrame = 1.0f / 60.0f;  // seconds
+
+bool has_attribute(const Model& model, std::size_t attribute) {
+    const auto pools = model.pools();
+    return std::any_of(pools.begin(), pools.end(), [&](const Pool& pool) {
+        return attribute == 0 || (attribute == 1 ? pool.normals.has_value() : pool.tangents.has_value());
+    });
+}
+
+}  // namespace
+
+Stages::Stages(const Open& open, const Model& model, const Cycle* cycle)
+    : model_(model),
+      cycle_(cycle),
+      pose_(model),
+      other_(model),
+      lod_(model),
+      seconds_(cycle == nullptr ? 0.0f : cycle->start),
+      positions_(model.vertex_count()),
+      normals_(has_attribute(model, 1) ? model.vertex_count() : 0),
+      tangents_(has_attribute(model, 2) ? model.vertex_count() : 0),
+      weights_(model.target_count(), 0.5f) {
+    add_opening(open);
+    add_posing();
+    add_skinning();
+    add_inbetweening();
+    add_reaching();
+    add_levels();
+}
+
+void Stages::add(std::string name, const char* item, double items, std::function<void()> run) {
+    if (items > 0.0) list_.push_back({std::move(name), item, items, std::move(run)});
+}
+
+void Stages::add_opening(const Open& open) {
+    add("open, sums checked", "file", 1.0, [open] { (void)open({}); });
+    add("open, sums not checked", "file", 1.0, [open] {
+        OpenOptions options;
+        options.sums = Sums::later;
+        (void)open(options);
+    });
+    const std::size_t cycle = cycle_ == nullptr ? 0 : static_cast<std::size_t>(cycle_ - model_.cycles().data());
+    add("open to the first pose", "file", 1.0, [open, cycle] {
+        const Result<Model> opened = open({});
+        if (!opened) return;
+        Pose pose(*opened);
+        if (cycle < opened->cycles().size()) sample(&opened->cycles()[cycle], opened->cycles()[cycle].start, pose);
+        local_to_model(pose);
+    });
+}
+
+void Stages::next_frame() {
+    seconds_ += kFrame;
+    if (!(seconds_ <= cycle_->end)) seconds_ = cycle_->start;
+    sample(cycle_, seconds_, pose_);
+}
+
+void Stages::add_posing() {
+    const auto joints = static_cast<double>(model_.joints().size());
+    if (cycle_ != nullptr) {
+        add("sample, next frame", "joint", joints, [this] { next_frame(); });
+        add("sample, random time", "joint", joints, [this] {
+            const float share = static_cast<float>(random_() >> 8) / 16777216.0f;
+            sample(cycle_, cycle_->start + share * (cycle_->end - cycle_->start), pose_);
+        });
+    }
+    if (cycle_ != nullptr) sample(cycle_, 0.5f * (cycle_->start + cycle_->end), other_);
+    add("blend two poses", "joint", joints, [this] { (void)blend(pose_, other_, 0.5f); });
+    add("local to model", "joint", joints, [this] {
+        (void)pose_.change_local();
+        local_to_model(pose_);
+    });
+    add("local to model and palettes", "joint", joints, [this] {
+        (void)pose_.change_local();
+        local_to_model(pose_);
+        for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool) (void)pose_.palette(pool);
+    });
+}
+
+void Stages::skin_attributes(std::size_t attributes) {
+    Vertices out;
+    out.positions = positions_;
+    if (attributes > 1) out.normals = normals_;
+    if (attributes > 2) out.tangents = tangents_;
+    skin(model_, pose_, out);
+}
+
+void Stages::add_skinning() {
+    constexpr std::array kNames{"skin positions", "skin positions, normals", "skin positions, normals, tangents"};
+    const auto vertices = static_cast<double>(model_.vertex_count());
+    std::size_t most = 1;
+    for (std::size_t attributes = 1; attributes <= kNames.size(); ++attributes) {
+        if (!has_attribute(model_, attributes - 1)) continue;
+        most = attributes;
+        add(kNames.at(attributes - 1), "vertex", vertices, [this, attributes] { skin_attributes(attributes); });
+    }
+    add("a whole frame", "character", 1.0, [this, most] {
+        if (cycle_ != nullptr) next_frame();
+        (void)pose_.change_local();
+        skin_attributes(most);
+    });
+}
+
+void Stages::add_inbetweening() {
+    double moved = 0.0;
+    for (const Pool& pool : model_.pools()) moved += pool.targets.empty() ? 0.0 : pool.vertices;
+    add("inbetween, all targets", "vertex", moved, [this] {
+        for (std::uint32_t number = 0; number < model_.pools().size(); ++number) {
+            const Pool& pool = model_.pools()[number];
+            if (pool.targets.empty()) continue;
+            const auto weights = std::span(weights_).subspan(model_.first_target(number), pool.targets.size());
+            (void)inbetween(pool, weights, {positions_, normals_, {}});
+        }
+    });
+}
+
+void Stages::add_reaching() {
+    local_to_model(pose_);
+    for (const Chain& chain : model_.chains()) {
+        const glm::vec3 start(pose_.model_space()[chain.start][3]);
+        const glm::vec3 tip(pose_.model_space()[chain.effector][3]);
+        targets_.push_back(start + 0.95f * (tip - start));
+        targets_.push_back(start + 0.85f * (tip - start));
+    }
+    // From one target to the other and back, as a chain follows what moves.
+    add("reach", "chain", static_cast<double>(model_.chains().size()), [this] {
+        turn_ ^= 1;
+        for (std::size_t k = 0; k < model_.chains().size(); ++k)
+            reach(&model_.chains()[k], targets_[2 * k + turn_], pose_);
+    });
+}
+
+void Stages::add_levels() {
+    if (model_.collapse() == nullptr) return;
+    add("switch the level of detail", "switch", 1.0, [this] {
+        turn_ ^= 1;
+        lod_.set_share(turn_ == 0 ? 0.5f : 0.25f);
+    });
+}
+
+}  // namespace bendy::stages

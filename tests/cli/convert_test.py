@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+"""`bendy convert` of one file: outputs, summaries, linked images, dependency files, skinning.
+
+    convert_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+import urllib.parse
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from chunk_file import Chunk  # noqa: E402
+from gltf_file import GltfFile, strange_file  # noqa: E402
+from program import BENDY, FULL_DISK, SOURCE, Case, main  # noqa: E402
+
+
+class Convert(Case):
+    def test_the_output_stands_beside_the_input_by_default(self):
+        (self.folder / "in").mkdir()
+        for name in ("one.glb", "two.v2.glb", "three"):
+            shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / name)
+            self.done("convert", self.folder / "in" / name)
+        self.assertEqual(sorted(entry.name for entry in (self.folder / "in").iterdir()),
+                         ["one.bendy", "one.glb", "three", "three.bendy", "two.v2.bendy", "two.v2.glb"])
+        self.assertEqual(self.files(), ["in"])
+        self.assertEqual(self.done("validate", "in/one.bendy", "in/two.v2.bendy", "in/three.bendy"), b"")
+
+    def test_writes_where_it_is_told_and_nothing_else(self):
+        (self.folder / "deeper").mkdir()
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "deeper/any.name")
+        self.assertEqual([path.name for path in self.folder.rglob("*")], ["deeper", "any.name"])
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--output", "long.bendy")
+        self.assertEqual((self.folder / "long.bendy").read_bytes(), (self.folder / "deeper" / "any.name").read_bytes())
+
+    def test_convert_compact(self):
+        source = SOURCE / "examples" / "mannequin.glb"
+        exact = self.done("convert", source, "-o", "exact.bendy")
+        text = self.done("convert", source, "-o", "small.bendy", "--compact").decode()
+        self.assertRegex(text, r"total +[\d,]+ +[\d,]+\n")
+        self.assertRegex(text, r"error +at most [\d.e-]+ mm; worst met [\d.e-]+ mm")
+        self.assertNotIn(b"at most", exact)
+        sizes = {name: (self.folder / f"{name}.bendy").stat().st_size for name in ("exact", "small")}
+        self.assertLess(sizes["small"], sizes["exact"] / 2)
+        self.done("validate", "small.bendy")
+        self.assertIn(b"error at most", self.done("inspect", "small.bendy"))
+        self.done("convert", source, "-o", "coarse.bendy", "--max-error", "1mm")
+        self.assertLess((self.folder / "coarse.bendy").stat().st_size, sizes["small"])
+        for bound, words in (("0.1", "no unit"), ("1in", "no unit of"), ("-1mm", "not above zero"), ("much", "no error bound")):
+            self.assertIn(words, self.misused("convert", source, "--max-error", bound))
+
+    def test_the_summary_says_what_is_in_the_file(self):
+        text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
+        for words in ("m.bendy", "joints         65\n", "4,504 vertices", "Idle", "Walk", "Blink", "Smile",
+                      "materials      5: ", "textures       1: ", f"{(self.folder / 'm.bendy').stat().st_size:,} bytes"):
+            self.assertIn(words, text)
+        self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "--quiet"), b"")
+        self.assertEqual(self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy", "-q"), b"")
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        for name in ("mannequin", "tentacle"):
+            for output in ("one", "two"):
+                self.done("convert", SOURCE / "examples" / f"{name}.glb", "-o", output)
+            self.assertEqual((self.folder / "one").read_bytes(), (self.folder / "two").read_bytes())
+
+    def test_replaces_an_older_file(self):
+        (self.folder / "out.bendy").write_bytes(b"old")
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "out.bendy")
+        self.assertEqual(self.done("validate", "out.bendy"), b"")
+
+    def test_a_bad_input_leaves_no_output_and_an_old_one_untouched(self):
+        good = (SOURCE / "examples" / "tentacle.glb").read_bytes()
+        (self.folder / "bad.glb").write_bytes(good[: len(good) // 2])
+        self.failed("convert", "bad.glb", file="bad.glb")
+        self.assertEqual(self.files(), ["bad.glb"])
+        (self.folder / "bad.bendy").write_bytes(b"old")
+        self.failed("convert", "bad.glb", "-o", "bad.bendy", file="bad.glb")
+        self.assertEqual(self.files(), ["bad.bendy", "bad.glb"])
+        self.assertEqual((self.folder / "bad.bendy").read_bytes(), b"old")
+
+    def test_the_input_is_never_overwritten(self):
+        source = self.folder / "a.glb"
+        shutil.copy(SOURCE / "examples" / "tentacle.glb", source)
+        before = source.read_bytes()
+        (self.folder / "link.bendy").symlink_to(source)
+        os.link(source, self.folder / "hard.bendy")
+        for output in ("a.glb", "./a.glb", source, "link.bendy", "hard.bendy"):
+            self.failed("convert", "a.glb", "-o", output, file=output)
+        self.assertEqual(self.files(), ["a.glb", "hard.bendy", "link.bendy"])
+        self.assertEqual(source.read_bytes(), before)
+        shutil.move(source, self.folder / "same.bendy")  # here the default output is the input
+        self.failed("convert", "same.bendy", file="same.bendy")
+        self.assertEqual((self.folder / "same.bendy").read_bytes(), before)
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        (self.folder / "folder").mkdir()
+        (self.folder / "file").write_bytes(b"")
+        for output in ("missing/out.bendy", "file/out.bendy"):
+            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output)
+        self.assertEqual(self.files(), ["file", "folder"])
+
+    def test_a_full_disk_leaves_nothing_behind(self):
+        (self.folder / "old.bendy").write_bytes(b"old")
+        for output in ("old.bendy", "new.bendy"):
+            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output, **FULL_DISK)
+        self.assertEqual(self.files(), ["old.bendy"])
+        self.assertEqual((self.folder / "old.bendy").read_bytes(), b"old")
+
+    def test_options_are_checked(self):
+        self.assertIn("glue", self.misused("convert", "a.glb", "--images", "glue"))
+        line = self.failed("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "no such scene", "-o", "x")
+        self.assertIn("no such scene", line)
+        self.assertEqual(self.files(), [])
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "0", "-o", "x")
+
+    def test_what_is_left_out_is_named_on_standard_error(self):
+        (self.folder / "camera.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]}))
+        result = self.bendy("convert", "camera.gltf")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr.decode(), r"(?i)^bendy: warning: camera\.gltf: .*camera")
+        self.assertNotIn(b"warning", result.stdout)
+
+    def test_what_is_proposed_is_listed_on_standard_error(self):
+        nodes = [{"name": "Hips", "translation": [0, 1, 0], "children": [1, 4]}]
+        for name, x in (("Left", 0.1), ("Right", -0.1)):
+            at = len(nodes)
+            nodes += [{"name": f"{name}UpLeg", "translation": [x, 0, 0], "children": [at + 1]},
+                      {"name": f"{name}Leg", "translation": [0, -0.45, 0], "children": [at + 2]},
+                      {"name": f"{name}Foot", "translation": [0, -0.45, 0]}]
+        (self.folder / "legs.gltf").write_text(json.dumps(
+            {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
+        result = self.bendy("convert", "legs.gltf", "--auto-rig")
+        self.assertEqual(result.returncode, 0)
+        lines = result.stderr.decode().splitlines()
+        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone, "
+                      "knee points forward", lines)
+        self.assertIn("bendy: proposed: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees", lines)
+        self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
+        self.assertNotIn(b"proposed", result.stdout)
+        self.done("validate", "legs.bendy")
+        self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
+
+    def test_a_foot_beside_its_leg_comes_along(self):
+        nodes = [{"name": "Root", "children": [1, 6, 7]}, {"name": "Hips", "translation": [0, 1, 0], "children": [2, 4]}]
+        for name, x in (("Left", 0.1), ("Right", -0.1)):
+            at = len(nodes)
+            nodes += [{"name": f"{name}UpLeg", "translation": [x, 0, 0], "children": [at + 1]},
+                      {"name": f"{name}Leg", "translation": [0, -0.45, 0.02]}]
+        nodes += [{"name": f"{name}Foot", "translation": [x, 0.1, 0]} for name, x in (("Left", 0.1), ("Right", -0.1))]
+        (self.folder / "robot.gltf").write_text(json.dumps(
+            {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
+        self.assertEqual(self.bendy("convert", "robot.gltf", "--auto-rig").returncode, 0)
+        result = self.bendy("pose", "robot.bendy", "--reach", "LeftLeg=0.15,0.3,0.2", "-o", "robot.json")
+        self.assertEqual(result.returncode, 0)
+        joints = {joint["name"]: joint["world"][12:15]
+                  for joint in json.loads((self.folder / "robot.json").read_text())["joints"]}
+        for found, expected in ((joints["LeftFoot"], [0.15, 0.3, 0.2]), (joints["RightFoot"], [-0.1, 0.1, 0])):
+            for number, wanted in zip(found, expected):
+                self.assertAlmostEqual(number, wanted, delta=1e-3)
+
+    def test_names_are_escaped_in_the_summary(self):
+        text = self.done("convert", strange_file(self.folder / "strange.gltf")).decode()
+        self.assertIn("slide\\x09now", text)
+        self.assertFalse(any(ord(c) < 0x20 and c != "\n" for c in text))
+
+
+class LinkedImages(Case):
+    """--images link: URIs are relative to where they stand, and a dangling one is said."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "lk").mkdir()
+        file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], images=[{"uri": "the%20axe.png"}],
+                        textures=[{"source": 0}],
+                        materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])
+        positions = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "VEC3")
+        file.document["meshes"] = [{"primitives": [{"attributes": {"POSITION": positions}, "material": 0}]}]
+        file.write(self.folder / "lk" / "m.gltf")
+        (self.folder / "lk" / "the axe.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+
+    def links(self, path):
+        root = Chunk.read((self.folder / path).read_bytes())
+        return [chunk.payload.decode() for _, chunk in root.walk() if chunk.letters == "LINK"]
+
+    def test_is_relative_to_the_output(self):
+        for output, uri in (("m.bendy", "lk/the%20axe.png"), ("lk/m.bendy", "the%20axe.png"),
+                            ("out/m.bendy", "../lk/the%20axe.png")):
+            (self.folder / output).parent.mkdir(exist_ok=True)
+            result = self.bendy("convert", "lk/m.gltf", "-o", output, "--images", "link")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(self.links(output), [uri])
+            self.assertEqual(b"viewer does not follow it" in result.stderr, output == "out/m.bendy")
+            self.assertEqual(self.bendy("validate", output).stderr, b"")
+
+    def test_of_a_batch_is_relative_to_each_output(self):
+        self.done("convert", "lk", "-o", "out", "--images", "link")
+        self.assertEqual(self.links("out/m.bendy"), ["../lk/the%20axe.png"])
+
+    def test_follows_the_file(self):
+        self.done("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        (self.folder / "out").mkdir()
+        self.done("convert", "m.bendy", "-o", "out/again.bendy")
+        self.assertEqual(self.links("out/again.bendy"), ["../lk/the%20axe.png"])
+        self.done("export", "out/again.bendy", "-o", "lk/back.gltf")
+        document = json.loads((self.folder / "lk" / "back.gltf").read_text())
+        self.assertEqual(document["images"][0]["uri"], "the%20axe.png")
+        self.done("export", "out/again.bendy", "-o", "back.x")
+        self.assertIn('"lk/the axe.png"', (self.folder / "back.x").read_text())
+
+    def test_that_dangles_is_a_warning(self):
+        (self.folder / "lk" / "the axe.png").unlink()
+        result = self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link")
+        self.assertIn(b"linked image does not exist: 'the%20axe.png'", result.stderr)
+        result = self.bendy("validate", "m.bendy")
+        self.assertEqual((result.returncode, result.stdout), (0, b""))
+        self.assertEqual(result.stderr.decode(), "bendy: warning: m.bendy: HEAD/TEXT/LINK: linked image does not "
+                                                 "exist: lk/the%20axe.png\n")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertTrue(entry["valid"])
+        self.assertEqual([warning["path"] for warning in entry["warnings"]], ["HEAD/TEXT/LINK"])
+        (self.folder / "lk" / "the axe.png").write_bytes(b"")
+        (entry,) = json.loads(self.bendy("validate", "m.bendy", "--json").stdout)
+        self.assertEqual(entry["warnings"], [])
+
+    def test_elsewhere_is_not_looked_at(self):
+        text = (self.folder / "lk" / "m.gltf").read_text().replace("the%20axe.png", "https://example.org/a.png")
+        (self.folder / "lk" / "m.gltf").write_text(text)
+        self.assertEqual(self.bendy("convert", "lk/m.gltf", "-o", "m.bendy", "--images", "link").stderr, b"")
+        self.assertEqual(self.links("m.bendy"), ["https://example.org/a.png"])
+        self.assertEqual(self.bendy("validate", "m.bendy").stderr, b"")
+
+
+class ConvertDepfile(Case):
+    def write_odd_model(self):
+        """A model in files whose names are hard to write in a rule."""
+        self.name = "odd $name #1\\ .bin"
+        (self.folder / self.name).write_bytes(bytes(36))
+        (self.folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+        (self.folder / "rig.json").write_text('{"bendy_rig": 1}')
+        (self.folder / "m.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "images": [{"uri": "picture.png"}, {"uri": "missing.png"}, {"uri": "data:image/png;base64,iVBORw=="}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": urllib.parse.quote(self.name)}]}))
+
+    def test_it_lists_what_was_read(self):
+        self.write_odd_model()
+        self.done("convert", "m.gltf", "-o", "out.bendy", "--depfile", "d", "--rig", "rig.json")
+        self.assertEqual((self.folder / "d").read_text(),
+                         "out.bendy: \\\n  m.gltf \\\n  rig.json \\\n"
+                         "  odd\\ $$name\\ \\#1\\\\\\ .bin \\\n  picture.png\n")
+        self.done("convert", "m.gltf", "-o", "out.bendy", "--depfile", "d", "--images", "link")
+        self.assertNotIn("picture", (self.folder / "d").read_text())
+        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "a #b.bendy", "--depfile", "d")
+        self.assertTrue((self.folder / "d").read_text().startswith("a\\ \\#b.bendy: \\\n  /"))
+
+    def test_a_failure_writes_none(self):
+        self.failed("convert", "missing.gltf", "-o", "out.bendy", "--depfile", "d", file="missing.gltf")
+        self.assertEqual(self.files(), [])
+        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x", "--depfile", "no/d", file="no/d")
+        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x\ny", "--depfile", "d", file="d")
+
+    def test_make_and_ninja_read_it(self):
+        (self.folder / "Makefile").write_text(
+            f"make.bendy: m.gltf\n\t{BENDY} convert m.gltf -o $@ --depfile make.d -q\n-include make.d\n")
+        (self.folder / "build.ninja").write_text(
+            f"rule convert\n  command = {BENDY} convert $in -o $out --depfile $out.d -q\n"
+            "  depfile = $out.d\n  deps = gcc\nbuild ninja.bendy: convert m.gltf\n")
+        self.write_odd_model()
+        for tool in ("make", "ninja"):
+            with self.subTest(tool):
+                if not shutil.which(tool):
+                    self.skipTest(f"there is no {tool}")
+                output = self.folder / f"{tool}.bendy"
+
+                def is_made_again():
+                    before = output.stat().st_mtime_ns if output.exists() else None
+                    subprocess.run([tool], cwd=self.folder, check=True, capture_output=True, timeout=120)
+                    return output.stat().st_mtime_ns != before
+
+                self.assertEqual([is_made_again(), is_made_again()], [True, False])
+                for name in (self.name, "picture.png"):
+                    later = output.stat().st_mtime_ns + 10_000_000
+                    os.utime(self.folder / name, ns=(later, later))
+                    time.sleep(0.02)
+                    self.assertEqual([is_made_again(), is_made_again()], [True, False], name)
+
+
+class ConvertAutoSkin(Case):
+    def write_model(self):
+        """Two bones, one on the other, and a mesh beside them: two corners by the lower one, four by the upper one."""
+        file = GltfFile(scenes=[{"nodes": [0, 2]}],
+                        nodes=[{"name": "Low", "children": [1]}, {"name": "High", "translation": [0, 1, 0]},
+                               {"name": "Body", "mesh": 0}])
+        corners = file.add([(0.1, 0, 0), (0.1, 0.9, 0), (0.1, 1.1, 0), (0.1, 1.5, 0), (0.2, 2, 0), (0, 9, 0)], "VEC3")
+        file.document["meshes"] = [{"name": "body", "primitives": [{"attributes": {"POSITION": corners}}]}]
+        return file.write(self.folder / "m.gltf")
+
+    def test_vertices_are_bound_and_counted(self):
+        result = self.bendy("convert", self.write_model(), "--auto-skin")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr.decode(),
+                         "bendy: proposed: skin of mesh 'body': 6 vertices bound to 2 joints\n")
+        self.assertIn(b"up to 1 influence a vertex", result.stdout)
+        self.done("validate", "m.bendy")
+        result = self.bendy("convert", "m.gltf", "--skeleton", "High")
+        self.assertIn(b"6 vertices bound to 1 joint\n", result.stderr)
+        self.assertIn('"Higher"; did you mean "High"?', self.failed("convert", "m.gltf", "--skeleton", "Higher", file="m.gltf"))
+
+    def test_nothing_to_bind_is_a_warning(self):
+        result = self.bendy("convert", SOURCE / "examples" / "tentacle.glb", "-o", "t.bendy", "--auto-skin")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"no vertices bound: every mesh has a skin", result.stderr)
+        self.assertEqual((self.folder / "t.bendy").read_bytes(), self.convert("tentacle").read_bytes())
+
+
+if __name__ == "__main__":
+    main()

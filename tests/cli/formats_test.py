@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+"""The formats that `bendy convert` reads and `bendy export` writes.
+
+    formats_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
+"""
+
+import json
+import os
+import shutil
+import sys
+import unittest
+import unittest.mock
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # nothing into the source tree
+sys.path.insert(0, str(Path(__file__).parent))
+from chunk_file import Chunk  # noqa: E402
+from md2_file import Md2, md2_file, player_names, tube_md2  # noqa: E402
+from mesh_file import read_obj  # noqa: E402
+from program import SOURCE, Case, main  # noqa: E402
+
+
+class FromBendy(Case):
+    def test_a_file_converts_to_itself(self):
+        for name in ("mannequin", "tentacle"):
+            shutil.copy(self.convert(name), self.folder / "in.glb")  # told by its content
+            self.done("convert", "in.glb", "-o", "out.bendy", "--exact")
+            self.assertEqual((self.folder / "out.bendy").read_bytes(), self.convert(name).read_bytes())
+
+    def test_what_is_left_out_is_named(self):
+        result = self.bendy("convert", "-q", SOURCE / "spec" / "examples" / "every_chunk.bendy", "-o", "out.bendy")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"fixed frames are written as timed keys", result.stderr)
+
+    def test_the_input_stays(self):
+        shutil.copy(self.convert(), self.folder / "in.bendy")
+        self.assertIn("is an input as well", self.failed("convert", "in.bendy"))
+
+    def test_a_damaged_file_is_refused_with_its_place(self):
+        data = bytearray(self.convert().read_bytes())
+        data[40] ^= 1
+        (self.folder / "bad.bendy").write_bytes(data)
+        self.assertIn("HEAD/VERS, offset 16", self.failed("convert", "bad.bendy", "-o", "out.bendy", file="bad.bendy"))
+        self.assertEqual(self.files(), ["bad.bendy"])
+
+
+class Export(Case):
+    def test_the_export_converts_to_the_same_bytes(self):
+        for name in ("mannequin", "tentacle"):
+            shutil.copy(self.convert(name), self.folder / f"{name}.bendy")
+            self.assertIn(f"{name}.glb: ", self.done("export", f"{name}.bendy").decode())
+            self.assertEqual(self.done("convert", "-q", f"{name}.glb", "-o", "again.bendy"), b"")
+            self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert(name).read_bytes())
+
+    def test_json_with_the_numbers_beside_it(self):
+        self.done("export", self.convert(), "-o", "a b.gltf", "-q")
+        self.assertEqual(self.files(), ["a b.bin", "a b.gltf"])
+        document = json.loads((self.folder / "a b.gltf").read_text())
+        self.assertEqual(document["buffers"], [{"byteLength": (self.folder / "a b.bin").stat().st_size, "uri": "a%20b.bin"}])
+        self.done("convert", "-q", "a b.gltf", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert().read_bytes())
+
+    def test_the_rig_stands_in_the_extras_and_can_be_edited_there(self):
+        self.done("export", self.convert(), "-o", "m.gltf", "-q")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        rig = document["scenes"][0]["extras"]["bendy_rig"]
+        self.assertEqual(rig, json.loads(self.done("rig", self.convert())))
+        rig["chains"] = rig["chains"][:1]
+        (self.folder / "m.gltf").write_text(json.dumps(document))
+        self.done("convert", "m.gltf", "-o", "m.bendy", "-q")
+        self.assertEqual(len(json.loads(self.done("rig", "m.bendy"))["chains"]), 1)
+
+    def test_a_broken_rig_is_named_and_the_rest_converts(self):
+        self.done("export", self.convert("tentacle"), "-o", "t.gltf", "-q")
+        document = json.loads((self.folder / "t.gltf").read_text())
+        document["scenes"][0]["extras"]["bendy_rig"]["chains"][0]["start"] = "nobody"
+        (self.folder / "t.gltf").write_text(json.dumps(document))
+        result = self.bendy("convert", "t.gltf", "-q")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"scene.extras.bendy_rig.chains[0].start: rig left out: there is no joint", result.stderr)
+
+    def test_every_kind_of_chunk(self):
+        source = SOURCE / "spec" / "examples" / "every_chunk.bendy"
+        result = self.bendy("export", source, "-o", "every.glb")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(b"levels of detail left out", result.stderr)
+        self.done("convert", "every.glb", "-o", "every.bendy")
+        result = self.bendy("diff", source, "every.bendy", "--tolerance", "0.001mm")
+        # glTF hangs a mesh that no joint carries into the scene by a node.
+        self.assertEqual(result.stdout.splitlines(), [b'+ joint "wing": only in B', b"tolerance 0.001 mm; worst met 0 mm"])
+
+    def triangles(self, path, *arguments):
+        """Of each mesh, the places of its triangles' corners in the middle of the walk, sorted."""
+        self.done("pose", path, "--clip", "Walk", "--time", "0.25", *arguments, "-o", "posed.json")
+        meshes = json.loads((self.folder / "posed.json").read_text(encoding="utf-8"))["meshes"]
+        corners = [[mesh["positions"][3 * i:3 * i + 3] for i in mesh["indices"]] for mesh in meshes]
+        return [sorted(list(zip(*[iter(places)] * 3))) for places in corners]
+
+    def test_one_level_of_detail(self):
+        path = self.shared / "levels_to_export.bendy"
+        self.done("convert", "--quiet", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path)
+        with unittest.mock.patch.dict(os.environ, BENDY_KERNEL="plain"):
+            for share in ("0.5", "0.1", "0"):
+                ours = self.triangles(path, "--lod", share)
+                for name in ("level.glb", "level.x"):
+                    result = self.bendy("export", path, "--lod", share, "-o", name)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertNotIn(b"levels of detail", result.stderr)
+                    self.done("convert", "--quiet", "--force", name, "-o", "level.bendy")
+                    theirs = self.triangles("level.bendy")
+                    if name == "level.glb":
+                        self.assertEqual(theirs, ours)
+                    self.assertEqual([len(mesh) for mesh in theirs], [len(mesh) for mesh in ours])
+        result = self.bendy("export", self.convert(), "--lod", "0.5", "-o", "whole.glb")
+        self.assertIn(b"no levels of detail in it", result.stderr)
+        self.assertIn("--lod", self.misused("export", path, "--lod", "nan"))
+
+    def test_what_cannot_be_exported(self):
+        (self.folder / "bad.bendy").write_bytes(self.convert().read_bytes()[:1000])
+        self.failed("export", "bad.bendy", "-o", "bad.glb", file="bad.bendy")
+        self.assertEqual(self.files(), ["bad.bendy"])
+        shutil.copy(self.convert(), self.folder / "same.glb")
+        self.assertIn("is an input as well", self.failed("export", "same.glb", file="same.glb"))
+        self.failed("export", self.convert(), "-o", "no/such/folder.glb")
+        self.assertIn("--format", self.misused("export", "x.bendy", "--format", "fbx"))
+
+
+class XFiles(Case):
+    def test_an_x_file_holds_the_rig_and_converts(self):
+        shown = self.done("export", self.convert("tentacle"), "-o", "t.x").decode()
+        self.assertIn("t.x: ", shown)
+        text = (self.folder / "t.x").read_text()
+        self.assertTrue(text.startswith("xof 0303txt 0032\n"))
+        self.assertIn("BendyIkChain {\n", text)
+        self.done("convert", "-q", "t.x", "-o", "again.bendy")
+        before = json.loads(self.done("rig", self.convert("tentacle")))
+        after = json.loads(self.done("rig", "again.bendy"))
+        self.assertGreater(len(before["chains"]), 0)
+        self.assertEqual(before, after)
+
+    def test_the_format_goes_before_the_name(self):
+        self.done("export", self.convert("tentacle"), "--format", "x", "-q", "-o", "odd.name")
+        self.assertTrue((self.folder / "odd.name").read_text().startswith("xof "))
+
+    def test_embedded_images_are_written_beside(self):
+        shown = self.done("export", self.convert(), "-o", "m.x").decode()
+        self.assertIn("images beside it: m_0.png", shown)
+        self.assertTrue((self.folder / "m_0.png").read_bytes().startswith(b"\x89PNG"))
+        self.done("convert", "-q", "m.x", "-o", "again.bendy")
+        self.assertIn("IMAG", self.done("inspect", "again.bendy").decode())
+
+    def test_what_is_wrong_in_an_x_file_has_line_and_column(self):
+        (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 1; 1;2;oops; 0;}\n")
+        message = self.failed("convert", "bad.x", file="bad.x")
+        self.assertIn("line 3, column 9: a number is due here, not 'oops'", message)
+        (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + b"\x40" + bytes(31))
+        self.assertIn("byte 20: a compressed block of 0 bytes", self.failed("convert", "packed.x", file="packed.x"))
+        (self.folder / "other.x").write_bytes(b"solid")
+        self.assertIn("no X-file", self.failed("convert", "other.x", file="other.x"))
+        self.assertIn("glTF files only", self.failed("convert", "bad.x", "--scene", "0", file="bad.x"))
+
+
+class QuakeModels(Case):
+    def test_frames_become_targets_and_cycles(self):
+        md2_file(self.folder / "man.md2")
+        shown = self.done("convert", "man.md2").decode()
+        self.assertIn("morph targets  3: stand02, run1, run2", shown)
+        self.assertIn("clips          2: stand 0.2 s, run 0.2 s", shown)
+        self.done("pose", "man.bendy", "--clip", "run", "--time", "0.1", "-o", "up.obj")
+        heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
+        # The fourth frame: 3 units up, and from 0 to 2 of its own.
+        self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
+
+    def corners(self, file, clip, seconds):
+        """Of all triangles, in model space."""
+        self.done("pose", file, "--clip", clip, "--time", repr(seconds), "-o", "pose.json")
+        mesh = json.loads((self.folder / "pose.json").read_text())["meshes"][0]
+        places = [mesh["positions"][k:k + 3] for k in range(0, len(mesh["positions"]), 3)]
+        return [places[index] for index in mesh["indices"]]
+
+    def assert_at(self, model, file, clip, seconds, frame, after=None, fraction=0.0):
+        found, wanted = self.corners(file, clip, seconds), model.corners(frame, after, fraction)
+        if file == "small.bendy":  # its triangles stand in another order: axis by axis
+            found, wanted = ([sorted(axis) for axis in zip(*corners)] for corners in (found, wanted))
+        for here, there in zip(found, wanted, strict=True):
+            for a, b in zip(here, there):
+                self.assertAlmostEqual(a, b, delta=1e-6 * (1 + abs(b)), msg=f"{clip} at {seconds}")
+
+    def test_poses_are_those_of_the_file(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()))
+        self.done("convert", "man.md2")
+        frames = Chunk.read((self.folder / "man.bendy").read_bytes()).find("HEAD/OBJE/VECT/FRMS").write()
+        self.assertLess(len(frames), 198 * (40 + 4 * 48), "as small as the model has them")
+        self.done("export", "man.bendy", "-o", "man.glb")
+        self.done("convert", "man.glb", "-o", "glb.bendy")
+        self.done("convert", "man.md2", "--compact", "-o", "small.bendy")
+        for file in ("man.bendy", "glb.bendy", "small.bendy"):
+            for frame in (0, 3, 5):
+                self.assert_at(model, file, "run", frame / 10, 40 + frame)
+            self.assert_at(model, file, "run", 0.125, 41, 42, 0.25)
+            self.assert_at(model, file, "run", 0.5625, 45, 40, 0.625)  # around
+            self.assert_at(model, file, "run", 0.6, 40)
+            self.assert_at(model, file, "stand", 3.9375, 39, 0, 0.375)  # to the pool's own shape
+            self.assert_at(model, file, "stand", 0.03125, 0, 1, 0.3125)
+            self.assert_at(model, file, "death2", 0.4375, 188, 189, 0.375)
+            self.assert_at(model, file, "death2", 0.5, 189)
+
+    def test_players_clips(self):
+        tube_md2(self.folder / "man.md2", player_names(), sides=3, rings=2)
+        self.done("convert", "man.md2")
+        tree = json.loads(self.done("dump", "man.bendy"))
+        clips = {}
+        for chunk in next(chunk["OBJE"] for chunk in tree["HEAD"] if "OBJE" in chunk):
+            if "CYCL" not in chunk:
+                continue
+            leaves = {name: value for child in chunk["CYCL"] for name, value in child.items()}
+            play = leaves["PLAY"]["plays"][0]
+            clips[leaves["NAME"]] = (play["first"], play["frames"], play["closed"], leaves["CINF"]["loop"], leaves["CINF"]["end"])
+        wanted = {"stand": (0, 40, 1), "run": (40, 6, 1), "attack": (46, 8, 0), "pain1": (54, 4, 0), "pain2": (58, 4, 0),
+                  "pain3": (62, 4, 0), "jump": (66, 6, 0), "flip": (72, 12, 0), "salute": (84, 11, 0), "taunt": (95, 17, 0),
+                  "wave": (112, 11, 0), "point": (123, 12, 0), "crstnd": (135, 19, 1), "crwalk": (154, 6, 1),
+                  "crattak": (160, 9, 0), "crpain": (169, 4, 0), "crdeath": (173, 5, 0), "death1": (178, 6, 0),
+                  "death2": (184, 6, 0), "death3": (190, 8, 0)}
+        self.assertEqual({name: values[:3] for name, values in clips.items()}, wanted)
+        for first, frames, closed, loop, end in clips.values():
+            self.assertEqual(loop, closed)
+            self.assertAlmostEqual(end, (frames if closed else frames - 1) / 10, places=6)
+
+    def test_frames_come_through_everything(self):
+        tube_md2(self.folder / "man.md2", player_names()[:60])
+        self.done("convert", "man.md2")
+        before = (self.folder / "man.bendy").read_bytes()
+        self.done("convert", "man.bendy", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), before)
+        self.done("dump", "man.bendy", "-o", "man.json")
+        self.done("assemble", "man.json", "-o", "back.bendy")
+        self.assertEqual((self.folder / "back.bendy").read_bytes(), before)
+        for options in (["--lod"], ["--compact"], ["--lod", "--compact"]):
+            self.done("convert", "man.md2", *options, "-o", "other.bendy")
+            self.done("validate", "other.bendy")
+            self.done("diff", "man.bendy", "other.bendy", "--tolerance", "0.1mm")
+            if options == ["--compact"]:
+                self.assertLess((self.folder / "other.bendy").stat().st_size, len(before))
+        shown = self.done("inspect", "man.bendy").decode()
+        self.assertIn("59 frames of 48 places", shown)
+        self.assertIn("6 frames of pool 0 from frame 40, closed", shown)
+        self.done("inspect", "man.bendy", "--html", "page.html")
+
+    def test_frames_are_edited(self):
+        model = Md2(tube_md2(self.folder / "man.md2", player_names()[:60]))
+        self.done("convert", "man.md2")
+        self.done("edit", "man.bendy", "-o", "named.bendy", "--rename", "target:run2=stride")
+        self.assertIn("stride", json.dumps(json.loads(self.done("dump", "named.bendy"))))
+        self.assert_at(model, "named.bendy", "run", 0.1, 41)
+        self.done("edit", "man.bendy", "-o", "fewer.bendy", "--strip", "cycle:stand")
+        self.assert_at(model, "fewer.bendy", "run", 0.5625, 45, 40, 0.625)
+        self.done("edit", "man.bendy", "-o", "none.bendy", "--strip", "cycles")
+        self.done("edit", "none.bendy", "-o", "back.bendy", "--merge", "man.bendy")
+        self.assert_at(model, "back.bendy", "stand", 3.9375, 39, 0, 0.375)
+        tube_md2(self.folder / "other.md2", [f"other{k}" for k in range(60)])
+        self.done("convert", "other.md2")
+        self.assertIn("animate nothing that is here", self.failed("edit", "other.bendy", "-o", "no.bendy", "--merge", "man.bendy"))
+        message = self.failed("edit", "man.bendy", "-o", "no.bendy", "--strip", "target:run2")
+        self.assertIn("can only be stripped together", message)
+        self.done("edit", "man.bendy", "-o", "still.bendy", "--strip", "targets")
+        self.assertNotIn("FRMS", self.done("inspect", "still.bendy").decode())
+
+    def test_what_is_wrong_has_its_byte(self):
+        path = md2_file(self.folder / "man.md2")
+        path.write_bytes(path.read_bytes()[:150])
+        self.assertIn("byte 64: the file is truncated", self.failed("convert", "man.md2", file="man.md2"))
+
+
+if __name__ == "__main__":
+    main()
