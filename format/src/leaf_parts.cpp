@@ -17,7 +17,7 @@ struct Row {
 
 constexpr Row kRows[] = {
 #define BENDY_PART(leaves, kind, name, type, count, when, row, ending, each, to, what) \
-    {leaves, {PartKind::kind, name, #type, count, when, row, PartEnding::ending, Thing::each, Thing::to}},
+    {leaves, {PartKind::kind, name, #type, count, when, row, PartEnding::ending, Entity::each, Entity::to}},
 #include <bendy/format/leaf_parts.def>
 };
 
@@ -98,13 +98,6 @@ std::optional<NumberType> number_type_of(const LeafLayout& leaf, std::string_vie
     return number_type(static_cast<ComponentType>(*said));
 }
 
-/// Numbers per row; a field that says 1 gives rows of 3, so that long lists of single numbers stay short in text.
-std::uint64_t row_of(const LeafLayout& leaf, const LeafPart& part, Bytes payload) {
-    constexpr std::uint64_t kFewest = 3;
-    const std::uint64_t row = operand(leaf, part.row, payload).value_or(0);
-    return row == 1 && !is_digit(part.row.front()) ? kFewest : row;
-}
-
 /// Bytes of the record at the payload's start; nothing if it is cut off.
 std::optional<std::uint64_t> record_size(const RecordLayout& record, Bytes payload) {
     if (payload.size() >= record.size) return record.size;
@@ -169,7 +162,7 @@ std::optional<PartShape> shape_of(const LeafLayout& leaf, const LeafPart& part, 
         const auto type = number_type_of(leaf, part.type, payload);
         if (!type) return std::nullopt;
         shape.type = *type;
-        shape.row = row_of(leaf, part, payload);
+        shape.row = operand(leaf, part.row, payload).value_or(0);
         if (shape.row == 0) return std::nullopt;
     }
     if (part.count == "rest") {

@@ -16,13 +16,13 @@ constexpr FieldType type_of(std::string_view name) {
     return FieldType::record;
 }
 
-constexpr std::array<std::string_view, kThings> kThingNames{"nothing", "joint",   "material", "any_material",
-                                                            "mesh",    "texture", "chain",    "frame"};
+constexpr std::array<std::string_view, kEntities> kEntityNames{"nothing", "joint",   "material", "any_material",
+                                                               "mesh",    "texture", "chain",    "frame"};
 
-constexpr Thing thing_of(std::string_view name) {
+constexpr Entity entity_of(std::string_view name) {
     std::size_t k = 0;
-    while (kThingNames.at(k) != name) ++k;
-    return static_cast<Thing>(k);
+    while (kEntityNames.at(k) != name) ++k;
+    return static_cast<Entity>(k);
 }
 
 /// The word of this number, with blanks between words; empty if there are fewer.
@@ -88,11 +88,11 @@ constexpr Reference reference_of(std::string_view record, std::string_view field
         reference.is_optional = row.need == "optional";
         reference.selector = row.selector;
         if (row.selector.empty()) {
-            reference.thing = thing_of(row.things);
+            reference.entity = entity_of(row.things);
             continue;
         }
         for (std::size_t k = 0; !word_of(row.things, k).empty(); ++k)
-            reference.choices.at(k) = thing_of(word_of(row.things, k));
+            reference.choices.at(k) = entity_of(word_of(row.things, k));
     }
     return reference;
 }
@@ -134,7 +134,7 @@ constexpr auto kJointPolygonsFields = [] {
     constexpr std::span<const RecordField> kRange = fields_of("PolygonRecord");
     std::array<RecordField, 1 + kRange.size()> fields{};
     fields[0] = make_field("JointPolygons", "joint", "u32", 1, 0);
-    fields[0].reference.thing = Thing::joint;
+    fields[0].reference.entity = Entity::joint;
     for (std::size_t k = 0; k < kRange.size(); ++k) {
         fields[k + 1] = kRange[k];
         fields[k + 1].offset += offsetof(JointPolygons, polygons);
@@ -162,8 +162,8 @@ NumberType number_type(ComponentType type) {
     return kTypes[static_cast<std::size_t>(type)];
 }
 
-std::string_view name_of(Thing thing) {
-    return thing == Thing::nothing ? std::string_view() : kThingNames[static_cast<std::size_t>(thing)];
+std::string_view name_of(Entity entity) {
+    return entity == Entity::nothing ? std::string_view() : kEntityNames[static_cast<std::size_t>(entity)];
 }
 
 std::string_view RecordField::value_name(std::uint64_t value) const {
@@ -196,11 +196,11 @@ std::uint64_t field_number(const RecordField& field, Bytes payload, std::uint64_
     return number;
 }
 
-Thing referred_thing(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base) {
+Entity referred_entity(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base) {
     const Reference& reference = field.reference;
-    if (reference.selector.empty()) return reference.thing;
+    if (reference.selector.empty()) return reference.entity;
     const std::uint64_t choice = field_number(*layout.find(reference.selector), payload, base);
-    return choice < reference.choices.size() ? reference.choices[choice] : Thing::nothing;
+    return choice < reference.choices.size() ? reference.choices[choice] : Entity::nothing;
 }
 
 }  // namespace bendy

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -117,6 +116,14 @@ bool walk_odd(FourCC chunk, LeafSteps& steps) {
     return false;
 }
 
+/// Numbers on a line: a row; where these are single numbers, some.
+std::uint64_t line_of(const LeafPart& part, const PartShape& shape) {
+    constexpr std::uint64_t kUsual = 12;
+    constexpr std::uint64_t kTriangle = 3;
+    if (shape.row > 1) return shape.row;
+    return part.row == "1" ? kUsual : kTriangle;
+}
+
 bool walk_part(const LeafLayout& leaf, const LeafPart& part, LeafSteps& steps) {
     if (part.kind == PartKind::odd) return walk_odd(leaf.chunk, steps);
     if (part.kind == PartKind::record) return steps.record(*find_layout(part.type));
@@ -133,8 +140,8 @@ bool walk_part(const LeafLayout& leaf, const LeafPart& part, LeafSteps& steps) {
         case PartKind::bytes:
             return steps.bytes(part.name);
         default:
-            return steps.array(
-                {part.name, shape->type, shape->count, shape->row, false, part.ending == PartEnding::padded});
+            return steps.array({part.name, shape->type, shape->count, line_of(part, *shape), false,
+                                part.ending == PartEnding::padded});
     }
 }
 

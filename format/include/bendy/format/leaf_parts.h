@@ -27,8 +27,8 @@ struct LeafPart {
     std::string_view when;   ///< "packed == 1", or empty
     std::string_view row;    ///< number or field
     PartEnding ending = PartEnding::plain;
-    Thing each = Thing::nothing;  ///< a row, record or name belongs to each of these
-    Thing to = Thing::nothing;    ///< each number refers to one of these
+    Entity each = Entity::nothing;  ///< a row, record or name belongs to each of these
+    Entity to = Entity::nothing;    ///< each number refers to one of these
 };
 
 struct LeafLayout {

@@ -35,21 +35,21 @@ constexpr std::uint64_t field_type_size(FieldType type) {
 
 /// What a number can be the number of. Joints, meshes and chains are counted in their object, materials and textures in
 /// HEAD; of any_material, numbers with kLocalMaterial are among the joint's own. Frames are those of a mesh.
-enum class Thing : std::uint8_t { nothing, joint, material, any_material, mesh, texture, chain, frame };
-inline constexpr unsigned kThings = 8;
+enum class Entity : std::uint8_t { nothing, joint, material, any_material, mesh, texture, chain, frame };
+inline constexpr unsigned kEntities = 8;
 /// "joint", "mesh", ...; empty for nothing.
-std::string_view name_of(Thing thing);
+std::string_view name_of(Entity entity);
 
 /// What the number in a field refers to.
 struct Reference {
     static constexpr std::size_t kMostChoices = 8;
 
-    Thing thing = Thing::nothing;               ///< without a selector
-    std::string_view selector;                  ///< field of the same record that picks one of `choices`; or empty
-    std::array<Thing, kMostChoices> choices{};  ///< by the selector's value
-    bool is_optional = false;                   ///< kNone is none; else the record goes with what it refers to
+    Entity entity = Entity::nothing;             ///< without a selector
+    std::string_view selector;                   ///< field of the same record that picks one of `choices`; or empty
+    std::array<Entity, kMostChoices> choices{};  ///< by the selector's value
+    bool is_optional = false;                    ///< kNone is none; else the record goes with what it refers to
 
-    [[nodiscard]] bool is_any() const { return thing != Thing::nothing || !selector.empty(); }
+    [[nodiscard]] bool is_any() const { return entity != Entity::nothing || !selector.empty(); }
 };
 
 struct RecordField {
@@ -92,6 +92,6 @@ const RecordLayout* find_layout(std::string_view record);
 std::uint64_t field_number(const RecordField& field, Bytes payload, std::uint64_t base);
 
 /// What the field refers to in the record at `base`.
-Thing referred_thing(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base);
+Entity referred_entity(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base);
 
 }  // namespace bendy
