@@ -11,10 +11,11 @@ MAY_USE = {
     "runtime": {"format"},
     "capi": {"format", "runtime"},
     "converter": {"format", "edit"},
+    "diff": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},
-    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin"},
+    "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "twin"},
 }
 # Rooms of runtime/src, and those that each may use beside its own.
 ROOMS = {
