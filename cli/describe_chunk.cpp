@@ -1,13 +1,14 @@
 #include "describe_chunk.h"
 
 #include "brief.h"
+#include "describe_leaf.h"
 #include "problem.h"
 #include "record_at.h"
 
+#include <bendy/format/leaf_parts.h>
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
 #include <bendy/format/read_record.h>
-#include <bendy/format/record_table.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
@@ -17,70 +18,6 @@
 
 namespace bendy::cli {
 namespace {
-
-template <class T>
-nlohmann::ordered_json numbers_at(Bytes payload, std::uint64_t offset, std::uint32_t count) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        T value{};
-        copy_at(payload, offset + i * sizeof(T), value);
-        list.push_back(value);
-    }
-    return count == 1 ? list.front() : list;
-}
-
-/// A field of plain numbers; null for one that is a record itself.
-nlohmann::ordered_json numbers_of(const RecordField& field, Bytes payload, std::uint64_t offset) {
-    switch (field.type) {
-        case FieldType::u8:
-            return numbers_at<std::uint8_t>(payload, offset, field.count);
-        case FieldType::u16:
-            return numbers_at<std::uint16_t>(payload, offset, field.count);
-        case FieldType::u32:
-            return numbers_at<std::uint32_t>(payload, offset, field.count);
-        case FieldType::u64:
-            return numbers_at<std::uint64_t>(payload, offset, field.count);
-        case FieldType::f32:
-            return numbers_at<float>(payload, offset, field.count);
-        case FieldType::record:
-            break;
-    }
-    return nullptr;
-}
-
-/// Text with zeros to the end of its field.
-std::string_view padded_text(const RecordField& field, Bytes payload, std::uint64_t offset) {
-    const std::uint64_t size = std::min<std::uint64_t>(field.count, payload.size() - offset);
-    const std::string_view text = as_text(payload.subspan(offset, size));
-    return text.substr(0, text.find('\0'));
-}
-
-/// Calls visit(field, its offset) for each field of a record that the payload holds.
-template <class Visit>
-void for_each_field(const RecordLayout& record, Bytes payload, std::uint64_t base, const Visit& visit) {
-    for (const RecordField& field : record.fields) {
-        const std::uint64_t offset = base + field.offset;
-        if (!field.is_reserved() && offset < payload.size()) visit(field, offset);
-    }
-}
-
-nlohmann::ordered_json fields_at(Bytes payload, const RecordLayout& record, std::uint64_t base) {
-    nlohmann::ordered_json fields = nlohmann::ordered_json::object();
-    for_each_field(record, payload, base, [&](const RecordField& field, std::uint64_t offset) {
-        nlohmann::ordered_json& value = fields[std::string(field.name)];
-        if (field.name == "generator") {
-            value = padded_text(field, payload, offset);
-            return;
-        }
-        value = numbers_of(field, payload, offset);
-        if (field.type != FieldType::record) return;
-        for_each_field(*find_layout(field.type_name), payload, offset,
-                       [&](const RecordField& inner, std::uint64_t inner_offset) {
-                           value[std::string(inner.name)] = numbers_of(inner, payload, inner_offset);
-                       });
-    });
-    return fields;
-}
 
 std::string quoted(std::string_view text) {
     return '"' + brief(text) + '"';
@@ -346,7 +283,8 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         const auto image = record_at<ImageRecord>(tree, number);
         return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
     }
-    return {};
+    const LeafLayout* leaf = find_leaf(chunk.id);
+    return leaf == nullptr || chunk.is_container() ? std::string() : leaf_text(*leaf, tree.payload(number));
 }
 
 }  // namespace
@@ -388,21 +326,15 @@ nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number)
     const Chunk& chunk = tree[number];
     if (chunk.is_container() || tree.encoding_fault(number)) return nlohmann::ordered_json::object();
     const Bytes payload = tree.payload(number);
-    if (is_text(chunk.id)) return {{"text", as_text(payload)}};
-    const RecordLayout* record = layout_of(chunk.id);
-    if (record == nullptr) return nlohmann::ordered_json::object();
+    const LeafLayout* leaf = find_leaf(chunk.id);
+    if (leaf == nullptr) return nlohmann::ordered_json::object();
     if (chunk.id == FourCC("MARK")) {
         nlohmann::ordered_json markers = nlohmann::ordered_json::array();
         for (const Marker& marker : markers_at(tree, number))
             markers.push_back({{"seconds", marker.seconds}, {"name", marker.name}});
         return {{"markers", markers}};
     }
-    const bool is_plays = chunk.id == FourCC("PLAY");
-    if (chunk.id != FourCC("TRAK") && !is_plays) return fields_at(payload, *record, 0);
-    const std::uint64_t size = is_plays ? sizeof(PlayRecord) : sizeof(TrackRecord);
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (std::uint64_t at = 0; payload.size() - at >= size; at += size) list.push_back(fields_at(payload, *record, at));
-    return {{is_plays ? "plays" : "tracks", list}};
+    return leaf_fields(*leaf, payload);
 }
 
 std::string_view chunk_meaning(FourCC id) {

@@ -1,13 +1,15 @@
 #include "brief.h"
 #include "colour.h"
 #include "commands.h"
-#include "compare_files.h"
 #include "diff_characters.h"
 #include "input_file.h"
 #include "problem.h"
 
+#include <bendy/diff/compare_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <charconv>
@@ -23,6 +25,9 @@ namespace bendy::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using diff::Difference;
+using diff::Differences;
+using diff::ReadFile;
 using Kind = Difference::Kind;
 
 constexpr int kDiffers = 1;
@@ -30,8 +35,7 @@ constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands retur
 
 struct DiffArguments {
     std::array<std::filesystem::path, 2> files;
-    std::optional<double> tolerance;             // of numbers, chunk by chunk
-    std::optional<converter::ErrorBound> bound;  // of places
+    std::optional<converter::ErrorBound> bound;  // of places; without one, chunks are compared
     bool json = false;
 };
 
@@ -42,19 +46,35 @@ std::string number_text(double number) {
     return {digits.data(), end};
 }
 
-std::string scalar_text(const Json& value) {
-    if (value.is_null()) return "none";
-    if (value.is_string()) return '"' + brief(value.get<std::string>()) + '"';
-    if (value.is_number_float()) return number_text(value.get<double>());
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string scalar_text(const diff::Scalar& scalar) {
+    if (const auto* text = std::get_if<std::string>(&scalar)) return '"' + brief(*text) + '"';
+    if (const auto* number = std::get_if<double>(&scalar)) return number_text(*number);
+    if (const auto* whole = std::get_if<std::uint64_t>(&scalar)) return std::to_string(*whole);
+    if (const auto* truth = std::get_if<bool>(&scalar)) return *truth ? "true" : "false";
+    return "none";
 }
 
 /// A record's field: one value or a list of them.
-std::string value_text(const Json& value) {
-    if (!value.is_array()) return scalar_text(value);
+std::string value_text(const diff::Value& value) {
     std::string text;
-    for (const Json& element : value) text += (text.empty() ? "" : " ") + scalar_text(element);
+    for (const diff::Scalar& item : value.items) text += (text.empty() ? "" : " ") + scalar_text(item);
     return text;
+}
+
+Json to_json(const diff::Value& value) {
+    Json list = Json::array();
+    for (const diff::Scalar& item : value.items) {
+        std::visit(
+            [&](const auto& scalar) {
+                if constexpr (std::is_same_v<decltype(scalar), const std::monostate&>) {
+                    list.push_back(nullptr);
+                } else {
+                    list.push_back(scalar);
+                }
+            },
+            item);
+    }
+    return value.is_list ? list : list.front();
 }
 
 /// "3 of 300 numbers differ, by up to 0.25; the first: element 4, component 1: 0 -> 0.25".
@@ -141,12 +161,12 @@ Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& 
         if (!name.empty()) entry["name"] = name;
         if (!difference.part.empty()) entry["part"] = difference.part;
         if (difference.kind == Kind::value || difference.kind == Kind::numbers) {
-            entry["a"] = difference.a_value;
-            entry["b"] = difference.b_value;
+            entry["a"] = to_json(difference.a_value);
+            entry["b"] = to_json(difference.b_value);
         }
         if (difference.kind == Kind::bytes) {
-            entry["bytesInA"] = difference.a_value;
-            entry["bytesInB"] = difference.b_value;
+            entry["bytesInA"] = to_json(difference.a_value);
+            entry["bytesInB"] = to_json(difference.b_value);
             entry["first"] = difference.first_element;
         }
         if (difference.kind == Kind::numbers) {
@@ -160,10 +180,8 @@ Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& 
         }
         list.push_back(std::move(entry));
     }
-    Json report{{"a", arguments.files[0].string()},
-                {"b", arguments.files[1].string()},
-                {"same", differences.count() == 0},
-                {"tolerance", arguments.tolerance ? Json(*arguments.tolerance) : Json(nullptr)}};
+    Json report{
+        {"a", arguments.files[0].string()}, {"b", arguments.files[1].string()}, {"same", differences.count() == 0}};
     report["differences"] = std::move(list);
     report["differencesLeftOut"] = differences.left_out();
     return report;
@@ -173,7 +191,7 @@ Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& 
 std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
     const Faults faults = validate(file.bytes());
     if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
-    return read_file(file.bytes());
+    return diff::read_file(file.bytes());
 }
 
 bool are_same(const DiffArguments& arguments) {
@@ -184,7 +202,7 @@ bool are_same(const DiffArguments& arguments) {
         files[i] = open_bendy_file(arguments.files[i]);
         read[i] = open(arguments.files[i], files[i]);
     }
-    const Differences differences = compare_files(*read[0], *read[1], arguments.tolerance);
+    const Differences differences = diff::compare_files(*read[0], *read[1]);
     if (arguments.json) {
         std::cout
             << to_json(arguments, *read[0], *read[1], differences).dump(2, ' ', false, Json::error_handler_t::replace)
@@ -203,7 +221,7 @@ void run(const DiffArguments& arguments) {
         if (!std::cout) fail("standard output", "cannot be written");
     } catch (const Failed&) {
         throw Failed{kTrouble};
-    } catch (const TooMuchToCompare&) {
+    } catch (const diff::TooMuchToCompare&) {
         std::cerr << error_label() << shown_name(arguments.files[0])
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
@@ -212,21 +230,6 @@ void run(const DiffArguments& arguments) {
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};
-}
-
-/// A number, or a length or share as `convert --max-error` takes it.
-void read_tolerance(std::string_view text, DiffArguments& arguments) {
-    double number = 0.0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failure == std::errc() && end == text.data() + text.size()) {
-        if (!(std::isfinite(number) && number >= 0.0))
-            throw CLI::ValidationError("--tolerance", "must be a finite number, 0 or more");
-        arguments.tolerance = number;
-        return;
-    }
-    const auto bound = converter::parse_error_bound(text);
-    if (!bound) throw CLI::ValidationError("--tolerance", bound.error());
-    arguments.bound = *bound;
 }
 
 }  // namespace
@@ -238,19 +241,22 @@ void add_diff(CLI::App& program) {
         "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");
     command->add_option("A", arguments->files[0], "a bendy file")->required();
     command->add_option("B", arguments->files[1], "another")->required();
-    CLI::Option* given = command->add_option(
-        "--tolerance", *tolerance,
-        "a number: compare what chunks mean, however it is stored; floats, vertex streams and sampled "
-        "cycles may be so far apart. A length (0.1mm) or a share of the height (0.005%): compare the "
-        "characters, as an exact file and its compact twin; no point of the skin may be so far from "
-        "where it should be, in any cycle");
+    CLI::Option* given =
+        command->add_option("--tolerance", *tolerance,
+                            "compare the characters instead, as an exact file and its compact twin: a length (0.1mm) "
+                            "or a share of the height "
+                            "(0.005%); no point of the skin may be so far from where it should be, in any cycle");
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
         "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"
-        "Example: bendy diff fox.bendy build/fox.bendy --tolerance 1e-4\n"
+        "Example: bendy diff fox.bendy build/fox.bendy\n"
         "Example: bendy diff fox.bendy compact.bendy --tolerance 0.005%");
     command->callback([arguments, tolerance, given] {
-        if (given->count() != 0) read_tolerance(*tolerance, *arguments);
+        if (given->count() != 0) {
+            const auto bound = converter::parse_error_bound(*tolerance);
+            if (!bound) throw CLI::ValidationError("--tolerance", bound.error());
+            arguments->bound = *bound;
+        }
         run(*arguments);
     });
 }

@@ -1,7 +1,6 @@
 #include "diff_characters.h"
 
 #include "brief.h"
-#include "compare_files.h"
 #include "input_file.h"
 #include "problem.h"
 #include "progress_bar.h"
@@ -9,6 +8,9 @@
 #include <bendy/converter/compare_characters.h>
 #include <bendy/converter/import.h>
 #include <bendy/converter/write_rig.h>
+#include <bendy/diff/compare_files.h>
+
+#include <nlohmann/json.hpp>
 
 #include <iomanip>
 #include <iostream>
@@ -37,7 +39,7 @@ ComparedCharacter read_compared(const std::filesystem::path& path) {
         const std::string place = warning.first_place.empty() ? "" : warning.first_place + ": ";
         warn(path, printable("not compared: " + place + warning.message));
     }
-    return {*std::move(scene), converter::write_rig(read_file(file.bytes())->document.objects.front(), false)};
+    return {*std::move(scene), converter::write_rig(diff::read_file(file.bytes())->document.objects.front(), false)};
 }
 
 /// Three digits, in millimetres where that is not too many.

@@ -1,7 +1,7 @@
 # The grammar of Bendy files, version 0.1, for Kaitai Struct (https://kaitai.io). Compile it to a reader in one of a dozen
 # languages, or use it to inspect a file in the Kaitai Web IDE. It describes the grammar only: the pages beside this file
-# say which numbers a valid file may hold, and sums are not checked. tests/spec/check_spec.py compares it with the tables
-# of those pages.
+# hold stands on the pages beside this file, and sums are not checked here. make_grammar.py writes bendy.ksy from
+# bendy.ksy.in and the tables of format/; tests/spec/check_spec.py compares it with the tables of those pages.
 meta:
   id: bendy
   title: Bendy animated character
@@ -44,19 +44,22 @@ types:
     instances:
       is_known_container:
         value: >-
-          is_named and (header.id == "HEAD" or header.id == "TEXT" or header.id == "MATE" or header.id == "OBJE"
-          or header.id == "SKIN" or header.id == "PIVO" or header.id == "IKCH" or header.id == "VECT"
-          or header.id == "TARG" or header.id == "FRMS" or header.id == "USER" or header.id == "CYCL")
+          is_named and (header.id == "HEAD" or header.id == "TEXT" or header.id == "MATE" or header.id == "OBJE" or
+          header.id == "SKIN" or header.id == "PIVO" or header.id == "IKCH" or header.id == "VECT" or
+          header.id == "TARG" or header.id == "FRMS" or header.id == "USER" or header.id == "CYCL")
       is_known_leaf:
         value: >-
-          header.id == "VERS" or header.id == "BNDS" or header.id == "SAMP" or header.id == "IMAG" or header.id == "LINK"
-          or header.id == "SAME" or header.id == "SURF" or header.id == "EXTN" or header.id == "NAME" or header.id == "EXTR"
-          or header.id == "REST" or header.id == "LIMT" or header.id == "PULL" or header.id == "POLY" or header.id == "JNTS"
-          or header.id == "JNAM" or header.id == "KINF" or header.id == "VINF" or header.id == "PALT" or header.id == "TINF"
-          or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or header.id == "COLR"
-          or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or header.id == "INDX" or header.id == "LODD"
-          or header.id == "CINF" or header.id == "TRAK" or header.id == "PACK" or header.id == "TIME" or header.id == "KEYV"
-          or header.id == "MARK" or header.id == "MORE" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or header.id == "PLAY"
+          header.id == "VERS" or header.id == "BNDS" or header.id == "SAMP" or header.id == "IMAG" or
+          header.id == "LINK" or header.id == "SAME" or header.id == "SURF" or header.id == "EXTN" or
+          header.id == "NAME" or header.id == "EXTR" or header.id == "MORE" or header.id == "REST" or
+          header.id == "LIMT" or header.id == "PULL" or header.id == "POLY" or header.id == "JNTS" or
+          header.id == "JNAM" or header.id == "KINF" or header.id == "VINF" or header.id == "PALT" or
+          header.id == "TINF" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or
+          header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or
+          header.id == "COLR" or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or
+          header.id == "INDX" or header.id == "LODD" or header.id == "CINF" or header.id == "TRAK" or
+          header.id == "PACK" or header.id == "PLAY" or header.id == "TIME" or header.id == "KEYV" or
+          header.id == "MARK"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -91,12 +94,15 @@ types:
             '"LIMT"': limit_record
             '"PULL"': pull_record
             '"POLY"': polygon_record
-            '"JNTS"': joint_table
-            '"JNAM"': joint_names
+            '"JNTS"': joints
+            '"JNAM"': jnam_list
             '"KINF"': chain_record
             '"VINF"': pool_record
             '"PALT"': palette
             '"TINF"': target_record
+            '"FNAM"': fnam_list
+            '"GRID"': grid_list
+            '"NLST"': nlst_list
             '"POSI"': stream
             '"NORM"': stream
             '"TANG"': stream
@@ -108,15 +114,12 @@ types:
             '"INDX"': stream
             '"LODD"': collapse_sequence
             '"CINF"': cycle_record
-            '"TRAK"': track_table
+            '"TRAK"': trak_list
             '"PACK"': packed_tracks
-            '"TIME"': float_list
-            '"KEYV"': float_list
+            '"PLAY"': play_list
+            '"TIME"': time_list
+            '"KEYV"': time_list
             '"MARK"': marker_list
-            '"FNAM"': joint_names
-            '"GRID"': frame_grids
-            '"NLST"': normal_list
-            '"PLAY"': play_table
   encoded:
     doc: "codecs.md."
     seq:
@@ -128,36 +131,36 @@ types:
   text:
     seq:
       - {id: value, type: str, size-eos: true}
-  float_list:
-    seq:
-      - {id: values, type: f4, repeat: eos}
   image:
     seq:
       - {id: record, type: image_record}
-      - {id: bytes, size-eos: true, doc: "a PNG, JPEG, ... file"}
-  joint_names:
-    seq:
-      - {id: names, type: strz, repeat: eos, doc: "a name for each joint, or each frame"}
-  joint_table:
+      - {id: image, size-eos: true, doc: "a PNG, JPEG, ... file"}
+  joints:
     seq:
       - {id: record, type: joints_record}
-      - {id: rests, type: full_rest, repeat: expr, repeat-expr: record.joints}
-      - {id: polygons, type: joint_polygons, repeat: expr, repeat-expr: record.polygons}
-  full_rest:
+      - {id: rests, type: rest_record, size: 52, repeat: expr, repeat-expr: record.joints, doc: "rest transform of each joint, all 52 bytes"}
+      - {id: ranges, type: joint_polygons, repeat: expr, repeat-expr: record.polygons, doc: "a joint, and polygons that it owns"}
+  jnam_list:
     seq:
-      - {id: record, type: rest_record, size: 52}
-  joint_polygons:
+      - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
+  fnam_list:
     seq:
-      - {id: joint, type: u4}
-      - {id: range, type: polygon_record}
+      - {id: names, type: strz, repeat: eos, doc: "a name for each frame"}
+  palette:
+    seq:
+      - {id: record, type: palette_record}
+      - {id: joints, type: u4, repeat: expr, repeat-expr: record.entries, doc: "joint of each entry"}
+      - {id: joints_zeros, size: (16 - _io.pos % 16) % 16}
+      - {id: matrices, type: f4, repeat: expr, repeat-expr: 'record.derived != 1 ? 16 * record.entries : 16', doc: "inverse bind matrices, column by column"}
   stream:
-    doc: "streams.md."
     seq:
       - {id: record, type: stream_record}
-      - {id: box, type: box(record.components), if: record.normalised == numbers::boxed}
+      - {id: box, type: f4, repeat: expr, repeat-expr: 2 * record.components, if: record.normalised == numbers::boxed, doc: "minimum and step of each component"}
+      - {id: box_zeros, size: (16 - _io.pos % 16) % 16, if: record.normalised == numbers::boxed}
       - id: values
         repeat: expr
         repeat-expr: record.elements * record.components
+        doc: "elements x components numbers"
         type:
           switch-on: record.component_type
           cases:
@@ -167,25 +170,30 @@ types:
             component_type::i16: s2
             component_type::u32: u4
             component_type::f32: f4
-  box:
-    params:
-      - {id: components, type: u2}
+  grid_list:
     seq:
-      - {id: sides, type: side, repeat: expr, repeat-expr: components}
-      - {id: zeros, size: (components % 2) * 8}
-  side:
+      - {id: values, type: f4, repeat: eos, doc: "minimum and step of each axis"}
+  nlst_list:
     seq:
-      - {id: minimum, type: f4}
-      - {id: step, type: f4}
-  palette:
+      - {id: values, type: f4, repeat: eos, doc: "unit vectors"}
+  trak_list:
     seq:
-      - {id: record, type: palette_record}
-      - {id: joints, type: u4, repeat: expr, repeat-expr: record.entries}
-      - {id: zeros, size: (4 - record.entries % 4) % 4 * 4}
-      - {id: matrices, type: matrix, repeat: expr, repeat-expr: 'record.derived == 1 ? 1 : record.entries', doc: "inverse bind matrices; if derived is 1, the single matrix from which they are derived"}
-  matrix:
+      - {id: tracks, type: track_record, size: 24, repeat: eos, doc: "tracks"}
+  play_list:
     seq:
-      - {id: values, type: f4, repeat: expr, repeat-expr: 16, doc: "column by column"}
+      - {id: plays, type: play_record, size: 16, repeat: eos, doc: "frames that are played"}
+  time_list:
+    seq:
+      - {id: values, type: f4, repeat: eos, doc: "numbers that the tracks share"}
+  joint_polygons:
+    seq:
+      - {id: joint, type: u4, doc: "to which the polygons belong"}
+      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF: none"}
+      - {id: first, type: u4, doc: "first entry in the mesh's INDX"}
+      - {id: count, type: u4, doc: "number of entries: a multiple of 3, 2 or 1, depending on topology"}
+      - {id: topology, type: u1, enum: topology, doc: "0 triangles, 1 lines, 2 points"}
+      - {id: reserved, size: 3, doc: "zero"}
   collapse_sequence:
     seq:
       - {id: record, type: collapse_record}
@@ -216,18 +224,6 @@ types:
       - {id: targets_zeros, size: '(16 - count * (target_type == component_type::u16 ? 2 : 4) % 16) % 16'}
       - {id: joined, type: b1, repeat: expr, repeat-expr: count}
       - {id: joined_zeros, size: (16 - (count + 7) / 8 % 16) % 16}
-  track_table:
-    seq:
-      - {id: tracks, type: track_record, repeat: eos}
-  frame_grids:
-    seq:
-      - {id: sides, type: side, repeat: eos, doc: "three for each frame"}
-  normal_list:
-    seq:
-      - {id: values, type: f4, repeat: eos, doc: "three for each normal"}
-  play_table:
-    seq:
-      - {id: plays, type: play_record, repeat: eos}
   marker_list:
     seq:
       - {id: record, type: markers_record}
@@ -457,13 +453,6 @@ types:
       - {id: lists, type: u1, doc: "bit k: list k has tracks"}
       - {id: wide, type: u1, doc: "bit k: the bases of list k have 4 bytes instead of 2"}
       - {id: reserved, size: 2, doc: "zero"}
-  play_record:
-    seq:
-      - {id: pool, type: u4, doc: "VECT number in the object"}
-      - {id: first, type: u4, doc: "frame at the clip's start; 0: the mesh's own streams, k: frame k - 1 of its FRMS"}
-      - {id: frames, type: u4, doc: "number of frames, 1 or more; frame k is at start + k / frame_rate"}
-      - {id: closed, type: u1, doc: "1: the first frame follows the last one after another 1 / frame_rate; otherwise 0"}
-      - {id: reserved, size: 3, doc: "zero"}
   track_record:
     seq:
       - {id: target, type: u4, doc: "joint number; for weights, mesh number"}
@@ -473,6 +462,13 @@ types:
       - {id: keys, type: u4, doc: "number of keys, 1 or more"}
       - {id: first_time, type: u4, doc: "index into TIME; 0xFFFFFFFF: fixed frames, key k is at start + k / frame_rate"}
       - {id: first_value, type: u8, doc: "index into KEYV, counted in numbers"}
+  play_record:
+    seq:
+      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: first, type: u4, doc: "frame at the clip's start; 0: the mesh's own streams, k: frame k - 1 of its FRMS"}
+      - {id: frames, type: u4, doc: "number of frames, 1 or more; frame k is at start + k / frame_rate"}
+      - {id: closed, type: u1, doc: "1: the first frame follows the last one after another 1 / frame_rate; otherwise 0"}
+      - {id: reserved, size: 3, doc: "zero"}
   stream_record:
     seq:
       - {id: component_type, type: u1, enum: component_type, doc: "0 u8, 1 i8, 2 u16, 3 i16, 4 u32, 5 f32"}
@@ -502,16 +498,16 @@ types:
       - {id: media, type: u1, enum: media_type, doc: "0 other, 1 PNG, 2 JPEG, 3 KTX2, 4 WebP, 5 AVIF"}
       - {id: reserved, size: 15, doc: "zero; the image data follows this record"}
 enums:
-  component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}
-  numbers: {0: plain, 1: normalised, 2: boxed, 3: listed}
-  topology: {0: triangles, 1: lines, 2: points}
-  track_path: {0: translation, 1: rotation, 2: scale, 3: weights}
-  interpolation: {0: step, 1: linear, 2: cubic}
   filter: {0: unspecified, 1: nearest, 2: linear, 3: nearest_mipmap_nearest, 4: linear_mipmap_nearest, 5: nearest_mipmap_linear, 6: linear_mipmap_linear}
   wrap: {0: repeat, 1: clamp_to_edge, 2: mirrored_repeat}
   alpha_mode: {0: opaque, 1: mask, 2: blend}
-  media_type: {0: other, 1: png, 2: jpeg, 3: ktx2, 4: webp, 5: avif}
   limit_model: {0: free, 1: locked, 2: hinge, 3: swing_twist_ellipse, 4: swing_twist_pyramid, 5: euler_box, 6: largest_angle}
   euler_order: {0: xyz, 1: xzy, 2: yxz, 3: yzx, 4: zxy, 5: zyx}
   limit_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
   solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}
+  topology: {0: triangles, 1: lines, 2: points}
+  track_path: {0: translation, 1: rotation, 2: scale, 3: weights}
+  interpolation: {0: step, 1: linear, 2: cubic}
+  component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}
+  numbers: {0: plain, 1: normalised, 2: boxed, 3: listed}
+  media_type: {0: other, 1: png, 2: jpeg, 3: ktx2, 4: webp, 5: avif}

@@ -1,35 +1,21 @@
 #!/usr/bin/env python3
-"""Writes text.schema.json, the JSON Schema of the text form, from the tables of chunks and records.
+"""Writes text.schema.json, the JSON Schema of the text twin, from the tables of chunks, records and leaves.
 
     make_text_schema.py [--check]      --check: only check whether the file is up to date
 """
 
 import json
-import re
 import sys
 from pathlib import Path
 
+import tables
+
 HERE = Path(__file__).resolve().parent
-TABLES = HERE.parent / "format/include/bendy/format"
-STREAMS = ("POSI", "NORM", "TANG", "TEXC", "COLR", "BONE", "WGHT", "VALS", "INDX")
-TEXTS = ("NAME", "EXTR", "EXTN", "MORE", "LINK")
 TYPES = ("u8", "i8", "u16", "i16", "u32", "i32", "u64")
 
 
 def ref(name):
     return {"$ref": f"#/$defs/{name}"}
-
-
-def read_tables():
-    """Chunks as (id, shape, what), records as {struct: (chunk, shortest, fields)}."""
-    chunks = re.findall(r'^BENDY_CHUNK\((\w+),\s*(\w+),.*"([^"]*)"\)', (TABLES / "chunk_ids.def").read_text(), re.M)
-    records = {}
-    for line in (TABLES / "records.def").read_text().splitlines():
-        if opened := re.match(r"BENDY_RECORD\((\w+), (\w+), (\d+)\)", line):
-            records[opened[2]] = (opened[1], int(opened[3]), [])
-        elif field := re.match(r'BENDY_FIELD\((\w+), +(\w+), +(\w+), +(\d+), +(\d+), +"(.*)"\)', line):
-            records[field[1]][2].append((field[2], field[3], int(field[4]), int(field[5]), field[6]))
-    return chunks, records
 
 
 def number(kind):
@@ -46,61 +32,77 @@ def array(kind):
 
 def record(records, struct, members=(), is_in_array=False):
     """The object of a record, with additional members: (name, schema)."""
-    _, shortest, fields = records[struct]
+    shortest = records[struct].shortest
     properties, required = {}, []
-    for name, kind, count, offset, what in fields:
-        one = ref(kind)
-        schema = one if count == 1 else {"type": "array", "items": one, "minItems": count, "maxItems": count}
-        if name == "generator":
+    for field in records[struct].fields:
+        one = ref(field.type)
+        schema = one if field.count == 1 else {"type": "array", "items": one, "minItems": field.count, "maxItems": field.count}
+        if field.unit == "text":
             schema = {"anyOf": [{"type": "string"}, schema]}
-        properties[name] = {"description": what, **schema}
-        if not name.startswith("reserved") and (is_in_array or shortest == 0 or offset < shortest):
-            required.append(name)
+        properties[field.name] = {"description": field.what, **schema}
+        if not field.name.startswith("reserved") and (is_in_array or shortest == 0 or field.offset < shortest):
+            required.append(field.name)
     properties.update(members)
     if not is_in_array:
         properties["more"] = {"description": "the bytes after those that the other members represent", **ref("digits")}
     return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
 
 
+def part_form(part):
+    """A member of a leaf's object."""
+    if part.kind == "records":
+        form = {"type": "array", "items": ref(part.type)}
+    elif part.kind == "text":
+        form = {"type": "string"}
+    elif part.kind == "names":
+        form = {"type": "array", "items": {"type": "string"}}
+    elif part.kind == "bytes":
+        form = ref("digits")
+    elif part.type in tables.SIZES:
+        form = array(part.type)
+    else:  # a field says which
+        form = {"type": "array", "items": {"anyOf": [ref("f32"), ref("i16"), ref("u32")]}}
+    return {"description": part.what, **form} if part.what else form
+
+
+def leaf_form(parts, records):
+    """What a leaf's content is; its odd part is not in it."""
+    if [part.kind for part in parts] == ["text"]:
+        return {"type": "string"}
+    members = {}
+    for part in parts:
+        if part.kind not in ("record", "odd"):
+            members.setdefault(part.name, part_form(part))
+    if parts[0].kind == "record":
+        return record(records, parts[0].type, members)
+    return {"type": "object", "properties": {**members, "more": ref("digits")}, "required": list(members), "additionalProperties": False}
+
+
 def leaf_forms(records):
     """The schema of a leaf's content, by id."""
-    forms = {name: {"type": "string"} for name in TEXTS}
-    of_chunk = {chunk: struct for struct, (chunk, _, _) in records.items()}
-    for chunk, struct in of_chunk.items():
-        forms[chunk] = record(records, struct)
-    stream = record(records, "StreamRecord", {"box": {"description": "minimum and step of each component", **array("f32")},
-                                              "values": {"description": "elements x components numbers",
-                                                         "type": "array", "items": {"anyOf": [ref("f32"), ref("i16"), ref("u32")]}}})
-    forms.update(dict.fromkeys(STREAMS, stream))
-    forms["JNAM"] = forms["FNAM"] = {"type": "object", "properties": {"names": {"type": "array", "items": {"type": "string"}}, "more": ref("digits")},
-                     "required": ["names"], "additionalProperties": False}
-    for chunk in ("TIME", "KEYV", "GRID", "NLST"):
-        forms[chunk] = {"type": "object", "properties": {"values": array("f32"), "more": ref("digits")},
-                        "required": ["values"], "additionalProperties": False}
-    forms["TRAK"] = {"type": "object", "properties": {"tracks": {"type": "array", "items": ref("TrackRecord")}, "more": ref("digits")},
-                     "required": ["tracks"], "additionalProperties": False}
-    forms["PLAY"] = {"type": "object", "properties": {"plays": {"type": "array", "items": ref("PlayRecord")}, "more": ref("digits")},
-                     "required": ["plays"], "additionalProperties": False}
+    forms = {leaf: leaf_form(parts, records) for leaf, parts in tables.read_leaves().items()}
     forms["MARK"] = {"type": "object", "properties": {"markers": {"type": "array", "items": {
         "type": "object", "properties": {"seconds": ref("f32"), "name": {"type": "string"}}, "required": ["seconds", "name"],
         "additionalProperties": False}}}, "required": ["markers"], "additionalProperties": False}
-    forms["PALT"] = record(records, "PaletteRecord", {"joints": array("u32"), "matrices": array("f32")})
-    forms["JNTS"] = record(records, "JointsRecord", {"rests": {"type": "array", "items": ref("RestRecord")},
-                                                     "ranges": {"type": "array", "items": ref("JointPolygons")}})
-    forms["LODD"] = record(records, "CollapseRecord", {"collapses": {"type": "array", "items": ref("PoolCollapseRecord")},
-                                                       "table": {"description": "for each level: error, vertices alive of each mesh",
-                                                                 "type": "array", "items": {"anyOf": [ref("f32"), ref("u32")]}}})
+    forms["LODD"]["properties"]["table"] = {"description": "for each level: error, vertices alive of each mesh",
+                                            "type": "array", "items": {"anyOf": [ref("f32"), ref("u32")]}}
     forms["LODD"]["patternProperties"] = {"^targets_[0-9]+$": array("u32"), "^joined_[0-9]+$": array("u8")}
-    forms["IMAG"] = record(records, "ImageRecord", {"image": ref("digits")})
-    forms["PACK"] = record(records, "PackRecord", {"times": array("f32"), "starts": array("u32"), "tracks": ref("digits")})
+    forms["PACK"]["properties"].update({"times": array("f32"), "starts": array("u32"), "tracks": ref("digits")})
     forms["PACK"]["patternProperties"] = {"^joints_[0-7]$": array("u16"), "^steps_[0-7]$": array("u8"),
                                           "^bases_([0-9]+_)?[0-7]$": array("i32"), "^widths_[0-9]+_[0-7]$": array("u8"),
                                           "^frames_[0-9]+$": array("u32")}
     return forms
 
 
+def structs_in_arrays(records):
+    """Records that are members: those of arrays of records, and those inside records."""
+    of_parts = [part.type for parts in tables.read_leaves().values() for part in parts if part.kind == "records" and part.type != "MarkerRecord"]
+    of_fields = [field.type for record in records.values() for field in record.fields if field.type in records]
+    return [struct for struct in dict.fromkeys(of_parts + of_fields) if struct in records]
+
+
 def schema():
-    chunks, records = read_tables()
+    records = tables.read_records()
     forms = leaf_forms(records)
     definitions = {kind: number(kind) for kind in (*TYPES, "f32")}
     definitions["digits"] = {"description": "bytes, two hexadecimal digits each: a string, or several strings to be concatenated",
@@ -111,9 +113,10 @@ def schema():
                           "anyOf": [ref("chunks"), ref("bytes"), {"type": "null"}]}
     definitions["chunks"] = {"type": "array", "items": ref("chunk")}
     properties = {}
-    for letters, shape, what in chunks:
-        has_form = shape == "leaf" and letters in forms
-        properties[letters] = {"description": what, "anyOf": [*([ref(letters)] if has_form else []), ref("any")]}
+    for chunk in tables.read_chunks():
+        letters = chunk.id
+        has_form = chunk.shape == "leaf" and letters in forms
+        properties[letters] = {"description": chunk.what, "anyOf": [*([ref(letters)] if has_form else []), ref("any")]}
         if has_form:
             definitions[letters] = forms[letters]
     properties["required"] = {"description": "a reader that does not know this chunk must refuse the file", "type": "boolean"}
@@ -123,7 +126,7 @@ def schema():
         "type": "object", "properties": properties, "additionalProperties": ref("any"),
         "propertyNames": {"pattern": "^([A-Z0-9]{4}|required|codec|encoded)$"}, "minProperties": 1, "maxProperties": 4,
         "dependentRequired": {"codec": ["encoded"], "encoded": ["codec"]}}
-    for struct in ("TrackRecord", "PlayRecord", "RestRecord", "PoolCollapseRecord", "TextureUseRecord"):
+    for struct in structs_in_arrays(records):
         definitions[struct] = record(records, struct, is_in_array=True)
     polygons = record(records, "PolygonRecord", is_in_array=True)
     polygons["properties"] = {"joint": ref("u32"), **polygons["properties"]}

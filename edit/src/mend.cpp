@@ -1,6 +1,7 @@
 #include "mend.h"
 
 #include "cycle_tracks.h"
+#include "renumber.h"
 
 #include <bendy/edit/names.h>
 #include <bendy/format/records.h>
@@ -9,8 +10,8 @@
 #include <cstddef>
 #include <cstring>
 #include <map>
+#include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace bendy::edit {
@@ -24,10 +25,12 @@ class ObjectMender {
 public:
     ObjectMender(const Source& source, const Staying& staying, std::size_t object, Rewrite& rewrite, Log& log)
         : tree_(source.tree),
+          document_(source.document),
           object_(source.document.objects[object]),
           staying_(staying),
           here_(staying.objects[object]),
           materials_(renumbered(staying.materials)),
+          textures_(renumbered(staying.textures)),
           rewrite_(rewrite),
           log_(log) {
         numbers_.joints = renumbered(here_.joints);
@@ -43,10 +46,9 @@ public:
     Result<void, Problem> mend() {
         find_index_runs();
         mend_skins();
-        mend_polygons();
-        mend_joint_table();
-        mend_joint_names();
-        mend_chains();
+        for (std::size_t k = 0; k < object_.chains.size(); ++k) {
+            if (!here_.chains[k]) rewrite_.remove(object_.chains[k].chunk);
+        }
         for (std::size_t p = 0; p < object_.pools.size(); ++p) {
             const PoolView& pool = object_.pools[p];
             if (here_.pools[p].stays) {
@@ -56,6 +58,7 @@ public:
             }
         }
         if (object_.collapse) mend_collapse(*object_.collapse, here_, numbers_, rewrite_);
+        renumber();
         return mend_cycles();
     }
 
@@ -96,124 +99,78 @@ private:
         }
     }
 
-    /// As the record is from now on.
-    void mend_record(PolygonRecord& record) const {
-        if (record.material != kNone) {
-            if ((record.material & kLocalMaterial) == 0) {
-                record.material = materials_[record.material];
-            } else if (!staying_.local_materials) {
-                record.material = kNone;
-            }
+    /// What the references do not say: polygons go with a joint or a mesh, or stay and begin elsewhere in INDX.
+    [[nodiscard]] bool mend_range(std::uint32_t chunk, const RecordLayout& layout, std::span<std::byte> record) const {
+        const bool is_table_row = layout.name == "JointPolygons";
+        if (!is_table_row && layout.name != "PolygonRecord") return true;
+        const std::size_t at = is_table_row ? offsetof(JointPolygons, polygons) : 0;
+        PolygonRecord range;
+        std::memcpy(&range, record.data() + at, sizeof range);
+        std::uint32_t joint = 0;
+        if (is_table_row) {
+            std::memcpy(&joint, record.data(), sizeof joint);
+        } else {
+            joint = owners_.at(chunk);
         }
-        if (!numbers_.vertices[record.pool].empty()) {
-            record.first = record.count == 0 ? 0 : starts_.at({record.pool, record.first});
-        }
-        record.pool = numbers_.pools[record.pool];
+        if (!keeps(joint, range.pool)) return false;
+        if (numbers_.vertices[range.pool].empty()) return true;
+        range.first = range.count == 0 ? 0 : starts_.at({range.pool, range.first});
+        std::memcpy(record.data() + at, &range, sizeof range);
+        return true;
     }
 
-    void mend_polygons() {
-        for (const PolygonView& polygons : object_.skeleton.polygons) {
-            if (!(tree_[polygons.chunk].id == FourCC("POLY"))) continue;
-            if (!keeps(polygons.joint, polygons.pool)) {
-                rewrite_.remove(polygons.chunk);
-                continue;
-            }
-            const Bytes before = tree_.payload(polygons.chunk);
-            PolygonRecord record;
-            copy_at(before, 0, record);
-            mend_record(record);
-            if (std::memcmp(before.data(), &record, sizeof record) == 0) continue;
-            Buffer payload(before.begin(), before.end());
-            std::memcpy(payload.data(), &record, sizeof record);
-            rewrite_.replace(polygons.chunk, payload);
-        }
+    void renumber() {
+        for (const PolygonView& polygons : object_.skeleton.polygons)
+            owners_.try_emplace(polygons.chunk, polygons.joint);
+        NewNumbers numbers;
+        numbers.of(Entity::joint) = numbers_.joints;
+        numbers.of(Entity::chain) = numbers_.chains;
+        numbers.of(Entity::mesh) = numbers_.pools;
+        numbers.of(Entity::material) = materials_;
+        numbers.of(Entity::texture) = textures_;
+        numbers.own_materials = staying_.local_materials;
+        renumber_leaves(
+            tree_, object_.chunk, numbers,
+            [this](std::uint32_t chunk, const RecordLayout& layout, std::span<std::byte> record) {
+                return mend_range(chunk, layout, record);
+            },
+            [this](std::uint32_t chunk, const Renumbered& now) { tell(chunk, now); }, rewrite_);
     }
 
-    void mend_joint_table() {
-        const std::uint32_t chunk = tree_.find(object_.chunk, FourCC("JNTS"));
-        if (chunk == kNone) return;
-        const Bytes before = tree_.payload(chunk);
-        JointsRecord record;
-        copy_at(before, 0, record);
-        const std::uint64_t ranges_at = sizeof record + std::uint64_t{record.joints} * sizeof(RestRecord);
-        Buffer payload(sizeof record);
-        for (std::uint32_t j = 0; j < record.joints; ++j) {
-            if (!here_.joints[j]) continue;
-            const Bytes rest = before.subspan(sizeof record + std::size_t{j} * sizeof(RestRecord), sizeof(RestRecord));
-            payload.insert(payload.end(), rest.begin(), rest.end());
-        }
-        std::uint32_t ranges = 0;
-        for (std::uint32_t k = 0; k < record.polygons; ++k) {
-            JointPolygons range;
-            copy_at(before, ranges_at + std::uint64_t{k} * sizeof range, range);
-            if (!keeps(range.joint, range.polygons.pool)) continue;
-            range.joint = numbers_.joints[range.joint];
-            mend_record(range.polygons);
-            append(payload, range);
-            ++ranges;
-        }
-        record.joints = static_cast<std::uint32_t>(std::count(here_.joints.begin(), here_.joints.end(), true));
-        record.polygons = ranges;
-        std::memcpy(payload.data(), &record, sizeof record);
-        if (!std::equal(payload.begin(), payload.end(), before.begin(), before.end())) rewrite_.replace(chunk, payload);
-    }
-
-    void mend_joint_names() {
-        const std::uint32_t chunk = tree_.find(object_.chunk, FourCC("JNAM"));
-        if (chunk == kNone || is_all(here_.joints)) return;
-        std::string_view names = as_text(tree_.payload(chunk));
-        std::string staying;
-        for (const bool stays : here_.joints) {
-            const std::size_t end = names.find('\0') + 1;
-            if (stays) staying += names.substr(0, end);
-            names.remove_prefix(end);
-        }
-        rewrite_.replace(chunk, as_byte_span(staying));
-    }
-
-    void mend_chains() {
-        for (std::size_t k = 0; k < object_.chains.size(); ++k) {
-            const ChainView& chain = object_.chains[k];
-            if (here_.chains[k]) {
-                mend_chain(chain);
-            } else {
-                rewrite_.remove(chain.chunk);
-            }
-        }
-        for (const PullView& pull : object_.skeleton.pulls) {
-            const std::uint32_t now = numbers_.chains[pull.chain];
-            if (now == pull.chain) continue;
-            if (now == kNone) {
-                rewrite_.remove(pull.chunk);
-                continue;
-            }
-            const Bytes before = tree_.payload(pull.chunk);
-            Buffer payload(before.begin(), before.end());
-            std::memcpy(payload.data() + offsetof(PullRecord, chain), &now, sizeof now);
-            rewrite_.replace(pull.chunk, payload);
+    [[nodiscard]] std::string_view name_of(const Lost& lost) const {
+        switch (lost.entity) {
+            case Entity::joint:
+                return object_.skeleton.joints[lost.number].name;
+            case Entity::mesh:
+                return object_.pools[lost.number].name;
+            case Entity::chain:
+                return object_.chains[lost.number].name;
+            case Entity::material:
+                return document_.materials[lost.number].name;
+            case Entity::texture:
+                return document_.textures[lost.number].name;
+            default:
+                return {};
         }
     }
 
-    void mend_chain(const ChainView& chain) {
-        ChainRecord record = chain.record;
-        const auto number = [&](std::uint32_t joint) { return joint == kNone ? kNone : numbers_.joints[joint]; };
-        record.start = number(record.start);
-        record.effector = number(record.effector);
-        record.target = number(record.target);
-        record.pole = number(record.pole);
-        for (const auto& [before, now, what] : {std::tuple(chain.record.target, record.target, "target"),
-                                                std::tuple(chain.record.pole, record.pole, "pole")}) {
-            if (before != kNone && now == kNone) {
-                log_.warnings.push_back("chain \"" + std::string(chain.name) + "\" loses its " + what + ", \"" +
-                                        std::string(object_.skeleton.joints[before].name) + '"');
+    /// What a chain loses, and which leaves go that have a name.
+    void tell(std::uint32_t chunk, const Renumbered& now) {
+        if (tree_[chunk].id == FourCC("KINF")) {
+            const std::uint32_t name = tree_.find(tree_[chunk].parent, FourCC("NAME"));
+            for (const Lost& lost : now.lost) {
+                log_.warnings.push_back("chain \"" + std::string(name == kNone ? "" : as_text(tree_.payload(name))) +
+                                        "\" loses its " + std::string(lost.field) + ", \"" +
+                                        std::string(name_of(lost)) + '"');
             }
+            return;
         }
-        if (std::memcmp(&record, &chain.record, offsetof(ChainRecord, solver)) == 0) return;
-        const std::uint32_t chunk = tree_.find(chain.chunk, FourCC("KINF"));
-        const Bytes before = tree_.payload(chunk);
-        Buffer payload(before.begin(), before.end());
-        std::memcpy(payload.data(), &record, offsetof(ChainRecord, solver));
-        rewrite_.replace(chunk, payload);
+        if (now.payload || now.lost.empty()) return;
+        const std::string leaf = name_of_leaf(tree_, chunk);
+        if (leaf.empty()) return;
+        const Lost& lost = now.lost.back();
+        log_.warnings.push_back(leaf + " goes with its " + std::string(bendy::name_of(lost.entity)) + ", \"" +
+                                std::string(name_of(lost)) + '"');
     }
 
     [[nodiscard]] bool changes_tracks() const {
@@ -248,6 +205,7 @@ private:
                 const auto counts = send_tracks(tree_, object_, cycle, go, rewrite_);
                 if (!counts) return counts.error();
                 if (counts->stay != 0 || counts->go == 0) continue;
+                if (has_references_left(tree_, cycle.chunk, rewrite_)) continue;
                 rewrite_.remove(cycle.chunk);
                 emptied.push_back(k);
             }
@@ -258,14 +216,16 @@ private:
     }
 
     const ChunkTree& tree_;
+    const Document& document_;
     const ObjectView& object_;
     const Staying& staying_;
     const Staying::Object& here_;
-    std::vector<std::uint32_t> materials_;
+    std::vector<std::uint32_t> materials_, textures_;
     Rewrite& rewrite_;
     Log& log_;
     ObjectNumbers numbers_;
     std::vector<std::vector<IndexRun>> runs_;
+    std::map<std::uint32_t, std::uint32_t> owners_;                          // of POLY chunks: their joints
     std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> starts_;  // of pool and former start
 };
 

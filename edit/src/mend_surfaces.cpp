@@ -1,21 +1,15 @@
 #include "mend.h"
+#include "renumber.h"
 #include "texture_numbers.h"
 
 #include <bendy/format/records.h>
 
-#include <array>
-#include <cstddef>
 #include <cstring>
 #include <map>
 #include <utility>
 
 namespace bendy::edit {
 namespace {
-
-constexpr std::array kTextureUses{offsetof(SurfaceRecord, base_colour_texture),
-                                  offsetof(SurfaceRecord, metallic_roughness_texture),
-                                  offsetof(SurfaceRecord, normal_texture), offsetof(SurfaceRecord, occlusion_texture),
-                                  offsetof(SurfaceRecord, emissive_texture)};
 
 bool is_image(FourCC id) {
     return id == FourCC("IMAG") || id == FourCC("LINK") || id == FourCC("SAME");
@@ -62,21 +56,6 @@ void mend_shared_images(const Source& source, const std::vector<bool>& stays, st
     }
 }
 
-void mend_surface(const ChunkTree& tree, std::uint32_t material, std::span<const std::uint32_t> now, Rewrite& rewrite) {
-    const std::uint32_t chunk = tree.find(material, FourCC("SURF"));
-    const Bytes before = tree.payload(chunk);
-    Buffer payload(before.begin(), before.end());
-    bool is_changed = false;
-    for (const std::size_t use : kTextureUses) {
-        std::uint32_t number = kNone;
-        copy_at(before, use + offsetof(TextureUseRecord, texture), number);
-        if (number == kNone || now[number] == number) continue;
-        std::memcpy(payload.data() + use + offsetof(TextureUseRecord, texture), &now[number], sizeof number);
-        is_changed = true;
-    }
-    if (is_changed) rewrite.replace(chunk, payload);
-}
-
 void mend_extensions(const ChunkTree& tree, const MaterialView& material, std::span<const std::uint32_t> now,
                      Rewrite& rewrite, Log& log) {
     const std::uint32_t chunk = tree.find(material.chunk, FourCC("EXTN"));
@@ -103,8 +82,10 @@ void mend_textures(const Source& source, const Staying& staying, Rewrite& rewrit
     }
     if (!is_changed) return;
     mend_shared_images(source, staying.textures, now, rewrite);
+    NewNumbers numbers;
+    numbers.of(Entity::texture) = now;
     for (const MaterialView& material : source.document.materials) {
-        mend_surface(source.tree, material.chunk, now, rewrite);
+        renumber_leaves(source.tree, material.chunk, numbers, nullptr, nullptr, rewrite);
         mend_extensions(source.tree, material, now, rewrite, log);
     }
 }

@@ -2,6 +2,7 @@
 
 #include "cycle_tracks.h"
 #include "finish.h"
+#include "renumber.h"
 #include "rest_difference.h"
 #include "source.h"
 
@@ -87,11 +88,16 @@ std::vector<std::uint32_t> pair_joints(const SkeletonView& there, const Skeleton
 }
 
 template <class T>
-std::vector<std::string_view> names_of(const std::vector<T>& things) {
+std::vector<std::string_view> names_of(std::span<const T> things) {
     std::vector<std::string_view> names;
     names.reserve(things.size());
     for (const T& thing : things) names.push_back(thing.name);
     return names;
+}
+
+template <class T>
+std::vector<std::string_view> names_of(const std::vector<T>& things) {
+    return names_of(std::span<const T>(things));
 }
 
 bool are_equal(const RestRecord& a, const RestRecord& b) {
@@ -192,6 +198,10 @@ private:
     TracksGo go_;
 };
 
+std::span<const MaterialView> head_materials(const Source& source) {
+    return std::span(source.document.materials).first(source.document.global_materials);
+}
+
 /// Marks what the cycles of an object animate.
 void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<std::uint32_t>& pools) {
     for (const CycleView& cycle : object.cycles) {
@@ -239,6 +249,14 @@ public:
             taken_.emplace(cycle.name);
             places_.try_emplace(std::string(cycle.name), cycle.chunk);
         }
+        pools_.reserve(from.pools.size());
+        for (const WeightsGo& weights : pairing_.go().weights) pools_.push_back(weights.pool);
+        materials_ = pair_names(names_of(head_materials(there)), names_of(head_materials(here)));
+        textures_ = pair_names(names_of(there.document.textures), names_of(here.document.textures));
+        numbers_.of(Entity::joint) = pairing_.go().joints;
+        numbers_.of(Entity::mesh) = pools_;
+        numbers_.of(Entity::material) = materials_;
+        numbers_.of(Entity::texture) = textures_;
     }
 
     Edited merge() {
@@ -247,7 +265,17 @@ public:
             const CycleView& cycle = from_.cycles[k];
             const auto counts = send_tracks(there_.tree, from_, cycle, pairing_.go(), sending_);
             if (!counts) return counts.error();
-            if (counts->stay == 0 && counts->go != 0) {
+            renumber_leaves(
+                there_.tree, cycle.chunk, numbers_, nullptr,
+                [this](std::uint32_t chunk, const Renumbered& now) {
+                    const std::string leaf = name_of_leaf(there_.tree, chunk);
+                    if (now.payload || now.lost.empty() || leaf.empty()) return;
+                    log_.warnings.push_back(leaf + " is left out: there is no " +
+                                            std::string(name_of(now.lost.back().entity)) + " of that name here");
+                },
+                sending_);
+            const bool has_more = has_references_left(there_.tree, cycle.chunk, sending_);
+            if (counts->stay == 0 && counts->go != 0 && !has_more) {
                 useless.push_back(k);
                 continue;
             }
@@ -358,6 +386,8 @@ private:
     SameName same_name_;
     Log& log_;
     Pairing pairing_;
+    std::vector<std::uint32_t> pools_, materials_, textures_;  // by their numbers there: those here
+    NewNumbers numbers_;
     Rewrite rewrite_, sending_;
     std::set<std::string, std::less<>> taken_;
     std::map<std::string, std::uint32_t, std::less<>> places_;  // of the cycles that are here, by name

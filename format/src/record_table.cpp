@@ -3,7 +3,6 @@
 #include <bendy/format/records.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 namespace bendy {
@@ -17,12 +16,103 @@ constexpr FieldType type_of(std::string_view name) {
     return FieldType::record;
 }
 
-constexpr RecordField kFields[] = {
-#define BENDY_RECORD(chunk, Struct, shortest)
-#define BENDY_FIELD(Struct, field, type, count, offset, what) {#Struct, #field, #type, type_of(#type), count, offset},
+constexpr std::array<std::string_view, kEntities> kEntityNames{"nothing", "joint",   "material", "any_material",
+                                                               "mesh",    "texture", "chain",    "frame"};
+
+constexpr Entity entity_of(std::string_view name) {
+    std::size_t k = 0;
+    while (kEntityNames.at(k) != name) ++k;
+    return static_cast<Entity>(k);
+}
+
+/// The word of this number, with blanks between words; empty if there are fewer.
+constexpr std::string_view word_of(std::string_view words, std::uint64_t number) {
+    for (; number > 0; --number) {
+        const std::size_t blank = words.find(' ');
+        if (blank == std::string_view::npos) return {};
+        words.remove_prefix(blank + 1);
+    }
+    return words.substr(0, words.find(' '));
+}
+
+/// A row that says more of a field: the names of its values, its unit.
+struct Note {
+    std::string_view record, field, text;
+};
+
+struct Values {
+    std::string_view name, values;
+};
+
+constexpr Values kValues[] = {
+#define BENDY_VALUES(Values, names) {#Values, names},
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
+};
+constexpr Note kEnums[] = {
+#define BENDY_ENUM(Struct, field, Values) {#Struct, #field, #Values},
+#include <bendy/format/records.def>
+};
+constexpr Note kUnits[] = {
+#define BENDY_UNIT(Struct, field, unit) {#Struct, #field, #unit},
+#include <bendy/format/records.def>
+};
+
+struct ReferenceRow {
+    std::string_view record, field, selector, things, need;
+};
+constexpr ReferenceRow kReferences[] = {
+#define BENDY_REFERENCE(Struct, field, thing, need) {#Struct, #field, "", #thing, #need},
+#define BENDY_REFERENCE_BY(Struct, field, selector, things, need) {#Struct, #field, #selector, things, #need},
+#include <bendy/format/records.def>
+};
+
+constexpr std::string_view note_of(std::span<const Note> notes, std::string_view record, std::string_view field) {
+    for (const Note& note : notes) {
+        if (note.field == field && note.record == record) return note.text;
+    }
+    return {};
+}
+
+constexpr std::string_view values_of(std::string_view record, std::string_view field) {
+    const std::string_view name = note_of(kEnums, record, field);
+    for (const Values& values : kValues) {
+        if (values.name == name) return values.values;
+    }
+    return {};
+}
+
+constexpr Reference reference_of(std::string_view record, std::string_view field) {
+    Reference reference;
+    for (const ReferenceRow& row : kReferences) {
+        if (row.field != field || row.record != record) continue;
+        reference.is_optional = row.need == "optional";
+        reference.selector = row.selector;
+        if (row.selector.empty()) {
+            reference.entity = entity_of(row.things);
+            continue;
+        }
+        for (std::size_t k = 0; !word_of(row.things, k).empty(); ++k)
+            reference.choices.at(k) = entity_of(word_of(row.things, k));
+    }
+    return reference;
+}
+
+constexpr RecordField make_field(std::string_view record, std::string_view name, std::string_view type,
+                                 std::uint32_t count, std::uint64_t offset) {
+    return {record,
+            name,
+            type,
+            type_of(type),
+            count,
+            offset,
+            note_of(kUnits, record, name),
+            values_of(record, name),
+            reference_of(record, name)};
+}
+
+constexpr RecordField kFields[] = {
+#define BENDY_FIELD(Struct, field, type, count, offset, what) make_field(#Struct, #field, #type, count, offset),
+#include <bendy/format/records.def>
 };
 
 /// A record's fields stand together in the table.
@@ -36,48 +126,81 @@ constexpr std::span<const RecordField> fields_of(std::string_view record) {
 
 constexpr RecordLayout kLayouts[] = {
 #define BENDY_RECORD(chunk, Struct, shortest) {#Struct, FourCC(#chunk), shortest, sizeof(Struct), fields_of(#Struct)},
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
 };
 
-template <std::size_t N>
-bool is_one_of(FourCC chunk, const std::array<FourCC, N>& ids) {
-    return std::find(ids.begin(), ids.end(), chunk) != ids.end();
-}
+/// JNTS: a joint and the fields of a PolygonRecord, as one record.
+constexpr auto kJointPolygonsFields = [] {
+    constexpr std::span<const RecordField> kRange = fields_of("PolygonRecord");
+    std::array<RecordField, 1 + kRange.size()> fields{};
+    fields[0] = make_field("JointPolygons", "joint", "u32", 1, 0);
+    fields[0].reference.entity = Entity::joint;
+    for (std::size_t k = 0; k < kRange.size(); ++k) {
+        fields[k + 1] = kRange[k];
+        fields[k + 1].offset += offsetof(JointPolygons, polygons);
+    }
+    return fields;
+}();
+constexpr RecordLayout kJointPolygons{"JointPolygons", FourCC("JNTS"), sizeof(JointPolygons), sizeof(JointPolygons),
+                                      kJointPolygonsFields};
 
 }  // namespace
+
+std::string_view name_of(NumberType type) {
+    constexpr std::array<std::string_view, 8> kNames{"u8", "i8", "u16", "i16", "u32", "i32", "u64", "f32"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+NumberType number_type(FieldType type) {
+    constexpr std::array kTypes{NumberType::u8, NumberType::u16, NumberType::u32, NumberType::u64, NumberType::f32};
+    return kTypes[static_cast<std::size_t>(type)];
+}
+
+NumberType number_type(ComponentType type) {
+    constexpr std::array<NumberType, kComponentTypes> kTypes{NumberType::u8,  NumberType::i8,  NumberType::u16,
+                                                             NumberType::i16, NumberType::u32, NumberType::f32};
+    return kTypes[static_cast<std::size_t>(type)];
+}
+
+std::string_view name_of(Entity entity) {
+    return entity == Entity::nothing ? std::string_view() : kEntityNames[static_cast<std::size_t>(entity)];
+}
+
+std::string_view RecordField::value_name(std::uint64_t value) const {
+    return values.empty() ? values : word_of(values, value);
+}
+
+const RecordField* RecordLayout::find(std::string_view field) const {
+    const auto found =
+        std::find_if(fields.begin(), fields.end(), [&](const RecordField& each) { return each.name == field; });
+    return found == fields.end() ? nullptr : &*found;
+}
 
 std::span<const RecordLayout> record_layouts() {
     return kLayouts;
 }
 
 const RecordLayout* find_layout(std::string_view record) {
+    if (record == kJointPolygons.name) return &kJointPolygons;
     const auto* found = std::find_if(std::begin(kLayouts), std::end(kLayouts),
                                      [&](const RecordLayout& layout) { return layout.name == record; });
     return found == std::end(kLayouts) ? nullptr : found;
 }
 
-const RecordLayout* layout_of(FourCC chunk) {
-    if (is_stream(chunk)) return find_layout("StreamRecord");
-    // A record that stands in another is in the table before that one: the chunk's own is the last of its id.
-    const RecordLayout* found = nullptr;
-    for (const RecordLayout& layout : kLayouts) {
-        if (layout.chunk == chunk) found = &layout;
-    }
-    return found;
+std::uint64_t field_number(const RecordField& field, Bytes payload, std::uint64_t base) {
+    const std::uint64_t size = field_type_size(field.type);
+    const std::uint64_t at = base + field.offset;
+    std::uint64_t number = 0;
+    if (payload.size() < size || at > payload.size() - size) return number;
+    for (std::uint64_t k = 0; k < size; ++k) number |= std::to_integer<std::uint64_t>(payload[at + k]) << (8 * k);
+    return number;
 }
 
-bool is_text(FourCC chunk) {
-    constexpr std::array kTexts{FourCC("NAME"), FourCC("EXTR"), FourCC("EXTN"), FourCC("MORE"), FourCC("LINK")};
-    return is_one_of(chunk, kTexts);
-}
-
-bool is_stream(FourCC chunk) {
-    constexpr std::array kStreams{FourCC("POSI"), FourCC("NORM"), FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"),
-                                  FourCC("BONE"), FourCC("WGHT"), FourCC("VALS"), FourCC("INDX")};
-    return is_one_of(chunk, kStreams);
+Entity referred_entity(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base) {
+    const Reference& reference = field.reference;
+    if (reference.selector.empty()) return reference.entity;
+    const std::uint64_t choice = field_number(*layout.find(reference.selector), payload, base);
+    return choice < reference.choices.size() ? reference.choices[choice] : Entity::nothing;
 }
 
 }  // namespace bendy

@@ -20,8 +20,6 @@ using f32 = float;
     static_assert(offsetof(Struct, field) == (offset));       \
     static_assert(sizeof(Struct::field) == sizeof(type) * (count));
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
 
 constexpr std::size_t sum_of_fields(const char* record) {
     std::size_t sum = 0;
@@ -29,19 +27,13 @@ constexpr std::size_t sum_of_fields(const char* record) {
         while (*a != 0 && *a == *b) ++a, ++b;
         return *a == *b;
     };
-#define BENDY_RECORD(chunk, Struct, shortest)
 #define BENDY_FIELD(Struct, field, type, count, offset, what) sum += same(record, #Struct) ? sizeof(type) * (count) : 0;
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
     return sum;
 }
 
 #define BENDY_RECORD(chunk, Struct, shortest) static_assert(sum_of_fields(#Struct) == sizeof(Struct));
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
 
 }  // namespace layout
 }  // namespace

@@ -11,11 +11,12 @@ MAY_USE = {
     "runtime": {"format"},
     "capi": {"format", "runtime"},
     "converter": {"format"},
+    "diff": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},
     "twin": {"format"},
     "stages": {"format", "runtime"},
-    "cli": {"format", "runtime", "converter", "edit", "viewer", "twin", "stages"},
+    "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "twin", "stages"},
 }
 # Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
 # in no room, all of them may use.

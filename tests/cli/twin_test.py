@@ -137,7 +137,7 @@ class TextTwin(TwinCase):
         self.assertFalse('"codec"' in text.read_text())
         out = self.assembled(text)
         self.assertGreater(out.stat().st_size, path.stat().st_size)
-        self.done("diff", path, out, "--tolerance", "0")
+        self.done("diff", path, out, "--tolerance", "0.001mm")
 
     def test_standard_output_and_default_names(self):
         path = self.converted("tentacle")

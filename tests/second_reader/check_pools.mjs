@@ -1,7 +1,7 @@
 // Rules of pools, palettes, targets, polygons and the collapse sequence.
 
 import { check_sets, check_weights, read_stream } from './check_streams.mjs';
-import { all_finite, all_zero, f32, is_utf8, kLocal, kNone } from './numbers.mjs';
+import { all_finite, all_zero, f32, is_utf8, kLocal, kNone, sides_of } from './numbers.mjs';
 
 function check_palette(file, chunk, joints) {
     const record = file.record(chunk, 'PaletteRecord', 16);
@@ -22,9 +22,9 @@ function check_palette(file, chunk, joints) {
         file.derived_bytes += 64 * record.entries;
     }
     const palette = file.body(chunk);
-    if (!all_zero(palette.zeros)) file.add('RESERVED_FIELD', chunk);
+    if (!all_zero(palette.jointsZeros)) file.add('RESERVED_FIELD', chunk);
     if (palette.joints.some((joint) => joint >= joints)) file.add('JOINT_RANGE', chunk);
-    if (!palette.matrices.every((matrix) => all_finite(matrix.values))) file.add('NOT_FINITE', chunk);
+    if (!all_finite(palette.matrices)) file.add('NOT_FINITE', chunk);
     return palette;
 }
 
@@ -93,7 +93,7 @@ function count_frames(file, block, vertices, normals) {
         file.add('COUNT_MISMATCH', name_chunk);
         is_good = false;
     }
-    const ends = file.body(chunk).sides.flatMap((s) => [s.minimum, s.step, f32(s.minimum + f32(65536 * s.step))]);
+    const ends = sides_of(file.body(chunk).values).flatMap((s) => [s.minimum, s.step, f32(s.minimum + f32(65536 * s.step))]);
     if (!all_finite(ends)) file.add('NOT_FINITE', chunk);
     return is_good ? count : null;
 }
@@ -166,9 +166,9 @@ export function check_polygons(file, rig, pools) {
             if (range) check(chunk, range, joint);
         }
     if (rig.table)
-        for (const { joint, range } of rig.table.table.polygons) {
-            if (joint >= rig.joints.length) file.add('JOINT_RANGE', rig.table.chunk);
-            else check(rig.table.chunk, range, rig.joints[joint]);
+        for (const range of rig.table.table.ranges) {
+            if (range.joint >= rig.joints.length) file.add('JOINT_RANGE', rig.table.chunk);
+            else check(rig.table.chunk, range, rig.joints[range.joint]);
         }
     return ranges;
 }

@@ -168,7 +168,7 @@ function check_joint_table(file, object, joints) {
     const table = file.body(chunk);
     joints.forEach((joint, k) => {
         const pivot = file.child(joint.chunk, 'PIVO');
-        if (!pivot || !file.has(pivot, 'REST')) check_rest(file, chunk, table.rests[k].record);
+        if (!pivot || !file.has(pivot, 'REST')) check_rest(file, chunk, table.rests[k]);
     });
     return { chunk, table };
 }

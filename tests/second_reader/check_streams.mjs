@@ -1,6 +1,6 @@
 // Rules of streams.md, and of the chunks that are streams.
 
-import { all_finite, all_zero, f32, kWeightTolerance } from './numbers.mjs';
+import { all_finite, all_zero, f32, kWeightTolerance, sides_of } from './numbers.mjs';
 
 const kTypes = ['u8', 'i8', 'u16', 'i16', 'u32', 'f32'];
 const kBytes = [1, 1, 2, 2, 4, 4];
@@ -32,9 +32,9 @@ function form_fits(chunk, record) {
 }
 
 function check_box(file, chunk, stream) {
-    if (!all_zero(stream.box.zeros)) file.add('RESERVED_FIELD', chunk);
+    if (!all_zero(stream.boxZeros)) file.add('RESERVED_FIELD', chunk);
     const largest = kTypes[stream.record.componentType] === 'u32' ? 2 ** 32 : 65536;
-    const ends = stream.box.sides.flatMap((side) => [side.minimum, side.step, f32(side.minimum + f32(largest * side.step))]);
+    const ends = sides_of(stream.box).flatMap((side) => [side.minimum, side.step, f32(side.minimum + f32(largest * side.step))]);
     if (!all_finite(ends)) file.add('NOT_FINITE', chunk);
 }
 
@@ -91,11 +91,13 @@ export function check_sets(file, chunks, streams) {
 /** What the stream's integers stand for, in f32. */
 function meaning_of(stream) {
     const { componentType, normalised, components } = stream.record;
-    if (normalised === kBoxed)
+    if (normalised === kBoxed) {
+        const sides = sides_of(stream.box);
         return (number, at) => {
-            const { minimum, step } = stream.box.sides[at % components];
+            const { minimum, step } = sides[at % components];
             return f32(minimum + f32(step * number));
         };
+    }
     const largest = { 0: 255, 1: 127, 2: 65535, 3: 32767 }[componentType];
     if (normalised === 1 && largest) return (number) => f32(Math.max(number / largest, -1));
     return (number) => number;

@@ -80,29 +80,30 @@ function more_of(body) {
     return bytes.length > 0 ? { more: Buffer.from(bytes).toString('hex') } : {};
 }
 
+const is_object = (value) => typeof value === 'object' && !(value instanceof Uint8Array);
+
+/** The parts of a leaf by their names, its record's fields among them. */
+function parts_of(body) {
+    const out = {};
+    for (const [name, value] of Object.entries(body)) {
+        if (name.startsWith('_') || name.endsWith('Zeros') || value === undefined) continue;
+        if (name === 'record') Object.assign(out, fields_of(value));
+        else if (value instanceof Uint8Array) out[name] = Buffer.from(value).toString('hex');
+        else out[snake(name)] = Array.isArray(value) && value.some(is_object) ? value.map(fields_of) : value;
+    }
+    return out;
+}
+
 /** All that a leaf holds, in the form of the text twin. */
 function twin_of(chunk, body) {
     if (kTexts.has(chunk.id)) return body.value;
     switch (chunk.id) {
-        case 'IMAG': return { ...fields_of(body.record), image: Buffer.from(body.bytes).toString('hex') };
-        case 'JNAM': case 'FNAM': return { names: body.names };
-        case 'GRID': return { values: body.sides.flatMap((side) => [side.minimum, side.step]) };
-        case 'PLAY': return { plays: body.plays.map(fields_of) };
-        case 'JNTS': return {
-            ...fields_of(body.record), rests: body.rests.map(({ record }) => fields_of(record)),
-            ranges: body.polygons.map(({ joint, range }) => ({ joint, ...fields_of(range) })),
-        };
-        case 'PALT': return { ...fields_of(body.record), joints: body.joints, matrices: body.matrices.flatMap((matrix) => matrix.values) };
         case 'LODD': return collapse(body, chunk);
-        case 'TRAK': return { tracks: body.tracks.map(fields_of) };
         case 'PACK': return packed(body);
         case 'MARK': return { markers: body.markers.map(({ seconds }, k) => ({ seconds, name: body.names[k].value })) };
-        case 'TIME': case 'KEYV': case 'NLST': return { values: body.values };
         default:
     }
-    if (!body.values) return { ...fields_of(body), ...more_of(body) };
-    const box = body.box ? { box: body.box.sides.flatMap((side) => [side.minimum, side.step]) } : {};
-    return { ...fields_of(body.record), ...box, values: body.values };
+    return body.constructor.name.endsWith('Record') ? { ...fields_of(body), ...more_of(body) } : parts_of(body);
 }
 
 const kInfinite = { inf: Infinity, '-inf': -Infinity };

@@ -11,6 +11,11 @@ export function all_finite(numbers) {
     return true;
 }
 
+/** Minimum and step of each component, as a box has them one behind the other. */
+export function sides_of(box) {
+    return Array.from({ length: box.length / 2 }, (_, k) => ({ minimum: box[2 * k], step: box[2 * k + 1] }));
+}
+
 export function is_unit(q) {
     return Math.abs(Math.sqrt(q.reduce((sum, x) => sum + x * x, 0)) - 1) <= kUnitTolerance;
 }

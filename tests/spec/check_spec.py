@@ -3,7 +3,7 @@
 
 Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
 flags of chunk.h, the stream rules of pool.cpp) with the tables of spec/, in both directions, those of the grammar files
-bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks make_bytes.py whether its dumps and files are what it makes now. One line for each difference; exit 1 if
+bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks the scripts of spec/ whether their dumps and files are what they make now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
 """
 
@@ -299,6 +299,28 @@ def check_enumerations(check):
                     check.understood(sizes, 'component_size of records.h')
                     check.same(name, 'bytes of ComponentType', [row[2] for row in rows], re.findall(r'\d+', sizes[1]))
     check.same_keys('spec', 'enumeration', list(spec), list(code))
+    table = {enum: names.split() for enum, names in re.findall(r'^BENDY_VALUES\((\w+), "([^"]*)"\)$', check.code('records.def'), re.MULTILINE)}
+    here = ('ErrorCode', 'ErrorClass', 'FieldType')
+    check.same_keys('records.def', 'enumeration', list(table), list(code))
+    for enum in table.keys() & code.keys():
+        check.same('records.def', 'names of ' + enum, table[enum], code[enum])
+
+
+def check_leaves(check, chunks, records):
+    """Every leaf has parts; types, and the fields that columns name, are there."""
+    rows = re.findall(r'^BENDY_PART\("([^"]*)", +(\w+), +"(\w*)", +(\w+), +"([^"]*)", +"([^"]*)", +"(\w+)", *(\w+), +(\w+), +(\w+), +"[^"]*"\)$',
+                      check.code('leaf_parts.def'), re.MULTILINE)
+    check.understood(len(rows) == len(re.findall(r'^BENDY_PART\(', check.code('leaf_parts.def'), re.MULTILINE)), 'some lines of leaf_parts.def')
+    heads = {leaf: kind for leaves, part, _, kind, *_ in rows if part == 'record' for leaf in leaves.split()}
+    check.same_keys('leaf_parts.def', 'leaf', sorted({leaf for row in rows for leaf in row[0].split()}),
+                    sorted(chunk for chunk, rule in chunks.items() if rule['shape'] == 'leaf'))
+    for leaves, part, name, kind, count, when, row, *_ in rows:
+        for leaf in leaves.split():
+            fields = {field for _, _, _, field in records[heads[leaf]]['fields']} if leaf in heads else set()
+            words = set(re.findall(r'[a-z]\w*', count.replace('rest', '') + ' ' + when + ' ' + row))
+            check.same('leaf_parts.def', 'fields that %s of %s needs' % (name or 'record', leaf), words - fields, set())
+            is_type = kind in records or kind in fields or kind in (*SIZES, 'i8', 'i16', 'i32', 'JointPolygons')
+            check.same('leaf_parts.def', 'type of %s of %s is known' % (name or 'record', leaf), is_type, True)
 
 
 def check_streams(check):
@@ -494,12 +516,13 @@ def check_links(check):
                 check.fail(name, 'the link %s#%s leads to no heading' % (target, anchor))
 
 
-def check_bytes(check):
-    made = subprocess.run([sys.executable, '-B', str(check.spec / 'make_bytes.py'), '--check'], capture_output=True, text=True)
-    if made.returncode != 0:
-        for line in (made.stdout + made.stderr).splitlines():
-            check.fail('spec/make_bytes.py', line)
-    check.comparisons += 1
+def check_made_files(check):
+    for script in ('make_bytes.py', 'make_grammar.py', 'make_text_schema.py'):
+        made = subprocess.run([sys.executable, '-B', str(check.spec / script), '--check'], capture_output=True, text=True)
+        if made.returncode != 0:
+            for line in (made.stdout + made.stderr).splitlines():
+                check.fail('spec/' + script, line)
+        check.comparisons += 1
 
 
 def main(arguments):
@@ -512,6 +535,7 @@ def main(arguments):
     check_tree(check, chunks)
     check_records(check, records)
     check_enumerations(check)
+    check_leaves(check, chunks, records)
     check_streams(check)
     check_codes(check)
     check_limits(check)
@@ -519,7 +543,7 @@ def main(arguments):
     check_kaitai(check, chunks, records)
     check_hexpat(check, chunks, records)
     check_links(check)
-    check_bytes(check)
+    check_made_files(check)
     print('%d comparisons, %d differences' % (check.comparisons, check.differences))
     return 1 if check.differences else 0
 

@@ -3,6 +3,7 @@
 #include "hex.h"
 
 #include <bendy/format/marker.h>
+#include <bendy/format/packed_cycle.h>
 
 #include <algorithm>
 #include <array>
@@ -183,7 +184,7 @@ bool LeafAssembler::append_number(std::uint64_t value, NumberType type, std::str
     return fail(value, quoted(name) + ": this is no number");
 }
 
-bool LeafAssembler::begin_record(const RecordLayout& layout) {
+bool LeafAssembler::record(const RecordLayout& layout) {
     const bool has_late = std::any_of(layout.fields.begin(), layout.fields.end(), [&](const RecordField& field) {
         return is_late(layout, field) && find(object_, field.name) != nullptr;
     });
@@ -236,7 +237,7 @@ bool LeafAssembler::fill_text(const RecordField& field, std::uint64_t value, std
 }
 
 bool LeafAssembler::fill_numbers(const RecordField& field, std::uint64_t value, std::uint64_t at) {
-    if (field.name == "generator" && values_.kind(value) == ValueKind::string) return fill_text(field, value, at);
+    if (field.is_text() && values_.kind(value) == ValueKind::string) return fill_text(field, value, at);
     const NumberType type = number_type(field.type);
     std::vector<std::byte> bytes;
     if (field.count == 1) {
@@ -366,72 +367,84 @@ bool LeafAssembler::packed_frames(std::string_view name, std::span<const std::ui
     return true;
 }
 
-void LeafAssembler::bytes(std::string_view name) {
+bool LeafAssembler::bytes(std::string_view name) {
     const std::uint64_t value = part(name);
-    if (value == kNowhere) return;
-    if (auto fault = read_hex(values_, value, payload_)) fault_ = std::move(fault);
+    if (value == kNowhere) return false;
+    fault_ = read_hex(values_, value, payload_);
+    return !fault_;
 }
 
-void LeafAssembler::text() {
-    if (values_.kind(content_) != ValueKind::string) {
-        fail(content_, R"(there should be text, or an object with "hex")");
-        return;
+bool LeafAssembler::text(std::string_view name, std::uint64_t size) {
+    is_whole_ = name.empty();
+    const std::uint64_t value = is_whole_ ? content_ : part(name);
+    if (value == kNowhere) return false;
+    if (values_.kind(value) != ValueKind::string) {
+        return fail(value, is_whole_ ? std::string(R"(there should be text, or an object with "hex")")
+                                     : quoted(name) + ": there should be a string, not " +
+                                           std::string(kind_name(values_.kind(value))));
     }
-    const Bytes text = as_byte_span(values_.characters(content_));
-    payload_.assign(text.begin(), text.end());
-    is_whole_ = true;
+    const Bytes text = as_byte_span(values_.characters(value));
+    if (size != kTheRest && text.size() != size) {
+        return fail(value, quoted(name) + " has " + counted(text.size(), "byte") + "; the sizes beside it ask for " +
+                               std::to_string(size));
+    }
+    payload_.insert(payload_.end(), text.begin(), text.end());
+    return true;
 }
 
-void LeafAssembler::names() {
-    const std::uint64_t value = array_part("names");
-    if (value == kNowhere) return;
+bool LeafAssembler::names(std::string_view name) {
+    const std::uint64_t value = array_part(name);
+    if (value == kNowhere) return false;
     for (std::uint64_t each = LeafValues::first(value); each != values_.next(value); each = values_.next(each)) {
         if (values_.kind(each) != ValueKind::string) {
-            fail(each, "\"names\": there should be a string, not " + std::string(kind_name(values_.kind(each))));
-            return;
+            return fail(each,
+                        quoted(name) + ": there should be a string, not " + std::string(kind_name(values_.kind(each))));
         }
-        const std::string_view name = values_.characters(each);
-        if (name.find('\0') != std::string_view::npos) {
-            fail(each, "\"names\": a name in this list cannot hold a zero character");
-            return;
-        }
-        const Bytes bytes = as_byte_span(name);
+        const std::string_view text = values_.characters(each);
+        if (text.find('\0') != std::string_view::npos)
+            return fail(each, quoted(name) + ": a name in this list cannot hold a zero character");
+        const Bytes bytes = as_byte_span(text);
         payload_.insert(payload_.end(), bytes.begin(), bytes.end());
         payload_.push_back(std::byte{0});
     }
+    return true;
 }
 
-void LeafAssembler::markers() {
+bool LeafAssembler::zeros(std::uint64_t size) {
+    payload_.resize(payload_.size() + size);
+    return true;
+}
+
+bool LeafAssembler::markers() {
     const std::uint64_t value = array_part("markers");
-    if (value == kNowhere) return;
+    if (value == kNowhere) return false;
     std::vector<Marker> markers;
     std::uint64_t size = 0;
     Object object;
     std::vector<std::byte> seconds;
     for (std::uint64_t each = LeafValues::first(value); each != values_.next(value); each = values_.next(each)) {
-        if (!read_object(each, object)) return;
+        if (!read_object(each, object)) return false;
         Member* const time = need(object, "seconds");
         Member* const name = need(object, "name");
-        if (fault_) return;
+        if (fault_) return false;
         time->is_used = name->is_used = true;
         seconds.clear();
-        if (!append_number(time->value, NumberType::f32, "seconds", seconds)) return;
+        if (!append_number(time->value, NumberType::f32, "seconds", seconds)) return false;
         if (values_.kind(name->value) != ValueKind::string) {
-            fail(name->value,
-                 "\"name\": there should be a string, not " + std::string(kind_name(values_.kind(name->value))));
-            return;
+            return fail(name->value,
+                        "\"name\": there should be a string, not " + std::string(kind_name(values_.kind(name->value))));
         }
-        if (!check_all_used(object)) return;
+        if (!check_all_used(object)) return false;
         Marker& marker = markers.emplace_back();
         copy_at(Bytes(seconds), 0, marker.seconds);
         marker.name = values_.characters(name->value);
         size += marker.name.size();
         if (size > std::numeric_limits<std::uint32_t>::max()) {
-            fail(name->value, "\"markers\": all names together are longer than 4 GiB");
-            return;
+            return fail(name->value, "\"markers\": all names together are longer than 4 GiB");
         }
     }
     payload_ = write_markers(markers);
+    return true;
 }
 
 std::optional<std::uint64_t> LeafAssembler::collapsed_vertices(const PoolCollapseRecord&, std::string_view name) {

@@ -27,7 +27,7 @@ std::string_view kind_name(ValueKind kind);
 std::optional<FaultAt> read_hex(const LeafValues& values, std::uint64_t value, std::vector<std::byte>& out);
 
 /// Turns the JSON of a leaf's content into its payload: the other side of leaf_form.h.
-class LeafAssembler {
+class LeafAssembler final : public LeafSteps {
 public:
     /// \param text    that the values were read from
     /// \param tick    called now and then, with a place in the text, while a long array is read
@@ -37,29 +37,22 @@ public:
     /// Makes the payload of a chunk from a value; a fault if it has not the chunk's form.
     std::optional<FaultAt> assemble(FourCC chunk, std::uint64_t content);
 
-    // The steps of leaf_form.h.
-    template <class R>
-    bool record(const RecordLayout& layout, R& record) {
-        if (!begin_record(layout)) return false;
-        copy_at(payload_, 0, record);
-        return true;
-    }
-    void plain_record(const RecordLayout& layout) { begin_record(layout); }
-    bool array(const NumberArray& array);
-    bool records(std::string_view name, const RecordLayout& layout, std::uint64_t count);
-    void bytes(std::string_view name);
-    void text();
-    void names();
-    void markers();
-    /// What has been made so far.
-    [[nodiscard]] Bytes payload() const { return payload_; }
-    [[nodiscard]] std::uint64_t payload_done() const { return payload_.size(); }
-    bool joint_bits(std::string_view name, std::uint32_t joints, std::uint32_t& tracks);
-    bool packed_frames(std::string_view name, std::span<const std::uint32_t> widths, std::uint64_t frames);
-    void zeros(std::uint64_t size) { payload_.resize(payload_.size() + size); }
-    [[nodiscard]] bool has_packed_tracks() { return find(object_, "tracks") == nullptr; }
     std::vector<std::byte> take_payload() { return std::move(payload_); }
-    std::optional<std::uint64_t> collapsed_vertices(const PoolCollapseRecord& pool, std::string_view name);
+
+    bool record(const RecordLayout& layout) override;
+    bool array(const NumberArray& array) override;
+    bool records(std::string_view name, const RecordLayout& layout, std::uint64_t count) override;
+    bool text(std::string_view name, std::uint64_t size) override;
+    bool names(std::string_view name) override;
+    bool bytes(std::string_view name) override;
+    [[nodiscard]] Bytes payload() const override { return payload_; }
+    [[nodiscard]] std::uint64_t payload_done() const override { return payload_.size(); }
+    bool markers() override;
+    [[nodiscard]] bool has_packed_tracks() override { return find(object_, "tracks") == nullptr; }
+    bool joint_bits(std::string_view name, std::uint32_t joints, std::uint32_t& tracks) override;
+    bool packed_frames(std::string_view name, std::span<const std::uint32_t> widths, std::uint64_t frames) override;
+    bool zeros(std::uint64_t size) override;
+    std::optional<std::uint64_t> collapsed_vertices(const PoolCollapseRecord& pool, std::string_view name) override;
 
 private:
     /// A name and its value in an object.
@@ -82,7 +75,6 @@ private:
     bool check_all_used(const Object& object);
     /// A member of the content; kNowhere without a fault where "more" stands for it.
     std::uint64_t part(std::string_view name);
-    bool begin_record(const RecordLayout& layout);
     bool fill(const RecordLayout& layout, Object& object, std::uint64_t base, std::uint64_t size);
     bool fill_record(const RecordLayout& layout, std::uint64_t value, std::uint64_t at);
     /// The field's member, if it is there or must be; null without a fault for reserved fields that are left out.

@@ -3,6 +3,7 @@
 #include "hex.h"
 
 #include <bendy/format/marker.h>
+#include <bendy/format/packed_cycle.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
@@ -118,24 +119,30 @@ void LeafDumper::begin_member(std::string_view name, bool is_short) {
     append_key(out_, name);
 }
 
-void LeafDumper::bytes(std::string_view name) {
+bool LeafDumper::bytes(std::string_view name) {
     begin_member(name, left() <= kHexBytesPerLine);
     append_json_hex(out_, payload_.subspan(at_), depth_ + 1);
     at_ = payload_.size();
+    return true;
 }
 
-void LeafDumper::text() {
-    const std::string_view text = as_text(payload_);
-    if (!is_utf8(text)) return;
+bool LeafDumper::text(std::string_view name, std::uint64_t size) {
+    if (size == kTheRest) size = left();
+    if (size > left()) return cut();
+    const std::string_view text = as_text(payload_.subspan(at_, size));
+    const bool is_whole = name.empty();
+    if (!is_utf8(text)) return is_whole ? false : cut();
+    if (!is_whole) begin_member(name);
     append_json_string(out_, text);
-    at_ = payload_.size();
-    is_whole_ = true;
+    at_ += size;
+    is_whole_ = is_whole;
+    return true;
 }
 
-void LeafDumper::names() {
+bool LeafDumper::names(std::string_view name) {
     std::string_view text = as_text(payload_);
-    if (!is_utf8(text) || (!text.empty() && text.back() != '\0')) return;
-    begin_member("names");
+    if (!is_utf8(text) || (!text.empty() && text.back() != '\0')) return false;
+    begin_member(name);
     out_ += '[';
     for (bool is_first = true; !text.empty(); is_first = false) {
         const std::size_t end = text.find('\0');
@@ -146,13 +153,14 @@ void LeafDumper::names() {
     }
     out_ += ']';
     at_ = payload_.size();
+    return true;
 }
 
 /// Names are what people edit, not where they end: a payload that is not all that it says has no form.
-void LeafDumper::markers() {
+bool LeafDumper::markers() {
     Faults unread;
     const auto markers = read_markers(payload_, 0, unread);
-    if (!markers || !unread.empty()) return;
+    if (!markers || !unread.empty()) return false;
     begin_member("markers");
     out_ += '[';
     for (std::size_t k = 0; k < markers->size(); ++k) {
@@ -166,6 +174,7 @@ void LeafDumper::markers() {
     }
     out_ += ']';
     at_ = payload_.size();
+    return true;
 }
 
 bool LeafDumper::are_zeros(std::uint64_t at, std::uint64_t size) const {
@@ -173,11 +182,16 @@ bool LeafDumper::are_zeros(std::uint64_t at, std::uint64_t size) const {
     return std::all_of(bytes.begin(), bytes.end(), [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-bool LeafDumper::begin_record(const RecordLayout& layout) {
+bool LeafDumper::record(const RecordLayout& layout) {
     const std::uint64_t size = payload_.size() >= layout.size ? layout.size : payload_.size();
     if (size != layout.size && size != layout.shortest) return false;
     append_fields(layout, 0, size, members_);
     at_ = size;
+    return true;
+}
+
+bool LeafDumper::zeros(std::uint64_t size) {
+    at_ += size;
     return true;
 }
 
@@ -217,7 +231,7 @@ void LeafDumper::append_record(const RecordLayout& layout, std::uint64_t base, s
 }
 
 void LeafDumper::append_field(const RecordField& field, std::uint64_t at, std::string& out) {
-    if (field.name == "generator") {
+    if (field.is_text()) {
         const std::string_view whole = as_text(payload_.subspan(at, field.count));
         const std::string_view text = whole.substr(0, whole.find('\0'));
         if (is_utf8(text) && are_zeros(at + text.size(), field.count - text.size())) {
@@ -315,7 +329,7 @@ std::optional<std::uint64_t> LeafDumper::collapsed_vertices(const PoolCollapseRe
 }
 
 /// Then read_packed has checked sizes, widths and the zeros at the end.
-bool LeafDumper::has_packed_tracks() const {
+bool LeafDumper::has_packed_tracks() {
     constexpr std::uint32_t kMostJoints = 65535;
     Faults unread;
     return read_packed(payload_, kMostJoints, 0, unread).has_value();

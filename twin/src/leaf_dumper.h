@@ -26,7 +26,7 @@ void append_json_string(std::string& out, std::string_view text);
 void append_json_hex(std::string& out, Bytes bytes, std::uint64_t depth);
 
 /// Writes the content of leaves: one side of leaf_form.h.
-class LeafDumper {
+class LeafDumper final : public LeafSteps {
 public:
     /// \param tick  called now and then while a long array is written
     LeafDumper(const ChunkTree& tree, std::string& out, std::function<void()> tick)
@@ -35,27 +35,20 @@ public:
     /// The leaf's payload, as JSON. \param depth  of the line on which it begins
     void dump(std::uint32_t leaf, std::uint64_t depth);
 
-    // The steps of leaf_form.h.
-    template <class R>
-    bool record(const RecordLayout& layout, R& record) {
-        if (!begin_record(layout)) return false;
-        copy_at(payload_, 0, record);
-        return true;
-    }
-    void plain_record(const RecordLayout& layout) { begin_record(layout); }
-    bool array(const NumberArray& array);
-    bool records(std::string_view name, const RecordLayout& layout, std::uint64_t count);
-    void bytes(std::string_view name);
-    void text();
-    void names();
-    void markers();
-    [[nodiscard]] Bytes payload() const { return payload_; }
-    [[nodiscard]] std::uint64_t payload_done() const { return at_; }
-    bool joint_bits(std::string_view name, std::uint32_t joints, std::uint32_t& tracks);
-    bool packed_frames(std::string_view name, std::span<const std::uint32_t> widths, std::uint64_t frames);
-    void zeros(std::uint64_t size) { at_ += size; }
-    [[nodiscard]] bool has_packed_tracks() const;
-    std::optional<std::uint64_t> collapsed_vertices(const PoolCollapseRecord& pool, std::string_view name);
+    bool record(const RecordLayout& layout) override;
+    bool array(const NumberArray& array) override;
+    bool records(std::string_view name, const RecordLayout& layout, std::uint64_t count) override;
+    bool text(std::string_view name, std::uint64_t size) override;
+    bool names(std::string_view name) override;
+    bool bytes(std::string_view name) override;
+    [[nodiscard]] Bytes payload() const override { return payload_; }
+    [[nodiscard]] std::uint64_t payload_done() const override { return at_; }
+    bool markers() override;
+    [[nodiscard]] bool has_packed_tracks() override;
+    bool joint_bits(std::string_view name, std::uint32_t joints, std::uint32_t& tracks) override;
+    bool packed_frames(std::string_view name, std::span<const std::uint32_t> widths, std::uint64_t frames) override;
+    bool zeros(std::uint64_t size) override;
+    std::optional<std::uint64_t> collapsed_vertices(const PoolCollapseRecord& pool, std::string_view name) override;
 
 private:
     /// Numbers from `first` on stand `stride` on a line.
@@ -64,7 +57,6 @@ private:
         std::uint64_t stride = 1;
     };
 
-    bool begin_record(const RecordLayout& layout);
     /// Fields of the record at `base` that the payload has, each as `"name": value`.
     void append_fields(const RecordLayout& layout, std::uint64_t base, std::uint64_t size,
                        std::vector<std::string>& out);

@@ -71,22 +71,6 @@ NumberFault parse_float(std::string_view token, std::vector<std::byte>& out) {
 
 }  // namespace
 
-std::string_view name_of(NumberType type) {
-    constexpr std::array<std::string_view, 8> kNames{"u8", "i8", "u16", "i16", "u32", "i32", "u64", "f32"};
-    return kNames[static_cast<std::size_t>(type)];
-}
-
-NumberType number_type(FieldType type) {
-    constexpr std::array kTypes{NumberType::u8, NumberType::u16, NumberType::u32, NumberType::u64, NumberType::f32};
-    return kTypes[static_cast<std::size_t>(type)];
-}
-
-NumberType number_type(ComponentType type) {
-    constexpr std::array<NumberType, kComponentTypes> kTypes{NumberType::u8,  NumberType::i8,  NumberType::u16,
-                                                             NumberType::i16, NumberType::u32, NumberType::f32};
-    return kTypes[static_cast<std::size_t>(type)];
-}
-
 void append_number(std::string& out, NumberType type, Bytes bytes, std::uint64_t at) {
     switch (type) {
         case NumberType::u8:

@@ -14,18 +14,6 @@
 // Numbers as the twin writes them: floats by the shortest decimal that reads back to the same bits.
 namespace bendy::twin {
 
-enum class NumberType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, f32 };
-
-constexpr std::uint64_t size_of(NumberType type) {
-    constexpr std::uint64_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 4};
-    return kSizes[static_cast<std::size_t>(type)];
-}
-/// "u8", "f32", ...
-std::string_view name_of(NumberType type);
-/// \param type  not FieldType::record
-NumberType number_type(FieldType type);
-NumberType number_type(ComponentType type);
-
 /// Appends the number at `at`, which must be inside the bytes. A float that JSON has no number for comes as a string:
 /// "inf", "-inf", or "nan:0x7fc00000" with its bits.
 void append_number(std::string& out, NumberType type, Bytes bytes, std::uint64_t at);

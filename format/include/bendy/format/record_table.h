@@ -1,8 +1,11 @@
 #pragma once
 
+#include <bendy/format/byte_reader.h>
 #include <bendy/format/fourcc.h>
 #include <bendy/format/public.h>
+#include <bendy/format/records.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -11,12 +14,43 @@
 namespace BENDY_PUBLIC bendy {
 
 enum class FieldType : std::uint8_t { u8, u16, u32, u64, f32, record };
+enum class NumberType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, f32 };
+
+/// Bytes of one number of the type.
+constexpr std::uint64_t size_of(NumberType type) {
+    constexpr std::uint64_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 4};
+    return kSizes[static_cast<std::size_t>(type)];
+}
+/// "u8", "f32", ...
+std::string_view name_of(NumberType type);
+/// \param type  not FieldType::record
+NumberType number_type(FieldType type);
+NumberType number_type(ComponentType type);
 
 /// Bytes of one number of the type; of `record` 0.
 constexpr std::uint64_t field_type_size(FieldType type) {
     constexpr std::uint64_t kSizes[] = {1, 2, 4, 8, 4, 0};
     return kSizes[static_cast<std::size_t>(type)];
 }
+
+/// What a number can be the number of. Joints, meshes and chains are counted in their object, materials and textures in
+/// HEAD; of any_material, numbers with kLocalMaterial are among the joint's own. Frames are those of a mesh.
+enum class Entity : std::uint8_t { nothing, joint, material, any_material, mesh, texture, chain, frame };
+inline constexpr unsigned kEntities = 8;
+/// "joint", "mesh", ...; empty for nothing.
+std::string_view name_of(Entity entity);
+
+/// What the number in a field refers to.
+struct Reference {
+    static constexpr std::size_t kMostChoices = 8;
+
+    Entity entity = Entity::nothing;             ///< without a selector
+    std::string_view selector;                   ///< field of the same record that picks one of `choices`; or empty
+    std::array<Entity, kMostChoices> choices{};  ///< by the selector's value
+    bool is_optional = false;                    ///< kNone is none; else the record goes with what it refers to
+
+    [[nodiscard]] bool is_any() const { return entity != Entity::nothing || !selector.empty(); }
+};
 
 struct RecordField {
     std::string_view record;     ///< struct that it belongs to
@@ -25,9 +59,16 @@ struct RecordField {
     FieldType type = FieldType::u8;
     std::uint32_t count = 1;   ///< numbers, or records
     std::uint64_t offset = 0;  ///< bytes from the start of the record
+    std::string_view unit;     ///< "metres", "seconds", "radians", or empty
+    std::string_view values;   ///< names of an enumeration's values from 0 on, a blank between them; or empty
+    Reference reference;
 
     /// Fields that must be zero: they may mean something one day.
     [[nodiscard]] bool is_reserved() const { return name.starts_with("reserved"); }
+    /// UTF-8 with zeros to the field's end.
+    [[nodiscard]] bool is_text() const { return unit == "text"; }
+    /// The name of an enumeration's value; empty if it has none.
+    [[nodiscard]] std::string_view value_name(std::uint64_t value) const;
 };
 
 struct RecordLayout {
@@ -36,21 +77,21 @@ struct RecordLayout {
     std::uint64_t shortest = 0;  ///< bytes that a payload must have at least
     std::uint64_t size = 0;      ///< bytes of all fields
     std::span<const RecordField> fields;
+
+    /// Nothing if there is none of this name.
+    [[nodiscard]] const RecordField* find(std::string_view field) const;
 };
 
 /// All records in the table's order.
 std::span<const RecordLayout> record_layouts();
 
-/// The record of this name; nothing if there is none.
+/// The record of this name, JointPolygons among them; nothing if there is none.
 const RecordLayout* find_layout(std::string_view record);
 
-/// The record at the start of the chunk's payload, or of which the payload is an array; nothing if it has none.
-const RecordLayout* layout_of(FourCC chunk);
+/// The unsigned integer in a field of a record at `base`; 0 past the payload's end.
+std::uint64_t field_number(const RecordField& field, Bytes payload, std::uint64_t base);
 
-/// The payload is text: NAME, EXTR, EXTN, MORE, LINK.
-bool is_text(FourCC chunk);
-
-/// The payload is a StreamRecord and its numbers.
-bool is_stream(FourCC chunk);
+/// What the field refers to in the record at `base`.
+Entity referred_entity(const RecordLayout& layout, const RecordField& field, Bytes payload, std::uint64_t base);
 
 }  // namespace bendy

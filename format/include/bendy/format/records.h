@@ -310,10 +310,7 @@ inline constexpr std::uint64_t kShortest = sizeof(R);
 #define BENDY_RECORD(chunk, Struct, shortest) \
     template <>                               \
     inline constexpr std::uint64_t kShortest<Struct> = shortest;
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
 #include <bendy/format/records.def>
-#undef BENDY_RECORD
-#undef BENDY_FIELD
 
 /// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their
 /// defaults; or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than

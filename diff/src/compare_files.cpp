@@ -1,4 +1,4 @@
-#include "compare_files.h"
+#include "compare_content.h"
 
 #include <bendy/format/decode_leaves.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-namespace bendy::cli {
+namespace bendy::diff {
 namespace {
 
 void add_stream(ReadFile& file, const StreamView& stream) {
@@ -39,14 +39,10 @@ void add_streams(ReadFile& file, const PoolView& pool) {
     for (const StreamView& stream : pool.texture_coords) add_stream(file, stream);
     for (const StreamView& stream : pool.colours) add_stream(file, stream);
     for (const AttributeView& attribute : pool.attributes) add_stream(file, attribute.values);
-    if (const std::uint32_t palette = file.tree.find(pool.chunk, FourCC("PALT")); palette != kNone)
-        file.palettes[palette] = &pool.palette;
     for (const TargetView& target : pool.targets) {
         if (target.is_frame()) break;
-        for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents}) {
+        for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents})
             add_stream(file, *stream);
-            if (*stream) file.targets[file.tree[(*stream)->chunk].parent] = &target;
-        }
     }
     if (pool.frames() > 1) add_frames(file, pool.targets.back());
 }
@@ -78,15 +74,6 @@ void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Diffe
 bool is_of_tracks(FourCC id) {
     return id == FourCC("TRAK") || id == FourCC("PACK") || id == FourCC("TIME") || id == FourCC("KEYV");
 }
-
-/// Chunks that are done when their target has been compared.
-bool is_of_target(FourCC id) {
-    return id == FourCC("INDX") || id == FourCC("POSI") || id == FourCC("NORM") || id == FourCC("TANG");
-}
-
-}  // namespace
-
-namespace {
 
 /// Gives packed cycles ordinary tracks beside those that they have.
 void add_unpacked(ReadFile& file) {
@@ -127,23 +114,18 @@ std::unique_ptr<ReadFile> read_file(Bytes bytes) {
     add_unpacked(*file);
     file->streams.resize(file->tree.chunks().size());
     file->cycles.resize(file->tree.chunks().size());
-    file->targets.resize(file->tree.chunks().size());
-    file->palettes.resize(file->tree.chunks().size());
-    file->tables.resize(file->tree.chunks().size());
+    file->objects.resize(file->tree.chunks().size());
     for (const ObjectView& object : file->document.objects) {
+        file->objects[object.chunk] = &object;
         for (const PoolView& pool : object.pools) add_streams(*file, pool);
-        for (const FourCC id : {FourCC("JNTS"), FourCC("JNAM"), FourCC("LODD")}) {
-            const std::uint32_t table = file->tree.find(object.chunk, id);
-            if (table != kNone) file->tables[table] = &object;
-        }
         for (const CycleView& cycle : object.cycles) file->cycles[cycle.chunk] = &cycle;
     }
     return file;
 }
 
-Differences compare_files(const ReadFile& a, const ReadFile& b, std::optional<double> tolerance) {
+Differences compare_files(const ReadFile& a, const ReadFile& b) {
     Differences differences;
-    ContentComparer content(a, b, tolerance, differences);
+    ContentComparer content(a, b, differences);
     std::vector<ChunkPair> open{{0, 0}};
     while (!open.empty()) {
         const ChunkPair pair = open.back();
@@ -166,19 +148,16 @@ Differences compare_files(const ReadFile& a, const ReadFile& b, std::optional<do
             continue;
         }
         const bool is_cycle = a.cycles[pair.a] != nullptr && b.cycles[pair.b] != nullptr;
-        const bool is_target = tolerance && a.targets[pair.a] != nullptr && b.targets[pair.b] != nullptr;
         if (is_cycle) content.compare_cycles(pair);
-        if (is_target) content.compare_targets(pair);
         std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
         compare_order(a, children, differences);
         std::reverse(children.begin(), children.end());  // the last that is put on the pile is looked at first
         for (const ChunkPair& child : children) {
             const FourCC id = child.a != kNone ? a.tree[child.a].id : b.tree[child.b].id;
-            const bool is_done = (is_cycle && is_of_tracks(id)) || (is_target && is_of_target(id));
-            if (!is_done) open.push_back(child);
+            if (!(is_cycle && is_of_tracks(id))) open.push_back(child);
         }
     }
     return differences;
 }
 
-}  // namespace bendy::cli
+}  // namespace bendy::diff

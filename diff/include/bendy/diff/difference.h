@@ -2,18 +2,29 @@
 
 #include <bendy/format/pair_chunks.h>
 
-#include <nlohmann/json.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
-namespace bendy::cli {
+namespace bendy::diff {
+
+/// A number, a text, a truth; nothing where one file has no value.
+using Scalar = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+
+/// What a field holds: one scalar, or a list of them.
+struct Value {
+    std::vector<Scalar> items{Scalar{}};
+    bool is_list = false;
+
+    Value() = default;
+    Value(Scalar scalar) : items{std::move(scalar)} {}  // NOLINT(google-explicit-constructor): as a scalar would be
+    bool operator==(const Value&) const = default;
+};
 
 /// One thing in which two files differ.
-// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
 struct Difference {
     enum class Kind : std::uint8_t {
         only_in_a,  ///< the chunk, or `part` of it
@@ -26,8 +37,8 @@ struct Difference {
     };
     Kind kind = Kind::value;
     ChunkPair chunks;
-    std::string part;                         ///< a field, "track joint 3 rotation: values", or empty: the chunk itself
-    nlohmann::ordered_json a_value, b_value;  ///< of a value; of numbers and bytes: the first that differs
+    std::string part;        ///< a field, "track joint 3 rotation: values", or empty: the chunk itself
+    Value a_value, b_value;  ///< of a value; of numbers and bytes: the first that differs
     std::uint64_t count = 0;
     std::uint64_t of = 0;
     double largest = 0.0;             ///< distance of two numbers
@@ -56,4 +67,4 @@ private:
     std::size_t left_out_ = 0;
 };
 
-}  // namespace bendy::cli
+}  // namespace bendy::diff

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <bendy/diff/compare_files.h>
+#include <bendy/diff/difference.h>
+#include <bendy/format/leaf_parts.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace bendy::diff {
+
+/// Compares what is in chunks that are paired already.
+class ContentComparer {
+public:
+    static constexpr std::uint64_t kMostSteps = 4'000'000'000;
+
+    ContentComparer(const ReadFile& a, const ReadFile& b, Differences& differences)
+        : a_(a), b_(b), differences_(differences) {}
+
+    void compare_leaves(ChunkPair leaves);
+    /// Compares two CYCL chunks track by track, a track being known by what it animates. Their TRAK, PACK, TIME and
+    /// KEYV are done with this.
+    void compare_cycles(ChunkPair cycles);
+
+private:
+    // Of kinds whose numbers mean more than their bytes say: compare_content.cpp.
+    void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
+    void compare_collapses(ChunkPair leaves, const CollapseView& a, const CollapseView& b);
+    void compare_markers(ChunkPair leaves, const CycleView& a, const CycleView& b);
+    void compare_tracks(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
+
+    // Of every other kind, as leaf_parts.def describes it: compare_parts.cpp.
+    void compare_parts(ChunkPair leaves);
+    void compare_fields(ChunkPair leaves, const std::string& prefix, const RecordLayout& layout, Bytes a, Bytes b);
+    void compare_records(ChunkPair leaves, const LocatedPart& a, const LocatedPart& b);
+    void compare_number_parts(ChunkPair leaves, const LocatedPart& a, const LocatedPart& b);
+    void compare_names(ChunkPair leaves, const LeafPart& part, Bytes a, Bytes b);
+    void compare_bytes(ChunkPair leaves, Bytes a, Bytes b);
+    [[nodiscard]] std::string row_name(ChunkPair leaves, const LeafPart& part, std::uint64_t row) const;
+
+    using NumberAt = std::function<double(std::uint64_t)>;
+    void compare_numbers(ChunkPair chunks, const std::string& part, std::uint64_t count, std::uint64_t components,
+                         const NumberAt& a, const NumberAt& b, bool are_whole = false);
+    void compare_spans(ChunkPair chunks, const std::string& part, std::uint32_t components, std::span<const float> a,
+                       std::span<const float> b);
+    void add_value(ChunkPair chunks, std::string part, Value a, Value b);
+    void take(std::uint64_t steps);
+
+    const ReadFile& a_;
+    const ReadFile& b_;
+    Differences& differences_;
+    std::uint64_t effort_ = kMostSteps;
+};
+
+}  // namespace bendy::diff
