@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 
 namespace {
 
@@ -37,9 +36,9 @@ void open(const std::string& path, Sums sums, bool poses) {
     local_to_model(pose);
 }
 
-void add(const std::string& name, std::function<void()> run) {
+void add(const std::string& name, const std::function<void()>& run) {
 #ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
-    benchmark::RegisterBenchmark(name.c_str(), [run = std::move(run)](benchmark::State& state) {
+    benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) {
         while (state.KeepRunning()) run();
     })->Unit(benchmark::kMicrosecond);
 #endif

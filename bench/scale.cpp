@@ -106,7 +106,7 @@ void skin_normals(benchmark::State& state, Character& of) {
     skin_vertices(state, of, true);
 }
 
-void add(std::uint32_t joints, std::uint32_t vertices, const char* what, Measure measure) {
+void add(std::uint32_t joints, std::uint32_t vertices, const char* what, [[maybe_unused]] Measure measure) {
     const bool is_skinned = vertices > 0;
     const std::uint32_t items = is_skinned ? vertices : joints;
     const std::string unit = is_skinned ? "vertex" : "joint";

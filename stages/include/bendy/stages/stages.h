@@ -13,7 +13,8 @@
 #include <string>
 #include <vector>
 
-// What is done with a file from opening it to its vertices on the screen, a step at a time: what `bendy bench` and bench/ time.
+// What is done with a file from opening it to its vertices on the screen, a step at a time: what `bendy bench` and
+// bench/ time.
 namespace bendy::stages {
 
 struct Stage {
