@@ -59,7 +59,7 @@ types:
           header.id == "COLR" or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or
           header.id == "INDX" or header.id == "LODD" or header.id == "CINF" or header.id == "TRAK" or
           header.id == "PACK" or header.id == "PLAY" or header.id == "TIME" or header.id == "KEYV" or
-          header.id == "MARK"
+          header.id == "MARK" or header.id == "CURV"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -120,6 +120,7 @@ types:
             '"TIME"': time_list
             '"KEYV"': time_list
             '"MARK"': marker_list
+            '"CURV"': curve
   encoded:
     doc: "codecs.md."
     seq:
@@ -185,6 +186,22 @@ types:
   time_list:
     seq:
       - {id: values, type: f4, repeat: eos, doc: "numbers that the tracks share"}
+  curve:
+    seq:
+      - {id: record, type: curve_record}
+      - {id: box, type: f4, repeat: expr, repeat-expr: 2 * record.components, if: record.packed == 1, doc: "smallest value of each component, then the largest of each"}
+      - {id: times, type: f4, repeat: expr, repeat-expr: record.keys, doc: "seconds of each key"}
+      - id: values
+        repeat: expr
+        repeat-expr: record.values
+        doc: "values of each key; if cubic in-tangent, value, out-tangent"
+        type:
+          switch-on: record.packed == 1
+          cases:
+            true: u2
+            false: f4
+      - {id: path, type: str, size: record.path_size, doc: "of the property, from the target"}
+      - {id: name, type: str, size: record.name_size, doc: "the author's"}
   joint_polygons:
     seq:
       - {id: joint, type: u4, doc: "to which the polygons belong"}
@@ -453,6 +470,19 @@ types:
       - {id: lists, type: u1, doc: "bit k: list k has tracks"}
       - {id: wide, type: u1, doc: "bit k: the bases of list k have 4 bytes instead of 2"}
       - {id: reserved, size: 2, doc: "zero"}
+  curve_record:
+    seq:
+      - {id: keys, type: u4, doc: "number of keys, 1 or more"}
+      - {id: components, type: u1, doc: "numbers per value: 1 to 4"}
+      - {id: interpolation, type: u1, enum: interpolation, doc: "0 step, 1 linear, 2 cubic"}
+      - {id: packed, type: u1, doc: "0: values are f32; 1: values are u16 between the box's minima and maxima, which a cubic curve may not have"}
+      - {id: kind, type: u1, enum: curve_target, doc: "what target numbers: 0 nothing, 1 joint, 2 material, 3 mesh, 4 texture"}
+      - {id: target, type: u4, doc: "joint or VECT number inside the object, MATE or TEXT number in HEAD; 0xFFFFFFFF for kind 0"}
+      - {id: max_error, type: f4, doc: "largest difference between a stored value and the source's; 0 exact"}
+      - {id: values, type: u4, doc: "numbers: keys * components, three times as many if cubic"}
+      - {id: path_size, type: u4, doc: "bytes of the property path, UTF-8"}
+      - {id: name_size, type: u4, doc: "bytes of the name, UTF-8; 0 none"}
+      - {id: reserved, type: u4, doc: "zero"}
   track_record:
     seq:
       - {id: target, type: u4, doc: "joint number; for weights, mesh number"}
@@ -506,6 +536,7 @@ enums:
   limit_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
   solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}
   topology: {0: triangles, 1: lines, 2: points}
+  curve_target: {0: nothing, 1: joint, 2: material, 3: mesh, 4: texture}
   track_path: {0: translation, 1: rotation, 2: scale, 3: weights}
   interpolation: {0: step, 1: linear, 2: cubic}
   component_type: {0: u8, 1: i8, 2: u16, 3: i16, 4: u32, 5: f32}

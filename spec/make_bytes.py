@@ -375,6 +375,16 @@ def marked(*markers):
     return leaf('MARK', *pieces, *(raw(word.encode(), '"%s"' % word) for _, word in markers))
 
 
+def curve(kind, target, path, word, times, values):
+    """A linear curve of f32."""
+    components = len(values) // len(times)
+    pieces = [u32(len(times), 'keys %d' % len(times)), u8(components, 'components %d' % components), u8(1, 'interpolation 1 (linear)'),
+              u8(0, 'packed 0'), u8(kind, 'kind %d' % kind), u32(target, 'target %d' % target), f32(0, 'max_error 0'),
+              u32(len(values), 'values %d' % len(values)), u32(len(path), 'path_size %d' % len(path)),
+              u32(len(word), 'name_size %d' % len(word)), u32(0, 'reserved'), f32(times, 'times'), f32(values, 'values')]
+    return leaf('CURV', *pieces, raw(path.encode(), '"%s"' % path), raw(word.encode(), '"%s"' % word))
+
+
 def smallest_png():
     """One red pixel. Its only block is stored, so that every zlib makes the same bytes."""
     def part(kind, data):
@@ -469,7 +479,8 @@ def make_every_chunk():
             collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
             box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
                 leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values),
-                marked((0.25, 'up'), (0.75, 'down'))),
+                marked((0.25, 'up'), (0.75, 'down')),
+                curve(2, 0, 'pbrMetallicRoughness/roughnessFactor', 'shine', [0, 1], [1, 0.25])),
             box('CYCL', name('flap'), cycle_info(0, 1.5, 2, 1), play(1, 0, 3, 1))),
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),

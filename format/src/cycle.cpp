@@ -104,6 +104,10 @@ bool holds_all_keys(const CycleView& cycle) {
     const double most = (double{cycle.end} - cycle.start) * cycle.frame_rate + kFrames;
     const auto fits = [&](const PlayView& play) { return play.frames - 1.0 + (play.closed ? 1.0 : 0.0) <= most; };
     if (!std::all_of(cycle.plays.begin(), cycle.plays.end(), fits)) return false;
+    const auto holds = [&](const CurveView& curve) {
+        return curve.times.front() >= cycle.start && curve.times.back() <= cycle.end;
+    };
+    if (!std::all_of(cycle.curves.begin(), cycle.curves.end(), holds)) return false;
     return std::all_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const TrackView& track) {
         if (!track.times.empty()) return track.times.front() >= cycle.start && track.times.back() <= cycle.end;
         return track.keys - 1.0 <= most;
@@ -192,6 +196,38 @@ std::vector<Marker> read_marker_leaf(const ChunkTree& tree, std::uint32_t cycle,
     return read_markers(tree.payload(number), tree[number].offset, faults).value_or(std::vector<Marker>());
 }
 
+std::vector<CurveView> read_curve_leaves(const ChunkTree& tree, std::uint32_t cycle, const TargetCounts& counts,
+                                         Faults& faults) {
+    std::vector<CurveView> curves;
+    for (const std::uint32_t number : tree.children(cycle)) {
+        if (tree[number].id != FourCC("CURV") || tree[number].is_container()) continue;
+        if (const auto fault = tree.encoding_fault(number)) {
+            faults.add(*fault);
+            continue;
+        }
+        auto curve = read_curve(tree.payload(number), counts, tree[number].offset, faults);
+        if (!curve) continue;
+        curve->chunk = number;
+        curves.push_back(*curve);
+    }
+    return curves;
+}
+
+void check_curves(const ChunkTree& tree, const CycleView& cycle, Faults& faults) {
+    for (const CurveView& curve : cycle.curves) check_curve_values(curve, tree[curve.chunk].offset, faults);
+    std::vector<const CurveView*> sorted;
+    for (const CurveView& curve : cycle.curves) {
+        if (!curve.path.empty()) sorted.push_back(&curve);
+    }
+    const auto property = [](const CurveView* curve) { return std::tie(curve->kind, curve->target, curve->path); };
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const CurveView* a, const CurveView* b) { return property(a) < property(b); });
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+        if (property(sorted[k]) == property(sorted[k - 1]))
+            faults.add({ErrorCode::kCurveRepeated, tree[sorted[k]->chunk].offset});
+    }
+}
+
 std::optional<PackedView> read_packed_leaf(const ChunkTree& tree, std::uint32_t cycle, std::uint32_t joints,
                                            Faults& faults) {
     const std::uint32_t number = tree.find(cycle, FourCC("PACK"));
@@ -221,8 +257,9 @@ void check_markers(const CycleView& cycle, std::uint64_t offset, Faults& faults)
 
 }  // namespace
 
-CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
-                     Faults& faults) {
+CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, const TargetCounts& counts,
+                     std::span<const PoolView> pools, Faults& faults) {
+    const std::uint32_t joints = counts.joints;
     CycleView cycle;
     cycle.chunk = chunk;
     cycle.name = read_text(tree, chunk, FourCC("NAME"), faults);
@@ -242,6 +279,7 @@ CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t j
     cycle.packed = read_packed_leaf(tree, chunk, joints, faults);
     cycle.markers = read_marker_leaf(tree, chunk, faults);
     cycle.plays = read_plays(tree, cycle, pools, faults);
+    cycle.curves = read_curve_leaves(tree, chunk, counts, faults);
     const auto read_times = read_floats(tree, chunk, FourCC("TIME"), faults);
     const auto read_values = read_floats(tree, chunk, FourCC("KEYV"), faults);
 
@@ -321,6 +359,7 @@ void check_cycle_values(const ChunkTree& tree, const CycleView& cycle, Faults& f
     check_repeated_tracks(cycle, table_offset, faults);
     check_repeated_plays(cycle, offset_of(tree, cycle.chunk, FourCC("PLAY")), faults);
     check_markers(cycle, offset_of(tree, cycle.chunk, FourCC("MARK")), faults);
+    check_curves(tree, cycle, faults);
     if (cycle.packed) check_packed_values(*cycle.packed, offset_of(tree, cycle.chunk, FourCC("PACK")), faults);
 }
 

@@ -193,7 +193,9 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         derive_palettes(tree, object, derived_entries, faults);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {
-                object.cycles.push_back(read_cycle(tree, child, joints, object.pools, faults));
+                const TargetCounts counts{joints, document.global_materials,
+                                          static_cast<std::uint32_t>(object.pools.size()), textures};
+                object.cycles.push_back(read_cycle(tree, child, counts, object.pools, faults));
             }
         }
         object.collapse = read_collapse(tree, number, object.pools, faults);

@@ -37,7 +37,7 @@ RECORD_OF = {'VERS': 'VersionRecord', 'BNDS': 'BoundRecord', 'SAMP': 'SamplerRec
              'SURF': 'SurfaceRecord', 'REST': 'RestRecord', 'LIMT': 'LimitRecord', 'PULL': 'PullRecord', 'KINF': 'ChainRecord',
              'POLY': 'PolygonRecord', 'JNTS': 'JointsRecord', 'VINF': 'PoolRecord', 'TINF': 'TargetRecord', 'CINF': 'CycleRecord',
              'PACK': 'PackRecord', 'PALT': 'PaletteRecord', 'LODD': 'CollapseRecord', 'IMAG': 'ImageRecord',
-             'MARK': 'MarkersRecord'}
+             'MARK': 'MarkersRecord', 'CURV': 'CurveRecord'}
 STREAMS = ('POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX')
 RECORD_OF.update(dict.fromkeys(STREAMS, 'StreamRecord'))
 ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'PoolCollapseRecord'): 16,
@@ -58,6 +58,7 @@ DEFAULTS = {
     'PoolRecord': {'joint': [NONE]},
     'PackRecord': {'frames': [1], 'frame_rate': [1]},
     'PlayRecord': {'frames': [1]},
+    'CurveRecord': {'keys': [1], 'components': [1], 'interpolation': [1], 'target': [NONE], 'values': [1]},
 }
 
 

@@ -115,6 +115,68 @@ TEST(Strip, TracksThatStayKeepTheirKeys) {
     EXPECT_EQ(next, 5u);
 }
 
+/// The sample with a curve of each of these textures in its clip.
+Buffer with_texture_curves(const std::vector<std::uint32_t>& textures) {
+    Node root = test::sample();
+    constexpr std::array kTimes{0.5f, 1.0f};
+    constexpr std::array kValues{0.0f, 1.0f};
+    for (const std::uint32_t texture : textures) {
+        const std::string name = "curve " + std::to_string(texture);
+        CurveView curve;
+        curve.name = name;
+        curve.path = "offset";
+        curve.kind = CurveTarget::texture;
+        curve.target = texture;
+        curve.keys = 2;
+        curve.times = kTimes;
+        curve.values = kValues;
+        at(root, "HEAD/OBJE/CYCL").children.push_back(test::make_leaf(FourCC("CURV"), write_curve(curve)));
+    }
+    return test::to_file(root);
+}
+
+TEST(Strip, CurvesAreRenumberedOrGoWithTheirTargets) {
+    Log log;
+    const auto edited = strip(with_texture_curves({0, 1, 2}), {Part::textures, "#1"}, log);
+    ASSERT_TRUE(edited) << edited.error().message;
+    const Loaded loaded(*edited);
+    const auto& curves = loaded.document.objects.front().cycles.front().curves;
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].name, "curve 0");
+    EXPECT_EQ(curves[0].target, 0u);
+    EXPECT_EQ(curves[1].name, "curve 2");
+    EXPECT_EQ(curves[1].target, 1u);
+    ASSERT_EQ(log.warnings.size(), 1u);
+    EXPECT_TRUE(log.warnings[0].starts_with("CURV \"curve 1\" goes with its texture, ")) << log.warnings[0];
+}
+
+TEST(Strip, AClipWithoutTracksStaysForItsCurves) {
+    Node root = test::to_node(with_texture_curves({0}));
+    Node& cycle = at(root, "HEAD/OBJE/CYCL");
+    std::erase_if(cycle.children, [](const Node& leaf) {
+        return leaf.id == FourCC("TRAK") || leaf.id == FourCC("TIME") || leaf.id == FourCC("KEYV");
+    });
+    test::edit<CycleRecord>(at(root, "HEAD/OBJE/CYCL/CINF"), [](CycleRecord& info) { info.frame_rate = 0.0f; });
+    const Loaded loaded(stripped(test::to_file(root), Part::meshes));
+    EXPECT_EQ(loaded.document.objects.front().cycles.front().curves.size(), 1u);
+}
+
+TEST(MergeCycles, TakesCurvesAlong) {
+    Log log;
+    const auto merged = merge_cycles(test::sample_file(), with_texture_curves({0, 1}), SameName::number, log);
+    ASSERT_TRUE(merged) << merged.error().message;
+    const Loaded loaded(*merged);
+    const auto& cycles = loaded.document.objects.front().cycles;
+    ASSERT_EQ(cycles.size(), 2u);
+    EXPECT_TRUE(cycles[0].curves.empty());
+    ASSERT_EQ(cycles[1].curves.size(), 1u);  // the other texture has no name, so nobody knows which it is here
+    EXPECT_EQ(cycles[1].curves[0].name, "curve 0");
+    EXPECT_EQ(loaded.document.textures.at(cycles[1].curves[0].target).name, "skin");
+    EXPECT_NE(std::find(log.warnings.begin(), log.warnings.end(),
+                        "CURV \"curve 1\" is left out: there is no texture of that name here"),
+              log.warnings.end());
+}
+
 /// The sample with markers in its cycle.
 Buffer marked() {
     Node root = test::sample();

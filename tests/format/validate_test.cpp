@@ -68,6 +68,23 @@ Provocation marked(ErrorCode code, const std::vector<MarkerRecord>& markers) {
     });
 }
 
+/// A curve of two keys in the sample's cycle.
+Provocation curved(ErrorCode code, std::array<float, 2> times, std::uint8_t components, int copies = 1) {
+    const std::string path = "HEAD/OBJE/CYCL/CURV";
+    return edited(code, copies == 1 ? path : path + "[1]", [=](Node& root) {
+        constexpr std::array kValues{0.0f, 1.0f};
+        CurveView curve;
+        curve.path = "a";
+        curve.keys = 2;
+        curve.times = times;
+        curve.values = kValues;
+        Buffer payload = write_curve(curve);
+        payload[offsetof(CurveRecord, components)] = static_cast<std::byte>(components);
+        for (int copy = 0; copy < copies; ++copy)
+            at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("CURV"), payload));
+    });
+}
+
 /// A leaf under zstd with nothing after its header.
 void put_encoded(Node& leaf, const CodecHeader& header) {
     leaf.flags = 0x0100;
@@ -216,6 +233,9 @@ const std::vector<Provocation> kProvocations{
     marked(ErrorCode::kMarkerName, {{0.5f, 4}, {0.75f, 3}}),
     marked(ErrorCode::kMarkerOrder, {{0.75f, 2}, {0.5f, 4}}),
     marked(ErrorCode::kMarkerOutside, {{0.5f, 2}, {1.25f, 4}}),
+    curved(ErrorCode::kCurveShape, {0.5f, 1.0f}, 2),
+    curved(ErrorCode::kCurveOrder, {0.75f, 0.75f}, 1),
+    curved(ErrorCode::kCurveRepeated, {0.5f, 1.0f}, 1, 2),
     // LODD: its record, the pool's, two levels of 8 bytes, targets.
     edited(ErrorCode::kCollapsePool, "HEAD/OBJE/LODD",
            [](Node& root) {

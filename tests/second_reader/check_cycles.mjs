@@ -1,4 +1,4 @@
-// Rules of cycles: CINF, TRAK, TIME, KEYV, PACK, PLAY and MARK.
+// Rules of cycles: CINF, TRAK, TIME, KEYV, PACK, PLAY, MARK and CURV.
 
 import { all_finite, all_zero, is_unit, is_utf8, kNone } from './numbers.mjs';
 import { joints_of, kNumbers, kPaths, segments_of } from './packed.mjs';
@@ -276,10 +276,52 @@ function check_markers(file, cycle, info) {
     if (info && markers.some(({ seconds }) => !(seconds >= info.start && seconds <= info.end))) add('MARKER_OUTSIDE');
 }
 
+/** CURV.md: a curve's faults; gives what it animates, if it can be read and has a path. */
+function check_curve(file, chunk, cycle, info, rig, pools) {
+    const record = file.record(chunk, 'CurveRecord', 32);
+    if (!record) return null;
+    const add = (code) => file.add(code, chunk);
+    if (record.reserved !== 0) add('RESERVED_FIELD');
+    if (record.interpolation > 2 || record.packed > 1 || record.kind > 4) return add('ENUM_RANGE');
+    const is_cubic = record.interpolation === kCubic;
+    const values = record.keys * record.components * (is_cubic ? 3 : 1);
+    const has_shape = record.keys > 0 && record.components >= 1 && record.components <= 4 && record.values === values;
+    if (!has_shape || (is_cubic && record.packed === 1)) return add('CURVE_SHAPE');
+    const box = record.packed === 1 ? 8 * record.components : 0;
+    const size = 32 + box + 4 * record.keys + (record.packed === 1 ? 2 : 4) * values + record.pathSize + record.nameSize;
+    if (file.payload(chunk).length !== size) return add('RECORD_SIZE');
+    const count = [0, rig.joints.length, file.children(file.head, 'MATE').length, pools.length, file.counts.textures][record.kind];
+    const none = record.kind === 0 && record.target === kNone;
+    if (!none && record.target >= count)
+        return add(['INDEX_RANGE', 'JOINT_RANGE', 'MATERIAL_RANGE', 'POOL_RANGE', 'TEXTURE_RANGE'][record.kind]);
+    const payload = file.payload(chunk);
+    const name_at = size - record.nameSize;
+    const path = payload.subarray(name_at - record.pathSize, name_at);
+    if (!is_utf8(path) || !is_utf8(payload.subarray(name_at))) return add('NOT_UTF8');
+    const body = file.body(chunk);
+    const numbers = [record.maxError, ...(body.box ?? []), ...body.times, ...(record.packed === 1 ? [] : body.values)];
+    if (!all_finite(numbers)) add('NOT_FINITE');
+    if (record.maxError < 0) add('BELOW_ZERO');
+    if (body.times.some((time, k) => k > 0 && !(time > body.times[k - 1]))) add('CURVE_ORDER');
+    const last = body.times[body.times.length - 1];
+    if (info && !(body.times[0] >= info.start && last <= info.end)) file.add('CYCLE_LENGTH', file.child(cycle, 'CINF'));
+    return path.length > 0 ? `${record.kind} ${record.target} ${body.path}` : null;
+}
+
+function check_curves(file, cycle, info, rig, pools) {
+    const animated = new Set();
+    for (const chunk of file.children(cycle, 'CURV')) {
+        const what = check_curve(file, chunk, cycle, info, rig, pools);
+        if (what && animated.has(what)) file.add('CURVE_REPEATED', chunk);
+        if (what) animated.add(what);
+    }
+}
+
 export function check_cycle(file, cycle, rig, pools) {
     const info = read_info(file, cycle);
     const animated = check_tracks(file, cycle, info, rig, pools);
     check_plays(file, cycle, info, pools, animated);
     check_packed(file, cycle, info, rig, animated);
     check_markers(file, cycle, info);
+    check_curves(file, cycle, info, rig, pools);
 }

@@ -12,7 +12,8 @@ import { path_of, walk } from './walk.mjs';
 /** Codes of what is held against values alone, the last step of the checks. */
 const kValueCodes = new Set(['COUNT_MISMATCH', 'NOT_FINITE', 'WEIGHT_RANGE', 'WEIGHT_SUM', 'FRACTION_RANGE', 'BELOW_ZERO',
     'LIMIT_ORDER', 'LIMIT_RANGE', 'REST_OUTSIDE', 'KEY_ORDER', 'KEY_OVERLAP', 'TRACK_REPEATED', 'ROTATION_NOT_UNIT',
-    'CYCLE_LENGTH', 'MARKER_ORDER', 'MARKER_OUTSIDE', 'COLLAPSE_TARGET', 'COLLAPSE_LEVEL']);
+    'CYCLE_LENGTH', 'MARKER_ORDER', 'MARKER_OUTSIDE', 'CURVE_ORDER',
+    'CURVE_REPEATED', 'COLLAPSE_TARGET', 'COLLAPSE_LEVEL']);
 
 /** A file that is being checked: its chunks, its faults, and what has been counted. */
 class CheckedFile {

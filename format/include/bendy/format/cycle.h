@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/curve.h>
 #include <bendy/format/faults.h>
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_cycle.h>
@@ -52,12 +53,14 @@ struct CycleView {
     std::string_view extras;
     std::string_view more;        ///< JSON object, or empty
     std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_cycle_values
+    std::vector<CurveView> curves;
 };
 
-/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `joints`
-/// and `pools`, components as the target has them. Faults go to `faults`; a track with a fault is left out.
-CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, std::span<const PoolView> pools,
-                     Faults& faults);
+/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `counts`
+/// and `pools`, components as the target has them. Faults go to `faults`; a track or a curve with a fault is left out.
+/// \param counts  its `meshes` is the number of `pools`
+CycleView read_cycle(const ChunkTree& tree, std::uint32_t chunk, const TargetCounts& counts,
+                     std::span<const PoolView> pools, Faults& faults);
 
 /// Faults of meaning that do not endanger memory: key times and markers that do not ascend or lie outside [start, end],
 /// numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one

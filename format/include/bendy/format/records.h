@@ -190,6 +190,20 @@ struct PackRecord {
     std::array<std::uint8_t, 2> reserved{};
 };
 
+struct CurveRecord {
+    std::uint32_t keys = 0;
+    std::uint8_t components = 0;
+    std::uint8_t interpolation = 0;
+    std::uint8_t packed = 0;
+    std::uint8_t kind = 0;
+    std::uint32_t target = kNone;
+    float max_error = 0.0f;
+    std::uint32_t values = 0;
+    std::uint32_t path_size = 0;
+    std::uint32_t name_size = 0;
+    std::uint32_t reserved = 0;
+};
+
 struct PlayRecord {
     std::uint32_t pool = 0;
     std::uint32_t first = 0;
@@ -253,6 +267,8 @@ enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };
 inline constexpr unsigned kTrackPaths = 4;
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 inline constexpr unsigned kInterpolations = 3;
+enum class CurveTarget : std::uint8_t { nothing, joint, material, mesh, texture };
+inline constexpr unsigned kCurveTargets = 5;
 enum class Filter : std::uint8_t {
     unspecified,
     nearest,
