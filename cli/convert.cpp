@@ -51,6 +51,12 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
         << report.measured_error * kMillimetres << " mm";
     if (!report.place.empty()) out << ": " << printable(report.place);
     out << '\n';
+    if (report.curves == 0) return;
+    constexpr double kPercent = 100.0;
+    out << "  curves         " << report.packed_curves << " of " << report.curves << " packed";
+    if (report.packed_curves != 0)
+        out << "; largest error " << report.curve_error * kPercent << " % of the range of values";
+    out << '\n';
 }
 
 auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,

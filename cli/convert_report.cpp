@@ -44,10 +44,15 @@ Json describe_compact(const converter::CompactReport& report) {
                          {"exactBytes", report.exact[k].bytes},
                          {"compactBytes", report.compact[k].bytes}});
     }
-    return {{"maxError", report.max_error}, {"measuredError", report.measured_error},
-            {"place", report.place},        {"height", report.height},
-            {"exactBytes", exact},          {"compactBytes", compact},
-            {"kinds", std::move(kinds)}};
+    Json json{{"maxError", report.max_error}, {"measuredError", report.measured_error},
+              {"place", report.place},        {"height", report.height},
+              {"exactBytes", exact},          {"compactBytes", compact},
+              {"kinds", std::move(kinds)}};
+    if (report.curves != 0) {
+        json["curves"] = {
+            {"count", report.curves}, {"packed", report.packed_curves}, {"largestError", report.curve_error}};
+    }
+    return json;
 }
 
 void add_contents(Json& json, const Model& model) {

@@ -106,6 +106,23 @@ void put_reaches(std::string& out, std::span<const PosedReach> reaches) {
     out += ']';
 }
 
+void put_curves(std::string& out, std::span<const PosedCurve> curves) {
+    out += ",\"curves\":[";
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const PosedCurve& curve = curves[i];
+        out += (i == 0 ? "\n{\"name\":" : ",\n{\"name\":") + quoted(curve.name) + ",\"path\":" + quoted(curve.path);
+        if (!curve.target_kind.empty())
+            out += ",\"target\":{" + quoted(curve.target_kind) + ':' + std::to_string(curve.target) + '}';
+        out += ",\"value\":[";
+        for (std::size_t c = 0; c < curve.value.size(); ++c) {
+            if (c != 0) out += ',';
+            put_finite(out, curve.value[c]);
+        }
+        out += "]}";
+    }
+    out += ']';
+}
+
 /// Normals are written for all vertices or for none: OBJ counts them with the vertices, PLY has one vertex layout.
 bool have_normals(const PosedObject& object) {
     return std::any_of(object.meshes.begin(), object.meshes.end(),
@@ -179,6 +196,7 @@ std::string write_json(const PosedObject& object) {
                       ",\"clip\":" + (object.clip.empty() ? "null" : quoted(object.clip)) + ",\"time\":";
     put(out, object.time);
     if (!object.reaches.empty()) put_reaches(out, object.reaches);
+    if (!object.curves.empty()) put_curves(out, object.curves);
     out += ",\"joints\":[";
     for (std::size_t i = 0; i < object.joints.size(); ++i) {
         const PosedJoint& joint = object.joints[i];

@@ -30,11 +30,20 @@ struct PosedReach {
     bool is_reached = false;
 };
 
+/// A named curve of the clip, and its value.
+struct PosedCurve {
+    std::string name, path;
+    std::string target_kind;  ///< joint, material, mesh or texture; empty: no target
+    std::uint32_t target = 0;
+    std::vector<float> value;
+};
+
 struct PosedObject {
     std::string file;
     std::string clip;  ///< empty: the rest pose
     float time = 0.0f;
     std::vector<PosedReach> reaches;  ///< empty: no chain was to reach anything
+    std::vector<PosedCurve> curves;   ///< empty: the clip has none
     std::vector<PosedJoint> joints;
     std::vector<PosedMesh> meshes;
 };
@@ -45,7 +54,8 @@ std::string write_obj(const PosedObject& object);
 std::string write_ply(const PosedObject& object);
 /// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]};
 /// and where chains were to reach targets "reaches": [{"chain", "target", "distance", "reached"}] after "time", with
-/// "rotation" and "angle" where the target has a rotation.
+/// "rotation" and "angle" where the target has a rotation. Where the clip has curves, before "joints"
+/// "curves": [{"name", "path", "value"}], with "target": {KIND: number} where it has one.
 std::string write_json(const PosedObject& object);
 
 }  // namespace bendy::cli

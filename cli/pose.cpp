@@ -15,6 +15,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -70,6 +71,22 @@ std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose)
     return reaches;
 }
 
+std::vector<PosedCurve> sample_curves(const Cycle& cycle, float seconds) {
+    constexpr std::array kKinds{"", "joint", "material", "mesh", "texture"};
+    static_assert(kKinds.size() == kCurveTargets);
+    std::vector<PosedCurve> curves;
+    for (const Curve& curve : cycle.curves) {
+        PosedCurve& posed = curves.emplace_back();
+        posed.name = curve.name;
+        posed.path = curve.path;
+        posed.target_kind = kKinds.at(static_cast<std::size_t>(curve.kind));
+        posed.target = curve.target;
+        posed.value.resize(curve.components);
+        sample_curve(curve, seconds, posed.value);
+    }
+    return curves;
+}
+
 PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     PosedObject object;
     object.file = arguments.file.filename().string();
@@ -79,6 +96,7 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
         sample(&cycle, arguments.time, pose);
         object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
         object.time = arguments.time;
+        object.curves = sample_curves(cycle, arguments.time);
     }
     object.reaches = reach_chains(arguments, pose);
     local_to_model(pose);
@@ -152,7 +170,8 @@ void add_pose(CLI::App& program) {
     command->footer(
         "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "
         "meshes: name, positions, normals and indices of triangles. After --reach also reaches, one for each target: "
-        "chain, target, distance (metres left), reached; with an orientation also rotation and angle (radians left).\n"
+        "chain, target, distance (metres left), reached; with an orientation also rotation and angle (radians left). "
+        "Where the clip has named curves also curves: name, path, target (kind and number), value.\n"
         "Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
         "         bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");
     command->callback([arguments, clip] {

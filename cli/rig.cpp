@@ -50,7 +50,7 @@ void run(const RigArguments& arguments) {
 void add_rig(CLI::App& program) {
     const auto arguments = std::make_shared<RigArguments>();
     CLI::App* command =
-        program.add_subcommand("rig", "Write a file's joint constraints, IK chains and markers as JSON");
+        program.add_subcommand("rig", "Write a file's joint constraints, IK chains, markers and curves as JSON");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");
     command->footer(

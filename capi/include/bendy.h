@@ -268,6 +268,40 @@ BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
  * NaN is an error. */
 BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t cycle, float seconds, bendy_error* error);
 
+/* A named curve of a cycle: a number that is animated, or up to four, and is neither a joint's transform nor a target's
+ * weight: a material's colour, a camera's field of view. A cycle's curves are numbered from 0. */
+typedef enum bendy_curve_target {
+    BENDY_CURVE_NOTHING = 0,
+    BENDY_CURVE_JOINT = 1,
+    BENDY_CURVE_MATERIAL = 2,
+    BENDY_CURVE_MESH = 3,
+    BENDY_CURVE_TEXTURE = 4
+} bendy_curve_target;
+
+typedef struct bendy_curve {
+    uint32_t size;        /* sizeof, set before the call that fills it */
+    uint32_t components;  /* numbers: 1 to 4 */
+    const char* name;     /* may be empty */
+    const char* path;     /* of the property, relative to the target: "pbrMetallicRoughness/baseColorFactor"; a JSON
+                             pointer if there is no target */
+    uint32_t target_kind; /* a bendy_curve_target */
+    uint32_t target;      /* joint, material, mesh or texture; BENDY_NONE if there is none */
+    float start;          /* seconds: the first key */
+    float end;            /* seconds: the last key */
+} bendy_curve;
+
+/* 0 for NULL and for a cycle that there is not. */
+BENDY_API uint32_t bendy_curve_count(const bendy_model* model, uint32_t cycle);
+/* The cycle's first curve of that name; if none has the name, the first of that path. BENDY_NONE if there is none. */
+BENDY_API uint32_t bendy_find_curve(const bendy_model* model, uint32_t cycle, const char* name_or_path,
+                                    bendy_error* error);
+BENDY_API bendy_status bendy_get_curve(const bendy_model* model, uint32_t cycle, uint32_t curve, bendy_curve* out,
+                                       bendy_error* error);
+/* The curve's value at `seconds` on its cycle's time line; before its first and after its last key it holds. `count` is
+ * what `values` holds, at least bendy_curve.components. NaN is an error. Allocates nothing but the text of an error. */
+BENDY_API bendy_status bendy_sample_curve(const bendy_model* model, uint32_t cycle, uint32_t curve, double seconds,
+                                          float* values, size_t count, bendy_error* error);
+
 /* Moves `pose` towards `other`, a pose of the same model: 0 leaves it, 1 makes it the other; any finite number. `mask`
  * scales the weight joint by joint, or is NULL. */
 BENDY_API bendy_status bendy_blend(bendy_pose* pose, const bendy_pose* other, float weight, const float* mask,

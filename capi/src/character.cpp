@@ -12,11 +12,21 @@ std::vector<std::string> names_of(const Things& things) {
 }
 
 Names names_in(const Model& model) {
-    Names names{
-        std::string(model.name()), names_of(model.joints()),   names_of(model.cycles()), names_of(model.chains()), {},
-        names_of(model.pools()),   names_of(model.materials())};
+    Names names{std::string(model.name()),
+                names_of(model.joints()),
+                names_of(model.cycles()),
+                names_of(model.chains()),
+                {},
+                names_of(model.pools()),
+                names_of(model.materials()),
+                {}};
     for (const Pool& pool : model.pools()) {
         for (const TargetView& target : pool.targets) names.targets.emplace_back(target.name);
+    }
+    for (const Cycle& cycle : model.cycles()) {
+        std::vector<CurveNames>& curves = names.curves.emplace_back();
+        for (const CurveView& curve : cycle.curves)
+            curves.push_back({std::string(curve.name), std::string(curve.path)});
     }
     return names;
 }

@@ -15,10 +15,15 @@
 // What stands behind the handles. All of one model's share the Character, which goes with the last of them.
 namespace bendy::capi {
 
+struct CurveNames {
+    std::string name, path;
+};
+
 /// As C wants names: with a zero after them.
 struct Names {
     std::string model;
     std::vector<std::string> joints, cycles, chains, targets, meshes, materials;
+    std::vector<std::vector<CurveNames>> curves;  ///< of each cycle
 };
 
 /// The bytes of a file, in one of three ways.

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -67,29 +68,33 @@ inline FramePair frames_at(const Cycle& cycle, const Play& play, double seconds)
 /// The same as timed keys: one for each frame, and for closed ones another of the first at the end.
 Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play);
 
-/// From the first to the last key of the tracks, packed ones apart; zeros where there are none.
-inline CycleSpan span_of_keys(const Cycle& cycle) {
-    CycleSpan span;
-    bool is_first = true;
-    for (const Track& track : cycle.tracks) {
-        span.start = is_first ? track.times.front() : std::min(span.start, track.times.front());
-        span.end = is_first ? track.times.back() : std::max(span.end, track.times.back());
-        is_first = false;
-    }
-    for (const Play& play : cycle.plays) {
-        const auto end = static_cast<float>(cycle.frame_start + length_of(cycle, play));
-        span.start = is_first ? cycle.frame_start : std::min(span.start, cycle.frame_start);
-        span.end = is_first ? end : std::max(span.end, end);
-        is_first = false;
-    }
+/// From the first to the last key of tracks and frames, packed tracks apart; nothing where there are none.
+inline std::optional<CycleSpan> span_of_tracks(const Cycle& cycle) {
+    std::optional<CycleSpan> span;
+    const auto add = [&](float start, float end) {
+        span = span ? CycleSpan{std::min(span->start, start), std::max(span->end, end)} : CycleSpan{start, end};
+    };
+    for (const Track& track : cycle.tracks) add(track.times.front(), track.times.back());
+    for (const Play& play : cycle.plays)
+        add(cycle.frame_start, static_cast<float>(cycle.frame_start + length_of(cycle, play)));
     return span;
+}
+
+/// The same with the curves; zeros where there are no keys.
+inline CycleSpan span_of_keys(const Cycle& cycle) {
+    std::optional<CycleSpan> span = span_of_tracks(cycle);
+    for (const Curve& curve : cycle.curves) {
+        const CycleSpan own{curve.times.front(), curve.times.back()};
+        span = span ? CycleSpan{std::min(span->start, own.start), std::max(span->end, own.end)} : own;
+    }
+    return span.value_or(CycleSpan());
 }
 
 /// When the clip begins and ends: with its first and last key, or as it states.
 inline CycleSpan span_of(const Cycle& cycle) {
     const CycleSpan keys = span_of_keys(cycle);
     if (!cycle.stated_span) return keys;
-    if (cycle.tracks.empty() && cycle.plays.empty()) return *cycle.stated_span;
+    if (cycle.tracks.empty() && cycle.plays.empty() && cycle.curves.empty()) return *cycle.stated_span;
     return {std::min(keys.start, cycle.stated_span->start), std::max(keys.end, cycle.stated_span->end)};
 }
 

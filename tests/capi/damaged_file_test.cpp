@@ -22,6 +22,13 @@ std::size_t read_all(const bendy_model* model) {
     for (std::uint32_t k = 0; k < bendy_cycle_count(model); ++k) {
         auto cycle = sized<bendy_cycle>();
         add_name(bendy_get_cycle(model, k, &cycle, nullptr), cycle);
+        for (std::uint32_t c = 0; c < bendy_curve_count(model, k); ++c) {
+            auto curve = sized<bendy_curve>();
+            add_name(bendy_get_curve(model, k, c, &curve, nullptr), curve);
+            sum += std::strlen(curve.path);
+            std::array<float, 4> values{};
+            EXPECT_EQ(bendy_sample_curve(model, k, c, 0.5, values.data(), values.size(), nullptr), BENDY_OK);
+        }
     }
     for (std::uint32_t k = 0; k < bendy_chain_count(model); ++k) {
         auto chain = sized<bendy_chain>();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`bendy rig` and rig files; markers through every command.
+"""`bendy rig` and rig files; curves and markers through every command.
 
     rig_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
@@ -139,8 +139,14 @@ class Rig(Case):
             rigs += [{"bendy_rig": 1, "chains": [{**chain, key: s}]} for s in samples + rule.get("enum", [])]
             if key in chain:
                 rigs.append({"bendy_rig": 1, "chains": [{k: v for k, v in chain.items() if k != key}]})
-        # What a schema cannot say: joints that are there, ranges in order that hold 0 where they must, no zero rotation.
-        beyond = re.compile(r"there is no joint|nor above it|is above the maximum|must hold 0|is no rotation|no such joint")
+        for key, rule in {**parts["curve"]["properties"], "unknown": {}}.items():
+            curve = {"clip": "c", "name": "n", "times": [0], "values": [0]}
+            rigs += [{"bendy_rig": 1, "curves": [{**curve, key: s}]} for s in samples + rule.get("enum", [])]
+            if key in curve:
+                rigs.append({"bendy_rig": 1, "curves": [{k: v for k, v in curve.items() if k != key}]})
+        # What a schema cannot say: joints that are there, lists that go with others, ranges in order that hold 0 where they must, no zero rotation.
+        beyond = re.compile(r"there is no joint|nor above it|is above the maximum|must hold 0|is no rotation|no such joint"
+                            r"|expected (a time after|\d+ numbers|a JSON pointer)")
         agreed = {True: 0, False: 0}
         for rig in rigs:
             self.write(rig)
@@ -159,6 +165,70 @@ class Rig(Case):
             path.write_text(json.dumps({"asset": {"version": "2.0"}, "nodes": [
                 {"name": "seg_00", "children": [1]}, {"name": "seg_01", "children": [2]}, {"name": "x"}]}))
         return path
+
+
+class Curves(Case):
+    """Named curves: from a rig file, and from glTF's KHR_animation_pointer, to every place that has them."""
+
+    CURVES = [{"clip": "Walk", "name": "FootDown", "path": "/extras/FootDown", "interpolation": "step",
+               "times": [0, 0.25, 0.75], "values": [0, 1, 0]},
+              {"clip": "Walk", "path": "extras/grip", "target": {"joint": "mixamorig:Hips"}, "times": [0, 1],
+               "values": [0, 0.25, 1, 0.75]}]
+
+    def write(self, curves, name="rig.json", **members):
+        (self.folder / name).write_text(json.dumps({"bendy_rig": 1, "curves": curves, **members}))
+        return name
+
+    def curved(self, curves=None, out="curved.bendy"):
+        rig = self.write(self.CURVES if curves is None else curves)
+        self.done("convert", self.convert("mannequin"), "--rig", rig, "-q", "-o", out)
+        self.assertEqual(self.done("validate", out), b"")
+        return out
+
+    def test_pose_prints_their_values(self):
+        posed = json.loads(self.done("pose", self.curved(), "--clip", "Walk", "--time", "0.5", "--format", "json"))
+        self.assertEqual(posed["curves"][0], {"name": "FootDown", "path": "/extras/FootDown", "value": [1]})
+        self.assertEqual(posed["curves"][1]["value"], [0.5, 0.5])
+        self.assertEqual(list(posed["curves"][1]["target"]), ["joint"])
+        self.assertNotIn("curves", json.loads(self.done("pose", "curved.bendy", "--format", "json")))
+
+    def test_the_rig_file_gives_the_same_bytes(self):
+        self.curved()
+        rig = json.loads(self.done("rig", "curved.bendy"))
+        self.assertEqual(rig["curves"], self.CURVES)
+        schema = json.loads((SOURCE / "spec" / "rig.schema.json").read_text())
+        self.assertTrue(Draft202012Validator(schema).is_valid(rig))
+        (self.folder / "again.json").write_text(json.dumps(rig))
+        self.done("convert", self.convert("mannequin"), "--rig", "again.json", "-q", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), (self.folder / "curved.bendy").read_bytes())
+
+    def test_to_gltf_and_back_the_bytes_are_the_same(self):
+        self.done("export", self.curved(), "-o", "c.gltf", "-q")
+        document = json.loads((self.folder / "c.gltf").read_text())
+        self.assertIn("KHR_animation_pointer", document["extensionsUsed"])
+        document["extensionsRequired"] = ["KHR_animation_pointer"]
+        (self.folder / "c.gltf").write_text(json.dumps(document))
+        self.done("convert", "c.gltf", "-q", "-o", "once.bendy")
+        self.assertEqual((self.folder / "once.bendy").read_bytes(), (self.folder / "curved.bendy").read_bytes())
+
+    def test_compact_files_say_their_error(self):
+        times = [k / 64 for k in range(64)]
+        curves = [*self.CURVES, {"clip": "Walk", "name": "w", "path": "/extras/w", "times": times,
+                                 "values": [(k * 37 % 64) ** 2 / 10 for k in range(64)]}]
+        text = self.done("convert", self.curved(curves), "--compact", "-o", "small.bendy").decode()
+        self.assertRegex(text, r"curves +1 of 3 packed; largest error 0\.000\d+ % of the range of values")
+        report = json.loads(self.done("convert", "curved.bendy", "--compact", "--json", "-o", "small2.bendy"))
+        self.assertEqual(report["compact"]["curves"]["count"], 3)
+        self.assertEqual(report["compact"]["curves"]["packed"], 1)
+        self.assertLess(report["compact"]["curves"]["largestError"], 0.51 / 65535)
+        self.done("diff", "curved.bendy", "small.bendy", "--tolerance", "1%")
+
+    def test_a_change_is_a_difference(self):
+        self.curved()
+        changed = [{**self.CURVES[0], "values": [0, 1, 0.5]}, self.CURVES[1]]
+        result = self.bendy("diff", "curved.bendy", self.curved(changed, "changed.bendy"), "--tolerance", "1%")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b'curve "FootDown": up to 0.5 apart, at 0.75 s', result.stdout)
 
 
 class Markers(Case):

@@ -66,7 +66,7 @@ def binary_x_file():
 
 
 def character(path, interpolation):
-    """Three joints, two influences a vertex, two targets, tracks on everything, limits and a chain in the extras."""
+    """Three joints, two influences a vertex, two targets, tracks and curves on everything, limits and a chain in the extras."""
     file = GltfFile(
         scenes=[{"nodes": [0, 3], "extras": {"rig_ik": {"chains": [
             {"name": "Back", "start": "Hips", "effector": "Head", "solver": "ccd", "weights": {"Spine": 0.5}}]}}}],
@@ -114,6 +114,14 @@ def character(path, interpolation):
         "samplers": [{"input": times, "output": values[path], "interpolation": interpolation} for path in paths],
         "channels": [{"sampler": k, "target": {"node": 3 if path == "weights" else 1, "path": path}}
                      for k, path in enumerate(paths)]}]
+    animation = file.document["animations"][0]
+    for pointer, width in (("/materials/0/alphaCutoff", "SCALAR"), ("/nodes/1/extras/mine", "VEC2"), ("/extras/wind", "VEC3"),
+                           ("/textures/0/extras/x", "VEC4"), ("/meshes/0/weights", "weights"), ("/nodes/0/scale", "scale")):
+        components = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}.get(width)
+        output = values.get(width) or file.add([(k * 0.3,) * components for k in range(3) for _ in range(copies)], width)
+        animation["channels"].append({"sampler": len(animation["samplers"]), "extras": {"name": "Curve"}, "target": {
+            "path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}})
+        animation["samplers"].append({"input": times, "output": output, "interpolation": interpolation})
     file.document["materials"] = [{
         "name": "Cloth", "alphaMode": "MASK", "doubleSided": True, "extensions": {"KHR_materials_unlit": {}},
         "pbrMetallicRoughness": {"baseColorTexture": {
@@ -121,7 +129,7 @@ def character(path, interpolation):
     file.document["textures"] = [{"source": 0, "sampler": 0}]
     file.document["samplers"] = [{"magFilter": 9729, "wrapS": 33071}]
     file.document["images"] = [{"uri": "data:image/png;base64," + base64.b64encode(b"\x89PNG\r\n\x1a\n").decode()}]
-    file.document["extensionsUsed"] = ["KHR_materials_unlit", "KHR_texture_transform"]
+    file.document["extensionsUsed"] = ["KHR_animation_pointer", "KHR_materials_unlit", "KHR_texture_transform"]
     return file.write(path)
 
 

@@ -155,6 +155,13 @@ void use_model(const Model& model, unsigned choice) {
         if (++cycles > 16) break;
         look_at(cycle.name);
         for (const Marker& marker : cycle.markers) look_at(marker.name);
+        for (const Curve& curve : cycle.curves) {
+            look_at(curve.name);
+            look_at(curve.path);
+            std::array<float, 4> value{};
+            for (const float seconds : {cycle.start, 0.3f, cycle.end, std::numeric_limits<float>::quiet_NaN()})
+                sample_curve(curve, seconds, value);
+        }
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
         for (const float seconds : {cycle.start, middle, cycle.end}) {
             sample(&cycle, seconds, pose);

@@ -106,7 +106,7 @@ constexpr std::array kRead{
     FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"), FourCC("BONE"), FourCC("WGHT"), FourCC("USER"), FourCC("VALS"),
     FourCC("INDX"), FourCC("CYCL"), FourCC("CINF"), FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV"), FourCC("PACK"),
     FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK"), FourCC("MORE"), FourCC("FRMS"),
-    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY")};
+    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY"), FourCC("CURV")};
 
 /// Bytes that are read of a leaf which is one record; 0: of another kind.
 std::uint64_t record_size(FourCC id) {
@@ -248,6 +248,7 @@ public:
             cycle.frame_rate = view.frame_rate;
             cycle.frame_start = view.start;
         }
+        for (const CurveView& curve : view.curves) cycle.curves.push_back(import_curve(curve, place));
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
         if (const CycleSpan stated{view.start, view.end}; stated != span_of(cycle)) cycle.stated_span = stated;
         import_markers(view, place, cycle);
@@ -268,6 +269,22 @@ private:
             cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
                                     std::move(track.times), std::move(track.values)});
         }
+    }
+
+    [[nodiscard]] Curve import_curve(const CurveView& view, const std::string& place) const {
+        budget_.take(view.keys + std::uint64_t{view.value_count()}, sizeof(float), place);
+        budget_.take(view.path.size() + std::uint64_t{view.name.size()}, 1, place);
+        Curve curve;
+        curve.name = view.name;
+        curve.path = view.path;
+        curve.kind = view.kind;
+        curve.target = view.target;
+        curve.interpolation = view.interpolation;
+        curve.components = view.components;
+        curve.times.assign(view.times.begin(), view.times.end());
+        curve.values.reserve(view.value_count());
+        for (std::size_t i = 0; i < view.value_count(); ++i) curve.values.push_back(view.value(i));
+        return curve;
     }
 
     void import_markers(const CycleView& view, const std::string& place, Cycle& cycle) {

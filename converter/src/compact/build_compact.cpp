@@ -1,6 +1,7 @@
 #include "compact/build_compact.h"
 
 #include "compact/compact_geometry.h"
+#include "compact/pack_curve.h"
 #include "compact/pack_cycles.h"
 #include "evaluate.h"
 #include "frame_shapes.h"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -154,6 +156,19 @@ std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
     return std::move(out).finish();
 }
 
+/// What put_curves does to the curves.
+void count_curves(const Scene& scene, CompactReport& report) {
+    for (const Cycle& cycle : scene.cycles) {
+        report.curves += cycle.curves.size();
+        for (const Curve& curve : cycle.curves) {
+            const std::optional<PackedCurve> packed = pack_curve(curve);
+            if (!packed) continue;
+            ++report.packed_curves;
+            report.curve_error = std::max(report.curve_error, packed->share);
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
@@ -215,6 +230,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
     result.measured_error = attempt.error.metres;
     result.place = place_of(exact, attempt.error);
     result.compact = count_bytes(attempt.bytes);
+    count_curves(exact, result);
     report.compact = std::move(result);
     return attempt.bytes;
 }

@@ -1,6 +1,7 @@
 #include <bendy/converter/compare_characters.h>
 
 #include "collapse/find_shapes.h"
+#include "compare/compare_curves.h"
 #include "compare/match.h"
 #include "evaluate.h"
 #include "frame_shapes.h"
@@ -225,6 +226,9 @@ private:
         }
         if (a.loop != b.loop) add(Kind::value, place, a.loop ? "repeats -> does not" : "does not repeat -> does");
         compare_markers(a, b, place);
+        const CurveTargets targets{joints_.a_of, material_of_, meshes_.a_of};
+        for (CurveDifference& difference : compare_curves(a_, a, source_b_, b, targets))
+            add(difference.kind, place + ", " + difference.curve, std::move(difference.what));
     }
 
     void compare_markers(const Cycle& a, const Cycle& b, const std::string& place) {

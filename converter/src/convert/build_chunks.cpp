@@ -1,5 +1,6 @@
 #include <bendy/converter/build_chunks.h>
 
+#include "build_curves.h"
 #include "convert/build_meshes.h"
 #include "frame_shapes.h"
 #include "passes/mesh_order.h"
@@ -296,6 +297,7 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         out.leaf(FourCC("KEYV"), values.bytes(), kFloats);
     }
     put_markers(out, cycle, info);
+    put_curves(out, cycle);
     out.end();
 }
 
@@ -355,6 +357,7 @@ std::uint64_t bulk_of(const Scene& scene) {
     for (const Image& image : scene.images) sum += image.bytes.size();
     for (const Cycle& cycle : scene.cycles) {
         for (const Track& track : cycle.tracks) sum += (track.times.size() + track.values.size()) * sizeof(float);
+        for (const Curve& curve : cycle.curves) sum += (curve.times.size() + curve.values.size()) * sizeof(float);
     }
     return sum;
 }

@@ -1,6 +1,9 @@
 #include "accessor.h"
+#include "curve_property.h"
 #include "failure.h"
+#include "further_members.h"
 #include "parts.h"
+#include "pointer.h"
 #include "rig/markers.h"
 #include "source/transform.h"
 
@@ -24,14 +27,6 @@ struct Keys {
 
 Interpolation interpolation_of(const std::string& name) {
     return name == "STEP" ? Interpolation::step : name == "CUBICSPLINE" ? Interpolation::cubic : Interpolation::linear;
-}
-
-std::optional<TrackPath> path_of(const std::string& name) {
-    if (name == "translation") return TrackPath::translation;
-    if (name == "rotation") return TrackPath::rotation;
-    if (name == "scale") return TrackPath::scale;
-    if (name == "weights") return TrackPath::weights;
-    return std::nullopt;
 }
 
 /// Two keys at one time are a jump: the value there is the later key's, the way to it the earlier one's. So the earlier
@@ -75,7 +70,11 @@ bool asks_to_loop(const Json& animation) {
 class AnimationImporter {
 public:
     AnimationImporter(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
-        : document_(document), skeleton_(skeleton), meshes_(meshes), scene_(scene) {}
+        : document_(document),
+          skeleton_(skeleton),
+          meshes_(meshes),
+          pointers_(document, skeleton, meshes),
+          scene_(scene) {}
 
     void import(std::size_t index) {
         const tinygltf::Animation& animation = document_.model.animations[index];
@@ -85,8 +84,9 @@ public:
         cycle.extras = extras_text(document_.json["animations"][index]);
         cycle.loop = asks_to_loop(document_.json["animations"][index]);
         std::map<std::pair<TrackPath, std::uint32_t>, std::size_t> track_of;
+        curve_of_.clear();
         for (std::size_t c = 0; c < animation.channels.size(); ++c) {
-            for (Track& track : read_channel(animation, c, index)) {
+            for (Track& track : read_channel(animation, c, index, cycle)) {
                 const auto [known, is_new] = track_of.emplace(std::pair(track.path, track.target), cycle.tracks.size());
                 if (is_new) {
                     cycle.tracks.push_back(std::move(track));
@@ -101,13 +101,22 @@ public:
         scene_.cycles.push_back(std::move(cycle));
     }
 
+    /// Of all animations.
+    void report_losses() const { losses_.report(document_.report); }
+
 private:
-    /// The tracks that a channel becomes: none, one, or one for each mesh of a node whose morph weights it moves.
-    std::vector<Track> read_channel(const tinygltf::Animation& animation, std::size_t c, std::size_t index) {
+    /// The tracks that a channel becomes: none, one, or one for each mesh of a node whose morph weights it moves. What
+    /// it animates beside nodes' transforms and weights becomes a curve of the cycle.
+    std::vector<Track> read_channel(const tinygltf::Animation& animation, std::size_t c, std::size_t index,
+                                    Cycle& cycle) {
         const tinygltf::AnimationChannel& channel = animation.channels[c];
         const std::string place = place_ + '.' + at("channels", c);
-        const Json& target = document_.json["animations"][index]["channels"][c]["target"];
-        const auto path = path_of(channel.target_path);
+        const Json& source = document_.json["animations"][index]["channels"][c];
+        if (pointer_of(source) != nullptr)
+            return read_pointer(source, animation.samplers[static_cast<std::size_t>(channel.sampler)],
+                                place_ + '.' + at("samplers", static_cast<std::size_t>(channel.sampler)), place, cycle);
+        const Json& target = source["target"];
+        const auto path = track_path(channel.target_path);
         if (!path) {
             document_.report.warn("channel that animates " + quote(channel.target_path) + " left out",
                                   place + ".target");
@@ -120,39 +129,133 @@ private:
         if (target.contains("extensions")) {
             document_.report.warn("extensions of a channel's target left out", place + ".target.extensions");
         }
-        const auto node = static_cast<std::size_t>(channel.target_node);
         const auto sampler = static_cast<std::size_t>(channel.sampler);
-        const std::size_t components = *path == TrackPath::rotation  ? 4
-                                       : *path == TrackPath::weights ? target_count(node)
-                                                                     : 3;
+        return read_tracks(static_cast<std::size_t>(channel.target_node), *path, animation.samplers[sampler],
+                           place_ + '.' + at("samplers", sampler), place);
+    }
+
+    std::vector<Track> read_tracks(std::size_t node, TrackPath path, const tinygltf::AnimationSampler& sampler,
+                                   const std::string& sampler_place, const std::string& place) {
+        const std::size_t components = path == TrackPath::rotation  ? 4
+                                       : path == TrackPath::weights ? target_count(node)
+                                                                    : 3;
         if (components == 0) {
             document_.report.warn("channel with weights of a node without morph targets left out", place);
             return {};
         }
         // Checked even if nothing will use it: broken is broken.
-        Keys keys = read_keys(animation.samplers[sampler], components, place_ + '.' + at("samplers", sampler));
+        Keys keys = read_keys(sampler, components, sampler_place);
         const std::uint32_t joint = skeleton_.joint_of_node[node];
         if (joint == kNone) {
             document_.report.warn("channel of a node outside the chosen scene left out", place + ".target.node");
             return {};
         }
-        if (*path == TrackPath::rotation) check_rotations(keys, place_ + '.' + at("samplers", sampler) + ".output");
-        if (*path != TrackPath::weights && !document_.model.nodes[node].matrix.empty()) {
+        if (path == TrackPath::rotation) check_rotations(keys, sampler_place + ".output");
+        if (path != TrackPath::weights && !document_.model.nodes[node].matrix.empty()) {
             document_.report.warn("channel of a node with a matrix moves the matrix's parts", place + ".target.node");
         }
         Track track;
-        track.path = *path;
+        track.path = path;
         track.interpolation = keys.interpolation;
         track.components = static_cast<std::uint32_t>(components);
         track.times = std::move(keys.times);
         track.values = std::move(keys.values);
-        if (*path != TrackPath::weights) {
+        if (path != TrackPath::weights) {
             track.target = joint;
             std::vector<Track> tracks;
             tracks.push_back(std::move(track));
             return tracks;
         }
         return for_each_mesh(std::move(track), node, place);
+    }
+
+    /// A channel of KHR_animation_pointer.
+    std::vector<Track> read_pointer(const Json& channel, const tinygltf::AnimationSampler& sampler,
+                                    const std::string& sampler_place, const std::string& place, Cycle& cycle) {
+        const Json& target = channel["target"];
+        if (target.contains("node"))
+            document_.report.warn("node of a channel that animates a pointer left out", place + ".target.node");
+        if (target["extensions"].size() > 1)
+            document_.report.warn("extensions of a channel's target left out", place + ".target.extensions");
+        const std::string& pointer = *pointer_of(channel);
+        const PointedProperty pointed =
+            pointers_.read(pointer, place + ".target.extensions.KHR_animation_pointer.pointer");
+        std::vector<Track> tracks;
+        switch (pointed.kind) {
+            case PointedProperty::Kind::track:
+                tracks = read_tracks(pointed.element, pointed.path, sampler, sampler_place, place);
+                break;
+            case PointedProperty::Kind::mesh_weights:
+                tracks = read_mesh_weights(pointed.element, sampler, sampler_place, place);
+                if (tracks.empty()) losses_.add("channels of weights that no node takes", quote(pointer), place);
+                break;
+            case PointedProperty::Kind::curve:
+                read_curve(pointed, channel, sampler, sampler_place, place, cycle);
+                break;
+            case PointedProperty::Kind::left_out:
+                losses_.add(pointed.why, quote(pointer), place);
+                break;
+        }
+        return tracks;
+    }
+
+    /// For each node that takes its weights from the mesh.
+    std::vector<Track> read_mesh_weights(std::size_t mesh, const tinygltf::AnimationSampler& sampler,
+                                         const std::string& sampler_place, const std::string& place) {
+        const std::vector<std::size_t>& nodes = pointers_.nodes_weighted_by(mesh);
+        const std::size_t components = nodes.empty() ? 0 : target_count(nodes.front());
+        std::vector<Track> tracks;
+        if (components == 0) return tracks;
+        Keys keys = read_keys(sampler, components, sampler_place);
+        const Track track{TrackPath::weights,    keys.interpolation,    kNone, static_cast<std::uint32_t>(components),
+                          std::move(keys.times), std::move(keys.values)};
+        for (const std::size_t node : nodes) {
+            document_.budget.take(meshes_[node].size(), sizeof(Track), place);
+            for (Track& one : for_each_mesh(track, node, place)) tracks.push_back(std::move(one));
+        }
+        return tracks;
+    }
+
+    void read_curve(const PointedProperty& pointed, const Json& channel, const tinygltf::AnimationSampler& sampler,
+                    const std::string& sampler_place, const std::string& place, Cycle& cycle) {
+        const std::size_t components = curve_components(sampler);
+        if (components > kMostCurveComponents) {
+            losses_.add("channels of a pointer with more than 4 numbers, or with 32-bit integers",
+                        quote(*pointer_of(channel)), place);
+            return;
+        }
+        Keys keys = read_keys(sampler, components, sampler_place);
+        Curve curve;
+        curve.name = curve_name(channel);
+        curve.path = pointed.property;
+        document_.budget.take(curve.name.size() + curve.path.size(), 1, place);
+        curve.kind = pointed.target_kind;
+        curve.target = pointed.target;
+        curve.interpolation = keys.interpolation;
+        curve.components = static_cast<std::uint32_t>(components);
+        curve.times = std::move(keys.times);
+        curve.values = std::move(keys.values);
+        const auto [known, is_new] = curve_of_.emplace(own_property_of(curve), cycle.curves.size());
+        if (is_new) {
+            cycle.curves.push_back(std::move(curve));
+        } else {
+            document_.report.warn("second channel for the same target, the last one is taken", place);
+            cycle.curves[known->second] = std::move(curve);
+        }
+    }
+
+    /// Numbers of each key; more than 4 where a curve cannot hold them. An array of numbers has scalars, several for a
+    /// key. read_keys finds out if there are as many as keys need.
+    [[nodiscard]] std::size_t curve_components(const tinygltf::AnimationSampler& sampler) const {
+        const tinygltf::Accessor& output = document_.model.accessors[static_cast<std::size_t>(sampler.output)];
+        if (!output.normalized && output.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+            return kMostCurveComponents + 1;
+        if (output.type != TINYGLTF_TYPE_SCALAR)
+            return output.type == TINYGLTF_TYPE_MAT2 ? kMostCurveComponents + 1 : component_count(output);
+        const std::size_t keys = document_.model.accessors[static_cast<std::size_t>(sampler.input)].count;
+        const std::size_t of_key = output.count / keys;
+        const bool is_cubic = interpolation_of(sampler.interpolation) == Interpolation::cubic;
+        return std::max<std::size_t>(1, is_cubic ? of_key / 3 : of_key);
     }
 
     std::vector<Track> for_each_mesh(Track track, std::size_t node, const std::string& place) const {
@@ -238,8 +341,11 @@ private:
     const Document& document_;
     const Skeleton& skeleton_;
     const MeshesOfNode& meshes_;
+    PointerReader pointers_;
+    Losses losses_;
     Scene& scene_;
-    std::string place_;  ///< of the animation
+    std::string place_;                            ///< of the animation
+    std::map<OwnProperty, std::size_t> curve_of_;  ///< its curves
     mutable std::map<std::size_t, std::size_t> target_counts_;
 };
 
@@ -248,6 +354,7 @@ private:
 void import_animations(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene) {
     AnimationImporter importer(document, skeleton, meshes, scene);
     for (std::size_t i = 0; i < document.model.animations.size(); ++i) importer.import(i);
+    importer.report_losses();
 }
 
 }  // namespace bendy::converter::gltf

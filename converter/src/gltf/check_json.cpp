@@ -230,6 +230,8 @@ constexpr std::array kRules = {
     index("meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", "bufferViews", kRequired),
     object("meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", kRequired),
     integer("meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes{}", 0, kMaxInt),
+    object("animations[].channels[].target.extensions.KHR_animation_pointer"),
+    string("animations[].channels[].target.extensions.KHR_animation_pointer.pointer", kRequired),
     object("textures[].extensions.KHR_texture_basisu"),
     index("textures[].extensions.KHR_texture_basisu.source", "images"),
     object("textures[].extensions.EXT_texture_webp"),

@@ -29,6 +29,7 @@ constexpr std::array kKnown = {
     Known{"EXT_meshopt_compression", Use::decoded},
     Known{"EXT_texture_avif", Use::decoded},
     Known{"EXT_texture_webp", Use::decoded},
+    Known{"KHR_animation_pointer", Use::decoded},
     Known{"KHR_draco_mesh_compression", Use::decoded},
     Known{"KHR_mesh_quantization", Use::decoded},
     Known{"KHR_meshopt_compression", Use::decoded},

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 #include "parts.h"
+#include "pointer.h"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +82,11 @@ constexpr Shape kPrimitiveExtensions{"", kPrimitiveExtensionsInner, true};
 constexpr std::array kPrimitiveInner{Inner{"extensions", &kPrimitiveExtensions}};
 constexpr Shape kPrimitive{"attributes indices material mode targets", kPrimitiveInner};
 
-constexpr Shape kChannelTarget{"node path extensions"};
+constexpr Shape kPointer{"pointer"};
+constexpr std::array kTargetExtensionsInner{Inner{"KHR_animation_pointer", &kPointer}};
+constexpr Shape kTargetExtensions{"", kTargetExtensionsInner, true};
+constexpr std::array kTargetInner{Inner{"extensions", &kTargetExtensions}};
+constexpr Shape kChannelTarget{"node path", kTargetInner};
 constexpr std::array kChannelInner{Inner{"target", &kChannelTarget}};
 constexpr Shape kChannel{"sampler extensions", kChannelInner};
 
@@ -301,7 +306,11 @@ public:
         }
         const Json& animations = array_of(root_, "animations");
         for (std::size_t i = 0; i < animations.size(); ++i) {
-            lose_list(animations[i], "channels", Element::channel, "animation channels", at("animations", i));
+            const Json& channels = array_of(animations[i], "channels");
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                lose_members(without_curve_name(channels[c]), Element::channel, "animation channels",
+                             at("animations", i) + '.' + at("channels", c), losses_);
+            }
             lose_list(animations[i], "samplers", Element::animation_sampler, "animation samplers", at("animations", i));
         }
         lose_list(root_, "accessors", Element::accessor, "accessors", {});

@@ -29,17 +29,6 @@ const char* path_name(TrackPath path) {
     }
 }
 
-const char* interpolation_name(Interpolation interpolation) {
-    switch (interpolation) {
-        case Interpolation::step:
-            return "STEP";
-        case Interpolation::cubic:
-            return "CUBICSPLINE";
-        default:
-            return "LINEAR";
-    }
-}
-
 /// The number of the fewest digits that rounds to this float.
 double shortest(float number) {
     std::array<char, 32> text{};
@@ -54,17 +43,20 @@ public:
     AnimationExporter(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report)
         : scene_(scene), node_of_mesh_(node_of_mesh), buffer_(buffer), report_(report) {}
 
-    Json run() {
-        Json animations = Json::array();
+    ExportedAnimations run() {
+        ExportedAnimations exported;
         for (std::size_t i = 0; i < scene_.cycles.size(); ++i) {
             Json animation = write(scene_.cycles[i], at("cycles", i));
-            if (animation.contains("channels")) {
-                animations.push_back(std::move(animation));
+            const bool is_kept = animation.contains("channels") || !scene_.cycles[i].curves.empty();
+            const auto number = static_cast<std::uint32_t>(exported.animations.size());
+            exported.animation_of_cycle.push_back(is_kept ? number : kNone);
+            if (is_kept) {
+                exported.animations.push_back(std::move(animation));
             } else {
                 report_.warn("a cycle that moves nothing is left out", at("cycles", i));
             }
         }
-        return animations;
+        return exported;
     }
 
 private:
@@ -74,8 +66,7 @@ private:
         add_extras(animation, cycle.extras, place, report_);
         add_members(animation, read_members(cycle.more, place, report_), gltf::Element::animation, place, report_);
         if (cycle.loop) mark_as_loop(animation, place);
-        const float start = span_of(cycle).start;
-        shift_ = start < 0.0f ? -start : 0.0f;
+        shift_ = shift_of(cycle);
         if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
         add_markers(cycle, animation, place);
         weights_of_node_.clear();
@@ -164,7 +155,7 @@ private:
                 report_.warn("meshes of one node have different weights: the first one's are written", place);
             if (!is_new) return;
         }
-        Json sampler{{"input", add_times(track.times)},
+        Json sampler{{"input", add_times(track.times, shift_, buffer_)},
                      {"output", buffer_.add_floats(track.values, output_components(track), Buffer::Use::data, false)}};
         if (track.interpolation != Interpolation::linear)
             sampler["interpolation"] = interpolation_name(track.interpolation);
@@ -172,16 +163,6 @@ private:
         animation["samplers"].push_back(std::move(sampler));
         animation["channels"].push_back(
             {{"sampler", number}, {"target", {{"node", node}, {"path", path_name(track.path)}}}});
-    }
-
-    std::uint32_t add_times(const std::vector<float>& times) {
-        if (shift_ == 0.0f) return buffer_.add_floats(times, 1, Buffer::Use::data, true);
-        std::vector<float> moved(times);
-        for (std::size_t k = 0; k < moved.size(); ++k) {  // times must ascend, which rounding may undo
-            moved[k] += shift_;
-            if (k > 0) moved[k] = std::max(moved[k], std::nextafter(moved[k - 1], std::numeric_limits<float>::max()));
-        }
-        return buffer_.add_floats(moved, 1, Buffer::Use::data, true);
     }
 
     static std::uint32_t output_components(const Track& track) {
@@ -199,8 +180,34 @@ private:
 
 }  // namespace
 
-Json export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
-                       Report& report) {
+const char* interpolation_name(Interpolation interpolation) {
+    switch (interpolation) {
+        case Interpolation::step:
+            return "STEP";
+        case Interpolation::cubic:
+            return "CUBICSPLINE";
+        default:
+            return "LINEAR";
+    }
+}
+
+float shift_of(const Cycle& cycle) {
+    const float start = span_of(cycle).start;
+    return start < 0.0f ? -start : 0.0f;
+}
+
+std::uint32_t add_times(const std::vector<float>& times, float shift, Buffer& buffer) {
+    if (shift == 0.0f) return buffer.add_floats(times, 1, Buffer::Use::data, true);
+    std::vector<float> moved(times);
+    for (std::size_t k = 0; k < moved.size(); ++k) {  // times must ascend, which rounding may undo
+        moved[k] += shift;
+        if (k > 0) moved[k] = std::max(moved[k], std::nextafter(moved[k - 1], std::numeric_limits<float>::max()));
+    }
+    return buffer.add_floats(moved, 1, Buffer::Use::data, true);
+}
+
+ExportedAnimations export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
+                                     Report& report) {
     return AnimationExporter(scene, node_of_mesh, buffer, report).run();
 }
 

@@ -1,6 +1,7 @@
 #include "failure.h"
 #include "gltf/source_generator.h"
 #include "gltf_out/buffer.h"
+#include "gltf_out/curves.h"
 #include "gltf_out/parts.h"
 #include "passes/mesh_order.h"
 #include "passes/move_links.h"
@@ -119,7 +120,8 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, node_members, nodes, roots, buffer, report);
     gltf_out::export_instances(nodes, buffer, report);
     add_node_members(node_members, root, nodes, report);
-    add_list(root, "animations", gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report));
+    gltf_out::ExportedAnimations animations = gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report);
+    add_list(root, "animations", std::move(animations.animations));
     gltf_out::export_materials(scene, root, buffer, report);
     add_list(root, "meshes", std::move(meshes.meshes));
     add_list(root, "skins", std::move(meshes.skins));
@@ -130,6 +132,7 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     gltf_out::add_extensions(root, scene.extensions, "HEAD/EXTN", report);
     gltf_out::add_members(root, gltf_out::read_members(scene.source_more, "HEAD/MORE", report), gltf::Element::root,
                           "HEAD/MORE", report);
+    gltf_out::export_curves(scene, animations.animation_of_cycle, meshes.node_of_mesh, root, buffer, report);
     std::set<std::string> used;
     gather_extensions(root, used);
     if (!used.empty()) root["extensionsUsed"] = used;

@@ -53,8 +53,24 @@ struct ExportedMeshes {
 ExportedMeshes export_meshes(const Scene& scene, std::span<const Json> node_members, Json& nodes, Json& roots,
                              Buffer& buffer, Report& report);
 
-/// Writes the scene's cycles, each as an animation. \param node_of_mesh  see ExportedMeshes
-Json export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer, Report& report);
+struct ExportedAnimations {
+    Json animations = Json::array();
+    std::vector<std::uint32_t> animation_of_cycle;  ///< kNone: left out
+};
+
+/// Writes the scene's cycles, each as an animation, but for their curves: one that has nothing else has no channels
+/// yet. \param node_of_mesh  see ExportedMeshes
+ExportedAnimations export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
+                                     Report& report);
+
+/// glTF's word for it.
+const char* interpolation_name(Interpolation interpolation);
+
+/// Seconds by which an animation is later than its cycle: glTF's do not begin before 0 s.
+float shift_of(const Cycle& cycle);
+
+/// Key times, later by `shift`, as an accessor.
+std::uint32_t add_times(const std::vector<float>& times, float shift, Buffer& buffer);
 
 /// Writes materials, textures, samplers and images, all with the scene's numbers, into the document `root`.
 void export_materials(const Scene& scene, Json& root, Buffer& buffer, Report& report);

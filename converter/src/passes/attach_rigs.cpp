@@ -4,6 +4,7 @@
 #include "humanoid/auto_rig.h"
 #include "humanoid/vrm.h"
 #include "rig/attach_rig.h"
+#include "rig/curves.h"
 
 #include <unordered_set>
 
@@ -17,6 +18,7 @@ bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, 
     try {
         attach_rig(scene, *rig, index, claims, report);
         if (!markers_are_told) attach_markers(scene, *rig, report);
+        attach_curves(scene, *rig, index, report);
         return rig->complete;
     } catch (const Failure& failure) {
         report.warn("rig left out: " + failure.error.message, rig->source + failure.error.place);
@@ -32,6 +34,7 @@ void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_pro
     if (rig_file) {
         attach_rig(scene, *rig_file, index, claims, report);
         attach_markers(scene, *rig_file, report);
+        attach_curves(scene, *rig_file, index, report);
     }
     const bool is_told = rig_file && rig_file->complete;
     const bool markers_are_told = rig_file && rig_file->cycles;
@@ -55,6 +58,7 @@ void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_prop
                       [&](const Chain& chain) { return rig_file->complete || renewed.contains(chain.name); });
         attach_rig(scene, *rig_file, index, claims, report);
         attach_markers(scene, *rig_file, report);
+        attach_curves(scene, *rig_file, index, report);
         if (rig_file->complete) return;
     }
     if (with_proposals) auto_rig(scene, claims.joints, report);

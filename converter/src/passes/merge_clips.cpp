@@ -1,5 +1,7 @@
 #include "passes/merge_clips.h"
 
+#include "curve_property.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -46,6 +48,7 @@ void merge(Cycle&& clip, Merged& into, Report& report) {
     into.start = common_start(into.start, clip.name);
     into.clip.loop = into.clip.loop && clip.loop;
     std::move(clip.tracks.begin(), clip.tracks.end(), std::back_inserter(into.clip.tracks));
+    std::move(clip.curves.begin(), clip.curves.end(), std::back_inserter(into.clip.curves));
     std::move(clip.markers.begin(), clip.markers.end(), std::back_inserter(into.clip.markers));
     if (!clip.extras.empty() && clip.extras != into.clip.extras)
         report.warn("extras of a merged clip left out, those of the first are kept", "clip \"" + clip.name + '"');
@@ -56,10 +59,13 @@ void merge(Cycle&& clip, Merged& into, Report& report) {
 std::uint32_t merge_clips(Scene& scene, Report& report) {
     std::vector<Merged> merged;
     std::map<Property, std::size_t> next;  // the first merged clip that a property is still free in, and after it
+    std::map<OwnProperty, std::size_t> next_of_curve;  // the same
     for (Cycle& clip : scene.cycles) {
         std::size_t number = 0;
         for (const Track& track : clip.tracks) number = std::max(number, next[property_of(track)]);
+        for (const Curve& curve : clip.curves) number = std::max(number, next_of_curve[own_property_of(curve)]);
         for (const Track& track : clip.tracks) next[property_of(track)] = number + 1;
+        for (const Curve& curve : clip.curves) next_of_curve[own_property_of(curve)] = number + 1;
         if (number < merged.size()) {
             merge(std::move(clip), merged[number], report);
             continue;
@@ -82,11 +88,15 @@ bool is_spread_motion(const Scene& scene) {
     constexpr std::size_t kFewest = 3;
     if (scene.cycles.size() < kFewest) return false;
     std::set<Property> properties;
+    std::set<CurveProperty> curves;
     std::size_t single = 0;
     for (const Cycle& clip : scene.cycles) {
         if (clip.tracks.empty()) return false;
         for (const Track& track : clip.tracks) {
             if (!properties.insert(property_of(track)).second) return false;
+        }
+        for (const Curve& curve : clip.curves) {
+            if (!curves.insert(property_of(curve)).second) return false;
         }
         const Track& first = clip.tracks.front();
         const bool is_single = std::all_of(clip.tracks.begin(), clip.tracks.end(), [&](const Track& track) {

@@ -205,6 +205,8 @@ Rig parse_rig(std::string_view text, Report& report) {
             rig.cycles->push_back({key, place, parse_markers(value, place, WrongMarkers::fail, report)});
         }
     }
+    if (const OrderedJson* curves = fields.find("curves"); curves != nullptr)
+        rig.curves = parse_curves(*curves, "curves");
     std::string schema;
     fields.read("$schema", schema);  // for editors
     fields.refuse_others();

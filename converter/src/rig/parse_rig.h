@@ -1,5 +1,6 @@
 #pragma once
 
+#include "curves.h"
 #include "fields.h"
 #include "joint_key.h"
 #include "json_text.h"
@@ -51,6 +52,7 @@ struct Rig {
     std::vector<RigEntry> joints;
     std::vector<RigChain> chains;
     std::optional<std::vector<RigCycle>> cycles;  ///< none: it says nothing of markers
+    std::optional<std::vector<RigCurve>> curves;  ///< none: it says nothing of curves
 };
 
 /// One constraint of a rig file or of extras. The rest pose may lie outside; all else passes check_limit. Fails at the

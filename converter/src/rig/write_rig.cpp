@@ -1,5 +1,6 @@
 #include <bendy/converter/write_rig.h>
 
+#include "curves.h"
 #include "failure.h"
 #include "fields.h"
 #include "joint_key.h"
@@ -151,7 +152,7 @@ public:
             weights_[pull.chain].add(key_of(pull.joint), plain(pull.weight));
     }
 
-    /// \param with_markers  of all cycles, too
+    /// \param with_markers  and curves, of all cycles, too
     std::string write(bool with_markers) const {
         std::string text = "{\n  \"bendy_rig\": 1,\n  \"complete\": true";
         const std::vector<LimitView>& limits = object_.skeleton.limits;  // ordered by joint
@@ -171,6 +172,8 @@ public:
         if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
         const std::string markers = with_markers ? write_markers() : std::string();
         if (!markers.empty()) text += ",\n  \"markers\": {" + markers + "\n  }";
+        const std::string curves = with_markers ? write_curves() : std::string();
+        if (!curves.empty()) text += ",\n  \"curves\": [" + curves + "\n  ]";
         return text + "\n}\n";
     }
 
@@ -201,16 +204,12 @@ private:
 
     /// The entries of all cycles that have markers.
     [[nodiscard]] std::string write_markers() const {
-        std::unordered_map<std::string_view, std::size_t> count;
-        for (const CycleView& cycle : object_.cycles) ++count[cycle.name];
+        const NameCounts count = count_clips();
         std::string text;
         for (std::size_t i = 0; i < object_.cycles.size(); ++i) {
             const CycleView& cycle = object_.cycles[i];
             if (cycle.markers.empty()) continue;
-            std::uint64_t unused = 0;
-            const bool means_itself =
-                !cycle.name.empty() && count.at(cycle.name) == 1 && !parse_joint_number(cycle.name, unused);
-            const std::string key = means_itself ? std::string(cycle.name) : '#' + std::to_string(i);
+            const std::string key = clip_key(i, count);
             std::vector<std::string> entries;
             for (const bendy::Marker& marker : cycle.markers) {
                 Line line;
@@ -221,6 +220,55 @@ private:
             text += (text.empty() ? "\n    " : ",\n    ") + json_string(key) + ": [" + joined(entries) + "\n    ]";
         }
         return text;
+    }
+
+    using NameCounts = std::unordered_map<std::string_view, std::size_t>;
+
+    [[nodiscard]] NameCounts count_clips() const {
+        NameCounts count;
+        for (const CycleView& cycle : object_.cycles) ++count[cycle.name];
+        return count;
+    }
+
+    [[nodiscard]] std::string clip_key(std::size_t number, const NameCounts& count) const {
+        const std::string_view name = object_.cycles[number].name;
+        std::uint64_t unused = 0;
+        const bool means_itself = !name.empty() && count.at(name) == 1 && !parse_joint_number(name, unused);
+        return means_itself ? std::string(name) : '#' + std::to_string(number);
+    }
+
+    /// Those of all clips.
+    [[nodiscard]] std::string write_curves() const {
+        const NameCounts count = count_clips();
+        std::string text;
+        for (std::size_t i = 0; i < object_.cycles.size(); ++i) {
+            for (const CurveView& curve : object_.cycles[i].curves)
+                text += (text.empty() ? "\n    " : ",\n    ") + write_curve_entry(curve, clip_key(i, count));
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::string write_curve_entry(const CurveView& curve, const std::string& clip) const {
+        Line line;
+        line.add("clip", json_string(clip));
+        if (!curve.name.empty()) line.add("name", json_string(curve.name));
+        line.add("path", json_string(curve.path));
+        if (curve.kind != CurveTarget::nothing) {
+            const bool is_joint = curve.kind == CurveTarget::joint;
+            Line target;
+            target.add(kCurveTargetNames[static_cast<std::size_t>(curve.kind)],
+                       json_string(is_joint ? name_of(curve.target) : '#' + std::to_string(curve.target)));
+            line.add("target", target.text());
+        }
+        if (curve.interpolation != Interpolation::linear) {
+            line.add("interpolation", json_string(kInterpolationNames[static_cast<std::size_t>(curve.interpolation)]));
+        }
+        std::vector<float> values;
+        values.reserve(curve.value_count());
+        for (std::size_t k = 0; k < curve.value_count(); ++k) values.push_back(curve.value(k));
+        line.add("times", list(curve.times, plain));
+        line.add("values", list(values, plain));
+        return line.text();
     }
 
     [[nodiscard]] std::string write_chain(std::size_t number) const {

@@ -144,6 +144,9 @@ private:
             }
         }
         if (weights != 0) report_.warn("weights of inbetweening targets left out of a cycle", place, weights);
+        if (!cycle.curves.empty()) {
+            report_.warn("named curves left out of a clip: X-files have no place for them", place, cycle.curves.size());
+        }
         if (!(span_of(cycle).end + shift_ <= Ticks::kLongest)) {
             report_.warn("a cycle of more than a million seconds is left out", place);
             return;
@@ -152,7 +155,7 @@ private:
             report_.warn("a cycle that moves no joint is left out", place);
             return;
         }
-        if (span_of(cycle) != span_of_keys(cycle))
+        if (span_of(cycle) != span_of_tracks(cycle))
             report_.warn("clip that is longer than its keys is written as long as they are", place);
         if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
         if (!cycle.extras.empty() || !cycle.more.empty())

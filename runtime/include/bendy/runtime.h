@@ -9,7 +9,7 @@
 //     bendy::reach(model->chain("LeftArm"), target, pose);    // IK, inside the joints' constraints
 //     bendy::skin(*model, pose, vertices);                    // vertices into the caller's memory
 //
-// What plays over time: Playback (a cycle's clock), Crossfade, markers.h, RootPath (root motion), Binding (cycles of
+// What plays over time: Playback (a cycle's clock), Crossfade, markers.h, curve.h (named curves), RootPath (root motion), Binding (cycles of
 // another file). What a posed character is asked: Bounds, Socket. DualSkinning: skinning that keeps volume.
 //
 // Nothing here throws or logs. A frame allocates nothing: what needs memory takes it when it is made. After a Model has
@@ -22,6 +22,7 @@
 #include <bendy/runtime/constrain.h>
 #include <bendy/runtime/crossfade.h>
 #include <bendy/runtime/crowd.h>
+#include <bendy/runtime/curve.h>
 #include <bendy/runtime/dual_skin.h>
 #include <bendy/runtime/ik.h>
 #include <bendy/runtime/inbetween.h>

@@ -30,6 +30,9 @@ struct CompactReport {
     double measured_error = 0.0;  ///< metres: the worst that was met
     std::string place;            ///< where: mesh, vertex, pose; empty if nothing moved
     std::vector<ByteCount> exact, compact;
+    std::uint64_t curves = 0;         ///< of all clips
+    std::uint64_t packed_curves = 0;  ///< of these; the others are exact
+    double curve_error = 0.0;         ///< of packed values, the largest, as a share of their component's range
 };
 
 /// What tells without reading a file whether it is still the same.

@@ -141,6 +141,23 @@ struct Track {
     std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
 };
 
+inline constexpr std::size_t kMostCurveComponents = 4;
+
+/// A named curve of a clip: a number that is animated, or up to four, and is neither part of a joint's transform nor a
+/// morph target's weight.
+struct Curve {
+    std::string name;  ///< UTF-8, may be empty
+    /// Of the property, relative to the target, as glTF spells it: "pbrMetallicRoughness/baseColorFactor"; without a
+    /// target a JSON pointer. Different for all curves of a clip with the same target, or empty.
+    std::string path;
+    CurveTarget kind = CurveTarget::nothing;
+    std::uint32_t target = kNone;  ///< joint, material, mesh or texture, as `kind` says
+    Interpolation interpolation = Interpolation::linear;
+    std::uint32_t components = 1;  ///< 1 to 4
+    std::vector<float> times;      ///< seconds, strictly ascending, at least one
+    std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
+};
+
 /// A named time of a cycle: a footstep, a hit, a sound.
 struct Marker {
     float seconds = 0.0f;  ///< between the cycle's first and last key
@@ -179,6 +196,7 @@ struct Cycle {
     std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
     float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
     float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
+    std::vector<Curve> curves = {};
 };
 
 /// One encoded image as it came: embedded bytes, or a reference to a file beside the output.

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+namespace bendy::converter {
+
+/// What a curve animates: no two curves of a clip have the same. Those without a path differ by name.
+using CurveProperty = std::tuple<CurveTarget, std::uint32_t, std::string_view, std::string_view>;
+
+/// The same with memory of its own, for containers that outlive the curve.
+using OwnProperty = std::tuple<CurveTarget, std::uint32_t, std::string, std::string>;
+
+/// It refers to the curve's memory.
+inline CurveProperty property_of(const Curve& curve) {
+    return {curve.kind, curve.target, curve.path, curve.path.empty() ? curve.name : std::string_view()};
+}
+
+inline OwnProperty own_property_of(const Curve& curve) {
+    return OwnProperty(property_of(curve));
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,161 @@
+#include "gltf_out/curves.h"
+
+#include "failure.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace bendy::converter::gltf_out {
+namespace {
+
+/// A token of a JSON pointer as the member's name.
+std::string unescaped(std::string_view token) {
+    std::string name;
+    for (std::size_t i = 0; i < token.size(); ++i) {
+        const bool is_escape = token[i] == '~' && i + 1 < token.size() && (token[i + 1] == '0' || token[i + 1] == '1');
+        name += !is_escape ? token[i] : token[i + 1] == '0' ? '~' : '/';
+        i += is_escape ? 1 : 0;
+    }
+    return name;
+}
+
+/// Objects that mean the same whether they are there or empty: glTF leaves them out where everything is at its default.
+bool is_default_if_empty(std::string_view member) {
+    return member == "pbrMetallicRoughness" || member == "extensions" || member == "KHR_texture_transform";
+}
+
+/// The element or member that a token names; null if there is none.
+Json* inner(Json& json, std::string_view token) {
+    if (json.is_object()) {
+        const auto member = json.find(unescaped(token));
+        return member == json.end() ? nullptr : &*member;
+    }
+    if (!json.is_array()) return nullptr;
+    std::size_t index = 0;
+    const auto read = std::from_chars(token.data(), token.data() + token.size(), index);
+    if (read.ec != std::errc() || read.ptr != token.data() + token.size() || index >= json.size()) return nullptr;
+    return &json[index];
+}
+
+/// Whether the document has the object that a pointer's property is of. Makes the objects that is_default_if_empty.
+bool open_parent(Json& root, std::string_view pointer) {
+    if (pointer.empty() || pointer.front() != '/') return false;
+    Json* json = &root;
+    for (std::string_view rest = pointer.substr(1);;) {
+        const std::size_t end = rest.find('/');
+        const std::string_view token = rest.substr(0, end);
+        if (end == std::string_view::npos) {
+            return !token.empty() && (json->is_object() || inner(*json, token) != nullptr);
+        }
+        if (token == "extras") return true;  // the author's own
+        Json* next = inner(*json, token);
+        if (next == nullptr && json->is_object() && is_default_if_empty(token)) {
+            // KHR_texture_transform alone may be made inside extensions: others say something by being there.
+            const std::string_view following = rest.substr(end + 1);
+            const bool is_known = token != "extensions" || following.starts_with("KHR_texture_transform/");
+            if (is_known) next = &((*json)[std::string(token)] = Json::object());
+        }
+        if (next == nullptr) return false;
+        json = next;
+        rest.remove_prefix(end + 1);
+    }
+}
+
+class CurveExporter {
+public:
+    CurveExporter(std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report)
+        : node_of_mesh_(node_of_mesh), root_(root), buffer_(buffer), report_(report) {}
+
+    void write(const Cycle& cycle, Json& animation, const std::string& place) {
+        const float shift = shift_of(cycle);
+        for (std::size_t c = 0; c < cycle.curves.size(); ++c) {
+            const Curve& curve = cycle.curves[c];
+            const std::string pointer = pointer_to(curve);
+            if (pointer.empty() || !open_parent(root_, pointer)) {
+                report_.warn("curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
+                             place + '.' + at("curves", c));
+                continue;
+            }
+            Json sampler{{"input", add_times(curve.times, shift, buffer_)},
+                         {"output", buffer_.add_floats(curve.values, curve.components, Buffer::Use::data, false)}};
+            if (curve.interpolation != Interpolation::linear)
+                sampler["interpolation"] = interpolation_name(curve.interpolation);
+            Json channel{
+                {"sampler", animation["samplers"].size()},
+                {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}};
+            if (!curve.name.empty()) channel["extras"]["name"] = curve.name;
+            animation["samplers"].push_back(std::move(sampler));
+            animation["channels"].push_back(std::move(channel));
+        }
+    }
+
+private:
+    /// Empty where the target has no place in the document.
+    [[nodiscard]] std::string pointer_to(const Curve& curve) const {
+        switch (curve.kind) {
+            case CurveTarget::joint:
+                return of_joint(curve);
+            case CurveTarget::material:
+                return "/materials/" + std::to_string(curve.target) + '/' + curve.path;
+            case CurveTarget::texture:
+                return "/textures/" + std::to_string(curve.target) + '/' + curve.path;
+            case CurveTarget::mesh: {
+                const std::uint32_t node = node_of_mesh_[curve.target];
+                if (node == kNone) return {};
+                return "/meshes/" + root_["nodes"][node]["mesh"].dump() + '/' + curve.path;
+            }
+            default:
+                return curve.path;
+        }
+    }
+
+    /// A node's camera has a list of its own in glTF.
+    [[nodiscard]] std::string of_joint(const Curve& curve) const {
+        constexpr std::string_view kCamera = "camera/";
+        const Json& node = root_["nodes"][curve.target];
+        if (!curve.path.starts_with(kCamera)) return "/nodes/" + std::to_string(curve.target) + '/' + curve.path;
+        if (!node.contains("camera")) return {};
+        return "/cameras/" + node["camera"].dump() + '/' + curve.path.substr(kCamera.size());
+    }
+
+    std::span<const std::uint32_t> node_of_mesh_;
+    Json& root_;
+    Buffer& buffer_;
+    Report& report_;
+};
+
+}  // namespace
+
+void export_curves(const Scene& scene, std::span<const std::uint32_t> animation_of_cycle,
+                   std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report) {
+    CurveExporter exporter(node_of_mesh, root, buffer, report);
+    bool is_one_empty = false;
+    for (std::size_t i = 0; i < scene.cycles.size(); ++i) {
+        if (scene.cycles[i].curves.empty()) continue;
+        Json animation = std::move(root["animations"][animation_of_cycle[i]]);
+        exporter.write(scene.cycles[i], animation, at("cycles", i));
+        if (!animation.contains("channels")) {
+            is_one_empty = true;
+            report.warn("a cycle that moves nothing is left out", at("cycles", i));
+        }
+        root["animations"][animation_of_cycle[i]] = std::move(animation);
+    }
+    if (!is_one_empty) return;
+    Json& animations = root["animations"];
+    Json kept = Json::array();
+    for (Json& animation : animations) {
+        if (animation.contains("channels")) kept.push_back(std::move(animation));
+    }
+    if (kept.empty()) {
+        root.erase("animations");
+    } else {
+        animations = std::move(kept);
+    }
+}
+
+}  // namespace bendy::converter::gltf_out

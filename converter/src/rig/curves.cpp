@@ -1,0 +1,254 @@
+#include "curves.h"
+
+#include "curve_property.h"
+#include "frame_shapes.h"
+#include "failure.h"
+#include "fields.h"
+#include "joint_key.h"
+#include "parse_rig.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+constexpr float kNearEnd = 1e-3f;  // seconds: times in text are rounded otherwise than keys
+
+std::vector<float> parse_numbers(const OrderedJson& value, const std::string& place) {
+    need_list(value, place);
+    std::vector<float> numbers;
+    numbers.reserve(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) numbers.push_back(to_float(value[i], at(place, i)));
+    return numbers;
+}
+
+std::string in_json(float seconds) {
+    return shown(OrderedJson(static_cast<double>(seconds)));
+}
+
+void parse_target(const OrderedJson& value, const std::string& place, RigCurve& curve) {
+    Fields fields(value, place, AngleUnit::radians);
+    for (std::size_t kind = 1; kind < kCurveTargetNames.size(); ++kind) {
+        if (fields.find(kCurveTargetNames[kind]) == nullptr) continue;
+        if (curve.curve.kind != CurveTarget::nothing) fail(place, "expected one target, found two");
+        curve.curve.kind = static_cast<CurveTarget>(kind);
+        fields.read(kCurveTargetNames[kind], curve.target);
+    }
+    fields.refuse_others();
+    if (curve.curve.kind == CurveTarget::nothing)
+        fail(place, "expected one of joint, material, mesh, texture, found none");
+}
+
+/// A name as a token of a JSON pointer.
+std::string pointer_token(const std::string& name) {
+    std::string token;
+    for (const char c : name) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    return token;
+}
+
+/// \param has_path  it is there, be it empty
+void check_path(Curve& curve, bool has_path, const std::string& place) {
+    const bool has_target = curve.kind != CurveTarget::nothing;
+    if (curve.path.empty()) {
+        if (curve.name.empty()) fail(place, "expected a path or a name, found neither");
+        if (!has_path) curve.path = (has_target ? "extras/" : "/extras/") + pointer_token(curve.name);
+        return;
+    }
+    const std::string path_place = place + ".path";
+    if (curve.kind == CurveTarget::joint) {
+        constexpr std::array<std::string_view, 4> kTracks{"translation", "rotation", "scale", "weights"};
+        if (std::find(kTracks.begin(), kTracks.end(), curve.path) != kTracks.end())
+            fail(path_place, "a joint's " + curve.path + " is animated by a track, not by a curve");
+    }
+    if (has_target || curve.path.front() == '/') return;
+    fail(path_place,
+         "expected a JSON pointer, which begins with '/', for a curve without a target, found " + quote(curve.path));
+}
+
+void check_keys(Curve& curve, const std::string& place) {
+    if (curve.times.empty()) fail(place + ".times", "expected one time or more, found none");
+    for (std::size_t k = 1; k < curve.times.size(); ++k) {
+        if (curve.times[k] > curve.times[k - 1]) continue;
+        fail(at(place + ".times", k),
+             "expected a time after " + in_json(curve.times[k - 1]) + ", found " + in_json(curve.times[k]));
+    }
+    const bool is_cubic = curve.interpolation == Interpolation::cubic;
+    const std::size_t of_component = curve.times.size() * (is_cubic ? 3 : 1);
+    const std::size_t components = curve.values.size() / of_component;
+    if (components < 1 || components > kMostCurveComponents || curve.values.size() % of_component != 0) {
+        fail(place + ".values", "expected " + std::to_string(of_component) + " numbers, or 2, 3 or 4 times as many, " +
+                                    "for " + std::to_string(curve.times.size()) + (is_cubic ? " cubic" : "") +
+                                    " keys, found " + std::to_string(curve.values.size()));
+    }
+    curve.components = static_cast<std::uint32_t>(components);
+}
+
+RigCurve parse_curve(const OrderedJson& value, const std::string& place) {
+    Fields fields(value, place, AngleUnit::radians);
+    RigCurve parsed;
+    parsed.place = place;
+    Curve& curve = parsed.curve;
+    fields.need("clip");
+    fields.read("clip", parsed.clip);
+    fields.read("name", curve.name);
+    const bool has_path = fields.find("path") != nullptr;
+    fields.read("path", curve.path);
+    if (const OrderedJson* target = fields.find("target"); target != nullptr)
+        parse_target(*target, place + ".target", parsed);
+    auto interpolation = static_cast<std::uint8_t>(Interpolation::linear);
+    fields.read_word("interpolation", kInterpolationNames, interpolation);
+    curve.interpolation = static_cast<Interpolation>(interpolation);
+    curve.times = parse_numbers(fields.need("times"), place + ".times");
+    curve.values = parse_numbers(fields.need("values"), place + ".values");
+    fields.refuse_others();
+    check_path(curve, has_path, place);
+    check_keys(curve, place);
+    return parsed;
+}
+
+/// Things by name, the first of each, or by number as `#12`.
+class NamedThings {
+public:
+    template <class Things>
+    explicit NamedThings(const Things& things) : count_(things.size()) {
+        for (std::size_t i = 0; i < things.size(); ++i) by_name_.try_emplace(things[i].name, i);
+    }
+
+    /// kNone: there is none.
+    [[nodiscard]] std::uint32_t find(std::string_view key) const {
+        std::uint64_t number = 0;
+        if (parse_joint_number(key, number)) return number < count_ ? static_cast<std::uint32_t>(number) : kNone;
+        const auto named = by_name_.find(key);
+        return named == by_name_.end() ? kNone : static_cast<std::uint32_t>(named->second);
+    }
+
+private:
+    std::size_t count_;
+    std::unordered_map<std::string_view, std::size_t> by_name_;
+};
+
+/// A clip's length before its curves change; nothing for one without keys.
+std::optional<CycleSpan> length_before(const Cycle& cycle) {
+    const bool has_keys = !cycle.tracks.empty() || !cycle.plays.empty() || !cycle.curves.empty() || cycle.stated_span;
+    return has_keys ? std::optional(span_of(cycle)) : std::nullopt;
+}
+
+class CurveAttacher {
+public:
+    CurveAttacher(Scene& scene, const Rig& rig, const JointIndex& index, Report& report)
+        : scene_(scene),
+          rig_(rig),
+          index_(index),
+          report_(report),
+          clips_(scene.cycles),
+          materials_(scene.materials),
+          meshes_(scene.meshes),
+          textures_(scene.textures),
+          numbers_of_(scene.cycles.size()) {
+        for (const Cycle& cycle : scene.cycles) lengths_.push_back(length_before(cycle));
+    }
+
+    void run() {
+        std::vector<std::pair<std::size_t, Curve>> resolved;
+        for (const RigCurve& entry : *rig_.curves) {
+            const std::uint32_t clip = clips_.find(entry.clip);
+            Curve curve = resolve(entry);
+            if (clip == kNone) {
+                report_.warn("no clip takes a curve for " + quote(entry.clip), rig_.source + entry.place);
+                continue;
+            }
+            if (!taken_.emplace(clip, own_property_of(curve)).second)
+                fail(entry.place, "an earlier curve of clip " + quote(entry.clip) + " animates the same");
+            check_times(curve, lengths_[clip], entry);
+            resolved.emplace_back(clip, std::move(curve));
+        }
+        // From here on nothing fails.
+        for (std::size_t clip = 0; clip < scene_.cycles.size(); ++clip) {
+            std::vector<Curve>& curves = scene_.cycles[clip].curves;
+            if (rig_.complete) curves.clear();
+            for (std::size_t c = 0; c < curves.size(); ++c) numbers_of_[clip].emplace(own_property_of(curves[c]), c);
+        }
+        for (auto& [clip, curve] : resolved) put(clip, std::move(curve));
+        for (std::size_t clip = 0; clip < scene_.cycles.size(); ++clip) keep_length(clip);
+    }
+
+private:
+    [[nodiscard]] Curve resolve(const RigCurve& entry) const {
+        Curve curve = entry.curve;
+        switch (curve.kind) {
+            case CurveTarget::joint:
+                curve.target = index_.find_key(entry.target);
+                break;
+            case CurveTarget::material:
+                curve.target = materials_.find(entry.target);
+                break;
+            case CurveTarget::mesh:
+                curve.target = meshes_.find(entry.target);
+                break;
+            case CurveTarget::texture:
+                curve.target = textures_.find(entry.target);
+                break;
+            default:
+                return curve;
+        }
+        const std::string kind(kCurveTargetNames[static_cast<std::size_t>(curve.kind)]);
+        if (curve.target == kNone)
+            fail(entry.place + ".target." + kind, "there is no " + kind + ' ' + quote(entry.target));
+        return curve;
+    }
+
+    static void check_times(const Curve& curve, const std::optional<CycleSpan>& length, const RigCurve& entry) {
+        if (!length) return;
+        for (const float seconds : {curve.times.front(), curve.times.back()}) {
+            if (seconds >= length->start - kNearEnd && seconds <= length->end + kNearEnd) continue;
+            fail(entry.place + ".times", in_json(seconds) + " s is outside the clip, which lasts from " +
+                                             in_json(length->start) + " s to " + in_json(length->end) + " s");
+        }
+    }
+
+    void put(std::size_t clip, Curve curve) {
+        std::vector<Curve>& curves = scene_.cycles[clip].curves;
+        const auto known = numbers_of_[clip].find(own_property_of(curve));
+        if (known == numbers_of_[clip].end()) {
+            curves.push_back(std::move(curve));
+        } else {
+            curves[known->second] = std::move(curve);
+        }
+    }
+
+    void keep_length(std::size_t clip) {
+        Cycle& cycle = scene_.cycles[clip];
+        if (lengths_[clip] && span_of(cycle) != *lengths_[clip]) cycle.stated_span = lengths_[clip];
+    }
+
+    Scene& scene_;
+    const Rig& rig_;
+    const JointIndex& index_;
+    Report& report_;
+    NamedThings clips_, materials_, meshes_, textures_;
+    std::vector<std::optional<CycleSpan>> lengths_;
+    std::set<std::pair<std::size_t, OwnProperty>> taken_;
+    std::vector<std::map<OwnProperty, std::size_t>> numbers_of_;
+};
+
+}  // namespace
+
+std::vector<RigCurve> parse_curves(const OrderedJson& value, const std::string& place) {
+    need_list(value, place);
+    std::vector<RigCurve> curves;
+    for (std::size_t i = 0; i < value.size(); ++i) curves.push_back(parse_curve(value[i], at(place, i)));
+    return curves;
+}
+
+void attach_curves(Scene& scene, const Rig& rig, const JointIndex& index, Report& report) {
+    if (rig.curves) CurveAttacher(scene, rig, index, report).run();
+}
+
+}  // namespace bendy::converter
