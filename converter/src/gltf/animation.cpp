@@ -112,9 +112,10 @@ private:
         const tinygltf::AnimationChannel& channel = animation.channels[c];
         const std::string place = place_ + '.' + at("channels", c);
         const Json& source = document_.json["animations"][index]["channels"][c];
+        const auto sampler = static_cast<std::size_t>(channel.sampler);
+        const std::string sampler_place = place_ + '.' + at("samplers", sampler);
         if (pointer_of(source) != nullptr)
-            return read_pointer(source, animation.samplers[static_cast<std::size_t>(channel.sampler)],
-                                place_ + '.' + at("samplers", static_cast<std::size_t>(channel.sampler)), place, cycle);
+            return read_pointer(source, animation.samplers[sampler], sampler_place, place, cycle);
         const Json& target = source["target"];
         const auto path = track_path(channel.target_path);
         if (!path) {
@@ -129,9 +130,8 @@ private:
         if (target.contains("extensions")) {
             document_.report.warn("extensions of a channel's target left out", place + ".target.extensions");
         }
-        const auto sampler = static_cast<std::size_t>(channel.sampler);
         return read_tracks(static_cast<std::size_t>(channel.target_node), *path, animation.samplers[sampler],
-                           place_ + '.' + at("samplers", sampler), place);
+                           sampler_place, place);
     }
 
     std::vector<Track> read_tracks(std::size_t node, TrackPath path, const tinygltf::AnimationSampler& sampler,
