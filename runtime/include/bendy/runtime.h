@@ -9,8 +9,9 @@
 //     bendy::reach(model->chain("LeftArm"), target, pose);    // IK, inside the joints' constraints
 //     bendy::skin(*model, pose, vertices);                    // vertices into the caller's memory
 //
-// What plays over time: Playback (a cycle's clock), Crossfade, markers.h, curve.h (named curves), RootPath (root motion), Binding (cycles of
-// another file). What a posed character is asked: Bounds, Socket. DualSkinning: skinning that keeps volume.
+// What plays over time: Playback (a cycle's clock), Crossfade, markers.h, curve.h (named curves), RootPath (root
+// motion), Binding (cycles of another file). What a posed character is asked: Bounds, Socket. DualSkinning: skinning
+// that keeps volume.
 //
 // Nothing here throws or logs. A frame allocates nothing: what needs memory takes it when it is made. After a Model has
 // loaded, no call on it can read or write out of bounds, whatever the file held. A Model is immutable: any number of
