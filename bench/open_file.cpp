@@ -28,8 +28,8 @@ void open(const char* path, bendy::Sums sums, bool poses) {
     const auto model = bendy::Model::open(path, options);
     if (!model || !poses) return;
     bendy::Pose pose(*model);
-    if (!model->cycles().empty()) bendy::sample(&model->cycles().front(), model->cycles().front().start, pose);
-    bendy::local_to_model(pose);
+    if (!model->cycles().empty()) (void)bendy::sample(pose, &model->cycles().front(), model->cycles().front().start);
+    (void)pose.model_space();
 }
 
 }  // namespace

@@ -46,14 +46,17 @@ bool measure_joints(std::uint32_t joints) {
     const auto next = [&](float step) {
         seconds += step;
         if (seconds > cycle.end) seconds -= cycle.end;
-        bendy::sample(&cycle, seconds, pose);
+        (void)bendy::sample(pose, &cycle, seconds);
     };
     const double n = joints;
     const double checked = least(n, [&] { return open(bytes, bendy::Sums::checked).has_value(); });
     const double later = least(n, [&] { return open(bytes, bendy::Sums::later).has_value(); });
     const double in_order = least(n, [&] { next(1.0f / 60.0f); });
     const double at_random = least(n, [&] { next(0.61803399f); });
-    const double to_model = least(n, [&] { bendy::local_to_model(pose); });
+    const double to_model = least(n, [&] {
+        (void)pose.change_local();
+        (void)pose.model_space();
+    });
     std::printf("| %u | %.0f | %.0f | %.1f | %.1f | %.1f |\n", joints, checked, later, in_order, at_random, to_model);
     std::fflush(stdout);
     return true;
@@ -72,11 +75,12 @@ bool measure_vertices(std::uint32_t vertices) {
         const bendy::Pose pose(*fresh);
     });
     bendy::Pose pose(*model);
-    bendy::sample(&model->cycles().front(), 0.5f, pose);
+    (void)bendy::sample(pose, &model->cycles().front(), 0.5f);
     std::vector<glm::vec3> positions(vertices);
     std::vector<glm::vec3> normals(vertices);
-    const double skin_positions = least(n, [&] { bendy::skin(*model, pose, {positions, {}, {}}); });
-    const double skin_normals = least(n, [&] { bendy::skin(*model, pose, {positions, normals, {}}); });
+    const double skin_positions = least(n, [&] { (void)bendy::skin(pose, {.out = {.positions = positions}}); });
+    const double skin_normals =
+        least(n, [&] { (void)bendy::skin(pose, {.out = {.positions = positions, .normals = normals}}); });
     std::printf("| %u | %.2f | %.2f | %.1f | %.2f | %.2f |\n", vertices, checked, later, first_pose - later,
                 skin_positions, skin_normals);
     std::fflush(stdout);

@@ -63,7 +63,7 @@ std::vector<Timing> time_stage(const Stage& stage, const std::vector<Kernel>& ke
     contestants.reserve(kernels.size());
     for (const Kernel kernel : kernels) {
         contestants.push_back({"", [&stage, kernel] {
-                                   set_kernel(kernel);
+                                   (void)set_kernel(kernel);
                                    stage.run();
                                }});
     }
