@@ -48,7 +48,7 @@ double measure(const Scene& scene, const bendy::Model& model) {
     bendy::Pose pose(model);
     std::vector<glm::vec3> positions(model.vertex_count());
     bendy::converter::EvaluatedPose expected;
-    bendy::skin(model, pose, {positions, {}, {}});
+    (void)bendy::skin(pose, {.out = {.positions = positions}});
     const double extent = extent_of(positions);
     bendy::converter::evaluate_rest(scene, expected);
     double worst = worst_of(scene, expected, positions);
@@ -57,8 +57,8 @@ double measure(const Scene& scene, const bendy::Model& model) {
         for (int k = 0; k < kTimes; ++k) {
             const float share = static_cast<float>(k) / (kTimes - 1);
             const float seconds = cycle.start + share * (cycle.end - cycle.start);
-            bendy::sample(&cycle, seconds, pose);
-            bendy::skin(model, pose, {positions, {}, {}});
+            (void)bendy::sample(pose, &cycle, seconds);
+            (void)bendy::skin(pose, {.out = {.positions = positions}});
             bendy::converter::evaluate(scene, scene.cycles[number], seconds, expected);
             worst = std::max(worst, worst_of(scene, expected, positions));
         }
@@ -85,7 +85,7 @@ int main(int count, char** arguments) {
         if (!model) return 1;
         std::printf("| %s |", arguments[k]);
         for (const bendy::Kernel kernel : bendy::kernels()) {
-            bendy::set_kernel(kernel);
+            (void)bendy::set_kernel(kernel);
             std::printf(" %.3f |", measure(*scene, *model));
         }
         std::printf("\n");

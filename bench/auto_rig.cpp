@@ -105,7 +105,7 @@ struct Bend {
     glm::dvec3 axis{0.0};  ///< sine of the bend times the axis
     double degrees = 0.0;
 };
-Bend bend_of(const Pose& pose, const Limb& limb) {
+Bend bend_of(Pose& pose, const Limb& limb) {
     const auto at = [&](std::uint32_t joint) { return glm::dmat4(pose.model_space()[joint]); };
     const auto& offset = limb.chain->record.tip_offset;
     const glm::dvec3 tip(at(limb.chain->effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0));
@@ -193,7 +193,7 @@ private:
         for (const Cycle& cycle : model_.cycles()) {
             const auto frames = static_cast<int>((cycle.end - cycle.start) * kRate) + 1;
             for (int frame = 0; frame < frames; ++frame) {
-                sample(&cycle, cycle.start + static_cast<float>(frame) / kRate, pose_);
+                (void)sample(pose_, &cycle, cycle.start + static_cast<float>(frame) / kRate);
                 double worst = 0.0;
                 for (const Constraint& constraint : model_.constraints()) {
                     const glm::quat& rest = model_.joints()[constraint.joint].rest.rotation;
@@ -211,7 +211,6 @@ private:
     }
 
     void add_bends() {
-        local_to_model(pose_);
         for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
             if (!limbs_[limb]) continue;
             const Bend bend = bend_of(pose_, *limbs_[limb]);
@@ -234,7 +233,6 @@ private:
     void reach_targets(const Limb& limb, std::size_t number) {
         std::mt19937_64 random(20240607 + number);
         pose_.set_rest();
-        local_to_model(pose_);
         const auto place = [&](std::uint32_t joint) { return glm::dvec3(pose_.model_space()[joint][3]); };
         const auto& offset = limb.chain->record.tip_offset;
         const auto tip = [&] {
@@ -250,11 +248,9 @@ private:
                 if (constraint != nullptr)
                     pose_.change_local()[joint].rotation = random_rotation(*constraint, rest, random);
             }
-            local_to_model(pose_);
             const glm::vec3 where = tip();
             pose_.set_rest();
-            (void)reach(limb.chain, where, pose_);
-            local_to_model(pose_);
+            (void)reach(pose_, limb.chain, where);
             const bool is_reached = glm::distance(tip(), where) <= 1e-3 * length;
             const bool is_bent_well = is_bent_as_in_clips(number, bend_of(pose_, limb));
             row_.reached.add(is_reached);

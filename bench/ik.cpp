@@ -85,7 +85,6 @@ std::vector<std::byte> make_chain_file(std::uint32_t joints, bool is_constrained
 }
 
 glm::vec3 tip_of(Pose& pose) {
-    local_to_model(pose);
     const glm::vec4& position = pose.model_space().back()[3];
     return {position.x, position.y, position.z};
 }
@@ -119,7 +118,7 @@ void solve(const Model& model, Pose& pose, const glm::vec3& target, const ReachO
            Outcome& outcome) {
     pose.set_rest();
     const auto begin = std::chrono::steady_clock::now();
-    const ReachResult result = reach(model.chains().data(), target, pose, options);
+    const ReachResult result = *reach(pose, model.chains().data(), target, options);
     const auto end = std::chrono::steady_clock::now();
     outcome.microseconds.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
     ++outcome.solves;

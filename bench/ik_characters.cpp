@@ -37,7 +37,6 @@ constexpr std::array<Row, 6> kRows{{{Solver::any, "any"},
                                     {Solver::least_squares, "least squares"}}};
 
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {
-    local_to_model(pose);
     const auto& offset = chain.record.tip_offset;
     return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
@@ -96,7 +95,7 @@ void run(const std::string& file, const Model& model, const Chain& chain, std::s
             options.obey_constraints = !is_free;
             if (options.solver == Solver::pull) options.iterations = 200;
             const auto begin = std::chrono::steady_clock::now();
-            const ReachResult result = reach(&chain, target, pose, options);
+            const ReachResult result = *reach(pose, &chain, target, options);
             const auto end = std::chrono::steady_clock::now();
             tallies[row].microseconds += std::chrono::duration<double, std::micro>(end - begin).count();
             reached[row] = result.status == ReachStatus::reached;
@@ -161,8 +160,8 @@ void run_mirrored(const std::string& file, const Model& model, const Chain& left
             if (options.solver == Solver::pull) options.iterations = 200;
             one.set_rest();
             other.set_rest();
-            const ReachResult a = reach(&left, target, one, options);
-            const ReachResult b = reach(right, mirrored(target), other, options);
+            const ReachResult a = *reach(one, &left, target, options);
+            const ReachResult b = *reach(other, right, mirrored(target), options);
             const glm::vec3 tip = tip_of(left, one);
             double off = glm::length(tip - mirrored(tip_of(*right, other)));
             double length = glm::length(tip - glm::vec3(one.model_space()[left_joints.front()][3]));

@@ -266,7 +266,7 @@ std::vector<std::vector<glm::vec3>> make_poses(const bendy::Model& model) {
     bendy::Pose pose(model);
     const auto add = [&] {
         std::vector<glm::vec3> places(model.vertex_count());
-        bendy::skin(model, pose, {places, {}, {}});
+        (void)bendy::skin(pose, {.out = {.positions = places}});
         shapes.push_back(std::move(places));
     };
     add();
@@ -275,7 +275,7 @@ std::vector<std::vector<glm::vec3>> make_poses(const bendy::Model& model) {
         const bendy::Cycle& cycle = cycles[k * (cycles.size() - 1) / 2];
         const float share = 0.25f * static_cast<float>(k + 1);
         pose.set_rest();
-        bendy::sample(&cycle, cycle.start + share * (cycle.end - cycle.start), pose);
+        (void)bendy::sample(pose, &cycle, cycle.start + share * (cycle.end - cycle.start));
         add();
     }
     return shapes;

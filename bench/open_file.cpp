@@ -32,8 +32,8 @@ void open(const std::string& path, Sums sums, bool poses) {
     const auto model = Model::open(path, options);
     if (!model || !poses) return;
     Pose pose(*model);
-    if (!model->cycles().empty()) sample(&model->cycles().front(), model->cycles().front().start, pose);
-    local_to_model(pose);
+    if (!model->cycles().empty()) (void)sample(pose, &model->cycles().front(), model->cycles().front().start);
+    (void)pose.model_space();
 }
 
 void add(const std::string& name, const std::function<void()>& run) {

@@ -69,7 +69,7 @@ void sample_steps(benchmark::State& state, const Model& model, float step) {
     while (state.KeepRunning()) {
         seconds += step;
         if (seconds > cycle.end) seconds -= cycle.end;
-        sample(&cycle, seconds, pose);
+        (void)sample(pose, &cycle, seconds);
     }
 }
 
@@ -83,17 +83,20 @@ void random_time(benchmark::State& state, Character& of) {
 
 void to_model(benchmark::State& state, Character& of) {
     Pose pose(of.model);
-    sample(&of.model.cycles().front(), 0.5f, pose);
-    while (state.KeepRunning()) local_to_model(pose);
+    (void)sample(pose, &of.model.cycles().front(), 0.5f);
+    while (state.KeepRunning()) {
+        (void)pose.change_local();
+        (void)pose.model_space();
+    }
 }
 
 void skin_vertices(benchmark::State& state, Character& of, bool with_normals) {
     Pose pose(of.model);
-    sample(&of.model.cycles().front(), 0.5f, pose);
+    (void)sample(pose, &of.model.cycles().front(), 0.5f);
     std::vector<glm::vec3> positions(of.vertices);
     std::vector<glm::vec3> normals(with_normals ? of.vertices : 0);
     while (state.KeepRunning()) {
-        skin(of.model, pose, {positions, normals, {}});
+        (void)skin(pose, {.out = {.positions = positions, .normals = normals}});
         benchmark::ClobberMemory();
     }
 }

@@ -66,7 +66,7 @@ public:
     void play(Crowd& crowd, std::span<const CrowdMember> members) {
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 4), [&](const auto& range) {
-                crowd.play(members.subspan(range.begin(), range.size()),
+                (void)crowd.play(members.subspan(range.begin(), range.size()),
                            static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
             });
         });
@@ -77,7 +77,7 @@ private:
 #else
     explicit Threads(const Crowd& /*crowd*/) {}
     static void play(Crowd& crowd, std::span<const CrowdMember> members) {
-        crowd.play(members);
+        (void)crowd.play(members);
     }
 #endif
 };
@@ -154,12 +154,12 @@ void add_bounds_and_duals(const std::string& name, const Model& model) {
         per_item(state, "joint", static_cast<double>(model.joints().size()));
     });
     add(name + "/skin by dual quaternions", [&model](auto& state) {
-        DualSkinning dual(model);
         Pose pose(model);
-        if (!model.cycles().empty()) sample(&model.cycles().front(), model.cycles().front().end, pose);
+        if (!model.cycles().empty()) (void)sample(pose, &model.cycles().front(), model.cycles().front().end);
         std::vector<glm::vec3> positions(model.vertex_count()), normals(model.vertex_count());
         while (state.KeepRunning()) {
-            dual.skin(pose, {positions, normals, {}});
+            (void)skin(
+                pose, {.method = SkinningMethod::dual_quaternion, .out = {.positions = positions, .normals = normals}});
             benchmark::ClobberMemory();
         }
         per_item(state, "vertex", static_cast<double>(model.vertex_count()));
@@ -194,7 +194,7 @@ void measure_pool(benchmark::State& state, std::uint32_t vertices, int attribute
     std::vector<glm::vec3> positions(vertices), normals(attributes > 1 ? vertices : 0);
     std::vector<glm::vec4> tangents(attributes > 2 ? vertices : 0);
     while (state.KeepRunning()) {
-        skin(made->model, pose, {positions, normals, tangents});
+        (void)skin(pose, {.out = {positions, normals, tangents}});
         benchmark::ClobberMemory();
     }
     per_item(state, "vertex", vertices);
@@ -222,7 +222,7 @@ void measure_chain(benchmark::State& state, Solver solver, bool is_limited) {
     for (int k = 0; k < 256; ++k)
         targets.emplace_back(0.2f * number(random), 0.7f + 0.15f * number(random), 0.35f + 0.2f * number(random));
     std::size_t k = 0;
-    while (state.KeepRunning()) benchmark::DoNotOptimize(reach(made->model.chains().data(), targets[k++ % 256], pose));
+    while (state.KeepRunning()) benchmark::DoNotOptimize(reach(pose, made->model.chains().data(), targets[k++ % 256]));
     per_item(state, "solve", 1.0);
 }
 

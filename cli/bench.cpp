@@ -63,7 +63,7 @@ std::vector<Timing> time_stage(const stages::Stage& stage, const std::vector<Ker
     contestants.reserve(kernels.size());
     for (const Kernel kernel : kernels) {
         contestants.push_back({"", [&stage, kernel] {
-                                   set_kernel(kernel);
+                                   (void)set_kernel(kernel);
                                    stage.run();
                                }});
     }

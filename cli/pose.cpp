@@ -34,14 +34,14 @@ struct PoseArguments {
 };
 
 /// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
-bool is_mirrored(const Model& model, const Pose& pose, std::uint32_t pool) {
+bool is_mirrored(const Model& model, Pose& pose, std::uint32_t pool) {
     const Pool& view = model.pools()[pool];
     if (!view.is_rigid() || view.vertices == 0) return false;
     const std::uint32_t joint = model.rigid_mover(pool, 0);
     return joint != kNone && glm::determinant(glm::mat3(pose.model_space()[joint])) < 0.0f;
 }
 
-void add_elements(const Model& model, const Pose& pose, const Lod& lod, std::vector<PosedMesh>& meshes) {
+void add_elements(const Model& model, Pose& pose, const Lod& lod, std::vector<PosedMesh>& meshes) {
     for (const Draw& draw : lod.draws()) {
         PosedMesh& mesh = meshes[draw.pool];
         std::vector<std::uint32_t>& list = draw.topology == Topology::triangles ? mesh.triangles
@@ -58,15 +58,16 @@ void add_elements(const Model& model, const Pose& pose, const Lod& lod, std::vec
 /// What --reach and its companions do to the pose; says how near each chain came.
 std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose) {
     const std::vector<ReachGoal> goals = find_goals(arguments.reach, arguments.file, pose.model());
-    const std::vector<ReachResult> results = reach_goals(arguments.reach, goals, pose);
+    const std::vector<Reached> results = reach_goals(arguments.reach, goals, pose);
     ReachTally tally;
     tally.add(results, arguments.time);
     tally.print(arguments.file, pose.model(), goals);
     std::vector<PosedReach> reaches;
     for (std::size_t k = 0; k < goals.size(); ++k) {
         const Chain& chain = *goals[k].chain;
+        const ReachResult result = results[k].value_or(ReachResult());
         reaches.push_back({chain.name.empty() ? std::to_string(chain.number) : std::string(chain.name), goals[k].target,
-                           results[k].distance, results[k].angle, has_reached(results[k])});
+                           result.distance, result.angle, has_reached(results[k])});
     }
     return reaches;
 }
@@ -93,13 +94,12 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     Pose pose(model);
     if (arguments.has_clip) {
         const Cycle& cycle = find_cycle(arguments.clip, arguments.file, model);
-        sample(&cycle, arguments.time, pose);
+        (void)sample(pose, &cycle, arguments.time);
         object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
         object.time = arguments.time;
         object.curves = sample_curves(cycle, arguments.time);
     }
     object.reaches = reach_chains(arguments, pose);
-    local_to_model(pose);
     const Lod lod = level_of(arguments.file, model, arguments.lod);
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
@@ -110,7 +110,7 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
         mesh.name = pool.name;
         mesh.positions.resize(lod.vertices(number));
         if (pool.normals) mesh.normals.resize(lod.vertices(number));
-        skin(model, number, pose, lod, {mesh.positions, mesh.normals, {}});
+        (void)skin(pose, {.mesh = number, .lod = &lod, .out = {.positions = mesh.positions, .normals = mesh.normals}});
         const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) {
             return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         });

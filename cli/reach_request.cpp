@@ -3,7 +3,6 @@
 #include "problem.h"
 
 #include <bendy/format/names.h>
-#include <bendy/runtime/local_to_model.h>
 
 #include <CLI/Error.hpp>
 #include <glm/mat4x4.hpp>
@@ -107,12 +106,11 @@ std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
     return gap + " and " + angle.str() + " degrees";
 }
 
-bool is_worse(const ReachResult& a, const ReachResult& b) {
-    const auto rank = [](const ReachResult& result) {
-        return result.status == ReachStatus::refused ? 2 : has_reached(result) ? 0 : 1;
-    };
+bool is_worse(const Reached& a, const Reached& b) {
+    const auto rank = [](const Reached& result) { return !result ? 2 : has_reached(result) ? 0 : 1; };
     if (rank(a) != rank(b)) return rank(a) > rank(b);
-    return a.distance != b.distance ? a.distance > b.distance : a.angle > b.angle;
+    if (!a) return false;
+    return a->distance != b->distance ? a->distance > b->distance : a->angle > b->angle;
 }
 
 /// CHAIN=X,Y,Z or CHAIN=X,Y,Z,QX,QY,QZ,QW.
@@ -150,8 +148,8 @@ void add_reach(CLI::App& command, ReachRequest& request) {
     command.add_flag("--ignore-limits", request.ignore_limits, "reach without the joints' constraints")->needs(reach);
 }
 
-bool has_reached(const ReachResult& result) {
-    return result.status == ReachStatus::reached || result.status == ReachStatus::aimed;
+bool has_reached(const Reached& result) {
+    return result && (result->status == ReachStatus::reached || result->status == ReachStatus::aimed);
 }
 
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model) {
@@ -160,19 +158,22 @@ std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesy
     return goals;
 }
 
-std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose) {
+std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose) {
     if (request.constrain) constrain(pose);
     ReachOptions options;
     options.solver = find_solver(request.solver);
     options.obey_constraints = !request.ignore_limits;
     options.carry_target = true;
-    std::vector<ReachResult> results;
+    std::vector<Reached> results;
     results.reserve(goals.size());
-    for (const ReachGoal& goal : goals) results.push_back(reach(goal.chain, goal.target, pose, options));
+    for (const ReachGoal& goal : goals) {
+        const auto reached = reach(pose, goal.chain, goal.target, options);
+        results.push_back(reached ? Reached(*reached) : std::nullopt);
+    }
     return results;
 }
 
-void ReachTally::add(const std::vector<ReachResult>& results, float time) {
+void ReachTally::add(const std::vector<Reached>& results, float time) {
     counts_.resize(results.size());
     for (std::size_t k = 0; k < results.size(); ++k) {
         Count& count = counts_[k];
@@ -188,12 +189,14 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
     for (std::size_t k = 0; k < counts_.size(); ++k) {
         const Count& count = counts_[k];
         const std::string chain = "reach: " + chain_label(model, *goals[k].chain);
-        const std::string gap = gap_of(goals[k], count.worst);
-        std::ostringstream text;
-        if (count.worst.status == ReachStatus::refused) {
+        if (!count.worst) {
             warn(file, chain + " was not moved: its numbers leave a float's range");
-        } else if (count.short_ones == 0) {
-            const bool is_aim = count.worst.status == ReachStatus::aimed;
+            continue;
+        }
+        const std::string gap = gap_of(goals[k], *count.worst);
+        std::ostringstream text;
+        if (count.short_ones == 0) {
+            const bool is_aim = count.worst->status == ReachStatus::aimed;
             std::cerr << "bendy: " << chain << (is_aim ? " aims at its target" : " reaches its target");
             if (count.poses > 1) std::cerr << " in all " << count.poses << " pictures";
             std::cerr << (is_aim ? ", " : ", to ") << gap << '\n';
@@ -201,7 +204,7 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
             text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
             if (count.poses > 1)
                 text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " pictures";
-            if (count.worst.status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
+            if (count.worst->status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
             warn(file, text.str());
         }
     }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,21 +33,24 @@ struct ReachGoal {
 /// moves. Fails with the chains that there are if it is none; throws CLI::ValidationError where the text is no target.
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model);
 
+/// Nothing where a chain could not be moved: its numbers leave a float's range.
+using Reached = std::optional<ReachResult>;
+
 /// Brings the pose inside the joints' limits, if asked to, and then lets one chain after another reach. One result a
 /// goal.
-std::vector<ReachResult> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose);
+std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<ReachGoal>& goals, Pose& pose);
 
 /// How a chain did in one pose or several.
 class ReachTally {
 public:
     /// \param time  of the clip, seconds
-    void add(const std::vector<ReachResult>& results, float time);
+    void add(const std::vector<Reached>& results, float time);
     /// Says on standard error how near each chain came: a warning where it falls short.
     void print(const std::filesystem::path& file, const Model& model, const std::vector<ReachGoal>& goals) const;
 
 private:
     struct Count {
-        ReachResult worst;
+        Reached worst;
         float time = 0.0f;  // of the worst
         std::size_t poses = 0;
         std::size_t short_ones = 0;
@@ -55,6 +59,6 @@ private:
 };
 
 /// False where the tip is farther from the target, or turned further, than the solver tolerates.
-bool has_reached(const ReachResult& result);
+bool has_reached(const Reached& result);
 
 }  // namespace bendy::cli

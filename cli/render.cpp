@@ -170,7 +170,7 @@ private:
     }
 
     std::vector<ReachGoal> goals_;
-    std::vector<ReachResult> results_;  // of the last pose
+    std::vector<Reached> results_;  // of the last pose
     ReachTally tally_;
     viewer::PictureMaker maker_;
 };

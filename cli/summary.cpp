@@ -86,12 +86,11 @@ Box box_around(std::span<const glm::vec3> points) {
 
 Box rest_bounds(const Model& model) {
     Pose pose(model);
-    local_to_model(pose);
     std::vector<glm::vec3> points(model.vertex_count());
     if (points.empty()) {
         for (const auto& matrix : pose.model_space()) points.emplace_back(matrix[3]);
     } else {
-        skin(model, pose, {points, {}, {}});
+        (void)skin(pose, {.out = {.positions = points}});
     }
     return box_around(points);
 }

@@ -9,6 +9,9 @@ install(TARGETS bendy_format bendy_runtime EXPORT bendy_targets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILE_SET tables DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(EXPORT bendy_targets NAMESPACE bendy:: FILE bendy-targets.cmake DESTINATION ${package_dir} COMPONENT development)
+if(BENDY_C)
+  install(EXPORT bendy_c_targets NAMESPACE bendy:: FILE bendy-c-targets.cmake DESTINATION ${package_dir} COMPONENT development)
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bendy-config.cmake.in ${PROJECT_BINARY_DIR}/bendy-config.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/bendy-config-version.cmake COMPATIBILITY SameMinorVersion)
@@ -21,8 +24,14 @@ set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig ${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH libdir_from_prefix ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
 file(RELATIVE_PATH includedir_from_prefix ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
-set(own_requires libzstd)  # of bendy-format, beside what its headers include
-set(own_libraries -lmeshoptimizer)  # which has no pkg-config file
+set(own_requires "")  # of bendy-format, beside what its headers include
+set(own_libraries "")
+if(BENDY_ZSTD)
+  set(own_requires libzstd)
+endif()
+if(BENDY_MESHOPTIMIZER)
+  set(own_libraries -lmeshoptimizer)  # which has no pkg-config file
+endif()
 if(BUILD_SHARED_LIBS)
   set(requires "")
   set(requires_private ${own_requires})

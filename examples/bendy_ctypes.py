@@ -95,7 +95,7 @@ SIGNATURES = {
     "blend": (c_int, c_void_p, c_void_p, c_float, c_void_p),
     "constrain": (c_int, c_void_p),
     "reach": (c_int, c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_void_p),
-    "joint_matrices": (c_int, c_void_p, c_void_p, c_uint32, c_uint32, c_void_p),
+    "joint_matrices": (c_int, c_void_p, c_uint32, c_uint32, c_void_p, c_void_p),
     "skin": (c_int, c_void_p, c_void_p, c_void_p),
 }
 COUNTS = ("joint", "cycle", "chain", "target", "mesh", "draw", "material")
@@ -217,7 +217,7 @@ class Pose:
         """16 floats for each joint, column after column: joint space to model space."""
         joints = self.model.count("joint")
         matrices = array.array("f", bytes(64 * joints))
-        call("joint_matrices", self.handle, None, 0, joints, address(matrices))
+        call("joint_matrices", self.handle, 0, joints, None, address(matrices))
         return matrices
 
     def skin(self):

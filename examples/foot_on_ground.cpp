@@ -19,7 +19,7 @@ float ground(const glm::vec3& at) {
     return 0.08f * std::sin(3.0f * at.x + 1.0f) * std::cos(2.0f * at.z);
 }
 
-glm::vec3 position_of(const bendy::Pose& pose, std::uint32_t joint) {
+glm::vec3 position_of(bendy::Pose& pose, std::uint32_t joint) {
     return {pose.model_space()[joint][3]};
 }
 
@@ -47,8 +47,7 @@ int main(int argc, char** argv) {
     constexpr int kFrames = 20;
     for (int frame = 0; frame < kFrames; ++frame) {
         const float seconds = walk->start + (walk->end - walk->start) * static_cast<float>(frame) / kFrames;
-        bendy::sample(walk, seconds, pose);
-        bendy::local_to_model(pose);
+        if (!bendy::sample(pose, walk, seconds)) return 1;
         std::array<glm::vec3, 2> targets{};
         float lowest = 0.0f;
         for (std::size_t leg = 0; leg < legs.size(); ++leg) {
@@ -60,10 +59,11 @@ int main(int argc, char** argv) {
         std::printf("%6.2f", seconds);
         for (std::size_t leg = 0; leg < legs.size(); ++leg) {
             const float before = std::abs(ground(targets[leg]));
-            const bendy::ReachResult result = bendy::reach(legs[leg], targets[leg], pose);
+            const auto result = bendy::reach(pose, legs[leg], targets[leg]);
+            if (!result) return std::puts(bendy::error_text(result.error())), 1;
             worst_before = std::max(worst_before, before);
-            worst_after = std::max(worst_after, result.distance);
-            std::printf("%14.1f %8.3f", before * 1000.0f, result.distance * 1000.0f);
+            worst_after = std::max(worst_after, result->distance);
+            std::printf("%14.1f %8.3f", before * 1000.0f, result->distance * 1000.0f);
         }
         std::puts("");
     }

@@ -154,7 +154,7 @@ int show(GLFWwindow* window, const bendy::Model& model, int frames, const char* 
     Buffers buffers(model);
     bendy::Pose pose(model);
     bendy::Lod lod(model);
-    bendy::skin(model, pose, {buffers.positions, {}, {}});
+    if (!bendy::skin(pose, {.out = {.positions = buffers.positions}})) return 1;
     glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, GL_FALSE,
                        glm::value_ptr(see_all(buffers.positions)));
     const GLint base = glGetUniformLocation(program, "base");
@@ -167,12 +167,13 @@ int show(GLFWwindow* window, const bendy::Model& model, int frames, const char* 
             const bendy::Cycle& played = model.cycles()[cycle];
             const double now = frames > 0 ? frame / 30.0 : glfwGetTime();
             const float length = played.end - played.start;
-            bendy::sample(&played, played.start + (length > 0.0f ? static_cast<float>(std::fmod(now, length)) : 0.0f),
-                          pose);
+            const float passed = length > 0.0f ? static_cast<float>(std::fmod(now, length)) : 0.0f;
+            if (!bendy::sample(pose, &played, played.start + passed)) return 1;
         }
         if (was_pressed(window, GLFW_KEY_UP)) lod.set_share(share = std::fmin(1.0f, share * 2.0f));
         if (was_pressed(window, GLFW_KEY_DOWN)) lod.set_share(share *= 0.5f);
-        bendy::skin(model, pose, lod, {buffers.positions, buffers.normals, {}});
+        if (!bendy::skin(pose, {.lod = &lod, .out = {.positions = buffers.positions, .normals = buffers.normals}}))
+            return 1;
 
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         buffers.send_vertices();

@@ -59,13 +59,13 @@ int main(int argc, char** argv) {
         }
         character = then(character, moved);
 
-        bendy::sample(fade, pose, scratch);
+        if (!bendy::sample(pose, fade, scratch)) return 1;
         root.take_out(pose);
         const bendy::Box box = bounds.of(pose);  // in model space: hold it against the camera before skinning
-        bendy::skin(*model, pose, {positions, {}, {}});
+        if (!bendy::skin(pose, {.out = {.positions = positions}})) return 1;
         for (const glm::vec3& position : positions) outside += box.contains(position) ? 0 : 1;
         if (frame % 20 != 0) continue;
-        const glm::mat4 sword = bendy::socket_matrix(hand, pose, glm::mat4(character.matrix()));
+        const glm::mat4 sword = bendy::socket_matrix(pose, hand, glm::mat4(character.matrix()));
         std::printf("%5.2f s  %-12.12s %3.0f %%  at (%6.3f, %6.3f)  hand at (%6.3f, %6.3f, %6.3f)  %zu steps\n",
                     frame / 60.0, std::string(fade.playing().back().cycle->name).c_str(),
                     100.0 * fade.playing().back().share, character.translation.x, character.translation.z, sword[3].x,

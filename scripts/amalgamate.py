@@ -145,7 +145,7 @@ def main():
                 continue
             (kernels if instructions else source).extend(make_source(joiner, folder, name, instructions))
     for library in LIBRARIES.values():
-        source += [f"#ifdef BENDY_WITHOUT_{library}", *joiner.expand(ROOT / f"format/src/without_{library.lower()}.inc"), "#endif"]
+        source += [f"#ifdef BENDY_WITHOUT_{library}", *joiner.expand(ROOT / f"format/src/without_{library.lower()}.cpp"), "#endif"]
 
     output.mkdir(parents=True, exist_ok=True)
     for name, lines in (("bendy_runtime.h", ["#pragma once", *header]), ("bendy_runtime.cpp", source + kernels)):

@@ -11,6 +11,8 @@
  * Units and spaces: metres, seconds, radians; model space is right-handed, +Y up. Matrices are 16 floats, column after
  * column (OpenGL's order): elements 12 to 14 are the translation. Quaternions are x, y, z, w.
  *
+ * Parameters have one order: what the call acts on, what it is given, options, outputs, the error.
+ *
  * Errors: a call that can fail takes a bendy_error last, which may be NULL. Where it fails it fills the error, changes
  * nothing else and says so by what it returns: a status that is not BENDY_OK, NULL, or BENDY_NONE. Where it succeeds it
  * leaves the error as it is, so several calls may share one that is looked at after the last. Bad arguments (NULL, an
@@ -254,7 +256,8 @@ BENDY_API bendy_status bendy_get_influences(const bendy_model* model, uint32_t m
 /* ---- Posing ---------------------------------------------------------------------------------------------- */
 
 /* A model in one position: the joints' local transforms and the targets' weights. Nothing allocates after it is made,
- * but the text of an error. */
+ * but the text of an error, and its first bendy_skin by dual quaternions. What is asked of a pose (matrices, vertices)
+ * follows from its transforms as they are at that time. */
 typedef struct bendy_pose bendy_pose;
 
 /* The rest pose. */
@@ -386,7 +389,7 @@ BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
 
 /* `count` joints' matrices from joint `first` on, 16 floats each: joint space to model space; or, with `world` (model
  * space to world space, 16 floats), joint space to world space. `world` may be NULL. */
-BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, const float* world, uint32_t first, uint32_t count,
+BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count, const float* world,
                                             float* matrices, bendy_error* error);
 /* What each bone of a mesh does to its vertices, mesh space to model space, for skinning elsewhere: 16 floats each.
  * `count` is how many matrices there is room for, at least bendy_mesh.bones. Fails for a rigid mesh: its vertices go by
@@ -441,14 +444,30 @@ typedef struct bendy_vertices {
 #define BENDY_VERTICES_INIT \
     { sizeof(bendy_vertices), 0, 0, NULL, 0, NULL, 0, NULL, 0 }
 
-/* Inbetweens and skins the vertices of all meshes, mesh after mesh (bendy_mesh.first_vertex); capacity at least
- * bendy_vertex_count. With `lod`, a level of the pose's model, only those alive: of each mesh the first
- * bendy_lod_vertices, in the same places, the others are left as they are. `lod` may be NULL. */
-BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_lod* lod, const bendy_vertices* out,
+/* How the bones that a vertex follows are mixed. */
+typedef enum bendy_skin_method {
+    BENDY_SKIN_LINEAR = 0,
+    BENDY_SKIN_DUAL_QUATERNION = 1 /* joints that twist or bend keep the limb's volume */
+} bendy_skin_method;
+
+typedef struct bendy_skin_options {
+    uint32_t size;
+    uint32_t mesh;        /* one mesh, whose vertices begin at 0; BENDY_NONE: all, mesh after mesh
+                             (bendy_mesh.first_vertex) */
+    const bendy_lod* lod; /* a level of the pose's model: only the vertices alive, of each mesh the first
+                             bendy_lod_vertices, in the same places; the others are left as they are. NULL: all */
+    uint32_t method;      /* a bendy_skin_method */
+    uint32_t reserved;    /* 0 */
+} bendy_skin_options;
+
+#define BENDY_SKIN_OPTIONS_INIT \
+    { sizeof(bendy_skin_options), BENDY_NONE, NULL, BENDY_SKIN_LINEAR, 0 }
+
+/* Inbetweens and skins vertices into the caller's memory, whose capacity is at least bendy_vertex_count; of one mesh,
+ * at least its vertices, or those alive. `options` may be NULL: all meshes, linear. A pose's first call by dual
+ * quaternions allocates memory. */
+BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, const bendy_vertices* out,
                                   bendy_error* error);
-/* The same for one mesh, whose vertices begin at 0; capacity at least its vertices, or those alive. */
-BENDY_API bendy_status bendy_skin_mesh(bendy_pose* pose, uint32_t mesh, const bendy_lod* lod, const bendy_vertices* out,
-                                       bendy_error* error);
 
 /* ---- Kernels --------------------------------------------------------------------------------------------- */
 

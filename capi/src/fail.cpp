@@ -68,6 +68,10 @@ bendy_status fail(bendy_error* error, const Error& fault, Bytes file) {
                 has_place ? describe_with_place(fault, file) : describe(fault));
 }
 
+bendy_status from_call(const Result<void, CallError>& result, bendy_error* error) {
+    return result ? BENDY_OK : fail(error, BENDY_BAD_ARGUMENT, error_text(result.error()));
+}
+
 bendy_status check_pointer(const void* pointer, const char* name, bendy_error* error) {
     if (pointer != nullptr) return BENDY_OK;
     return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is NULL");

@@ -3,6 +3,8 @@
 #include <bendy.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/error.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 
 #include <cmath>
 #include <cstdint>
@@ -17,6 +19,8 @@ namespace bendy::capi {
 bendy_status fail(bendy_error* error, bendy_status status, std::string_view message);
 /// A fault in a file's bytes, with its code, chunk path and offset.
 bendy_status fail(bendy_error* error, const Error& fault, Bytes file);
+/// BENDY_OK, or the error: of a call whose arguments have been checked already.
+bendy_status from_call(const Result<void, CallError>& result, bendy_error* error);
 
 /// BENDY_OK, or the error "NAME is NULL".
 bendy_status check_pointer(const void* pointer, const char* name, bendy_error* error);

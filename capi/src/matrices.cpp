@@ -2,8 +2,6 @@
 #include "fail.h"
 #include "handles.h"
 
-#include <bendy/runtime/local_to_model.h>
-
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -30,7 +28,7 @@ void put_matrix(const PaletteMatrix& matrix, float* out) {
 
 using namespace bendy::capi;
 
-bendy_status bendy_joint_matrices(bendy_pose* pose, const float* world, uint32_t first, uint32_t count, float* matrices,
+bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count, const float* world, float* matrices,
                                   bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
@@ -38,7 +36,6 @@ bendy_status bendy_joint_matrices(bendy_pose* pose, const float* world, uint32_t
             return status;
         if (count == 0) return BENDY_OK;
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;
-        if (pose->pose.is_stale()) bendy::local_to_model(pose->pose);
         for (const glm::mat4& matrix : pose->pose.model_space().subspan(first, count)) {
             put_matrix(world == nullptr ? matrix : glm::make_mat4(world) * matrix, matrices);
             matrices += kNumbers;

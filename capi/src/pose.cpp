@@ -74,8 +74,7 @@ bendy_status bendy_sample(bendy_pose* pose, uint32_t cycle, float seconds, bendy
         const auto cycles = pose->pose.model().cycles();
         if (const bendy_status status = check_index(cycle, cycles.size(), "cycle", error)) return status;
         if (std::isnan(seconds)) return fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number");
-        bendy::sample(&cycles[cycle], seconds, pose->pose);
-        return BENDY_OK;
+        return from_call(bendy::sample(pose->pose, &cycles[cycle], seconds), error);
     });
 }
 
@@ -85,16 +84,14 @@ bendy_status bendy_blend(bendy_pose* pose, const bendy_pose* other, float weight
         if (const bendy_status status = check_poses(pose, other, "other", error)) return status;
         if (const bendy_status status = check_finite({&weight, 1}, "weight", error)) return status;
         if (const bendy_status status = check_finite(mask_of(pose, mask), "mask", error)) return status;
-        bendy::blend(pose->pose, other->pose, weight, mask_of(pose, mask));
-        return BENDY_OK;
+        return from_call(bendy::blend(pose->pose, other->pose, weight, mask_of(pose, mask)), error);
     });
 }
 
 bendy_status bendy_make_additive(bendy_pose* pose, const bendy_pose* reference, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_poses(pose, reference, "reference", error)) return status;
-        bendy::make_additive(pose->pose, reference->pose);
-        return BENDY_OK;
+        return from_call(bendy::make_additive(pose->pose, reference->pose), error);
     });
 }
 
@@ -104,8 +101,7 @@ bendy_status bendy_add(bendy_pose* pose, const bendy_pose* difference, float wei
         if (const bendy_status status = check_poses(pose, difference, "difference", error)) return status;
         if (const bendy_status status = check_finite({&weight, 1}, "weight", error)) return status;
         if (const bendy_status status = check_finite(mask_of(pose, mask), "mask", error)) return status;
-        bendy::add(pose->pose, difference->pose, weight, mask_of(pose, mask));
-        return BENDY_OK;
+        return from_call(bendy::add(pose->pose, difference->pose, weight, mask_of(pose, mask)), error);
     });
 }
 

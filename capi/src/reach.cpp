@@ -66,12 +66,12 @@ bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float* position
         if (result != nullptr) {
             if (const bendy_status status = check_out(result, "result", error)) return status;
         }
-        const bendy::ReachResult reached = bendy::reach(&chains[chain], target, pose->pose, taken);
-        if (reached.status == bendy::ReachStatus::refused)
+        const auto reached = bendy::reach(pose->pose, &chains[chain], target, taken);
+        if (!reached)
             return fail(error, BENDY_BAD_ARGUMENT, "the pose, or the chain, holds numbers that are not finite");
         if (result != nullptr)
-            put(*result,
-                {0, static_cast<std::uint32_t>(reached.status), reached.distance, reached.angle, reached.iterations});
+            put(*result, {0, static_cast<std::uint32_t>(reached->status), reached->distance, reached->angle,
+                          reached->iterations});
         return BENDY_OK;
     });
 }

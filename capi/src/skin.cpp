@@ -43,10 +43,32 @@ bendy_status take_buffer(const bendy_vertices* vertices, std::uint64_t needed, V
     return take_array(values.tangents, values.tangent_stride, 4, needed, "tangents", out.tangents, error);
 }
 
-bendy_status check_skin(const bendy_pose* pose, const bendy_lod* lod, bendy_error* error) {
-    if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-    if (lod == nullptr || lod->character == pose->character) return BENDY_OK;
-    return fail(error, BENDY_BAD_ARGUMENT, "lod is of another model than the pose");
+/// What bendy_skin is to do, but for its outputs. `options` may be NULL.
+bendy_status take_options(const bendy_pose& pose, const bendy_skin_options* options, SkinRequest& taken,
+                          bendy_error* error) {
+    bendy_skin_options values = BENDY_SKIN_OPTIONS_INIT;
+    if (const bendy_status status = take(options, "options", values, error)) return status;
+    if (values.mesh != BENDY_NONE) {
+        if (const bendy_status status = check_index(values.mesh, pose.pose.model().pools().size(), "mesh", error))
+            return status;
+        taken.mesh = values.mesh;
+    }
+    if (values.lod != nullptr) {
+        if (values.lod->character != pose.character)
+            return fail(error, BENDY_BAD_ARGUMENT, "lod is of another model than the pose");
+        taken.lod = &values.lod->lod;
+    }
+    if (values.method > BENDY_SKIN_DUAL_QUATERNION)
+        return fail(error, BENDY_BAD_ARGUMENT,
+                    "expected a method of bendy_skin_method, found " + std::to_string(values.method));
+    taken.method = static_cast<SkinningMethod>(values.method);
+    return BENDY_OK;
+}
+
+/// Vertices that `out` must have room for.
+std::uint64_t needed_by(const SkinRequest& request, const Model& model) {
+    if (request.mesh == kAllMeshes) return model.vertex_count();
+    return request.lod == nullptr ? model.pools()[request.mesh].vertices : request.lod->vertices(request.mesh);
 }
 
 }  // namespace
@@ -54,29 +76,14 @@ bendy_status check_skin(const bendy_pose* pose, const bendy_lod* lod, bendy_erro
 
 using namespace bendy::capi;
 
-bendy_status bendy_skin(bendy_pose* pose, const bendy_lod* lod, const bendy_vertices* out, bendy_error* error) {
+bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, const bendy_vertices* out,
+                        bendy_error* error) {
     return guarded(error, [&] {
-        if (const bendy_status status = check_skin(pose, lod, error)) return status;
-        const bendy::Model& model = pose->character->model;
-        bendy::VertexBuffer buffer;
-        if (const bendy_status status = take_buffer(out, model.vertex_count(), buffer, error)) return status;
-        const bool done = lod == nullptr ? bendy::skin_into(model, pose->pose, buffer)
-                                         : bendy::skin_into(model, pose->pose, lod->lod, buffer);
-        return done ? BENDY_OK : fail(error, BENDY_BAD_ARGUMENT, "out is too short");
-    });
-}
-
-bendy_status bendy_skin_mesh(bendy_pose* pose, uint32_t mesh, const bendy_lod* lod, const bendy_vertices* out,
-                             bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_skin(pose, lod, error)) return status;
-        const bendy::Model& model = pose->character->model;
-        if (const bendy_status status = check_index(mesh, model.pools().size(), "mesh", error)) return status;
-        const std::uint32_t needed = lod == nullptr ? model.pools()[mesh].vertices : lod->lod.vertices(mesh);
-        bendy::VertexBuffer buffer;
-        if (const bendy_status status = take_buffer(out, needed, buffer, error)) return status;
-        const bool done = lod == nullptr ? bendy::skin_into(model, mesh, pose->pose, buffer)
-                                         : bendy::skin_into(model, mesh, pose->pose, lod->lod, buffer);
-        return done ? BENDY_OK : fail(error, BENDY_BAD_ARGUMENT, "out is too short");
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        bendy::SkinRequest request;
+        if (const bendy_status status = take_options(*pose, options, request, error)) return status;
+        const std::uint64_t needed = needed_by(request, pose->pose.model());
+        if (const bendy_status status = take_buffer(out, needed, request.out, error)) return status;
+        return from_call(bendy::skin(pose->pose, request), error);
     });
 }

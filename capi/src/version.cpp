@@ -26,8 +26,7 @@ bendy_status bendy_set_kernel(const char* name, bendy_error* error) {
         std::string there;
         for (const bendy::Kernel kernel : bendy::kernels()) {
             if (bendy::kernel_name(kernel) == name) {
-                bendy::set_kernel(kernel);
-                return BENDY_OK;
+                return from_call(bendy::set_kernel(kernel), error);
             }
             there += (there.empty() ? "" : ", ") + std::string(bendy::kernel_name(kernel));
         }

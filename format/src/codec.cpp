@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::align_val_t kAlignment{16};
 
-// The two files that scripts/amalgamate.py makes have the libraries only where they are asked for.
+// BENDY_ZSTD and BENDY_MESHOPTIMIZER of CMake; of the two files that scripts/amalgamate.py makes, BENDY_WITH_ZSTD, ...
 #ifdef BENDY_WITHOUT_ZSTD
 constexpr bool kHasZstd = false;
 #else

@@ -55,15 +55,16 @@ void Stages::add_opening(const Open& open) {
         const Result<Model> opened = open({});
         if (!opened) return;
         Pose pose(*opened);
-        if (cycle < opened->cycles().size()) sample(&opened->cycles()[cycle], opened->cycles()[cycle].start, pose);
-        local_to_model(pose);
+        if (cycle < opened->cycles().size())
+            (void)sample(pose, &opened->cycles()[cycle], opened->cycles()[cycle].start);
+        (void)pose.model_space();
     });
 }
 
 void Stages::next_frame() {
     seconds_ += kFrame;
     if (!(seconds_ <= cycle_->end)) seconds_ = cycle_->start;
-    sample(cycle_, seconds_, pose_);
+    (void)sample(pose_, cycle_, seconds_);
 }
 
 void Stages::add_posing() {
@@ -72,18 +73,18 @@ void Stages::add_posing() {
         add("sample, next frame", "joint", joints, [this] { next_frame(); });
         add("sample, random time", "joint", joints, [this] {
             const float share = static_cast<float>(random_() >> 8) / 16777216.0f;
-            sample(cycle_, cycle_->start + share * (cycle_->end - cycle_->start), pose_);
+            (void)sample(pose_, cycle_, cycle_->start + share * (cycle_->end - cycle_->start));
         });
     }
-    if (cycle_ != nullptr) sample(cycle_, 0.5f * (cycle_->start + cycle_->end), other_);
+    if (cycle_ != nullptr) (void)sample(other_, cycle_, 0.5f * (cycle_->start + cycle_->end));
     add("blend two poses", "joint", joints, [this] { (void)blend(pose_, other_, 0.5f); });
     add("local to model", "joint", joints, [this] {
         (void)pose_.change_local();
-        local_to_model(pose_);
+        (void)pose_.model_space();
     });
     add("local to model and palettes", "joint", joints, [this] {
         (void)pose_.change_local();
-        local_to_model(pose_);
+        (void)pose_.model_space();
         for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool) (void)pose_.palette(pool);
     });
 }
@@ -93,7 +94,7 @@ void Stages::skin_attributes(std::size_t attributes) {
     out.positions = positions_;
     if (attributes > 1) out.normals = normals_;
     if (attributes > 2) out.tangents = tangents_;
-    skin(model_, pose_, out);
+    (void)skin(pose_, {.out = out});
 }
 
 void Stages::add_skinning() {
@@ -126,7 +127,6 @@ void Stages::add_inbetweening() {
 }
 
 void Stages::add_reaching() {
-    local_to_model(pose_);
     for (const Chain& chain : model_.chains()) {
         const glm::vec3 start(pose_.model_space()[chain.start][3]);
         const glm::vec3 tip(pose_.model_space()[chain.effector][3]);
@@ -137,7 +137,7 @@ void Stages::add_reaching() {
     add("reach", "chain", static_cast<double>(model_.chains().size()), [this] {
         turn_ ^= 1;
         for (std::size_t k = 0; k < model_.chains().size(); ++k)
-            reach(&model_.chains()[k], targets_[2 * k + turn_], pose_);
+            (void)reach(pose_, &model_.chains()[k], targets_[2 * k + turn_]);
     });
 }
 

@@ -18,7 +18,7 @@ namespace {
 void print(const bendy::Model& model, bendy::Pose& pose, const bendy::Lod& lod) {
     std::vector<glm::vec3> positions(model.vertex_count());
     std::vector<glm::vec3> normals(model.vertex_count());
-    bendy::skin(model, pose, lod, {positions, normals, {}});
+    (void)bendy::skin(pose, {.lod = &lod, .out = {.positions = positions, .normals = normals}});
     for (std::size_t k = 0; k < positions.size(); ++k) {
         for (int c = 0; c < 3; ++c)
             std::printf("%08x %08x ", std::bit_cast<unsigned>(positions[k][c]), std::bit_cast<unsigned>(normals[k][c]));
@@ -31,13 +31,13 @@ void pose_all(const bendy::Model& model) {
     bendy::Lod lod(model);
     print(model, pose, lod);
     for (const bendy::Cycle& cycle : model.cycles()) {
-        bendy::sample(&cycle, cycle.start + 0.3f * (cycle.end - cycle.start), pose);
+        (void)bendy::sample(pose, &cycle, cycle.start + 0.3f * (cycle.end - cycle.start));
         print(model, pose, lod);
     }
     bendy::Pose rest(model);
-    bendy::blend(pose, rest, 0.4f);
+    (void)bendy::blend(pose, rest, 0.4f);
     bendy::constrain(pose);
-    for (const bendy::Chain& chain : model.chains()) bendy::reach(&chain, glm::vec3(0.2f, 0.5f, 0.1f), pose);
+    for (const bendy::Chain& chain : model.chains()) (void)bendy::reach(pose, &chain, glm::vec3(0.2f, 0.5f, 0.1f));
     lod.set_share(0.5f);
     print(model, pose, lod);
 }

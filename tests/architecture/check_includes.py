@@ -27,7 +27,7 @@ ROOMS = {
         "kernels": {"math", "plan"},
         "model": {"math", "plan"},
         "pose": {"math", "plan", "kernels", "model"},
-        "play": {"math", "plan", "kernels", "pose"},
+        "play": {"math", "plan", "kernels", "model", "pose"},
         "ik": {"math", "model", "pose"},
         "skin": {"math", "plan", "kernels", "model", "pose"},
     },

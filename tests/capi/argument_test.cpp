@@ -66,8 +66,8 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
           bendy_set_local(no_pose, 0, 0, nullptr, e), bendy_reach_all(no_pose, e),
           bendy_get_weights(no_pose, 0, 0, nullptr, e), bendy_set_weights(no_pose, 0, 0, nullptr, e),
           bendy_reach(no_pose, 0, nullptr, nullptr, nullptr, nullptr, e),
-          bendy_bone_matrices(no_pose, 0, nullptr, 0, e), bendy_joint_matrices(no_pose, nullptr, 0, 0, nullptr, e),
-          bendy_skin(no_pose, nullptr, nullptr, e), bendy_skin_mesh(no_pose, 0, nullptr, nullptr, e)}) {
+          bendy_bone_matrices(no_pose, 0, nullptr, 0, e), bendy_joint_matrices(no_pose, 0, 0, nullptr, nullptr, e),
+          bendy_skin(no_pose, nullptr, nullptr, e)}) {
         EXPECT_EQ(status, BENDY_BAD_ARGUMENT);
         EXPECT_STREQ(error_.message, "pose is NULL");
     }
@@ -75,7 +75,7 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
     EXPECT_EQ(message(bendy_get_local(pose_.get(), 0, 1, nullptr, e)), "transforms is NULL");
     EXPECT_EQ(message(bendy_set_weights(pose_.get(), 0, 1, nullptr, e)), "weights is NULL");
     EXPECT_EQ(message(bendy_reach(pose_.get(), 0, nullptr, nullptr, nullptr, nullptr, e)), "position is NULL");
-    EXPECT_EQ(message(bendy_joint_matrices(pose_.get(), nullptr, 0, 1, nullptr, e)), "matrices is NULL");
+    EXPECT_EQ(message(bendy_joint_matrices(pose_.get(), 0, 1, nullptr, nullptr, e)), "matrices is NULL");
     EXPECT_EQ(message(bendy_skin(pose_.get(), nullptr, nullptr, e)), "out is NULL");
     EXPECT_EQ(message(bendy_lod_set_share(nullptr, 1, e)), "lod is NULL");
     EXPECT_EQ(message(bendy_set_kernel(nullptr, e)), "name is NULL");
@@ -103,12 +103,14 @@ TEST_F(CArguments, IndicesOutOfRangeAreErrors) {
     message(
         bendy_reach(pose_.get(), bendy_chain_count(model_.get()), target.data(), nullptr, nullptr, nullptr, &error_));
     bendy_vertices out = BENDY_VERTICES_INIT;
-    message(bendy_skin_mesh(pose_.get(), 2, nullptr, &out, &error_));
+    bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+    options.mesh = 2;
+    EXPECT_EQ(message(bendy_skin(pose_.get(), &options, &out, &error_)), "mesh 2 is meant, the model has 2 meshes");
     EXPECT_EQ(message(bendy_get_local(pose_.get(), 3, 2, &transform_, &error_)),
               "2 joints from number 3 on are meant, the model has 4 joints");
     message(bendy_set_local(pose_.get(), 0xffff'ffff, 2, &transform_, &error_));  // which would wrap
     message(bendy_get_weights(pose_.get(), 1, 2, numbers_.data(), &error_));
-    message(bendy_joint_matrices(pose_.get(), nullptr, 4, 1, numbers_.data(), &error_));
+    message(bendy_joint_matrices(pose_.get(), 4, 1, nullptr, numbers_.data(), &error_));
     message(bendy_mask_below(model_.get(), 4, 1, 0, numbers_.data(), numbers_.size(), &error_));
     EXPECT_EQ(bendy_get_local(pose_.get(), 4, 0, nullptr, &error_), BENDY_OK) << "none at the end is no mistake";
 }
@@ -173,8 +175,9 @@ TEST_F(CArguments, WhatBelongsToAnotherModelIsAnError) {
     bendy_vertices out = BENDY_VERTICES_INIT;
     out.capacity = 10;
     out.positions = numbers_.data();
-    EXPECT_EQ(message(bendy_skin(other_pose.get(), lod_.get(), &out, &error_)),
-              "lod is of another model than the pose");
+    bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+    options.lod = lod_.get();
+    EXPECT_EQ(message(bendy_skin(other_pose.get(), &options, &out, &error_)), "lod is of another model than the pose");
 }
 
 TEST_F(CArguments, StructsOfOtherVersionsAreTakenAsFarAsBothKnowThem) {

@@ -78,7 +78,12 @@ void pose_all(const ModelHandle& model) {
         const std::array<float, 3> target{0.3f, 0.9f, 0.2f};
         for (std::uint32_t chain = 0; chain < bendy_chain_count(model.get()); ++chain)
             bendy_reach(pose.get(), chain, target.data(), nullptr, nullptr, nullptr, nullptr);
-        ASSERT_EQ(bendy_skin(pose.get(), lod.get(), &out, nullptr), BENDY_OK);
+        for (const std::uint32_t method : {BENDY_SKIN_LINEAR, BENDY_SKIN_DUAL_QUATERNION}) {
+            bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+            options.lod = lod.get();
+            options.method = method;
+            ASSERT_EQ(bendy_skin(pose.get(), &options, &out, nullptr), BENDY_OK);
+        }
     }
 }
 

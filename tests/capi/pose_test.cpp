@@ -19,13 +19,15 @@ std::vector<float> skin_all(bendy_pose* pose, const bendy_model* model, const be
     out.capacity = positions.size() / 3;
     out.positions = positions.data();
     bendy_error error = BENDY_ERROR_INIT;
-    EXPECT_EQ(bendy_skin(pose, lod, &out, &error), BENDY_OK) << error.message;
+    bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+    options.lod = lod;
+    EXPECT_EQ(bendy_skin(pose, &options, &out, &error), BENDY_OK) << error.message;
     return positions;
 }
 
 std::vector<float> skin_all(Pose& pose, const Model& model) {
     std::vector<glm::vec3> positions(model.vertex_count());
-    EXPECT_TRUE(skin(model, pose, {positions, {}, {}}));
+    EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
     const float* first = &positions[0].x;
     return {first, first + positions.size() * 3};
 }
@@ -40,13 +42,13 @@ TEST(CPose, MatricesGoFromJointsToModelAndWorld) {
     const ModelHandle model = open_copy(two_joint_file());
     const PoseHandle pose = new_pose(model);
     std::array<float, 32> matrices{};
-    ASSERT_EQ(bendy_joint_matrices(pose.get(), nullptr, 0, 2, matrices.data(), nullptr), BENDY_OK);
+    ASSERT_EQ(bendy_joint_matrices(pose.get(), 0, 2, nullptr, matrices.data(), nullptr), BENDY_OK);
     EXPECT_EQ(matrices, (std::array<float, 32>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1,  //
                                                1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 3, 3, 1}));
     // A quarter turn about Z, which takes X to Y and Y to -X, and then 10 along X.
     const std::array<float, 16> world{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, 0, 0, 1};
     std::array<float, 16> tip{};
-    ASSERT_EQ(bendy_joint_matrices(pose.get(), world.data(), 1, 1, tip.data(), nullptr), BENDY_OK);
+    ASSERT_EQ(bendy_joint_matrices(pose.get(), 1, 1, world.data(), tip.data(), nullptr), BENDY_OK);
     EXPECT_EQ(tip, (std::array<float, 16>{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 7, 1, 3, 1}));
 }
 
@@ -73,14 +75,14 @@ TEST(CPose, SampledBlendedConstrainedAndReachingIsTheSameAsInCpp) {
     for (const float seconds : {0.1f, 0.7f}) {
         Pose cpp(*expected);
         Pose cpp_rest(*expected);
-        sample(&expected->cycles()[0], seconds, cpp);
-        blend(cpp, cpp_rest, 0.25f);
+        EXPECT_TRUE(sample(cpp, &expected->cycles()[0], seconds));
+        EXPECT_TRUE(blend(cpp, cpp_rest, 0.25f));
         constrain(cpp);
         ReachOptions cpp_options;
         cpp_options.solver = Solver::ccd;
         cpp_options.iterations = 7;
         cpp_options.influence = 0.75f;
-        const ReachResult cpp_result = reach(&expected->chains()[0], glm::vec3(0.2f, 0.4f, 0.1f), cpp, cpp_options);
+        const ReachResult cpp_result = *reach(cpp, &expected->chains()[0], glm::vec3(0.2f, 0.4f, 0.1f), cpp_options);
 
         const PoseHandle pose = new_pose(model);
         const PoseHandle rest = new_pose(model);
@@ -112,7 +114,7 @@ TEST(CPose, DefaultReachIsTheSameAsInCpp) {
     ASSERT_EQ(bendy_reach(pose.get(), 0, target.data(), turned.data(), nullptr, &result, nullptr), BENDY_OK);
     Pose cpp(*expected);
     const ReachTarget cpp_target({0.3f, 0.6f, 0.0f}, glm::quat(0.8f, 0.6f, 0.0f, 0.0f));
-    const ReachResult cpp_result = reach(&expected->chains()[0], cpp_target, cpp);
+    const ReachResult cpp_result = *reach(cpp, &expected->chains()[0], cpp_target);
     EXPECT_EQ(result.distance, cpp_result.distance);
     EXPECT_EQ(result.angle, cpp_result.angle);
     EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
@@ -176,9 +178,36 @@ TEST(CPose, InterleavedVerticesAreWrittenAndNothingBetween) {
     out.normals = &buffer[4];
     out.normal_stride = 32;
     bendy_error error = BENDY_ERROR_INIT;
-    ASSERT_EQ(bendy_skin_mesh(pose.get(), 0, nullptr, &out, &error), BENDY_OK) << error.message;
+    bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+    options.mesh = 0;
+    ASSERT_EQ(bendy_skin(pose.get(), &options, &out, &error), BENDY_OK) << error.message;
     const float u = kUntouched;
     EXPECT_EQ(buffer, (std::array<float, 23>{u, 1, 2, 3, 0, 0, 1, u, u, 2, 2, 3, 0, 0, 1, u, u, 1, 3, 3, 0, 0, 1}));
+}
+
+TEST(CPose, DualQuaternionsAreAMethodOfSkinning) {
+    const Owned expected{sample_file()};
+    const ModelHandle model = open_copy(sample_file());
+    const PoseHandle pose = new_pose(model);
+    ASSERT_EQ(bendy_sample(pose.get(), 0, 0.8f, nullptr), BENDY_OK);
+    Pose cpp(*expected);
+    ASSERT_TRUE(sample(cpp, &expected->cycles()[0], 0.8f));
+    std::vector<glm::vec3> wanted(expected->vertex_count());
+    ASSERT_TRUE(skin(cpp, {.method = SkinningMethod::dual_quaternion, .out = {.positions = wanted}}));
+    std::vector<glm::vec3> made(wanted.size());
+    bendy_vertices out = BENDY_VERTICES_INIT;
+    out.capacity = made.size();
+    out.positions = &made[0].x;
+    bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
+    options.method = BENDY_SKIN_DUAL_QUATERNION;
+    bendy_error error = BENDY_ERROR_INIT;
+    ASSERT_EQ(bendy_skin(pose.get(), &options, &out, &error), BENDY_OK) << error.message;
+    EXPECT_EQ(made, wanted);
+    ASSERT_TRUE(skin(cpp, {.out = {.positions = wanted}}));
+    EXPECT_NE(made, wanted) << "or the pose does not tell the methods apart";
+    options.method = 2;
+    EXPECT_EQ(bendy_skin(pose.get(), &options, &out, &error), BENDY_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message, "expected a method of bendy_skin_method, found 2");
 }
 
 TEST(CPose, BoneMatricesAreThePalette) {
@@ -187,7 +216,7 @@ TEST(CPose, BoneMatricesAreThePalette) {
     const PoseHandle pose = new_pose(model);
     bendy_sample(pose.get(), 0, 0.8f, nullptr);
     Pose cpp(*expected);
-    sample(&expected->cycles()[0], 0.8f, cpp);
+    EXPECT_TRUE(sample(cpp, &expected->cycles()[0], 0.8f));
     const auto palette = cpp.palette(0);
     std::vector<float> matrices(palette.size() * 16);
     ASSERT_EQ(bendy_bone_matrices(pose.get(), 0, matrices.data(), palette.size(), nullptr), BENDY_OK);

@@ -48,8 +48,8 @@ double distance(const float* found, const nlohmann::json& wanted, std::size_t fi
 void expect_pose(const Model& model, const nlohmann::json& wanted, double tolerance) {
     Pose pose(model);
     if (!wanted.at("clip").is_null())
-        sample(&model.cycles()[wanted.at("clip").get<std::size_t>()], wanted.at("time").get<float>(), pose);
-    local_to_model(pose);
+        EXPECT_TRUE(
+            sample(pose, &model.cycles()[wanted.at("clip").get<std::size_t>()], wanted.at("time").get<float>()));
     const nlohmann::json& joints = wanted.at("joints");
     ASSERT_EQ(joints.size(), model.joints().size());
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
@@ -59,7 +59,7 @@ void expect_pose(const Model& model, const nlohmann::json& wanted, double tolera
     for (std::uint32_t number = 0; number < meshes.size(); ++number) {
         std::vector<glm::vec3> positions(model.pools()[number].vertices);
         ASSERT_EQ(meshes[number].at("vertices"), positions.size());
-        ASSERT_TRUE(skin(model, number, pose, {positions, {}, {}}));
+        ASSERT_TRUE(skin(pose, {.mesh = number, .out = {.positions = positions}}));
         for (const nlohmann::json& vertex : meshes[number].at("positions")) {
             const auto place = vertex.at(0).get<std::size_t>();
             EXPECT_LE(distance(&positions[place].x, vertex, 1), tolerance) << "mesh " << number << " vertex " << place;

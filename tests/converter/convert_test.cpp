@@ -102,10 +102,10 @@ TEST_P(ConvertExample, MovesInEveryCycle) {
     Pose pose(*model);
     std::vector<glm::vec3> rest(model->vertex_count());
     std::vector<glm::vec3> moved(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, {rest, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {.positions = rest}}));
     for (const bendy::Cycle& cycle : model->cycles()) {
-        ASSERT_TRUE(sample(&cycle, 0.5f * (cycle.start + cycle.end), pose));
-        ASSERT_TRUE(skin(*model, pose, {moved, {}, {}}));
+        ASSERT_TRUE(sample(pose, &cycle, 0.5f * (cycle.start + cycle.end)));
+        ASSERT_TRUE(skin(pose, {.out = {.positions = moved}}));
         float farthest = 0.0f;
         for (std::size_t v = 0; v < rest.size(); ++v) {
             const glm::vec3 by = moved[v] - rest[v];

@@ -74,7 +74,7 @@ void compare_with_runtime(const Scene& scene, double tolerance) {
             const auto expected =
                 evaluate_vertices(scene.meshes[mesh], evaluated.target_weights[mesh], evaluated.joints);
             std::vector<glm::vec3> skinned(expected.size());
-            ASSERT_TRUE(skin(*model, mesh, pose, {skinned, {}, {}}));
+            ASSERT_TRUE(skin(pose, {.mesh = mesh, .out = {.positions = skinned}}));
             double worst = 0.0;
             double size = 1.0;
             for (std::size_t vertex = 0; vertex < expected.size(); ++vertex) {
@@ -93,7 +93,7 @@ void compare_with_runtime(const Scene& scene, double tolerance) {
         const float length = model->cycles()[cycle].end - start;
         for (int k = -1; k <= 21; ++k) {
             const float seconds = start + length * static_cast<float>(k) / 20.0f;
-            sample(&model->cycles()[cycle], seconds, pose);
+            EXPECT_TRUE(sample(pose, &model->cycles()[cycle], seconds));
             evaluate(scene, source, seconds, evaluated);
             compare(seconds);
         }

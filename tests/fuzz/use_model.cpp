@@ -96,8 +96,8 @@ void reach_all(const Model& model, Pose& pose) {
             options.iterations = 3;
             options.restarts = 1;
             options.obey_constraints = solver % 2 == 0;
-            reach(&chain, target, pose, options);
-            reach(&chain, glm::vec3(0.1f, 1.2f, -0.3f), pose, options);
+            (void)reach(pose, &chain, target, options);
+            (void)reach(pose, &chain, glm::vec3(0.1f, 1.2f, -0.3f), options);
         }
     }
 }
@@ -112,8 +112,9 @@ public:
           tangents_(model.vertex_count()) {}
 
     void skin_all(Pose& pose) {
-        check(skin(model_, pose, {positions_, normals_, tangents_}), "skinning into memory that is large enough");
-        check(skin(model_, pose, {positions_, {}, {}}), "skinning positions alone");
+        check(skin(pose, {.out = {positions_, normals_, tangents_}}).has_value(),
+              "skinning into memory that is large enough");
+        check(skin(pose, {.out = {.positions = positions_}}).has_value(), "skinning positions alone");
         for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool) (void)pose.palette(pool);
     }
 
@@ -125,7 +126,8 @@ public:
                 for (const std::uint32_t index : indices)
                     check(index < lod.vertices(draw.pool), "what is drawn is alive");
             }
-            check(skin(model_, pose, lod, {positions_, normals_, tangents_}), "skinning a level of detail");
+            check(skin(pose, {.lod = &lod, .out = {positions_, normals_, tangents_}}).has_value(),
+                  "skinning a level of detail");
         }
     }
 
@@ -138,7 +140,7 @@ private:
 }  // namespace
 
 void use_model(const Model& model, unsigned choice) {
-    set_kernel(kernels()[choice % kernels().size()]);
+    (void)set_kernel(kernels()[choice % kernels().size()]);
     read_all(model);
 
     Pose pose(model);
@@ -164,15 +166,15 @@ void use_model(const Model& model, unsigned choice) {
         }
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
         for (const float seconds : {cycle.start, middle, cycle.end}) {
-            sample(&cycle, seconds, pose);
+            (void)sample(pose, &cycle, seconds);
             skins.skin_all(pose);
         }
         for (const float seconds : {-1.0f, 1e30f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()})
-            sample(&cycle, seconds, other);
-        sample(&cycle, static_cast<float>(choice % 97) * 0.05f, other);
-        blend(pose, other, 0.3f);
-        make_additive(other, pose);
-        add(pose, other, 0.7f, model.joints().empty() ? std::vector<float>{} : mask_below(model, 0));
+            (void)sample(other, &cycle, seconds);
+        (void)sample(other, &cycle, static_cast<float>(choice % 97) * 0.05f);
+        (void)blend(pose, other, 0.3f);
+        (void)make_additive(other, pose);
+        (void)add(pose, other, 0.7f, model.joints().empty() ? std::vector<float>{} : mask_below(model, 0));
         skins.skin_all(pose);
     }
     if (model.collapse() != nullptr) {

@@ -89,7 +89,7 @@ TEST(Binding, WhatIsAnimatedComesOverTheRestIsAtRest) {
     Pose pose(*to);
     pose.change_local()[4].translation = {9, 9, 9};
     pose.change_target_weights()[0] = 9.0f;
-    ASSERT_TRUE(sample(binding, from->cycle("move"), 1.0f, pose));
+    ASSERT_TRUE(sample(pose, binding, from->cycle("move"), 1.0f));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(0, 0, 0));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
     EXPECT_EQ(pose.local()[2].translation, glm::vec3(0, 0.25f, 0));
@@ -100,7 +100,7 @@ TEST(Binding, WhatIsAnimatedComesOverTheRestIsAtRest) {
     EXPECT_EQ(pose.target_weights()[0], 0.0f);
     EXPECT_EQ(pose.target_weights()[1], 0.5f);
     // Another cycle animates less.
-    ASSERT_TRUE(sample(binding, from->cycle("other"), 1.0f, pose));
+    ASSERT_TRUE(sample(pose, binding, from->cycle("other"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
     EXPECT_EQ(pose.local()[1].rotation.y, 1.0f);
     EXPECT_EQ(pose.local()[3].rotation.w, 1.0f);
@@ -115,14 +115,14 @@ TEST(Binding, LimbsMayKeepTheirLengths) {
     options.root_scale = 0.5f;
     Binding topmost(*from, *to, options);
     Pose pose(*to);
-    ASSERT_TRUE(sample(topmost, from->cycle("move"), 1.0f, pose));
+    ASSERT_TRUE(sample(pose, topmost, from->cycle("move"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 10, 0));    // hips: nothing matched above them
     EXPECT_EQ(pose.local()[3].translation, glm::vec3(0, 1.5f, 0));  // the spine's own
     EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
     options.root = to->joint("spine");
     options.root_scale = 1.0f;
     Binding down_to_spine(*from, *to, options);
-    ASSERT_TRUE(sample(down_to_spine, from->cycle("move"), 1.0f, pose));
+    ASSERT_TRUE(sample(pose, down_to_spine, from->cycle("move"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
     EXPECT_EQ(pose.local()[3].translation, glm::vec3(7, 7, 7));
 }
@@ -134,12 +134,12 @@ TEST(Binding, RefusesWhatIsNotItsOwn) {
     Pose pose(*to);
     Pose of_other(*from);
     pose.change_local()[1].translation.x = 7.0f;
-    EXPECT_FALSE(sample(binding, from->cycle("move"), 1.0f, of_other));
-    EXPECT_FALSE(sample(binding, nullptr, 1.0f, pose));
+    EXPECT_FALSE(sample(of_other, binding, from->cycle("move"), 1.0f));
+    EXPECT_FALSE(sample(pose, binding, nullptr, 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
     const Cycle stranger;
-    EXPECT_FALSE(sample(binding, &stranger, 1.0f, pose));
-    EXPECT_FALSE(sample(binding, from->cycle("move"), std::numeric_limits<float>::quiet_NaN(), pose));
+    EXPECT_FALSE(sample(pose, binding, &stranger, 1.0f));
+    EXPECT_FALSE(sample(pose, binding, from->cycle("move"), std::numeric_limits<float>::quiet_NaN()));
 }
 
 TEST(Binding, OfDoubledNamesTheFirstCounts) {
@@ -162,8 +162,8 @@ TEST(Binding, ToTheSameSkeletonItIsSampling) {
     Pose expected(*from);
     Pose pose(*to);
     for (const float seconds : {0.0f, 0.61f, 1.2f, 9.0f}) {
-        ASSERT_TRUE(sample(from->cycle("packed"), seconds, expected));
-        ASSERT_TRUE(sample(binding, from->cycle("packed"), seconds, pose));
+        ASSERT_TRUE(sample(expected, from->cycle("packed"), seconds));
+        ASSERT_TRUE(sample(pose, binding, from->cycle("packed"), seconds));
         for (std::size_t k = 0; k < 20; ++k) {
             EXPECT_EQ(pose.local()[k].rotation, expected.local()[k].rotation);
             EXPECT_EQ(pose.local()[k].translation, expected.local()[k].translation);

@@ -1,8 +1,8 @@
 #include <bendy/runtime/bounds.h>
 
-#include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/skin.h>
 
+#include "pose/pose_state.h"
 #include "runtime/build_model.h"
 #include "runtime/limb_model.h"
 
@@ -25,7 +25,7 @@ using test::Owned;
 
 std::vector<glm::vec3> skinned(const Model& model, Pose& pose) {
     std::vector<glm::vec3> positions(model.vertex_count());
-    EXPECT_TRUE(skin(model, pose, {positions, {}, {}}));
+    EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
     return positions;
 }
 
@@ -66,7 +66,7 @@ TEST(Bounds, OfOneJointByHand) {
     Pose pose(*model);
     pose.change_local()[0].rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));  // x to y, y to -x
     const Box box = bounds.of(pose);
-    EXPECT_FALSE(pose.is_stale());
+    EXPECT_FALSE(PoseState::of(pose).is_stale);
     const glm::vec3 minimum(-5, 9, -4);
     const glm::vec3 maximum(-2, 11, 3);
     for (int c = 0; c < 3; ++c) {

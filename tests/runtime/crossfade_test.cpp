@@ -73,22 +73,22 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
     Pose pose(*model);
     Pose scratch(*model);
     Crossfade fade;
-    EXPECT_FALSE(sample(fade, pose, scratch));
+    EXPECT_FALSE(sample(pose, fade, scratch));
     EXPECT_EQ(fade.playback(), nullptr);
     fade.play(*model->cycle("0"), 1.0f);
-    ASSERT_TRUE(sample(fade, pose, scratch));
+    ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 1.0f);
 
     fade.play(*model->cycle("1"), 1.0f, Easing::linear);
     fade.advance(0.25);
-    ASSERT_TRUE(sample(fade, pose, scratch));
+    ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);
 
     fade.play(*model->cycle("2"), 0.5f, Easing::linear);
-    ASSERT_TRUE(sample(fade, pose, scratch));
+    ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);  // nothing jumps
     fade.advance(0.25);
-    ASSERT_TRUE(sample(fade, pose, scratch));
+    ASSERT_TRUE(sample(pose, fade, scratch));
     const float below = 0.5f * 1.0f + 0.5f * 10.0f;
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.5f * below + 0.5f * 100.0f);
     ASSERT_EQ(fade.playing().size(), 3u);
@@ -102,7 +102,7 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
     ASSERT_EQ(fade.playing().size(), 1u);
     EXPECT_EQ(fade.playing()[0].cycle, model->cycle("2"));
     EXPECT_EQ(fade.playing()[0].share, 1.0f);
-    ASSERT_TRUE(sample(fade, pose, scratch));
+    ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_EQ(pose.local()[0].translation.x, 100.0f);
     fade.playback()->set_speed(-1.0);
     fade.advance(0.25);
@@ -124,7 +124,7 @@ TEST(Crossfade, SharesAddUpAndTheOldestMakesRoom) {
             x += playing.share * std::pow(10.0, std::stod(std::string(playing.cycle->name)));
         }
         EXPECT_NEAR(all, 1.0, 1e-6);
-        ASSERT_TRUE(sample(fade, pose, scratch));
+        ASSERT_TRUE(sample(pose, fade, scratch));
         EXPECT_NEAR(pose.local()[0].translation.x, x, 1e-5 * x);
     }
     ASSERT_EQ(fade.playing().size(), Crossfade::kMost);
@@ -138,7 +138,7 @@ TEST(Crossfade, PosesOfOtherModelsAreRefused) {
     Pose scratch(*other);
     Crossfade fade;
     fade.play(*model->cycle("0"), 0.0f);
-    EXPECT_FALSE(sample(fade, pose, scratch));
+    EXPECT_FALSE(sample(pose, fade, scratch));
     EXPECT_EQ(pose.local()[0].translation.x, 0.0f);
 }
 

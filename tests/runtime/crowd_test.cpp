@@ -84,16 +84,16 @@ TEST(Crowd, AMemberComesOutAsACharacterAlone) {
     for (std::size_t k = 0; k < kMembers; ++k) {
         const CrowdMember& member = players.members()[k];
         Pose pose(*model);
-        sample(member.cycle, member.seconds, pose);
+        (void)sample(pose, member.cycle, member.seconds);
         std::vector<float> alone(model->vertex_count() * kFloats, -7.0f);
         const std::span<float> own(alone);
         const VertexBuffer out{{own, kFloats}, {own.subspan(3), kFloats}, {own.subspan(6), kFloats}};
         if (k % 7 == 6) {
             // Nothing was asked for.
         } else if (member.lod != nullptr) {
-            ASSERT_TRUE(skin_into(*model, pose, lod, out));
+            ASSERT_TRUE(skin(pose, {.lod = &lod, .out = out}));
         } else {
-            ASSERT_TRUE(skin_into(*model, pose, out));
+            ASSERT_TRUE(skin(pose, {.out = out}));
         }
         EXPECT_EQ(std::memcmp(players.vertices(k).data(), alone.data(), alone.size() * sizeof(float)), 0) << k;
     }
@@ -127,8 +127,7 @@ TEST(Crowd, PalettesPlaceVerticesAsSkinningDoes) {
     member.palette = palette;
     ASSERT_TRUE(crowd.play({&member, 1}, 1));
     Pose pose(*model);
-    sample(member.cycle, member.seconds, pose);
-    local_to_model(pose);
+    (void)sample(pose, member.cycle, member.seconds);
     std::size_t entries = 0;
     for (std::uint32_t number = 0; number < model->pools().size(); ++number) {
         const Pool& pool = model->pools()[number];
@@ -157,14 +156,14 @@ TEST(Crowd, TheCallerMayPose) {
     member.seconds = 0.7f;
     member.out.positions = {{&positions.front().x, positions.size() * 3}, 3};
     const auto lift = [&](const CrowdMember& of, Pose& pose) {
-        sample(model->cycle("run"), of.seconds, pose);
+        EXPECT_TRUE(sample(pose, model->cycle("run"), of.seconds));
         pose.change_local()[0].translation.y += 2.0f;
     };
     ASSERT_TRUE(crowd.play({&member, 1}, 0, lift));
     Pose pose(*model);
     lift(member, pose);
     std::vector<glm::vec3> expected(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, {expected, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {.positions = expected}}));
     EXPECT_EQ(positions, expected);
 }
 

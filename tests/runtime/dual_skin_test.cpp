@@ -1,7 +1,5 @@
-#include <bendy/runtime/dual_skin.h>
 
 #include <bendy/runtime/kernels.h>
-#include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/skin.h>
 
 #include "runtime/build_model.h"
@@ -33,13 +31,13 @@ struct Skinned {
 
 Skinned linear(const Model& model, Pose& pose) {
     Skinned out(model.vertex_count());
-    EXPECT_TRUE(skin(model, pose, out.all()));
+    EXPECT_TRUE(skin(pose, {.out = out.all()}));
     return out;
 }
 
 Skinned dual(const Model& model, Pose& pose) {
     Skinned out(model.vertex_count());
-    EXPECT_TRUE(DualSkinning(model).skin(pose, out.all()));
+    EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = out.all()}));
     return out;
 }
 
@@ -359,14 +357,13 @@ TEST(DualSkin, PoolsThatShareAPaletteAreAsEachAlone) {
     tube.spec.pools = {tube.spec.pools[0], rigid, tube.spec.pools[0], other, tube.spec.pools[0]};
     const Owned model(test::build_file(tube.spec));
     Pose pose(*model);
-    DualSkinning skinning(*model);
     for (const float turn : {0.3f, -0.8f}) {
         pose.change_local()[1].rotation = glm::quat(std::sqrt(1.0f - turn * turn), 0, turn, 0);
         Skinned all(model->vertex_count());
-        EXPECT_TRUE(skinning.skin(pose, all.all()));
+        EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = all.all()}));
         for (std::uint32_t pool = 0; pool < 5; ++pool) {
             Skinned alone(model->pools()[pool].vertices);
-            EXPECT_TRUE(DualSkinning(*model).skin(pool, pose, alone.all()));
+            EXPECT_TRUE(skin(pose, {.mesh = pool, .method = SkinningMethod::dual_quaternion, .out = alone.all()}));
             for (std::size_t v = 0; v < alone.positions.size(); ++v)
                 EXPECT_EQ(all.positions[model->first_vertex(pool) + v], alone.positions[v]) << pool;
         }
@@ -377,18 +374,17 @@ TEST(DualSkin, LevelsOfDetailAndRigidPoolsAsLinear) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     pose.change_local()[1].rotation = glm::normalize(glm::quat(1, 0, 0, 0.4f));
-    DualSkinning dual_skinning(*model);
     Skinned all(model->vertex_count());
-    ASSERT_TRUE(dual_skinning.skin(pose, all.all()));
+    ASSERT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = all.all()}));
     Skinned flat(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, flat.all()));
+    ASSERT_TRUE(skin(pose, {.out = flat.all()}));
     for (std::uint64_t v = model->first_vertex(1); v < model->first_vertex(2); ++v)
         EXPECT_EQ(all.positions[v], flat.positions[v]);
     Lod lod(*model);
     lod.set_share(0.0f);
     constexpr glm::vec3 kUntouched(-77.0f);
     std::vector<glm::vec3> some(model->vertex_count(), kUntouched);
-    ASSERT_TRUE(dual_skinning.skin(pose, lod, {some, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.lod = &lod, .method = SkinningMethod::dual_quaternion, .out = {.positions = some}}));
     std::size_t left = 0;
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) {
         for (std::uint32_t v = 0; v < model->pools()[pool].vertices; ++v) {
@@ -403,14 +399,14 @@ TEST(DualSkin, LevelsOfDetailAndRigidPoolsAsLinear) {
 TEST(DualSkin, RefusesShortMemoryAndBearsNoNumbers) {
     const Owned model(test::build_file(Tube(4.0f).spec));
     Pose pose(*model);
-    DualSkinning dual_skinning(*model);
     std::vector<glm::vec3> positions(model->vertex_count() - 1, glm::vec3(5.0f));
-    EXPECT_FALSE(dual_skinning.skin(pose, {positions, {}, {}}));
-    EXPECT_FALSE(dual_skinning.skin(0, pose, {positions, {}, {}}));
+    EXPECT_FALSE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}));
+    EXPECT_FALSE(skin(pose, {.mesh = 0, .method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}));
     EXPECT_EQ(positions[0], glm::vec3(5.0f));
     positions.emplace_back();
     pose.change_local()[1].translation.x = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(dual_skinning.skin(pose, {positions, {}, {}}));  // as skin has it
+    EXPECT_TRUE(
+        skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}));  // as skin has it
     EXPECT_FALSE(std::isfinite(positions.back().x));
     EXPECT_TRUE(std::isfinite(positions.front().x));
 }

@@ -42,7 +42,7 @@ protected:
     /// Weights of the pool's two frames.
     std::vector<float> weights_at(float seconds) {
         Pose pose(*model_);
-        EXPECT_TRUE(sample(flap_, seconds, pose));
+        EXPECT_TRUE(sample(pose, flap_, seconds));
         const auto weights = pose.target_weights().subspan(model_->first_target(kPool), 2);
         return {weights.begin(), weights.end()};
     }
@@ -111,12 +111,12 @@ TEST_F(Frames, AShapeWithAllTheWeightIsTheFilesToTheBit) {
 
 TEST_F(Frames, EveryKernelSkinsThem) {
     Pose pose(*model_);
-    ASSERT_TRUE(sample(flap_, 0.5f, pose));
+    ASSERT_TRUE(sample(pose, flap_, 0.5f));
     const auto before = kernel();
     for (const Kernel kernel : kernels()) {
         ASSERT_TRUE(set_kernel(kernel));
         Places positions(3), normals(3);
-        ASSERT_TRUE(skin(*model_, kPool, pose, {positions, normals, {}}));
+        ASSERT_TRUE(skin(pose, {.mesh = kPool, .out = {.positions = positions, .normals = normals}}));
         EXPECT_EQ(positions, kUp) << kernel_name(kernel);
         EXPECT_EQ(normals, kTurned) << kernel_name(kernel);
     }
@@ -127,21 +127,21 @@ TEST_F(Frames, PlaybackGoesRound) {
     Playback playback(*flap_);
     playback.advance(1.25);  // frame 2 and half of the way to the first
     Pose pose(*model_);
-    ASSERT_TRUE(sample(flap_, playback.seconds(), pose));
+    ASSERT_TRUE(sample(pose, flap_, playback.seconds()));
     EXPECT_EQ(pose.target_weights()[model_->first_target(kPool) + 1], 0.5f);
     playback.advance(0.5);
-    ASSERT_TRUE(sample(flap_, playback.seconds(), pose));
+    ASSERT_TRUE(sample(pose, flap_, playback.seconds()));
     EXPECT_EQ(pose.target_weights()[model_->first_target(kPool)], 0.5f) << "1.75 s are 0.25 s";
 }
 
 TEST_F(Frames, BlendAndHaveBounds) {
     Pose a(*model_);
     Pose b(*model_);
-    ASSERT_TRUE(sample(flap_, 0.5f, a));
-    ASSERT_TRUE(sample(flap_, 1.0f, b));
+    ASSERT_TRUE(sample(a, flap_, 0.5f));
+    ASSERT_TRUE(sample(b, flap_, 1.0f));
     ASSERT_TRUE(blend(a, b, 0.5f));
     Places positions(3);
-    ASSERT_TRUE(skin(*model_, kPool, a, {positions, {}, {}}));
+    ASSERT_TRUE(skin(a, {.mesh = kPool, .out = {.positions = positions}}));
     EXPECT_EQ(positions[1], glm::vec3(1, 1, 0));
     const Bounds bounds(*model_);
     const Box box = bounds.of(a);

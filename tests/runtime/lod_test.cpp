@@ -244,18 +244,18 @@ TEST(Lod, SkinsOnlyTheLivingVertices) {
     const Owned model(build_file(spec));
     Pose pose(*model);
     std::vector<glm::vec3> all(5);
-    ASSERT_TRUE(skin(*model, pose, {all, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {.positions = all}}));
     Lod lod(*model);
     for (const float share : {1.0f, 0.5f, 0.0f}) {
         lod.set_share(share);
         const glm::vec3 untouched(77.0f);
         std::vector<glm::vec3> some(5, untouched);
-        ASSERT_TRUE(skin(*model, pose, lod, {some, {}, {}}));
+        ASSERT_TRUE(skin(pose, {.lod = &lod, .out = {.positions = some}}));
         for (std::uint32_t v = 0; v < 5; ++v) EXPECT_EQ(some[v], v < lod.vertices(0) ? all[v] : untouched) << v;
         std::vector<glm::vec3> exact(lod.vertices(0));
-        EXPECT_TRUE(skin(*model, 0, pose, lod, {exact, {}, {}}));
+        EXPECT_TRUE(skin(pose, {.mesh = 0, .lod = &lod, .out = {.positions = exact}}));
         exact.pop_back();
-        EXPECT_FALSE(skin(*model, 0, pose, lod, {exact, {}, {}}));
+        EXPECT_FALSE(skin(pose, {.mesh = 0, .lod = &lod, .out = {.positions = exact}}));
     }
 }
 

@@ -210,7 +210,7 @@ TEST(Model, AFileStaysMappedThroughMoves) {
     EXPECT_EQ(model.joints()[2].name, "head");
     Pose pose(model);
     std::vector<glm::vec3> positions(model.vertex_count());
-    ASSERT_TRUE(skin(model, pose, {positions, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {.positions = positions}}));
     EXPECT_EQ(positions[4], glm::vec3(0, 1.75f, 0));
 }
 

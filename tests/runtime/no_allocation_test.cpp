@@ -34,26 +34,27 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     const std::uint64_t before = test::allocations().count;
     bool is_good = true;
     for (int frame = -2; frame < 20; ++frame) {
-        is_good = sample(run, 0.5f + 0.03f * static_cast<float>(frame), pose) && is_good;
+        is_good = sample(pose, run, 0.5f + 0.03f * static_cast<float>(frame)) && is_good;
         is_good = blend(pose, other, 0.5f) && make_additive(other, pose) && add(pose, other, 0.5f) && is_good;
-        local_to_model(pose);
-        is_good = skin(*model, pose, vertices) && is_good;
-        is_good = skin(*model, 0, pose, vertices) && is_good;
+        (void)pose.model_space();
+        is_good = skin(pose, {.out = vertices}) && is_good;
+        is_good = skin(pose, {.mesh = 0, .out = vertices}) && is_good;
         is_good = inbetween(model->pools()[0], pose.target_weights(), vertices) && is_good;
         lod.set_share(0.05f * static_cast<float>(frame));
-        is_good = skin(*model, pose, lod, vertices) && is_good;
+        is_good = skin(pose, {.lod = &lod, .out = vertices}) && is_good;
         pose.change_local()[0].translation.x += 1.0f;
         pose.change_target_weights()[0] = 0.5f;
-        is_good = skin(*model, pose, vertices) && is_good;
+        is_good = skin(pose, {.out = vertices}) && is_good;
         pose.set_rest();
-        is_good = !sample(nullptr, 0.0f, pose) && is_good;
+        is_good = !sample(pose, nullptr, 0.0f) && is_good;
+        is_good = !skin(pose, {.out = {.positions = std::span(positions).first(1)}}) && is_good;
         constrain(pose);
         for (const Solver solver :
              {Solver::pull, Solver::two_bone, Solver::ccd, Solver::fabrik, Solver::aim, Solver::least_squares}) {
             ReachOptions options;
             options.solver = solver;
             const ReachTarget target({0.1f, 0.2f, 0.3f}, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
-            is_good = reach(model->chains().data(), target, pose, options).status != ReachStatus::refused && is_good;
+            is_good = reach(pose, model->chains().data(), target, options) && is_good;
         }
         reach_all(pose);
         is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
@@ -97,7 +98,7 @@ TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
     const RootPath path(*model, 2);
     Binding binding(*skinned, *skinned);
     const Bounds bounds(*skinned);
-    DualSkinning dual(*skinned);
+    prepare_skin(skinned_pose, SkinningMethod::dual_quaternion);
     Lod lod(*skinned);
     const Socket socket = make_socket(*skinned, "head");
     const std::vector<Marker> markers{{0.5f, "left"}, {1.0f, "right"}};
@@ -121,14 +122,18 @@ TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
             visit_markers(markers, playing.walk, [&](const Marker&) { ++count; });
             count += collect_markers(markers, playing.walk, met);
         }
-        is_good = sample(fade, pose, scratch) && sample(skinned_fade, skinned_pose, skinned_scratch) && is_good;
+        is_good = sample(pose, fade, scratch) && sample(skinned_pose, skinned_fade, skinned_scratch) && is_good;
         path.take_out(pose);
-        is_good = sample(binding, &run, 0.7f, skinned_pose) && is_good;
+        is_good = sample(skinned_pose, binding, &run, 0.7f) && is_good;
         is_good = !bounds.of(skinned_pose).is_empty() && !bounds.of(skinned_pose, 0).is_empty() && is_good;
-        is_good = socket_matrix(socket, skinned_pose)[3].w == 1.0f && is_good;
-        is_good = dual.skin(skinned_pose, {positions, normals, {}}) && is_good;
+        is_good = socket_matrix(skinned_pose, socket)[3].w == 1.0f && is_good;
+        is_good = skin(skinned_pose, {.method = SkinningMethod::dual_quaternion,
+                                      .out = {.positions = positions, .normals = normals}}) &&
+                  is_good;
         lod.set_share(0.02f * static_cast<float>(frame));
-        is_good = dual.skin(skinned_pose, lod, {positions, {}, {}}) && is_good;
+        is_good = skin(skinned_pose,
+                       {.lod = &lod, .method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}) &&
+                  is_good;
     }
     EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);
@@ -147,9 +152,9 @@ TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
     bool is_good = true;
     for (int frame = 0; frame < 200; ++frame) {
         random = random * 1664525u + 1013904223u;
-        is_good = sample(cycle, 0.4f + 0.013f * static_cast<float>(frame), pose) && is_good;
-        is_good = sample(cycle, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f, pose) && is_good;
-        is_good = sample(of_other, 0.4f + 0.013f * static_cast<float>(frame), pose) && is_good;
+        is_good = sample(pose, cycle, 0.4f + 0.013f * static_cast<float>(frame)) && is_good;
+        is_good = sample(pose, cycle, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f) && is_good;
+        is_good = sample(pose, of_other, 0.4f + 0.013f * static_cast<float>(frame)) && is_good;
     }
     EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);

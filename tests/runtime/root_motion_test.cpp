@@ -1,6 +1,5 @@
 #include <bendy/runtime/root_motion.h>
 
-#include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/sample.h>
 
 #include "runtime/cycle_model.h"
@@ -191,17 +190,15 @@ void expect_world_is_kept(const Model& model, const Cycle& cycle, std::uint32_t 
     Pose pose(model);
     Pose authored(model);
     Playback clock(cycle.start, cycle.end, LoopMode::once);
-    ASSERT_TRUE(sample(&cycle, clock.seconds(), pose));
+    ASSERT_TRUE(sample(pose, &cycle, clock.seconds()));
     RootMotion character = path.take_out(pose);
     for (int frame = 0; frame < 9; ++frame) {
         const Walk walk = clock.advance(0.11 * (cycle.end - cycle.start));
-        ASSERT_TRUE(sample(&cycle, clock.seconds(), pose));
-        ASSERT_TRUE(sample(&cycle, clock.seconds(), authored));
+        ASSERT_TRUE(sample(pose, &cycle, clock.seconds()));
+        ASSERT_TRUE(sample(authored, &cycle, clock.seconds()));
         character = then(character, path.over(cycle, walk));
         const RootMotion taken = path.take_out(pose);
         expect_near(character, taken.matrix(), tolerance);
-        local_to_model(pose);
-        local_to_model(authored);
         for (std::size_t joint = root; joint < model.joints().size(); ++joint) {
             expect_near(character.matrix() * glm::dmat4(pose.model_space()[joint]),
                         glm::dmat4(authored.model_space()[joint]), tolerance);
@@ -220,7 +217,7 @@ TEST(RootMotion, WhatIsTakenOutOfThePoseIsInTheCharacter) {
     expect_world_is_kept(*model, cycle, 1, {}, 2e-6);
 
     Pose pose(*model);
-    ASSERT_TRUE(sample(&cycle, 1.3f, pose));
+    ASSERT_TRUE(sample(pose, &cycle, 1.3f));
     const float height = pose.local()[0].translation.y;
     path.take_out(pose);
     EXPECT_NEAR(pose.local()[0].translation.x, 0.0, 1e-6);
@@ -266,7 +263,7 @@ TEST(RootMotion, PackedCyclesMoveAsTheySample) {
         const RootPath path(*model, joint);
         Pose pose(*model);
         for (const float seconds : {0.5f, 0.93f, 1.77f, 2.5f}) {
-            ASSERT_TRUE(sample(&cycle, seconds, pose));
+            ASSERT_TRUE(sample(pose, &cycle, seconds));
             expect_near(path.at(cycle, seconds), path.take_out(pose).matrix(), 1e-5);
         }
     }

@@ -94,7 +94,7 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
             std::uniform_real_distribution<float> anywhere(-0.1f, 1.1f);
             for (int k = 0; k < 200; ++k) {
                 const float seconds = k == 0 ? 1.0f : k == 1 ? 0.0f : anywhere(random);
-                ASSERT_TRUE(sample(&cycle, seconds, pose));
+                ASSERT_TRUE(sample(pose, &cycle, seconds));
                 // Numbers are at most 1: four units in its last place, and more terms for wider turns.
                 const float units = angle < 1.0f ? 4.0f : 12.0f;
                 for (const TrackView& track : cycle.tracks) expect_track(track, cycle, seconds, pose, units * 0x1p-24f);
@@ -114,7 +114,7 @@ TEST(SampleKernels, KeysComeOutExactly) {
         SCOPED_TRACE(kernel_name(each));
         Pose pose(*model);
         for (const float seconds : {-1.0f, 0.0f, 0.25f, 0.5f, 1.0f, 2.0f}) {
-            ASSERT_TRUE(sample(&cycle, seconds, pose));
+            ASSERT_TRUE(sample(pose, &cycle, seconds));
             for (const TrackView& track : cycle.tracks) {
                 const auto is_key = [&](float time) { return time == seconds; };
                 const bool is_at_key =

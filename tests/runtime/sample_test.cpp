@@ -1,5 +1,6 @@
 #include <bendy/runtime/sample.h>
 
+#include "pose/pose_state.h"
 #include "runtime/build_model.h"
 
 #include <gtest/gtest.h>
@@ -361,8 +362,8 @@ TEST(Sample, SetsWhatItsTracksAnimate) {
     ASSERT_NE(run, nullptr);
 
     ASSERT_TRUE(
-        sample(run, 0.625f, pose));  // half-way between the first two of three keys, a quarter of the way of two
-    EXPECT_TRUE(pose.is_stale());
+        sample(pose, run, 0.625f));  // half-way between the first two of three keys, a quarter of the way of two
+    EXPECT_TRUE(PoseState::of(pose).is_stale);
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.5f));
     EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));   // step
     EXPECT_FLOAT_EQ(pose.target_weights()[0], 0.25f);    // 0 to 1
@@ -377,7 +378,7 @@ TEST(Sample, SetsWhatItsTracksAnimate) {
     EXPECT_NEAR(pose.local()[1].rotation.z, z / std::hypot(z, w), 1e-6);
     EXPECT_NEAR(pose.local()[1].rotation.w, w / std::hypot(z, w), 1e-6);
 
-    ASSERT_TRUE(sample(run, 0.75f, pose));
+    ASSERT_TRUE(sample(pose, run, 0.75f));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(2.0f));
     EXPECT_EQ(pose.local()[2].scale, glm::vec3(2.0f));
     EXPECT_EQ(pose.local()[2].rotation.y, 1.0f);
@@ -387,14 +388,14 @@ TEST(Sample, LeavesTheRestAtRest) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     move_everything(pose);
-    ASSERT_TRUE(sample(model->cycle("run"), 0.6f, pose));
+    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.6f));
     expect_rest(pose, 3);
     EXPECT_EQ(pose.local()[0].scale, glm::vec3(1.0f));
     EXPECT_EQ(pose.local()[1].translation, model->joints()[1].rest.translation);
 
     Cycle empty;
     move_everything(pose);
-    ASSERT_TRUE(sample(&empty, 0.0f, pose));
+    ASSERT_TRUE(sample(pose, &empty, 0.0f));
     for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
     EXPECT_EQ(pose.target_weights()[0], 0.125f);
     EXPECT_EQ(pose.target_weights()[1], 0.0f);
@@ -406,8 +407,8 @@ TEST(Sample, OneCycleAfterAnotherKeepsNothingOfTheFirst) {
     Cycle other;
     other.tracks = {keys.track()};
     Pose pose(*model);
-    ASSERT_TRUE(sample(model->cycle("run"), 0.6f, pose));
-    ASSERT_TRUE(sample(&other, 0.6f, pose));
+    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.6f));
+    ASSERT_TRUE(sample(pose, &other, 0.6f));
     for (std::size_t joint = 0; joint < 3; ++joint) expect_rest(pose, joint);
     EXPECT_EQ(pose.local()[3].scale, glm::vec3(4.0f));
     EXPECT_EQ(pose.local()[3].translation, model->joints()[3].rest.translation);
@@ -420,19 +421,19 @@ TEST(Sample, NoCycleOrNoTimeIsTheRestPose) {
     for (const auto& [cycle, seconds] :
          {std::pair{static_cast<const Cycle*>(nullptr), 0.5f}, std::pair{model->cycle("run"), kNan}}) {
         move_everything(pose);
-        EXPECT_FALSE(sample(cycle, seconds, pose));
+        EXPECT_FALSE(sample(pose, cycle, seconds));
         for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
         EXPECT_EQ(pose.target_weights()[0], 0.125f);
-        EXPECT_TRUE(pose.is_stale());
+        EXPECT_TRUE(PoseState::of(pose).is_stale);
     }
 }
 
 TEST(Sample, InfiniteTimesAreHeldAtTheEnds) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    ASSERT_TRUE(sample(model->cycle("run"), kInfinity, pose));
+    ASSERT_TRUE(sample(pose, model->cycle("run"), kInfinity));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(3.0f));
-    ASSERT_TRUE(sample(model->cycle("run"), -kInfinity, pose));
+    ASSERT_TRUE(sample(pose, model->cycle("run"), -kInfinity));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.0f));
 }
 
@@ -464,7 +465,7 @@ TEST(Sample, WeightsGoToThePoolsOwnTargets) {
     cycle.tracks = {keys.track()};
     Pose pose(*model);
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
-    ASSERT_TRUE(sample(&cycle, 0.5f, pose));
+    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 2.0f, 4.0f}));
 }
 
@@ -484,7 +485,7 @@ TEST(Sample, ACycleOfALargerModelChangesNothingOutside) {
     Cycle cycle;
     for (const Keys& keys : all) cycle.tracks.push_back(keys.track());
     Pose pose(*model);
-    ASSERT_TRUE(sample(&cycle, 0.5f, pose));
+    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
     expect_rest(pose, 0);
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(1, 2, 3));
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
@@ -496,7 +497,7 @@ TEST(Sample, WeightsOfAPoolWithMoreTargetsDoNotSpillIntoTheNextPool) {
     Cycle cycle;
     cycle.tracks = {keys.track()};
     Pose pose(*model);
-    ASSERT_TRUE(sample(&cycle, 0.5f, pose));
+    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
     EXPECT_EQ(weights_of(pose)[1], 0.25f);
     EXPECT_EQ(weights_of(pose)[2], 1.25f);
 }

@@ -307,7 +307,7 @@ void expect_as_defined(const Buffer& file) {
         ASSERT_TRUE(set_kernel(each));
         std::vector<glm::vec3> positions(pool.vertices), normals(pool.vertices);
         std::vector<glm::vec4> tangents(pool.vertices);
-        ASSERT_TRUE(skin(*model, pose, Vertices{positions, normals, tangents}));
+        ASSERT_TRUE(skin(pose, {.out = {positions, normals, tangents}}));
         for (std::uint32_t v = 0; v < pool.vertices; ++v) {
             glm::dmat4 matrix(0.0);
             for (std::uint32_t k = 0; k < 4; ++k) {
@@ -359,11 +359,11 @@ TEST(SkinBuffer, InterleavedIsAsApart) {
     const std::size_t count = model->vertex_count();
     std::vector<glm::vec3> positions(count), normals(count);
     std::vector<glm::vec4> tangents(count);
-    ASSERT_TRUE(skin(*model, pose, Vertices{positions, normals, tangents}));
+    ASSERT_TRUE(skin(pose, {.out = {positions, normals, tangents}}));
     std::vector<float> buffer(count * 13,
                               kUntouched);  // position, 2 of the caller's, normal, tangent, 1 of the caller's
     const auto from = [&](std::size_t at) { return StridedFloats{std::span(buffer).subspan(at), 13}; };
-    ASSERT_TRUE(skin_into(*model, pose, VertexBuffer{from(0), from(5), from(8)}));
+    ASSERT_TRUE(skin(pose, {.out = {from(0), from(5), from(8)}}));
     for (std::size_t v = 0; v < count; ++v) {
         const float* const vertex = &buffer[v * 13];
         for (int c = 0; c < 3; ++c) EXPECT_EQ(vertex[c], positions[v][c]);
@@ -380,9 +380,8 @@ TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
     std::vector<float> buffer(count * 8, kUntouched);
     const auto attempt = [&](std::size_t size, std::size_t stride) {
         const StridedFloats memory{std::span(buffer).first(size), stride};
-        return skin_into(*model, pose, VertexBuffer{memory, {}, {}}) ||
-               skin_into(*model, pose, VertexBuffer{{}, memory, {}}) ||
-               skin_into(*model, 0, pose, VertexBuffer{{}, {}, memory});
+        return skin(pose, {.out = {memory, {}, {}}}) || skin(pose, {.out = {{}, memory, {}}}) ||
+               skin(pose, {.mesh = 0, .out = {{}, {}, memory}});
     };
     EXPECT_FALSE(attempt((count - 1) * 8 + 2, 8));
     EXPECT_FALSE(attempt(count * 8, 2));
@@ -392,7 +391,7 @@ TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
     EXPECT_FALSE(attempt(2, 8));
     EXPECT_EQ(buffer, std::vector<float>(count * 8, kUntouched));
     const StridedFloats exact{std::span(buffer).first((count - 1) * 8 + 3), 8};
-    EXPECT_TRUE(skin_into(*model, pose, VertexBuffer{exact, {}, {}}));
+    EXPECT_TRUE(skin(pose, {.out = {exact, {}, {}}}));
 }
 
 }  // namespace

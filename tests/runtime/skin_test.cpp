@@ -1,8 +1,8 @@
 #include <bendy/runtime/skin.h>
 
-#include <bendy/runtime/local_to_model.h>
 #include <bendy/runtime/sample.h>
 
+#include "pose/pose_state.h"
 #include "runtime/build_model.h"
 
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ struct Posed {
         : positions(vertices, kUntouched), normals(vertices, kUntouched), tangents(vertices, glm::vec4(-77.0f)) {}
     /// The pool in this pose.
     Posed(const Model& model, std::uint32_t pool, Pose& pose) : Posed(model.pools()[pool].vertices) {
-        EXPECT_TRUE(skin(model, pool, pose, all()));
+        EXPECT_TRUE(skin(pose, {.mesh = pool, .out = all()}));
     }
 
     [[nodiscard]] Vertices all() { return {positions, normals, tangents}; }
@@ -103,7 +103,7 @@ TEST(Skin, TheSamplesVerticesByHand) {
     EXPECT_EQ(posed.tangents[2], glm::vec4(1, 0, 0, -1));
 
     ASSERT_TRUE(
-        sample(model->cycle("run"), 1.0f, pose));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
+        sample(pose, model->cycle("run"), 1.0f));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
     const Posed ran(*model, 0, pose);
     expect_near(ran.positions[0], {3, 3, 4});
     // Vertex 1 at (1 + 9/4, 0, 2): joint 0 takes it to (6.25, 3, 5), joint 1 to (3 - 3.25, 3.5 + 1, 5).
@@ -115,7 +115,7 @@ TEST(Skin, TakesAStalePoseUpToDate) {
     Pose pose(*model);
     pose.change_local()[0].translation = {100, 0, 0};
     EXPECT_EQ(Posed(*model, 1, pose).positions[0], glm::vec3(100, 0.75f, 0));
-    EXPECT_FALSE(pose.is_stale());
+    EXPECT_FALSE(PoseState::of(pose).is_stale);
 }
 
 TEST(Skin, LargeTranslationsCancel) {
@@ -504,9 +504,9 @@ TEST(Skin, VerticesThatNothingMovesStay) {
 TEST(Skin, AllPoolsStandOneAfterAnother) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    ASSERT_TRUE(sample(model->cycle("run"), 0.7f, pose));
+    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.7f));
     Posed all(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, all.all()));
+    ASSERT_TRUE(skin(pose, {.out = all.all()}));
     for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) {
         const Posed one(*model, pool, pose);
         for (std::size_t v = 0; v < one.positions.size(); ++v) {
@@ -521,17 +521,17 @@ TEST(Skin, AnyStreamMayBeLeftOut) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     Posed all(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, all.all()));
+    ASSERT_TRUE(skin(pose, {.out = all.all()}));
     Posed some(model->vertex_count());
-    ASSERT_TRUE(skin(*model, pose, {some.positions, {}, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {.positions = some.positions}}));
     EXPECT_EQ(some.positions, all.positions);
     EXPECT_EQ(some.normals[0], kUntouched);
-    ASSERT_TRUE(skin(*model, pose, {{}, some.normals, {}}));
+    ASSERT_TRUE(skin(pose, {.out = {{}, some.normals, {}}}));
     EXPECT_EQ(some.normals, all.normals);
     EXPECT_EQ(some.tangents[0], glm::vec4(-77.0f));
-    ASSERT_TRUE(skin(*model, pose, {{}, {}, some.tangents}));
+    ASSERT_TRUE(skin(pose, {.out = {{}, {}, some.tangents}}));
     EXPECT_EQ(some.tangents, all.tangents);
-    EXPECT_TRUE(skin(*model, pose, {}));
+    EXPECT_TRUE(skin(pose, {}));
 }
 
 TEST(Skin, SpansThatAreTooShortAreRefusedAndNothingIsWritten) {
@@ -540,14 +540,14 @@ TEST(Skin, SpansThatAreTooShortAreRefusedAndNothingIsWritten) {
     Posed out(model->vertex_count());
     const auto cut = [](auto& vectors, std::size_t count) { return std::span(vectors).first(count); };
     const std::size_t one_less = out.positions.size() - 1;
-    EXPECT_FALSE(skin(*model, pose, {cut(out.positions, one_less), out.normals, out.tangents}));
-    EXPECT_FALSE(skin(*model, pose, {out.positions, cut(out.normals, one_less), out.tangents}));
-    EXPECT_FALSE(skin(*model, pose, {out.positions, out.normals, cut(out.tangents, one_less)}));
+    EXPECT_FALSE(skin(pose, {.out = {cut(out.positions, one_less), out.normals, out.tangents}}));
+    EXPECT_FALSE(skin(pose, {.out = {out.positions, cut(out.normals, one_less), out.tangents}}));
+    EXPECT_FALSE(skin(pose, {.out = {out.positions, out.normals, cut(out.tangents, one_less)}}));
     for (std::uint32_t pool = 0; pool < 2; ++pool) {
         const std::size_t few = model->pools()[pool].vertices - 1;
-        EXPECT_FALSE(skin(*model, pool, pose, {cut(out.positions, few), out.normals, out.tangents}));
-        EXPECT_FALSE(skin(*model, pool, pose, {out.positions, cut(out.normals, few), out.tangents}));
-        EXPECT_FALSE(skin(*model, pool, pose, {out.positions, out.normals, cut(out.tangents, few)}));
+        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {cut(out.positions, few), out.normals, out.tangents}}));
+        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {out.positions, cut(out.normals, few), out.tangents}}));
+        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {out.positions, out.normals, cut(out.tangents, few)}}));
     }
     EXPECT_EQ(out.positions, std::vector<glm::vec3>(model->vertex_count(), kUntouched));
     EXPECT_EQ(out.normals, std::vector<glm::vec3>(model->vertex_count(), kUntouched));
@@ -558,7 +558,7 @@ TEST(Skin, LongerSpansKeepWhatIsBehind) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     Posed out(model->vertex_count() + 2);
-    ASSERT_TRUE(skin(*model, pose, out.all()));
+    ASSERT_TRUE(skin(pose, {.out = out.all()}));
     EXPECT_NE(out.positions[model->vertex_count() - 1], kUntouched);
     EXPECT_EQ(out.positions[model->vertex_count()], kUntouched);
     EXPECT_EQ(out.normals.back(), kUntouched);

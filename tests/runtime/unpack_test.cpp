@@ -30,9 +30,9 @@ struct Unpacking {
     std::string_view name;
     void operator()(const UnpackPlan& plan, float seconds, std::span<JointTransform> local) const {
         const Kernel before = bendy::kernel();
-        set_kernel(kernel);
+        EXPECT_TRUE(set_kernel(kernel));
         unpack(plan, seconds, local);
-        set_kernel(before);
+        EXPECT_TRUE(set_kernel(before));
     }
 };
 
@@ -177,9 +177,9 @@ TEST(Unpack, SamplePlaysCyclesOfItsModelAndOfAnother) {
     const Owned other(build_file(packed_spec(30, 50, 16)));
     Pose pose(*model);
     for (float seconds = 0.4f; seconds < 2.7f; seconds += 0.0631f) {
-        ASSERT_TRUE(sample(model->cycle("packed"), seconds, pose));
+        ASSERT_TRUE(sample(pose, model->cycle("packed"), seconds));
         const std::vector<JointTransform> own(pose.local().begin(), pose.local().end());
-        ASSERT_TRUE(sample(other->cycle("packed"), seconds, pose));
+        ASSERT_TRUE(sample(pose, other->cycle("packed"), seconds));
         const std::vector<JointTransform> of_other(pose.local().begin(), pose.local().end());
         EXPECT_LT(difference(own, of_other), 2e-6);
     }

@@ -81,8 +81,8 @@ inline void reach_with_all(const Model& model, Pose& pose) {
             options.iterations = 3;
             options.restarts = 1;
             const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
-            reach(&chain, target, pose, options);
-            reach(&chain, glm::vec3(0.1f, 1.2f, -0.3f), pose, options);
+            (void)reach(pose, &chain, target, options);
+            (void)reach(pose, &chain, glm::vec3(0.1f, 1.2f, -0.3f), options);
         }
     }
 }
@@ -93,7 +93,6 @@ inline void play_all(const Model& model) {
     Pose scratch(model);
     Binding binding(model, model);
     const Bounds bounds(model);
-    DualSkinning dual(model);
     std::vector<glm::vec3> positions(model.vertex_count());
     std::vector<glm::vec3> normals(model.vertex_count());
     std::vector<glm::vec4> tangents(model.vertex_count());
@@ -105,15 +104,15 @@ inline void play_all(const Model& model) {
         for (const double step : {0.0, 0.03, 0.4, -7.0, 1e30}) {
             fade.advance(step);
             static_cast<void>(path.over(cycle, fade.playing().back().walk));
-            sample(fade, pose, scratch);
+            (void)sample(pose, fade, scratch);
             path.take_out(pose);
-            sample(binding, &cycle, static_cast<float>(step), scratch);
-            EXPECT_TRUE(dual.skin(pose, {positions, normals, tangents}));
+            (void)sample(scratch, binding, &cycle, static_cast<float>(step));
+            EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {positions, normals, tangents}}));
             static_cast<void>(bounds.of(pose));
-            if (!model.joints().empty()) socket_matrix({last}, pose);
+            if (!model.joints().empty()) (void)socket_matrix(pose, {last});
         }
     }
-    EXPECT_TRUE(dual.skin(pose, {positions, normals, tangents}));
+    EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {positions, normals, tangents}}));
     EXPECT_EQ(binding.joints().size(), model.joints().size());
 }
 
@@ -125,16 +124,16 @@ inline void pose_all(const Model& model) {
     std::vector<glm::vec3> normals(model.vertex_count());
     std::vector<glm::vec4> tangents(model.vertex_count());
     const Vertices vertices{positions, normals, tangents};
-    EXPECT_TRUE(skin(model, pose, vertices));
+    EXPECT_TRUE(skin(pose, {.out = vertices}));
     constrain(pose);
     reach_with_all(model, pose);
-    EXPECT_TRUE(skin(model, pose, vertices));
+    EXPECT_TRUE(skin(pose, {.out = vertices}));
     for (const Cycle& cycle : model.cycles()) {
         const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
         for (const float seconds : {cycle.start, middle, cycle.end, -1.0f, 1e30f, kInfinity, -kInfinity,
                                     std::numeric_limits<float>::quiet_NaN()}) {
-            sample(&cycle, seconds, pose);
-            EXPECT_TRUE(skin(model, pose, vertices));
+            (void)sample(pose, &cycle, seconds);
+            EXPECT_TRUE(skin(pose, {.out = vertices}));
         }
     }
 }

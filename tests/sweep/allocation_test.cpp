@@ -22,10 +22,10 @@ namespace {
 std::vector<glm::vec3> pose_once(const Model& model) {
     Pose pose(model);
     std::vector<glm::vec3> positions(model.vertex_count());
-    if (!model.cycles().empty()) sample(model.cycles().data(), model.cycles()[0].start + 0.2f, pose);
+    if (!model.cycles().empty()) (void)sample(pose, model.cycles().data(), model.cycles()[0].start + 0.2f);
     constrain(pose);
-    for (const Chain& chain : model.chains()) reach(&chain, glm::vec3(0.1f, 0.5f, 0.2f), pose);
-    skin(model, pose, {positions, {}, {}});
+    for (const Chain& chain : model.chains()) (void)reach(pose, &chain, glm::vec3(0.1f, 0.5f, 0.2f));
+    (void)skin(pose, {.out = {.positions = positions}});
     return positions;
 }
 

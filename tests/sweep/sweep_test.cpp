@@ -41,7 +41,7 @@ void play(const Model& model, std::size_t turn) {
     constexpr std::array kTimes{0.4f, 0.0f, 1.0f, -3.0f, 1e30f, std::numeric_limits<float>::quiet_NaN()};
     for (const Cycle& cycle : model.cycles()) {
         const float share = kTimes.at(turn % kTimes.size());
-        sample(&cycle, cycle.start + share * (cycle.end - cycle.start), pose);
+        (void)sample(pose, &cycle, cycle.start + share * (cycle.end - cycle.start));
     }
     constrain(pose);
     ReachOptions options;
@@ -49,10 +49,10 @@ void play(const Model& model, std::size_t turn) {
     options.iterations = 2;
     options.restarts = 1;
     const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
-    for (const Chain& chain : model.chains()) reach(&chain, target, pose, options);
-    EXPECT_TRUE(skin(model, pose, vertices));
+    for (const Chain& chain : model.chains()) (void)reach(pose, &chain, target, options);
+    EXPECT_TRUE(skin(pose, {.out = vertices}));
     lod.set_share(static_cast<float>(turn % 5) * 0.25f);
-    EXPECT_TRUE(skin(model, pose, lod, vertices));
+    EXPECT_TRUE(skin(pose, {.lod = &lod, .out = vertices}));
     for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) {
         const auto weights =
             pose.target_weights().subspan(model.first_target(pool), model.pools()[pool].targets.size());

@@ -44,8 +44,8 @@ Numbers pose_all(const Model& model) {
     std::vector<glm::vec3> normals(model.vertex_count());
     std::vector<glm::vec4> tangents(model.vertex_count());
     for (int frame = 0; frame < 120; ++frame) {
-        sample(model.cycle("run"), 0.45f + 0.005f * static_cast<float>(frame), pose);
-        skin(model, pose, {positions, normals, tangents});
+        EXPECT_TRUE(sample(pose, model.cycle("run"), 0.45f + 0.005f * static_cast<float>(frame)));
+        EXPECT_TRUE(skin(pose, {.out = {positions, normals, tangents}}));
         for (std::size_t v = 0; v < positions.size(); ++v) {
             for (int c = 0; c < 3; ++c) numbers.insert(numbers.end(), {positions[v][c], normals[v][c], tangents[v][c]});
         }
@@ -108,12 +108,12 @@ TEST(Threads, ChooseKernelsTogether) {
             all_good = !kernel_name(kernel()).empty() && all_good;
             Pose pose(*model);  // others change the kernel in the middle of it
             std::vector<glm::vec3> positions(model->vertex_count());
-            sample(model->cycle("run"), 0.6f, pose);
-            all_good = skin(*model, pose, {positions, {}, {}}) && all_good;
+            EXPECT_TRUE(sample(pose, model->cycle("run"), 0.6f));
+            all_good = skin(pose, {.out = {.positions = positions}}) && all_good;
         }
         is_good.at(number) = all_good;
     });
-    set_kernel(kernels().front());
+    EXPECT_TRUE(set_kernel(kernels().front()));
     for (const bool one : is_good) EXPECT_TRUE(one);
 }
 
@@ -136,16 +136,17 @@ Numbers do_the_rest(const Model& model) {
     Lod lod(model);
     std::vector<glm::vec3> positions(model.vertex_count());
     for (unsigned solver = 0; solver < kSolvers; ++solver) {
-        sample(model.cycles().data(), 0.7f, pose);
-        sample(model.cycles().data(), 0.9f, other);
-        blend(pose, other, 0.25f);
+        EXPECT_TRUE(sample(pose, model.cycles().data(), 0.7f));
+        EXPECT_TRUE(sample(other, model.cycles().data(), 0.9f));
+        EXPECT_TRUE(blend(pose, other, 0.25f));
         constrain(pose);
         ReachOptions options;
         options.solver = static_cast<Solver>(solver);
-        for (const Chain& chain : model.chains()) reach(&chain, glm::vec3(0.1f, 1.2f, -0.3f), pose, options);
+        for (const Chain& chain : model.chains())
+            EXPECT_TRUE(reach(pose, &chain, glm::vec3(0.1f, 1.2f, -0.3f), options));
         reach_all(pose);
         lod.set_share(static_cast<float>(solver) * 0.2f);
-        skin(model, pose, lod, {positions, {}, {}});
+        EXPECT_TRUE(skin(pose, {.lod = &lod, .out = {.positions = positions}}));
         for (const glm::vec3& position : positions) numbers.insert(numbers.end(), {position.x, position.y, position.z});
     }
     return numbers;
@@ -166,7 +167,7 @@ TEST(Threads, PlayPackedCyclesTogether) {
     run_together([&](std::size_t number) {
         Pose pose(*model);
         for (int frame = 0; frame < 60; ++frame) {
-            sample(model->cycles().data(), 0.4f + 0.031f * static_cast<float>(frame * 7 % 60), pose);
+            EXPECT_TRUE(sample(pose, model->cycles().data(), 0.4f + 0.031f * static_cast<float>(frame * 7 % 60)));
             for (const JointTransform& joint : pose.local()) found[number].push_back(joint.rotation.x);
         }
     });
@@ -190,7 +191,7 @@ TEST(Threads, PlayACrowdTogether) {
     }
     run_together([&](std::size_t worker) {
         constexpr std::size_t kEach = kMembers / kThreads;
-        crowd.play(std::span(members).subspan(worker * kEach, kEach), worker);
+        EXPECT_TRUE(crowd.play(std::span(members).subspan(worker * kEach, kEach), worker));
     });
     for (std::size_t k = 2; k < kMembers; ++k)
         EXPECT_EQ(std::memcmp(&positions[k * floats], &positions[k % 2 * floats], floats * sizeof(float)), 0) << k;

@@ -24,7 +24,7 @@ protected:
             ASSERT_LE(demo.violation(), kLegal);
         }
     }
-    [[nodiscard]] float distance() const { return glm::length(demo.tip() - demo.state().target); }
+    [[nodiscard]] float distance() { return glm::length(demo.tip() - demo.state().target); }
 
     test::ExampleModel model{test::example("tentacle.glb")};
     Demo demo{*model};

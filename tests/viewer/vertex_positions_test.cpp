@@ -38,7 +38,7 @@ protected:
     /// The runtime's vertices, projected in double precision.
     static std::vector<Projected> project(const Model& model, Pose& pose, const Camera& camera) {
         std::vector<glm::vec3> positions(model.vertex_count());
-        EXPECT_TRUE(skin(model, pose, {positions, {}, {}}));
+        EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
         const glm::dmat4 matrix(camera.view_projection());
         std::vector<Projected> out;
         for (const glm::vec3& p : positions) {
@@ -151,7 +151,9 @@ protected:
 
     static void check(const Model& model, const Cycle* cycle, float share) {
         Pose pose(model);
-        if (cycle != nullptr) sample(cycle, cycle->start + share * (cycle->end - cycle->start), pose);
+        if (cycle != nullptr) {
+            EXPECT_TRUE(sample(pose, cycle, cycle->start + share * (cycle->end - cycle->start)));
+        }
         const Box box = bounding_box(model, cycle);
         Renderer renderer(model, box, {}, [](const std::string& what) { ADD_FAILURE() << what; });
         for (const CameraOptions& options : {CameraOptions{0.6f, 0.2f, 1.2f}, CameraOptions{-2.2f, -0.5f, 1.2f}}) {

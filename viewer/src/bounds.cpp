@@ -72,15 +72,16 @@ Box bounding_box(const Model& model, const Cycle* cycle, const std::function<voi
     for (const glm::vec3& other : others) points.add(other);
     for (int k = 0; k < (cycle == nullptr ? 1 : kTimes); ++k) {
         if (cycle != nullptr)
-            sample(cycle, cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1), pose);
+            (void)sample(pose, cycle,
+                         cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1));
         if (adjust) adjust(pose);
         if (drawn.empty()) {
-            local_to_model(pose);
+            const auto matrices = pose.model_space();
             for (std::uint32_t joint = 0; joint < is_control.size(); ++joint) {
-                if (!is_control[joint]) points.add(glm::vec3(pose.model_space()[joint][3]));
+                if (!is_control[joint]) points.add(glm::vec3(matrices[joint][3]));
             }
         } else {
-            skin(model, pose, {positions, {}, {}});
+            (void)skin(pose, {.out = {.positions = positions}});
             for (const std::uint64_t v : drawn) points.add(positions[v]);
         }
     }

@@ -92,7 +92,6 @@ Demo::Demo(const Model& model)
       pose_(model),
       before_(model),
       other_way_(model) {
-    local_to_model(pose_);
     start_ = glm::vec3(pose_.model_space()[chain_->start][3]);
     reach_ = 0.0f;
     glm::vec3 last = start_;
@@ -112,7 +111,7 @@ Demo::Demo(const Model& model)
     step(0.0);
 }
 
-glm::vec3 Demo::tip() const {
+glm::vec3 Demo::tip() {
     return tip_of(*chain_, pose_);
 }
 
@@ -325,7 +324,8 @@ void Demo::pull() {
     pull_time_ -= pulls * kPullEvery;
     if (pulls == kMostPulls) pull_time_ = 0.0;
     for (int k = 0; k < pulls; ++k) {
-        const float distance = reach(chain_, state_.target, pose_, options).distance;
+        const auto reached = reach(pose_, chain_, state_.target, options);
+        const float distance = reached ? reached->distance : 0.0f;
         constexpr float kProgress = 2e-4f;  // of the chain's length
         still_ = last_distance_ - distance > kProgress * reach_ ? 0 : still_ + 1;
         last_distance_ = distance;
@@ -342,7 +342,8 @@ void Demo::look_for_another_way(float distance) {
     other_way_ = pose_;
     ReachOptions options;
     options.solver = Solver::least_squares;
-    if (reach(chain_, state_.target, other_way_, options).distance > kBetter * distance) return;
+    const auto reached = reach(other_way_, chain_, state_.target, options);
+    if (reached && reached->distance > kBetter * distance) return;
     before_ = pose_;
     since_other_way_ = 0.0;
 }
@@ -357,7 +358,7 @@ void Demo::step(double seconds) {
         if (since_other_way_ < kOtherWay) {
             const double share = since_other_way_ / kOtherWay;
             pose_ = before_;
-            blend(pose_, other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)));
+            (void)blend(pose_, other_way_, static_cast<float>(share * share * (3.0 - 2.0 * share)));
         } else {
             pull_time_ += seconds;
             pull();
@@ -369,12 +370,11 @@ void Demo::step(double seconds) {
             if (!state_.paused) state_.time += seconds;
             const double length = std::max(static_cast<double>(cycle_->end) - static_cast<double>(cycle_->start), 1e-3);
             state_.time = std::fmod(state_.time, length);
-            sample(cycle_, cycle_->start + static_cast<float>(state_.time), pose_);
+            (void)sample(pose_, cycle_, cycle_->start + static_cast<float>(state_.time));
         }
-        if (since_mode_ < kEase) blend(pose_, before_, static_cast<float>(1.0 - since_mode_ / kEase));
+        if (since_mode_ < kEase) (void)blend(pose_, before_, static_cast<float>(1.0 - since_mode_ / kEase));
     }
     hold_limits();
-    local_to_model(pose_);
 }
 
 }  // namespace bendy::viewer

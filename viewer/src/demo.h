@@ -69,7 +69,7 @@ public:
     [[nodiscard]] const Chain& chain() const { return *chain_; }
     /// The chain's joints, from its start to the effector.
     [[nodiscard]] const std::vector<std::uint32_t>& links() const { return links_; }
-    [[nodiscard]] glm::vec3 tip() const;
+    [[nodiscard]] glm::vec3 tip();
     /// How far the worst of all joints is outside its limits, radians; while the target pulls, the chain's joints have
     /// those that the file gives for IK.
     [[nodiscard]] double violation() const;

@@ -20,7 +20,7 @@ constexpr glm::vec4 kIdleColour{0.6f, 0.25f, 0.22f, 1.0f};
 constexpr glm::vec3 kMarkColour{1.0f, 0.72f, 0.1f};
 constexpr glm::vec4 kPointerColour{1.0f, 0.95f, 0.6f, 1.0f};
 
-glm::vec3 place(const Pose& pose, std::uint32_t joint) {
+glm::vec3 place(Pose& pose, std::uint32_t joint) {
     return {pose.model_space()[joint][3]};
 }
 
@@ -121,7 +121,6 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     std::vector<bool> is_bone = find_bones(model);
     const std::vector<bool> is_control = find_controls(model);
     Pose rest(model);
-    local_to_model(rest);
     constexpr float kDefaultLength = 0.06f;  // of the character's size
     lengths_.assign(is_bone.size(), 0.0f);
     std::vector<std::uint32_t> child(is_bone.size(), kNone);  // at the end of a joint's longest bone
@@ -157,7 +156,7 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     }
 }
 
-void Overlay::add_bones(const Pose& pose, OverlayList& list) const {
+void Overlay::add_bones(Pose& pose, OverlayList& list) const {
     constexpr float kWaist = 0.15f;
     constexpr float kWidth = 0.09f;
     const float widest = 0.025f * size_;
@@ -170,12 +169,12 @@ void Overlay::add_bones(const Pose& pose, OverlayList& list) const {
         add_diamond(place(pose, joint), std::min(0.06f * lengths_[joint], 0.008f * size_), kEndColour, list);
 }
 
-void Overlay::add_axes(const Pose& pose, OverlayList& list) const {
+void Overlay::add_axes(Pose& pose, OverlayList& list) const {
     for (const std::uint32_t joint : ends_)
         add_axes_of(pose, joint, std::min(0.35f * lengths_[joint], 0.06f * size_), 1.5f, list);
 }
 
-void Overlay::add_axes_of(const Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list) {
+void Overlay::add_axes_of(Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list) {
     const glm::mat4& matrix = pose.model_space()[joint];
     const glm::vec3 origin(matrix[3]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -187,7 +186,7 @@ void Overlay::add_axes_of(const Pose& pose, std::uint32_t joint, float length, f
     }
 }
 
-void Overlay::add_mark(const Pose& pose, std::uint32_t joint, OverlayList& list) const {
+void Overlay::add_mark(Pose& pose, std::uint32_t joint, OverlayList& list) const {
     const glm::vec3 here = place(pose, joint);
     for (const Bone& bone : bones_) {
         if (bone.from != joint) continue;
@@ -198,7 +197,7 @@ void Overlay::add_mark(const Pose& pose, std::uint32_t joint, OverlayList& list)
     add_axes_of(pose, joint, 0.1f * size_, 2.5f, list);
 }
 
-void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
+void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawing, Pose& pose,
                         OverlayList& list) const {
     const Joint& joint = model_->joints()[drawing.joint];
     // The limit stands still in the parent's space: rest * C. Scales are left out, but not mirrorings.
@@ -243,7 +242,7 @@ void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawin
     }
 }
 
-void Overlay::add_constraints(const Pose& pose, OverlayList& list) const {
+void Overlay::add_constraints(Pose& pose, OverlayList& list) const {
     for (std::size_t k = 0; k < limits_.size(); ++k) add_limit(*constraints_[k], limits_[k], pose, list);
 }
 
@@ -261,12 +260,12 @@ void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list
     }
 }
 
-glm::vec3 tip_of(const Chain& chain, const Pose& pose) {
+glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     const auto& offset = chain.record.tip_offset;
     return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
-std::vector<TargetMark> target_marks(const Pose& pose, std::span<const Chain* const> without) {
+std::vector<TargetMark> target_marks(Pose& pose, std::span<const Chain* const> without) {
     std::vector<TargetMark> marks;
     for (const Chain& chain : pose.model().chains()) {
         const bool is_followed = chain.target != kNone && chain.record.influence > 0.0f;

@@ -46,16 +46,15 @@ public:
     Overlay(const Model& model, float size);
 
     /// Each adds to the list; the pose must be up to date.
-    void add_bones(const Pose& pose, OverlayList& list) const;
-    void add_axes(const Pose& pose, OverlayList& list) const;
-    void add_constraints(const Pose& pose, OverlayList& list) const;
+    void add_bones(Pose& pose, OverlayList& list) const;
+    void add_axes(Pose& pose, OverlayList& list) const;
+    void add_constraints(Pose& pose, OverlayList& list) const;
     void add_targets(std::span<const TargetMark> targets, OverlayList& list) const;
-    void add_mark(const Pose& pose, std::uint32_t joint, OverlayList& list) const;
+    void add_mark(Pose& pose, std::uint32_t joint, OverlayList& list) const;
 
 private:
-    static void add_axes_of(const Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list);
-    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, const Pose& pose,
-                   OverlayList& list) const;
+    static void add_axes_of(Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list);
+    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, Pose& pose, OverlayList& list) const;
 
     struct Bone {
         std::uint32_t from, to;
@@ -71,9 +70,9 @@ private:
 
 /// Where the chains' target joints are in a pose that is up to date; chains without one, that are off, or that stand in
 /// `without`, are left out.
-std::vector<TargetMark> target_marks(const Pose& pose, std::span<const Chain* const> without = {});
+std::vector<TargetMark> target_marks(Pose& pose, std::span<const Chain* const> without = {});
 
 /// Where a chain's tip is.
-glm::vec3 tip_of(const Chain& chain, const Pose& pose);
+glm::vec3 tip_of(const Chain& chain, Pose& pose);
 
 }  // namespace bendy::viewer

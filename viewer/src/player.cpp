@@ -34,7 +34,7 @@ double Player::length() const {
 
 void Player::sample_at_phase(std::uint32_t number, Pose& pose) const {
     const Cycle& played = model_->cycles()[number];
-    sample(&played, played.start + phase * (played.end - played.start), pose);
+    (void)sample(pose, &played, played.start + phase * (played.end - played.start));
 }
 
 void Player::step(double seconds) {
@@ -51,7 +51,7 @@ void Player::update() {
         sample_at_phase(cycle, pose_);
         if (other < model_->cycles().size()) {
             sample_at_phase(other, mixed_in_);
-            blend(pose_, mixed_in_, share);
+            (void)blend(pose_, mixed_in_, share);
         }
     } else {
         pose_.set_rest();
@@ -61,9 +61,8 @@ void Player::update() {
     options.carry_target = true;
     for (const std::uint32_t number : model_->chain_order()) {
         if (number < chains.size() && chains[number].is_on)
-            reach(&model_->chains()[number], chains[number].target, pose_, options);
+            (void)reach(pose_, &model_->chains()[number], chains[number].target, options);
     }
-    local_to_model(pose_);
 }
 
 }  // namespace bendy::viewer

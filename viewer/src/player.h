@@ -37,7 +37,6 @@ public:
     /// Seconds from one start to the next, of what is played.
     [[nodiscard]] double length() const;
     [[nodiscard]] Pose& pose() { return pose_; }
-    [[nodiscard]] const Pose& pose() const { return pose_; }
 
 private:
     void sample_at_phase(std::uint32_t number, Pose& pose) const;

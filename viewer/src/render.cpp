@@ -40,7 +40,7 @@ struct PictureMaker::Parts {
         if (model.joints().empty()) warn("there is nothing to draw: no surface and no joints");
     }
 
-    [[nodiscard]] std::vector<TargetMark> marks() const {
+    [[nodiscard]] std::vector<TargetMark> marks() {
         std::vector<TargetMark> marks;
         std::vector<const Chain*> shown;
         for (const DrawnTarget& target : options.targets) {
@@ -77,9 +77,8 @@ const std::string& PictureMaker::context() const {
 
 Picture PictureMaker::draw(float time) {
     Parts& p = *parts_;
-    sample(p.options.cycle, time, p.pose);  // null: the rest pose
+    (void)sample(p.pose, p.options.cycle, time);  // null: the rest pose
     if (p.options.adjust) p.options.adjust(p.pose);
-    local_to_model(p.pose);
     p.frame.bind();
     const std::vector<TargetMark> marks = p.marks();
     DrawOptions shown = p.options.draw;

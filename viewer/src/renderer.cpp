@@ -68,7 +68,7 @@ void set_vector(GLint place, const glm::vec3& v) {
 std::vector<glm::vec3> draw_centres(const Model& model) {
     std::vector<glm::vec3> positions(model.vertex_count());
     Pose pose(model);
-    skin(model, pose, {positions, {}, {}});
+    (void)skin(pose, {.out = {.positions = positions}});
     std::vector<glm::vec3> centres;
     for (const Draw& draw : model.draws()) {
         glm::dvec3 sum(0.0);
@@ -288,7 +288,7 @@ void Renderer::draw_list(const std::vector<OverlayVertex>& list) const {
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(list.size()));
 }
 
-void Renderer::draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
+void Renderer::draw_overlay(Pose& pose, const Camera& camera, const DrawOptions& options,
                             std::span<const TargetMark> targets, const glm::vec2& size) {
     list_.clear();
     if (options.bones) overlay_.add_bones(pose, list_);

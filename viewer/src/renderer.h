@@ -39,8 +39,8 @@ private:
     void draw_range(const Draw& draw) const;
     void load_textures(const Warn& warn);
     void set_material(const Draw& draw) const;
-    void draw_overlay(const Pose& pose, const Camera& camera, const DrawOptions& options,
-                      std::span<const TargetMark> targets, const glm::vec2& size);
+    void draw_overlay(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
+                      const glm::vec2& size);
     void draw_list(const std::vector<OverlayVertex>& list) const;
     void set_skin(const Program& program, const Camera& camera) const;
 

@@ -39,7 +39,7 @@ void fill_geometry(const Pool& pool, std::span<GpuVertex> out) {
     std::vector<glm::vec3> positions(pool.vertices);
     std::vector<glm::vec3> normals(pool.vertices);
     std::vector<glm::vec4> tangents(pool.vertices);
-    inbetween(pool, no_weights(pool), {positions, normals, tangents});
+    (void)inbetween(pool, no_weights(pool), {positions, normals, tangents});
     for (std::size_t v = 0; v < out.size(); ++v) {
         out[v].position = positions[v];
         out[v].normal = normals[v];
@@ -200,7 +200,6 @@ SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
 }
 
 void SceneBuffers::set_pose(Pose& pose) {
-    if (pose.is_stale()) local_to_model(pose);
     put_rows(glm::mat4(1.0f), rows_.data());
     const auto joints = pose.model_space();
     for (std::size_t joint = 0; joint < joints.size(); ++joint) put_rows(joints[joint], &rows_[3 * (1 + joint)]);

@@ -51,9 +51,10 @@ void constrain(Pose& pose) {
     const auto constraints = model.constraints();
     if (constraints.empty()) return;
     const std::span<JointTransform> local = pose.change_local();
+    const std::span<const Joint> joints = model.joints();
     for (const Constraint& constraint : constraints) {
         if (model.constraint(constraint.joint) != &constraint) continue;
-        const JointTransform& rest = model.joints()[constraint.joint].rest;
+        const JointTransform& rest = joints[constraint.joint].rest;
         JointTransform& joint = local[constraint.joint];
         const glm::dquat R = to_limit_space(constraint, rest.rotation, joint.rotation);
         const glm::dquat legal = clamp_rotation(constraint, R);

@@ -6,14 +6,21 @@
 #include "ik_quick.h"
 #include "math/rigid_part.h"
 #include "math/rotation.h"
+#include "pose/pose_state.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace bendy {
+
+namespace {
 
 /// What belongs to a reach beside the problem: how to come from the model to the problem and back.
 class Reach {
@@ -23,21 +30,14 @@ public:
           target_(target),
           pose_(pose),
           model_(pose.model()),
+          joints_(model_.joints()),
+          local_(std::as_const(pose).local()),
           options_(options),
-          links_(std::span(pose.ik_links_).first(chain.links)) {}
+          links_(std::span(PoseState::of(pose).ik_links).first(chain.links)) {}
 
-    static glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
-        const auto joints = pose.model().joints();
-        glm::dmat4 matrix(1.0);
-        for (; joint != kNone; joint = joints[joint].parent) {
-            if (!pose.is_stale()) return pose.exact_model_space(joint) * matrix;
-            matrix = to_matrix(pose.local()[joint], joints[joint].shear) * matrix;
-        }
-        return matrix;
-    }
-
-    ReachResult run() {
-        if (!gather()) return {};
+    /// Nothing, and the pose as it was, if there is something that is not a number.
+    std::optional<ReachResult> run() {
+        if (!gather()) return std::nullopt;
         const bool is_aim = solver() == Solver::aim;
         ReachResult result;
         result.iterations = solve();
@@ -72,8 +72,8 @@ private:
     /// Fills links and problem from the pose. False if there is something that is not a number.
     bool gather() {
         std::uint32_t joint = chain_.effector;
-        for (std::size_t i = links_.size(); i-- > 0; joint = model_.joints()[joint].parent) links_[i].joint = joint;
-        base_ = bendy::joint_to_model(pose_, model_.joints()[chain_.start].parent);
+        for (std::size_t i = links_.size(); i-- > 0; joint = joints_[joint].parent) links_[i].joint = joint;
+        base_ = joint_to_model(pose_, joints_[chain_.start].parent);
         inverse_base_ = glm::affineInverse(base_);
         gather_links();
         gather_weights();
@@ -81,15 +81,14 @@ private:
     }
 
     void gather_links() {
-        const auto local = std::as_const(pose_).local();
         double scale = 1.0;   // of the links so far
         double length = 0.0;  // in the base's space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
-            const JointTransform& transform = local[link.joint];
-            const Joint& joint = model_.joints()[link.joint];
+            const JointTransform& transform = local_[link.joint];
+            const Joint& joint = joints_[link.joint];
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
             link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
             length += link.bone_length;
@@ -111,14 +110,13 @@ private:
     }
 
     void find_longest() {
-        const auto local = std::as_const(pose_).local();
         double scale = 1.0;  // of the links so far, along their longest axes
         for (std::size_t i = 0; i < links_.size(); ++i) {
-            const glm::vec3 axes = glm::abs(local[links_[i].joint].scale);
-            const glm::vec3 shear = glm::abs(model_.joints()[links_[i].joint].shear);
+            const glm::vec3 axes = glm::abs(local_[links_[i].joint].scale);
+            const glm::vec3 shear = glm::abs(joints_[links_[i].joint].shear);
             scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
             longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
         }
     }
@@ -141,7 +139,7 @@ private:
         const ChainRecord& record = chain_.record;
         problem_.links = links_;
         problem_.options = &options_;
-        problem_.origin = glm::dvec3(pose_.local()[chain_.start].translation) / problem_.scale;
+        problem_.origin = glm::dvec3(local_[chain_.start].translation) / problem_.scale;
         problem_.target = to_base(target_.position);
         problem_.tip_rotation =
             unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
@@ -189,7 +187,7 @@ private:
         if (options_.pole) {
             problem_.pole = to_base(*options_.pole);
         } else if (chain_.pole != kNone) {
-            problem_.pole = to_base(glm::dvec3(bendy::joint_to_model(pose_, chain_.pole)[3]));
+            problem_.pole = to_base(glm::dvec3(joint_to_model(pose_, chain_.pole)[3]));
         } else if (direction != glm::dvec3(0.0)) {
             constexpr double kFar = 1e3;  // chain lengths: a direction is a point far away
             problem_.pole = problem_.origin + kFar * direction;
@@ -284,8 +282,7 @@ private:
             IkLink& link = links_[i];
             matrix = matrix * link_to_parent(link);
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset =
-                is_last ? tip_offset() : glm::dvec3(std::as_const(pose_).local()[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
             const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(offset, 1.0)) / problem_.scale;
             link.bone = glm::conjugate(link.global) * (end - position);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
@@ -297,9 +294,9 @@ private:
     }
 
     [[nodiscard]] glm::dmat4 link_to_parent(const IkLink& link) const {
-        JointTransform transform = std::as_const(pose_).local()[link.joint];
+        JointTransform transform = local_[link.joint];
         transform.rotation = glm::quat(link.local);
-        return to_matrix(transform, model_.joints()[link.joint].shear);
+        return to_matrix(transform, joints_[link.joint].shear);
     }
 
     [[nodiscard]] glm::dvec3 true_tip() const {
@@ -371,6 +368,8 @@ private:
     const ReachTarget& target_;
     Pose& pose_;
     const Model& model_;
+    std::span<const Joint> joints_;
+    std::span<const JointTransform> local_;
     const ReachOptions& options_;
     std::span<IkLink> links_;
     IkProblem problem_;
@@ -383,10 +382,9 @@ private:
     bool is_uneven_ = false;  ///< a link before the last scales its axes differently
 };
 
-namespace {
-
 bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
-    while (joint != kNone && joint != ancestor) joint = model.joints()[joint].parent;
+    const auto parents = model.parents();
+    while (joint != kNone && joint != ancestor) joint = parents[joint];
     return joint != kNone;
 }
 
@@ -407,21 +405,31 @@ void carry_target(const Chain& chain, Pose& pose) {
 
 }  // namespace
 
-ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
-    const bool is_number = std::isfinite(target.position.x + target.position.y + target.position.z);
-    if (chain == nullptr || !is_number) return {};
-    const auto quick = reach_quickly(*chain, target, pose, options);
-    const ReachResult result = quick ? *quick : reach_at_length(*chain, target, pose, options);
-    if (options.carry_target && result.status != ReachStatus::refused) carry_target(*chain, pose);
-    return result;
+Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
+                                     const ReachOptions& options) {
+    if (chain == nullptr) return CallError::missing;
+    if (!std::isfinite(target.position.x + target.position.y + target.position.z)) return CallError::not_finite;
+    std::optional<ReachResult> result = reach_quickly(*chain, target, pose, options);
+    if (!result) result = reach_at_length(*chain, target, pose, options);
+    if (!result) return CallError::not_finite;
+    if (options.carry_target) carry_target(*chain, pose);
+    return *result;
 }
 
-ReachResult reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options) {
+std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
+                                           const ReachOptions& options) {
     return Reach(chain, target, pose, options).run();
 }
 
 glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
-    return Reach::joint_to_model(pose, joint);
+    const PoseState& state = PoseState::of(pose);
+    const std::vector<Joint>& joints = state.data->joints;
+    glm::dmat4 matrix(1.0);
+    for (; joint != kNone; joint = joints[joint].parent) {
+        if (!state.is_stale) return state.exact_matrix(joint) * matrix;
+        matrix = to_matrix(state.local[joint], joints[joint].shear) * matrix;
+    }
+    return matrix;
 }
 
 void reach_all(Pose& pose) {
@@ -434,7 +442,7 @@ void reach_all(Pose& pose) {
         if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rigid_rotation(followed));
         ReachOptions options;
         options.influence = chain.record.influence;
-        reach(&chain, target, pose, options);
+        (void)reach(pose, &chain, target, options);
     }
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <bendy/runtime/ik.h>
-#include <bendy/runtime/ik_link.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+
+#include "pose/ik_link.h"
 
 #include <span>
 

@@ -17,7 +17,9 @@ std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& 
                                          const ReachOptions& options);
 
 /// What reach does with a chain that has no short way; a target of finite numbers.
-ReachResult reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options);
+/// Nothing, and the pose as it was, if a number of the pose, the chain or the target is not finite.
+std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
+                                           const ReachOptions& options);
 
 /// A joint's matrix, joint space to model space, from the local transforms alone where the pose has changed; kNone:
 /// one.

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <bendy/runtime/stretched_motion.h>
-
 #include "plan/skin_block.h"
+#include "plan/stretched_motion.h"
 
 #include <span>
 

@@ -61,11 +61,11 @@ Kernel kernel() {
     return chosen().load(std::memory_order_relaxed);
 }
 
-bool set_kernel(Kernel kernel) {
+Result<void, CallError> set_kernel(Kernel kernel) {
     const auto available = kernels();
-    if (std::find(available.begin(), available.end(), kernel) == available.end()) return false;
+    if (std::find(available.begin(), available.end(), kernel) == available.end()) return CallError::not_available;
     chosen().store(kernel, std::memory_order_relaxed);
-    return true;
+    return {};
 }
 
 }  // namespace bendy

@@ -55,7 +55,7 @@ std::vector<Paths> find_paths(const Cycle& cycle, std::size_t joints) {
 }  // namespace
 
 Binding::Binding(const Model& animated, const Model& posed, const BindingOptions& options)
-    : animated_(&animated), posed_(&posed), sampled_(animated) {
+    : animated_(animated), posed_(posed), sampled_(animated) {
     match_joints();
     match_targets();
     const bool has_all = options.translations == BoundTranslations::all;
@@ -71,11 +71,11 @@ Binding::Binding(const Model& animated, const Model& posed, const BindingOptions
 
 void Binding::match_joints() {
     ByName numbers;
-    for (std::uint32_t joint = 0; joint < posed_->joints().size(); ++joint)
-        numbers.emplace(posed_->joints()[joint].name, joint);  // the first stays
-    std::vector<bool> is_taken(posed_->joints().size());
-    joints_.reserve(animated_->joints().size());
-    for (const Joint& joint : animated_->joints()) {
+    for (std::uint32_t joint = 0; joint < posed_.joints().size(); ++joint)
+        numbers.emplace(posed_.joints()[joint].name, joint);  // the first stays
+    std::vector<bool> is_taken(posed_.joints().size());
+    joints_.reserve(animated_.joints().size());
+    for (const Joint& joint : animated_.joints()) {
         std::uint32_t found = find(numbers, joint.name);
         if (found != kNone && is_taken[found]) found = kNone;
         if (found != kNone) is_taken[found] = true;
@@ -86,15 +86,15 @@ void Binding::match_joints() {
 void Binding::match_targets() {
     ByName anywhere;
     std::unordered_map<std::string_view, ByName> in_pool;
-    for (std::uint32_t pool = 0; pool < posed_->pools().size(); ++pool) {
-        std::uint32_t number = posed_->first_target(pool);
-        for (const TargetView& target : posed_->pools()[pool].targets) {
+    for (std::uint32_t pool = 0; pool < posed_.pools().size(); ++pool) {
+        std::uint32_t number = posed_.first_target(pool);
+        for (const TargetView& target : posed_.pools()[pool].targets) {
             anywhere.emplace(target.name, number);
-            in_pool[posed_->pools()[pool].name].emplace(target.name, number);
+            in_pool[posed_.pools()[pool].name].emplace(target.name, number);
             ++number;
         }
     }
-    for (const Pool& pool : animated_->pools()) {
+    for (const Pool& pool : animated_.pools()) {
         const auto same = in_pool.find(pool.name);
         for (const TargetView& target : pool.targets) {
             const std::uint32_t found = same == in_pool.end() ? kNone : find(same->second, target.name);
@@ -105,7 +105,7 @@ void Binding::match_targets() {
 
 /// The joints of the posed model whose translations are taken by root_only.
 std::vector<bool> Binding::find_roots(std::uint32_t root) const {
-    const auto parents = posed_->parents();
+    const auto parents = posed_.parents();
     std::vector<bool> is_root(parents.size());
     if (root < parents.size()) {
         for (; root != kNone; root = parents[root]) is_root[root] = true;
@@ -149,25 +149,27 @@ void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float r
         }
     };
     for (const TrackView& track : cycle.tracks) {
-        if (track.path != TrackPath::weights || track.target >= animated_->pools().size()) continue;
-        for (std::uint32_t k = 0; k < animated_->pools()[track.target].targets.size(); ++k)
-            bind_target(animated_->first_target(track.target) + k);
+        if (track.path != TrackPath::weights || track.target >= animated_.pools().size()) continue;
+        for (std::uint32_t k = 0; k < animated_.pools()[track.target].targets.size(); ++k)
+            bind_target(animated_.first_target(track.target) + k);
     }
     for (const PlayView& play : cycle.plays) {
-        const std::uint32_t frame_1 = animated_->first_target(play.pool) + animated_->pools()[play.pool].first_frame;
+        const std::uint32_t frame_1 = animated_.first_target(play.pool) + animated_.pools()[play.pool].first_frame;
         for (std::uint32_t k = std::max(play.first, 1u); k < play.first + play.frames; ++k)
             bind_target(frame_1 + k - 1);
     }
     cycles_.push_back(std::move(bound));
 }
 
-bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose) {
-    if (&pose.model() != binding.posed_) return false;
+Result<void, CallError> sample(Pose& pose, Binding& binding, const Cycle* cycle, float seconds) {
+    if (pose.model() != binding.posed_) return CallError::other_model;
     pose.set_rest();
-    const auto cycles = binding.animated_->cycles();
+    if (cycle == nullptr) return CallError::missing;
+    const auto cycles = binding.animated_.cycles();
     std::size_t number = 0;
     while (number < cycles.size() && &cycles[number] != cycle) ++number;
-    if (number == cycles.size() || !sample(cycle, seconds, binding.sampled_)) return false;
+    if (number == cycles.size()) return CallError::other_model;
+    if (const auto sampled = sample(binding.sampled_, cycle, seconds); !sampled) return sampled;
     const std::span<JointTransform> local = pose.change_local();
     for (const Binding::BoundJoint& joint : binding.cycles_[number].joints) {
         const JointTransform& from = binding.sampled_.local()[joint.from];
@@ -179,7 +181,7 @@ bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose) {
     const std::span<float> weights = pose.change_target_weights();
     for (const Binding::BoundTarget& target : binding.cycles_[number].targets)
         weights[target.to] = binding.sampled_.target_weights()[target.from];
-    return true;
+    return {};
 }
 
 }  // namespace bendy

@@ -1,7 +1,5 @@
 #include <bendy/runtime/bounds.h>
 
-#include <bendy/runtime/local_to_model.h>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -65,7 +63,7 @@ Box unite(const Box& a, const Box& b) {
 
 /// Goes over the vertices.
 struct Bounds::Builder {
-    explicit Builder(Bounds& made) : bounds(made), model(*made.model_), shifts(made.joints_.size()) {}
+    explicit Builder(Bounds& made) : bounds(made), model(made.model_), shifts(made.joints_.size()) {}
 
     void add_pool(std::uint32_t number) {
         const Pool& pool = model.pools()[number];
@@ -142,7 +140,7 @@ struct Bounds::Builder {
     std::vector<std::map<std::uint32_t, Box>> shifts;  // of each joint, by target
 };
 
-Bounds::Bounds(const Model& model) : model_(&model), joints_(model.joints().size() + 1) {
+Bounds::Bounds(const Model& model) : model_(model), joints_(model.joints().size() + 1) {
     Builder builder(*this);
     for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) builder.add_pool(pool);
     builder.finish();
@@ -161,16 +159,14 @@ Box Bounds::shifted(const JointBox& joint, std::span<const float> weights) const
 }
 
 Box Bounds::of(Pose& pose, std::uint32_t joint) const {
-    assert(&pose.model() == model_ && joint < model_->joints().size());
-    if (pose.is_stale()) local_to_model(pose);
+    assert(pose.model() == model_ && joint < model_.joints().size());
     return moved(shifted(joints_[joint], pose.target_weights()), glm::dmat4(pose.model_space()[joint]));
 }
 
 Box Bounds::of(Pose& pose) const {
-    assert(&pose.model() == model_);
-    if (pose.is_stale()) local_to_model(pose);
+    assert(pose.model() == model_);
     Box all = moved(shifted(joints_.back(), pose.target_weights()), glm::dmat4(1.0));
-    for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
+    for (std::uint32_t joint = 0; joint < model_.joints().size(); ++joint) {
         if (!joints_[joint].box.is_empty()) all = unite(all, of(pose, joint));
     }
     all = grown(all, slack_);

@@ -8,7 +8,7 @@
 
 namespace bendy {
 
-Lod::Lod(const Model& model) : model_(&model), pools_(model.pools().size()), place_(model.pools().size(), kNone) {
+Lod::Lod(const Model& model) : model_(model), pools_(model.pools().size()), place_(model.pools().size(), kNone) {
     if (const CollapseView* collapse = model.collapse()) {
         for (std::uint32_t place = 0; place < collapse->pools.size(); ++place) {
             place_[collapse->pools[place].pool] = place;
@@ -30,7 +30,7 @@ Lod::Lod(const Model& model) : model_(&model), pools_(model.pools().size()), pla
 
 /// What a pool's levels are made of. Only the triangles that are drawn are counted.
 void Lod::prepare(std::uint32_t pool) {
-    const Pool& source = model_->pools()[pool];
+    const Pool& source = model_.pools()[pool];
     PoolLevel& state = pools_[pool];
     state.vertices = source.vertices;
     if (source.indices) {
@@ -47,7 +47,7 @@ void Lod::prepare(std::uint32_t pool) {
     std::iota(state.now.begin(), state.now.begin() + state.collapse->base, 0u);
     state.counts.assign(std::size_t{source.vertices} - state.collapse->base + 1, 0);
     std::vector<std::uint32_t> corners;
-    const auto draws = model_->draws().subspan(first_draw_[pool], first_draw_[pool + 1] - first_draw_[pool]);
+    const auto draws = model_.draws().subspan(first_draw_[pool], first_draw_[pool + 1] - first_draw_[pool]);
     for (const Draw& draw : draws) {
         const auto part = std::span(state.all).subspan(draw.first, draw.count);
         if (draw.topology == Topology::triangles) corners.insert(corners.end(), part.begin(), part.end());
@@ -61,7 +61,7 @@ void Lod::prepare(std::uint32_t pool) {
 /// A level is a row of the file's table, or a number between two of them; 0 full detail. Past the table, down to base.
 std::uint32_t Lod::vertices_at(std::uint32_t pool, double level) const {
     const PoolCollapseView& collapse = *pools_[pool].collapse;
-    const CollapseView& table = *model_->collapse();
+    const CollapseView& table = *model_.collapse();
     const auto row = [&](std::uint32_t at) {
         if (at == 0) return collapse.vertices;
         return at <= table.levels ? table.alive(at - 1, place_[pool]) : collapse.base;
@@ -88,7 +88,7 @@ std::uint64_t Lod::triangles_at(double level) const {
 
 void Lod::set_share(float triangles) {
     double level = 0.0;
-    const CollapseView* collapse = model_->collapse();
+    const CollapseView* collapse = model_.collapse();
     if (collapse != nullptr && !std::isnan(triangles) && triangles < 1.0f) {
         // Fewer triangles as the level rises: the first level that is not above the wanted number.
         const double wanted = std::max(triangles, 0.0f) * static_cast<double>(all_triangles_);
@@ -123,6 +123,7 @@ void Lod::make_list(std::uint32_t pool) {
     PoolLevel& state = pools_[pool];
     const PoolCollapseView& collapse = *state.collapse;
     const std::uint32_t alive = state.vertices;
+    const std::span<const Draw> draws = model_.draws();
     for (std::uint32_t v = collapse.base; v < alive; ++v) state.now[v] = v;
     for (std::uint32_t v = alive; v < collapse.vertices; ++v)
         state.now[v] = state.now[state.targets[v - collapse.base]];
@@ -130,7 +131,7 @@ void Lod::make_list(std::uint32_t pool) {
     std::uint32_t* out = state.indices.data();
     const std::uint32_t* death = state.deaths.data();
     for (std::uint32_t k = first_draw_[pool]; k < first_draw_[pool + 1]; ++k) {
-        const Draw& source = model_->draws()[k];
+        const Draw& source = draws[k];
         Draw& draw = draws_[k];
         draw.first = static_cast<std::uint32_t>(out - state.indices.data());
         const std::uint32_t end = source.first + source.count;

@@ -3,12 +3,10 @@
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 
-#include "plan/pose_plan.h"
-#include "plan/skin_plan.h"
+#include "model_data.h"
 
 #include <algorithm>
 #include <functional>
-#include <mutex>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -68,9 +66,7 @@ Chain make_chain(const ChainView& view, std::uint32_t number, std::span<const st
     return chain;
 }
 
-}  // namespace
-
-void Model::build_rig(Data& data) {
+void build_rig(ModelData& data) {
     const SkeletonView& skeleton = data.object.skeleton;
     if (!skeleton.limits.empty()) data.obeyed.resize(data.joints.size());
     data.constraints.reserve(skeleton.limits.size());
@@ -113,7 +109,7 @@ void Model::build_rig(Data& data) {
     });
 }
 
-std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
+std::vector<RigidMovers> find_movers(const ObjectView& object) {
     std::vector<RigidMovers> movers(object.pools.size());
     for (std::size_t pool = 0; pool < movers.size(); ++pool) movers[pool].joint = object.pools[pool].joint;
     for (const PolygonView& range : object.skeleton.polygons) {
@@ -127,12 +123,14 @@ std::vector<Model::RigidMovers> Model::find_movers(const ObjectView& object) {
     return movers;
 }
 
-Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& options) {
+}  // namespace
+
+Result<Model> ModelData::read(MappedFile file, Bytes bytes, const OpenOptions& options) {
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) return tree.error();
     Faults faults;
     if (options.sums == Sums::checked) bendy::check_sums(*tree, faults);
-    std::unique_ptr<Data> data = std::make_unique<Data>();
+    std::unique_ptr<ModelData> data = std::make_unique<ModelData>();
     if (faults.empty()) {
         decode_leaves(*tree);
         data->document = read_document(*tree, faults);
@@ -166,37 +164,36 @@ Result<Model> Model::build(MappedFile file, Bytes bytes, const OpenOptions& opti
         data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(pool.targets.size()));
         data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(pool.palette.joints.size()));
     }
-    return Model(data.release());
-}
-
-void Model::DeleteData::operator()(const Data* data) const {
-    delete data;
+    return Model(std::move(data));
 }
 
 // Not std::call_once: where that is pthread_once, as on Windows, it waits for ever for one that ended by an exception.
-void Model::make_plans() const {
-    const std::scoped_lock lock(data_->making_plans);
-    if (data_->pose_plan) return;
+void ModelData::make_plans() const {
+    const std::scoped_lock lock(making_plans);
+    if (pose_plan) return;
     std::vector<SkinPlan> plans;
-    plans.reserve(pools().size());
-    for (const Pool& pool : pools()) plans.push_back(make_skin_plan(pool));
-    data_->pose_plan = std::make_unique<const PosePlan>(make_pose_plan(data_->object, data_->joints));
-    data_->plans = std::move(plans);
+    plans.reserve(object.pools.size());
+    for (const Pool& pool : object.pools) plans.push_back(make_skin_plan(pool));
+    pose_plan = std::make_unique<const PosePlan>(make_pose_plan(object, joints));
+    skin_plans = std::move(plans);
 }
 
-const SkinPlan& Model::plan(std::uint32_t pool) const {
-    return data_->plans[pool];
+std::size_t ModelData::number_of(const Cycle& cycle) const {
+    const auto& cycles = object.cycles;
+    const std::less<> is_before;
+    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
+    return static_cast<std::size_t>(&cycle - cycles.data());
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
     Result<MappedFile> file = MappedFile::open(path);
     if (!file) return file.error();
     const Bytes bytes = file->bytes();
-    return build(std::move(*file), bytes, options);
+    return ModelData::read(std::move(*file), bytes, options);
 }
 
 Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) {
-    return build({}, bytes, options);
+    return ModelData::read({}, bytes, options);
 }
 
 Result<void> Model::check_sums() const {
@@ -214,13 +211,6 @@ const Cycle* Model::cycle(std::string_view name) const {
     const auto found =
         std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
     return found == cycles.end() ? nullptr : &*found;
-}
-
-std::size_t Model::number_of(const Cycle& cycle) const {
-    const auto& cycles = data_->object.cycles;
-    const std::less<> is_before;
-    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
-    return static_cast<std::size_t>(&cycle - cycles.data());
 }
 
 const Chain* Model::chain(std::string_view name) const {
@@ -255,9 +245,92 @@ std::uint32_t Model::joint(std::string_view name) const {
     return found == joints.end() ? kNone : static_cast<std::uint32_t>(found - joints.begin());
 }
 
+std::string_view Model::name() const {
+    return data_->object.name;
+}
+
+std::span<const Joint> Model::joints() const {
+    return data_->joints;
+}
+
+std::span<const std::uint32_t> Model::parents() const {
+    return data_->parents;
+}
+
+bool Model::is_sheared() const {
+    return data_->is_sheared;
+}
+
+std::span<const Pool> Model::pools() const {
+    return data_->object.pools;
+}
+
+std::span<const Cycle> Model::cycles() const {
+    return data_->object.cycles;
+}
+
+std::span<const Material> Model::materials() const {
+    return data_->document.materials;
+}
+
+std::span<const Texture> Model::textures() const {
+    return data_->document.textures;
+}
+
+std::span<const Draw> Model::draws() const {
+    return data_->draws;
+}
+
+const CollapseView* Model::collapse() const {
+    return data_->object.collapse ? &*data_->object.collapse : nullptr;
+}
+
+std::span<const PolygonView> Model::polygons() const {
+    return data_->object.skeleton.polygons;
+}
+
+std::span<const Constraint> Model::constraints() const {
+    return data_->constraints;
+}
+
+std::span<const Chain> Model::chains() const {
+    return data_->chains;
+}
+
+std::span<const std::uint32_t> Model::chain_order() const {
+    return data_->chain_order;
+}
+
+std::uint32_t Model::longest_chain() const {
+    return data_->longest_chain;
+}
+
+std::uint64_t Model::vertex_count() const {
+    return data_->first_vertex.back();
+}
+
+std::uint64_t Model::first_vertex(std::uint32_t pool) const {
+    return data_->first_vertex[pool];
+}
+
+std::uint32_t Model::target_count() const {
+    return data_->first_target.back();
+}
+
+std::uint32_t Model::first_target(std::uint32_t pool) const {
+    return data_->first_target[pool];
+}
+
+std::uint32_t Model::largest_palette() const {
+    return data_->largest_palette;
+}
+
 std::uint32_t Model::rigid_mover(std::uint32_t pool, std::uint32_t vertex) const {
-    const RigidMovers& movers = data_->movers[pool];
-    return movers.per_vertex.empty() ? movers.joint : movers.per_vertex[vertex];
+    return data_->rigid_mover(pool, vertex);
+}
+
+bool Model::has_one_mover(std::uint32_t pool) const {
+    return data_->movers[pool].per_vertex.empty();
 }
 
 }  // namespace bendy

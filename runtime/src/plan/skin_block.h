@@ -36,6 +36,11 @@ struct SkinBlock {
     bool streams;  ///< the output is large: write past the caches where its alignment allows
 };
 
+/// A rigid motion as a unit dual quaternion; each part is x y z w.
+struct DualMotion {
+    float real[4], dual[4];
+};
+
 /// Vertices for skinning by dual quaternions: v -> scale * (blended motion of (blended stretch of v)).
 struct DualBlock {
     SkinBlock vertices;         ///< with bones and weights; `palette`: the stretches, null if nothing is stretched
@@ -55,7 +60,7 @@ SkinKernel skin_avx2;
 SkinKernel skin_neon;
 SkinKernel skin_wasm;
 
-/// The plain one is DualSkinning's own.
+/// The plain one is dual_plain.
 DualKernel dual_sse4;
 DualKernel dual_avx2;
 DualKernel dual_neon;

@@ -71,19 +71,22 @@ void Crossfade::find_shares() {
     }
 }
 
-bool sample(const Crossfade& crossfade, Pose& pose, Pose& scratch) {
-    if (&pose.model() != &scratch.model()) return false;
+Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scratch) {
+    if (pose.model() != scratch.model()) return CallError::other_model;
     const auto playing = crossfade.playing();
     if (playing.empty()) {
         pose.set_rest();
-        return false;
+        return CallError::missing;
     }
-    bool is_good = sample(playing[0].cycle, playing[0].playback.seconds(), pose);
+    Result<void, CallError> result = sample(pose, playing[0].cycle, playing[0].playback.seconds());
+    const auto note = [&](const Result<void, CallError>& next) {
+        if (result && !next) result = next;
+    };
     for (const Playing& next : playing.subspan(1)) {
-        is_good = sample(next.cycle, next.playback.seconds(), scratch) && is_good;
-        is_good = blend(pose, scratch, next.fade.weight()) && is_good;
+        note(sample(scratch, next.cycle, next.playback.seconds()));
+        note(blend(pose, scratch, next.fade.weight()));
     }
-    return is_good;
+    return result;
 }
 
 }  // namespace bendy

@@ -90,7 +90,7 @@ RootMotion repeat(const RootMotion& motion, std::uint64_t times) {
 }
 
 RootPath::RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes)
-    : model_(&model), axes_(axes), chosen_(axes.x ? 1.0 : 0.0, axes.y ? 1.0 : 0.0, axes.z ? 1.0 : 0.0) {
+    : model_(model), axes_(axes), chosen_(axes.x ? 1.0 : 0.0, axes.y ? 1.0 : 0.0, axes.z ? 1.0 : 0.0) {
     if (joint >= model.joints().size()) return;
     for (std::uint32_t at = joint; at != kNone; at = model.parents()[at]) path_.push_back(at);
     std::reverse(path_.begin(), path_.end());
@@ -115,8 +115,8 @@ RootMotion RootPath::at(const Cycle& cycle, double seconds) const {
     if (path_.empty() || std::isnan(seconds)) return {};
     glm::dmat4 root(1.0);
     for (const std::uint32_t joint : path_) {
-        const JointTransform local = sample_joint(*model_, cycle, joint, static_cast<float>(seconds));
-        root *= to_matrix(local, model_->joints()[joint].shear);
+        const JointTransform local = sample_joint(model_, cycle, joint, static_cast<float>(seconds));
+        root *= to_matrix(local, model_.joints()[joint].shear);
     }
     return motion_of(root);
 }
@@ -141,7 +141,7 @@ RootMotion RootPath::over(const Cycle& cycle, const Walk& walk) const {
 
 RootMotion RootPath::take_out(Pose& pose) const {
     if (path_.empty()) return {};
-    const auto joints = model_->joints();
+    const auto joints = model_.joints();
     glm::dmat4 above(1.0);
     for (std::size_t k = 0; k + 1 < path_.size(); ++k)
         above *= to_matrix(pose.local()[path_[k]], joints[path_[k]].shear);

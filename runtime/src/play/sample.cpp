@@ -1,7 +1,7 @@
 #include <bendy/runtime/sample.h>
 
 #include "kernels/pose_kernels.h"
-#include "plan/pose_plan.h"
+#include "pose/pose_state.h"
 #include "unpack.h"
 
 #include <algorithm>
@@ -191,13 +191,15 @@ FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds) {
     return {play.first + left, play.first + right, static_cast<float>(frame - whole)};
 }
 
+namespace {
+
 /// The work on a pose.
 class Sampling {
 public:
     Sampling(const Cycle& cycle, float seconds, Pose& pose)
         : cycle_(cycle),
           seconds_(seconds),
-          model_(pose.model()),
+          model_(*PoseState::of(pose).data),
           local_(pose.change_local()),
           weights_(pose.change_target_weights()) {}
 
@@ -205,12 +207,12 @@ public:
         for (const PlayView& play : cycle_.plays) sample_frames(play);
         const PoseKernels* const kernels = pose_kernels();
         const std::size_t number = model_.number_of(cycle_);
-        if (number >= model_.cycles().size()) {  // of another model
+        if (number >= model_.object.cycles.size()) {  // of another model
             sample_tracks();
             if (cycle_.packed) unpack_plain({&*cycle_.packed, {}, {}, {}, {}}, seconds_, local_);
             return;
         }
-        const SamplePlan& plan = model_.pose_plan().cycles[number];
+        const SamplePlan& plan = model_.pose_plan->cycles[number];
         if (kernels == nullptr) {
             sample_tracks();
         } else {
@@ -221,13 +223,13 @@ public:
 
 private:
     void sample_frames(const PlayView& play) const {
-        if (play.pool >= model_.pools().size()) return;  // a cycle of another model
-        const Pool& pool = model_.pools()[play.pool];
+        if (play.pool >= model_.object.pools.size()) return;  // a cycle of another model
+        const Pool& pool = model_.object.pools[play.pool];
         if (play.first + play.frames > pool.frames()) return;
         const FrameMix mix = mix_frames(play, cycle_, seconds_);
         const auto add = [&](std::uint32_t frame, float weight) {
             if (frame == 0) return;  // the pool's own streams have what the others leave
-            weights_[model_.first_target(play.pool) + pool.first_frame + frame - 1] += weight;
+            weights_[model_.first_target[play.pool] + pool.first_frame + frame - 1] += weight;
         };
         add(mix.left, 1.0f - mix.fraction);
         add(mix.right, mix.fraction);
@@ -265,9 +267,9 @@ private:
 
     void sample_one(const TrackView& track, const Interval& at) const {
         if (track.path == TrackPath::weights) {
-            if (track.target >= model_.pools().size()) return;  // a cycle of another model
-            if (track.components != model_.pools()[track.target].targets.size()) return;
-            const std::size_t first = model_.first_target(track.target);
+            if (track.target >= model_.object.pools.size()) return;  // a cycle of another model
+            if (track.components != model_.object.pools[track.target].targets.size()) return;
+            const std::size_t first = model_.first_target[track.target];
             sample_between(track, at, weights_.subspan(first, track.components));
             return;
         }
@@ -279,16 +281,19 @@ private:
 
     const Cycle& cycle_;
     float seconds_;
-    const Model& model_;
+    const ModelData& model_;
     std::span<JointTransform> local_;
     std::span<float> weights_;
 };
 
-bool sample(const Cycle* cycle, float seconds, Pose& pose) {
+}  // namespace
+
+Result<void, CallError> sample(Pose& pose, const Cycle* cycle, float seconds) {
     pose.set_rest();
-    if (cycle == nullptr || std::isnan(seconds)) return false;
+    if (cycle == nullptr) return CallError::missing;
+    if (std::isnan(seconds)) return CallError::not_finite;
     Sampling(*cycle, seconds, pose).run();
-    return true;
+    return {};
 }
 
 }  // namespace bendy

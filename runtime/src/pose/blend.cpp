@@ -8,9 +8,11 @@
 namespace bendy {
 namespace {
 
-bool can_blend(const Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
-    return &pose.model() == &other.model() && std::isfinite(weight) &&
-           (mask.empty() || mask.size() == pose.local().size());
+Result<void, CallError> check_blend(const Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
+    if (pose.model() != other.model()) return CallError::other_model;
+    if (!std::isfinite(weight)) return CallError::not_finite;
+    if (!mask.empty() && mask.size() != pose.local().size()) return CallError::wrong_size;
+    return {};
 }
 
 BlendBlock block_of(std::span<JointTransform> local, const Pose& other, float weight, std::span<const float> mask) {
@@ -48,60 +50,64 @@ void add_plain(const BlendBlock& block, std::span<JointTransform> local, std::sp
 
 }  // namespace
 
-bool blend(Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
-    if (!can_blend(pose, other, weight, mask)) return false;
+Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
+    if (const auto checked = check_blend(pose, other, weight, mask); !checked) return checked;
     const std::span<float> targets = pose.change_target_weights();
-    for (std::size_t k = 0; k < targets.size(); ++k)
-        targets[k] = (1.0f - weight) * targets[k] + weight * other.target_weights()[k];
+    const std::span<const float> others = other.target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] = (1.0f - weight) * targets[k] + weight * others[k];
     const std::span<JointTransform> local = pose.change_local();
-    if (local.empty()) return true;
+    if (local.empty()) return {};
     const BlendBlock block = block_of(local, other, weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {
         kernels->mix(block);
     } else {
         mix_plain(block, local, other.local());
     }
-    return true;
+    return {};
 }
 
-bool make_additive(Pose& pose, const Pose& reference) {
-    if (!can_blend(pose, reference, 1.0f, {})) return false;
+Result<void, CallError> make_additive(Pose& pose, const Pose& reference) {
+    if (const auto checked = check_blend(pose, reference, 1.0f, {}); !checked) return checked;
     const std::span<float> targets = pose.change_target_weights();
-    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] -= reference.target_weights()[k];
+    const std::span<const float> others = reference.target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] -= others[k];
     const std::span<JointTransform> local = pose.change_local();
+    const std::span<const JointTransform> reference_local = reference.local();
     for (std::size_t joint = 0; joint < local.size(); ++joint) {
         JointTransform& to = local[joint];
-        const JointTransform& from = reference.local()[joint];
+        const JointTransform& from = reference_local[joint];
         to.rotation = glm::normalize(glm::conjugate(glm::dquat(from.rotation)) * glm::dquat(to.rotation));
         to.translation -= from.translation;
         for (int c = 0; c < 3; ++c) to.scale[c] = from.scale[c] == 0.0f ? 1.0f : to.scale[c] / from.scale[c];
     }
-    return true;
+    return {};
 }
 
-bool add(Pose& pose, const Pose& difference, float weight, std::span<const float> mask) {
-    if (!can_blend(pose, difference, weight, mask)) return false;
+Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, std::span<const float> mask) {
+    if (const auto checked = check_blend(pose, difference, weight, mask); !checked) return checked;
     const std::span<float> targets = pose.change_target_weights();
-    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * difference.target_weights()[k];
+    const std::span<const float> others = difference.target_weights();
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * others[k];
     const std::span<JointTransform> local = pose.change_local();
-    if (local.empty()) return true;
+    if (local.empty()) return {};
     const BlendBlock block = block_of(local, difference, weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {
         kernels->add(block);
     } else {
         add_plain(block, local, difference.local());
     }
-    return true;
+    return {};
 }
 
 std::vector<float> mask_below(const Model& model, std::uint32_t joint, float inside, float outside) {
     std::vector<float> mask(model.joints().size(), outside);
     if (joint >= mask.size()) return mask;
     mask[joint] = inside;
+    const std::span<const std::uint32_t> parents = model.parents();
     std::vector<bool> is_below(mask.size());
     is_below[joint] = true;
     for (std::size_t below = joint + std::size_t{1}; below < mask.size(); ++below) {  // parents come first
-        const std::uint32_t parent = model.parents()[below];
+        const std::uint32_t parent = parents[below];
         is_below[below] = parent != kNone && is_below[parent];
         if (is_below[below]) mask[below] = inside;
     }

@@ -40,15 +40,17 @@ void displace(const TargetView& target, const std::optional<StreamView>& stream,
 
 }  // namespace
 
-bool inbetween(const Pool& pool, std::span<const float> weights, const Vertices& out) {
+Result<void, CallError> inbetween(const Pool& pool, std::span<const float> weights, const Vertices& out) {
     return inbetween(pool, weights, pool.vertices, out);
 }
 
-bool inbetween(const Pool& pool, std::span<const float> weights, std::uint32_t vertices, const Vertices& out) {
+Result<void, CallError> inbetween(const Pool& pool, std::span<const float> weights, std::uint32_t vertices,
+                                  const Vertices& out) {
     assert(vertices <= pool.vertices);
     const auto too_short = [&](const auto& span) { return !span.empty() && span.size() < vertices; };
-    if (too_short(out.positions) || too_short(out.normals) || too_short(out.tangents)) return false;
-    if (weights.size() < pool.targets.size()) return false;
+    if (too_short(out.positions) || too_short(out.normals) || too_short(out.tangents))
+        return CallError::output_too_short;
+    if (weights.size() < pool.targets.size()) return CallError::wrong_size;
 
     fill<glm::vec3>(pool.positions, vertices, out.positions);
     fill<glm::vec3>(pool.normals, vertices, out.normals);
@@ -65,7 +67,7 @@ bool inbetween(const Pool& pool, std::span<const float> weights, std::uint32_t v
         if (pool.normals) displace(target, target.normals, weights[k], vertices, out.normals);
         if (pool.tangents) displace(target, target.tangents, weights[k], vertices, out.tangents);
     }
-    return true;
+    return {};
 }
 
 }  // namespace bendy

@@ -1,31 +1,87 @@
 #include <bendy/runtime/pose.h>
 
-#include <bendy/runtime/local_to_model.h>
-
-#include "plan/pose_plan.h"
+#include "pose_state.h"
 
 #include <algorithm>
 
 namespace bendy {
 
-Pose::Pose(const Model& model)
-    : model_(&model),
-      local_(model.joints().size()),
-      model_space_(model.joints().size()),
-      exact_model_space_(model.joints().size()),
-      target_weights_(model.target_count()),
-      ik_links_(model.longest_chain()),
-      palette_(std::max(model.largest_palette(), 1u)) {
-    model.make_plans();
+PoseState::PoseState(const Model& from)
+    : model(from),
+      data(&ModelData::of(model)),
+      local(data->joints.size()),
+      model_space(data->joints.size()),
+      exact_model_space(data->joints.size()),
+      target_weights(from.target_count()),
+      ik_links(data->longest_chain),
+      palette(std::max(data->largest_palette, 1u)) {
+    data->make_plans();
     set_rest();
-    local_to_model(*this);
+    find_model_space();
 }
 
+void PoseState::set_rest() {
+    const PosePlan& plan = *data->pose_plan;
+    is_stale = true;
+    std::copy(plan.rest.begin(), plan.rest.end(), local.begin());
+    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), target_weights.begin());
+}
+
+Pose::Pose(const Model& model) : state_(std::make_unique<PoseState>(model)) {}
+
+Pose::Pose(const Pose& other) : state_(std::make_unique<PoseState>(*other.state_)) {}
+
+Pose::Pose(Pose&& other) noexcept = default;
+
+Pose& Pose::operator=(const Pose& other) {
+    if (this == &other) return *this;
+    if (state_) {
+        *state_ = *other.state_;  // without an allocation, if both are of one model
+    } else {
+        state_ = std::make_unique<PoseState>(*other.state_);
+    }
+    return *this;
+}
+
+Pose& Pose::operator=(Pose&& other) noexcept = default;
+
+Pose::~Pose() = default;
+
 void Pose::set_rest() {
-    const PosePlan& plan = model_->pose_plan();
-    is_stale_ = true;
-    std::copy(plan.rest.begin(), plan.rest.end(), local_.begin());
-    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), target_weights_.begin());
+    state_->set_rest();
+}
+
+const Model& Pose::model() const {
+    return state_->model;
+}
+
+std::span<const JointTransform> Pose::local() const {
+    return state_->local;
+}
+
+std::span<JointTransform> Pose::change_local() {
+    state_->is_stale = true;
+    return state_->local;
+}
+
+std::span<const float> Pose::target_weights() const {
+    return state_->target_weights;
+}
+
+std::span<float> Pose::change_target_weights() {
+    return state_->target_weights;
+}
+
+std::span<const glm::mat4> Pose::model_space() {
+    state_->refresh();
+    if (state_->model_space.empty()) return {};
+    return {&state_->model_space.front().matrix, state_->model_space.size()};
+}
+
+std::span<const PaletteMatrix> Pose::palette(std::uint32_t pool) {
+    state_->refresh();
+    state_->make_palette(pool);
+    return std::span(state_->palette).first(state_->data->object.pools[pool].palette.joints.size());
 }
 
 }  // namespace bendy

@@ -1,7 +1,5 @@
 #include <bendy/runtime/socket.h>
 
-#include <bendy/runtime/local_to_model.h>
-
 #include "math/rigid_part.h"
 
 #include <cassert>
@@ -15,11 +13,10 @@ Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& 
     return socket;
 }
 
-glm::mat4 socket_matrix(const Socket& socket, Pose& pose, const glm::mat4& model_to_world) {
+glm::mat4 socket_matrix(Pose& pose, const Socket& socket, const glm::mat4& model_to_world) {
     glm::dmat4 joint(1.0);
     if (socket.joint != kNone) {
         assert(socket.joint < pose.model().joints().size());
-        if (pose.is_stale()) local_to_model(pose);
         joint = glm::dmat4(pose.model_space()[socket.joint]);
         if (socket.keeps_size) joint = rigid_part(joint);
     }

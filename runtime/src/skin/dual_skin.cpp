@@ -1,18 +1,15 @@
-#include <bendy/runtime/dual_skin.h>
+#include "dual_skin.h"
 
-#include <bendy/runtime/local_to_model.h>
-#include <bendy/runtime/skin.h>
+#include <bendy/runtime/kernels.h>
 
 #include "kernels/dual_plain.h"
 #include "kernels/skin_kernel.h"
 #include "math/rigid_part.h"
-#include "plan/pose_plan.h"
 #include "staging.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -84,60 +81,8 @@ StretchedMotion motion_of(const glm::dmat4& matrix, const glm::dvec3& place) {
     return motion;
 }
 
-template <class Vector>
-SkinOutput output_of(std::span<Vector> vectors) {
-    if (vectors.empty()) return {nullptr, 0};
-    return {&vectors.front().x, static_cast<std::size_t>(Vector::length())};
-}
-
-bool fits(const Vertices& out, std::uint64_t vertices) {
-    const auto is_long_enough = [&](const auto& span) { return span.empty() || span.size() >= vertices; };
-    return is_long_enough(out.positions) && is_long_enough(out.normals) && is_long_enough(out.tangents);
-}
-
-/// From a vertex on.
-Vertices part_of(const Vertices& out, std::uint64_t first) {
-    const auto rest = [&](auto span) { return span.empty() ? span : span.subspan(first); };
-    return {rest(out.positions), rest(out.normals), rest(out.tangents)};
-}
-
-}  // namespace
-
-DualSkinning::DualSkinning(const Model& model)
-    : model_(&model),
-      motions_(model.largest_palette()),
-      kernel_motions_(motions_.size()),
-      kernel_stretches_(motions_.size()) {
-    for (const Pool& pool : model.pools()) {
-        first_place_.push_back(static_cast<std::uint32_t>(places_.size()));
-        for (const glm::mat4& inverse_bind : pool.palette.inverse_bind()) places_.push_back(place_of(inverse_bind));
-    }
-}
-
-void DualSkinning::find_motions(std::uint32_t pool, Pose& pose) {
-    are_motions_good_ = false;
-    const auto palette = pose.palette(pool);
-    const auto& joints = model_->pools()[pool].palette.joints;
-    if (palette.empty()) return;
-    const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
-    const glm::dmat3 top(matrix_of(palette[topmost]));
-    scale_ = std::cbrt(glm::determinant(top));
-    constexpr double kFlat = 1e-4;  // of its longest side: no scale of all, then
-    if (!(std::abs(scale_) > kFlat * largest(top))) scale_ = 1.0;
-    constexpr double kStretched = 2e-6;  // more than what rounding does to a rotation
-    is_stretched_ = false;
-    for (std::size_t entry = 0; entry < palette.size(); ++entry) {
-        glm::dmat4 matrix = matrix_of(palette[entry]);
-        if (!std::isfinite(largest(glm::dmat3(matrix)) + glm::length(glm::dvec3(matrix[3])))) return;
-        for (int c = 0; c < 4; ++c) matrix[c] = glm::dvec4(glm::dvec3(matrix[c]) / scale_, c == 3 ? 1.0 : 0.0);
-        motions_[entry] = motion_of(matrix, places_[first_place_[pool] + entry]);
-        is_stretched_ = is_stretched_ || largest(motions_[entry].stretch - glm::dmat3(1.0)) > kStretched;
-    }
-    are_motions_good_ = true;
-    has_kernel_ = skin_kernels(kernel()).dual != nullptr && round_motions(palette.size());
-}
-
-bool DualSkinning::round_motions(std::size_t count) {
+/// The first motions as kernels want them; false if not all are finite as floats.
+bool round_motions(std::size_t count, DualMotions& dual) {
     float sum = 0.0f;  // of what is finite times 0 is 0
     const auto put = [&sum](float& to, double number) {
         to = static_cast<float>(number);
@@ -150,11 +95,11 @@ bool DualSkinning::round_motions(std::size_t count) {
         put(to[3], q.w);
     };
     for (std::size_t entry = 0; entry < count; ++entry) {
-        const StretchedMotion& motion = motions_[entry];
-        put_quaternion(kernel_motions_[entry].real, motion.real);
-        put_quaternion(kernel_motions_[entry].dual, motion.dual);
-        if (!is_stretched_) continue;
-        PaletteMatrix& stretch = kernel_stretches_[entry];
+        const StretchedMotion& motion = dual.motions[entry];
+        put_quaternion(dual.kernel_motions[entry].real, motion.real);
+        put_quaternion(dual.kernel_motions[entry].dual, motion.dual);
+        if (!dual.is_stretched) continue;
+        PaletteMatrix& stretch = dual.kernel_stretches[entry];
         for (int row = 0; row < 3; ++row) {
             for (int c = 0; c < 3; ++c) put(stretch.rows[row][c], motion.stretch[c][row]);
             put(stretch.rows[row][3], motion.shift[row]);
@@ -163,67 +108,65 @@ bool DualSkinning::round_motions(std::size_t count) {
     return sum == 0.0f;
 }
 
-void DualSkinning::skin_found(std::uint32_t pool, std::uint32_t vertices, Pose& pose, const Vertices& out) {
-    const Pool& source = model_->pools()[pool];
-    SkinBlock wanted{};
-    wanted.vertices = vertices;
-    wanted.out_positions = output_of(out.positions);
-    wanted.out_normals = output_of(out.normals);
-    wanted.out_tangents = output_of(out.tangents);
-    if (has_kernel_ && is_stretched_) wanted.palette = kernel_stretches_.data();
-    Staging staging(source, nullptr, pose.target_weights().subspan(model_->first_target(pool), source.targets.size()),
-                    wanted);
-    DualKernel* const run = has_kernel_ ? skin_kernels(kernel()).dual : nullptr;
-    DualBlock block{wanted, kernel_motions_.data(), static_cast<float>(scale_)};
-    for (std::size_t first = 0; first < vertices; first += block.vertices.vertices) {
-        block.vertices.vertices = std::min(vertices - first, staging.capacity());
+/// Fills the motions from the palette, unless it is not finite.
+void find_motions(PoseState& state, std::uint32_t pool, DualMotions& dual) {
+    dual.are_good = false;
+    const auto& joints = state.data->object.pools[pool].palette.joints;
+    if (joints.empty()) return;
+    state.make_palette(pool);
+    const auto palette = std::span<const PaletteMatrix>(state.palette).first(joints.size());
+    const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
+    const glm::dmat3 top(matrix_of(palette[topmost]));
+    dual.scale = std::cbrt(glm::determinant(top));
+    constexpr double kFlat = 1e-4;  // of its longest side: no scale of all, then
+    if (!(std::abs(dual.scale) > kFlat * largest(top))) dual.scale = 1.0;
+    constexpr double kStretched = 2e-6;  // more than what rounding does to a rotation
+    dual.is_stretched = false;
+    for (std::size_t entry = 0; entry < palette.size(); ++entry) {
+        glm::dmat4 matrix = matrix_of(palette[entry]);
+        if (!std::isfinite(largest(glm::dmat3(matrix)) + glm::length(glm::dvec3(matrix[3])))) return;
+        for (int c = 0; c < 4; ++c) matrix[c] = glm::dvec4(glm::dvec3(matrix[c]) / dual.scale, c == 3 ? 1.0 : 0.0);
+        dual.motions[entry] = motion_of(matrix, dual.places[dual.first_place[pool] + entry]);
+        dual.is_stretched = dual.is_stretched || largest(dual.motions[entry].stretch - glm::dmat3(1.0)) > kStretched;
+    }
+    dual.are_good = true;
+    dual.has_kernel = skin_kernels(kernel()).dual != nullptr && round_motions(palette.size(), dual);
+}
+
+}  // namespace
+
+DualMotions::DualMotions(const Model& model)
+    : motions(model.largest_palette()), kernel_motions(motions.size()), kernel_stretches(motions.size()) {
+    for (const Pool& pool : model.pools()) {
+        first_place.push_back(static_cast<std::uint32_t>(places.size()));
+        for (const glm::mat4& inverse_bind : pool.palette.inverse_bind()) places.push_back(place_of(inverse_bind));
+    }
+}
+
+bool skin_by_dual_quaternions(PoseState& state, std::uint32_t pool, std::uint32_t& motions_of,
+                              std::span<const float> weights, const SkinBlock& outputs) {
+    const ModelData& data = *state.data;
+    if (!state.dual) state.dual.emplace(state.model);
+    DualMotions& dual = *state.dual;
+    const std::uint32_t with_palette = data.pose_plan->same_palette[pool];
+    if (motions_of != with_palette) find_motions(state, pool, dual);
+    motions_of = with_palette;
+    if (!dual.are_good) return false;
+    SkinBlock wanted = outputs;
+    wanted.palette = dual.has_kernel && dual.is_stretched ? dual.kernel_stretches.data() : nullptr;
+    Staging staging(data.object.pools[pool], nullptr, weights, wanted);
+    DualKernel* const run = dual.has_kernel ? skin_kernels(kernel()).dual : nullptr;
+    DualBlock block{wanted, dual.kernel_motions.data(), static_cast<float>(dual.scale)};
+    for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {
+        block.vertices.vertices = std::min(wanted.vertices - first, staging.capacity());
         staging.fill(first, wanted, block.vertices);
         if (run != nullptr) {
             run(block);
         } else {
-            dual_plain(block.vertices, motions_, scale_, is_stretched_);
+            dual_plain(block.vertices, dual.motions, dual.scale, dual.is_stretched);
         }
     }
-}
-
-bool DualSkinning::skin_pool(std::uint32_t pool, Pose& pose, const Lod* lod, const Vertices& out, bool is_next) {
-    const Pool& source = model_->pools()[pool];
-    const std::uint32_t vertices = lod != nullptr ? lod->vertices(pool) : source.vertices;
-    if (!fits(out, vertices)) return false;
-    if (!source.is_rigid()) {
-        if (!is_next || model_->pose_plan().same_palette[pool] == pool) find_motions(pool, pose);
-        if (are_motions_good_) {
-            skin_found(pool, vertices, pose, out);
-            return true;
-        }
-    }
-    return lod != nullptr ? bendy::skin(*model_, pool, pose, *lod, out) : bendy::skin(*model_, pool, pose, out);
-}
-
-bool DualSkinning::skin_all(Pose& pose, const Lod* lod, const Vertices& out) {
-    if (!fits(out, model_->vertex_count())) return false;
-    bool is_good = true;
-    for (std::uint32_t pool = 0; pool < model_->pools().size(); ++pool)
-        is_good = skin_pool(pool, pose, lod, part_of(out, model_->first_vertex(pool)), true) && is_good;
-    return is_good;
-}
-
-bool DualSkinning::skin(std::uint32_t pool, Pose& pose, const Vertices& out) {
-    assert(&pose.model() == model_ && pool < model_->pools().size());
-    return skin_pool(pool, pose, nullptr, out, false);
-}
-
-bool DualSkinning::skin(std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out) {
-    assert(&pose.model() == model_ && pool < model_->pools().size());
-    return skin_pool(pool, pose, &lod, out, false);
-}
-
-bool DualSkinning::skin(Pose& pose, const Vertices& out) {
-    return skin_all(pose, nullptr, out);
-}
-
-bool DualSkinning::skin(Pose& pose, const Lod& lod, const Vertices& out) {
-    return skin_all(pose, &lod, out);
+    return true;
 }
 
 }  // namespace bendy

@@ -1,13 +1,13 @@
 #include <bendy/runtime/skin.h>
 
 #include <bendy/runtime/kernels.h>
-#include <bendy/runtime/local_to_model.h>
 
+#include "dual_skin.h"
 #include "kernels/skin_kernel.h"
+#include "pose/pose_state.h"
 #include "staging.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace bendy {
@@ -25,14 +25,18 @@ void copy_block(const SkinBlock& block) {
     copy(block.tangents, block.out_tangents, 4);
 }
 
-bool fits(const StridedFloats& memory, std::size_t numbers, std::uint64_t vertices) {
-    if (memory.floats.empty() || vertices == 0) return true;
-    if (memory.floats.size() < numbers || memory.stride < numbers) return false;
-    return vertices - 1 <= (memory.floats.size() - numbers) / memory.stride;
+Result<void, CallError> check_room(const StridedFloats& memory, std::size_t numbers, std::uint64_t vertices) {
+    if (memory.floats.empty() || vertices == 0) return {};
+    if (memory.stride < numbers) return CallError::stride_too_small;
+    if (memory.floats.size() < numbers) return CallError::output_too_short;
+    if (vertices - 1 > (memory.floats.size() - numbers) / memory.stride) return CallError::output_too_short;
+    return {};
 }
 
-bool fits(const VertexBuffer& out, std::uint64_t vertices) {
-    return fits(out.positions, 3, vertices) && fits(out.normals, 3, vertices) && fits(out.tangents, 4, vertices);
+Result<void, CallError> check_room(const VertexBuffer& out, std::uint64_t vertices) {
+    if (const auto room = check_room(out.positions, 3, vertices); !room) return room;
+    if (const auto room = check_room(out.normals, 3, vertices); !room) return room;
+    return check_room(out.tangents, 4, vertices);
 }
 
 SkinOutput output_at(const StridedFloats& memory, std::uint64_t vertex) {
@@ -40,43 +44,25 @@ SkinOutput output_at(const StridedFloats& memory, std::uint64_t vertex) {
     return {memory.floats.data() + vertex * memory.stride, memory.stride};
 }
 
-/// The same memory; each vector is that many floats without gaps.
-template <class Vector>
-StridedFloats as_floats(std::span<Vector> vectors) {
-    constexpr auto kNumbers = static_cast<std::size_t>(Vector::length());
-    static_assert(sizeof(Vector) == kNumbers * sizeof(float));
-    if (vectors.empty()) return {};
-    return {{&vectors.front().x, vectors.size() * kNumbers}, kNumbers};
-}
-
-VertexBuffer as_buffer(const Vertices& out) {
-    return {as_floats(out.positions), as_floats(out.normals), as_floats(out.tangents)};
-}
-
-}  // namespace
-
 /// The work on a pose's scratch memory.
 class Skinning {
 public:
-    Skinning(const Model& model, Pose& pose) : model_(model), pose_(pose) { assert(&model == &pose.model()); }
+    /// The pose is not stale.
+    Skinning(PoseState& state, const SkinRequest& request)
+        : state_(state), data_(*state.data), method_(request.method), out_(request.out) {}
 
     /// The first `vertices` of a pool, vertex 0 at `at` of the output.
-    bool skin_pool(std::uint32_t pool, std::uint32_t vertices, std::uint64_t at, const VertexBuffer& out);
-    /// Of all pools, each at its place; vertices_of(pool): how many of its first.
-    template <class Count>
-    bool skin_all(const Count& vertices_of, const VertexBuffer& out) {
-        if (!fits(out, model_.vertex_count())) return false;
-        for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool)
-            skin_pool(pool, vertices_of(pool), model_.first_vertex(pool), out);
-        return true;
-    }
+    void skin_pool(std::uint32_t pool, std::uint32_t vertices, std::uint64_t at);
 
 private:
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
     void skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted);
 
-    const Model& model_;
-    Pose& pose_;
+    PoseState& state_;
+    const ModelData& data_;
+    SkinningMethod method_;
+    const VertexBuffer& out_;
+    std::uint32_t motions_of_ = kNone;  // the pool whose palette state_.dual has the motions of
 };
 
 void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first,
@@ -92,79 +78,75 @@ void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted
 void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted) {
     SkinKernel* const chosen = skin_kernels(kernel()).linear;
     const std::size_t vertices = wanted.vertices;
+    const bool has_one_mover = data_.movers[pool].per_vertex.empty();
     for (std::size_t first = 0; first < vertices;) {
-        const std::uint32_t joint = model_.rigid_mover(pool, static_cast<std::uint32_t>(first));
-        std::size_t end = first + 1;
-        if (model_.has_one_mover(pool)) end = vertices;
-        while (end < vertices && model_.rigid_mover(pool, static_cast<std::uint32_t>(end)) == joint) ++end;
+        const std::uint32_t joint = data_.rigid_mover(pool, static_cast<std::uint32_t>(first));
+        std::size_t end = has_one_mover ? vertices : first + 1;
+        while (end < vertices && data_.rigid_mover(pool, static_cast<std::uint32_t>(end)) == joint) ++end;
         if (joint == kNone) {
             run(copy_block, staging, wanted, first, end - first);
         } else {
-            run(pose_.make_rigid_palette(joint) ? chosen : skin_plain, staging, wanted, first, end - first);
+            run(state_.make_rigid_palette(joint) ? chosen : skin_plain, staging, wanted, first, end - first);
         }
         first = end;
     }
 }
 
-bool Skinning::skin_pool(std::uint32_t pool_number, std::uint32_t vertices, std::uint64_t at, const VertexBuffer& out) {
-    assert(pool_number < model_.pools().size());
-    const Pool& pool = model_.pools()[pool_number];
-    if (vertices == 0) return true;
-    if (pose_.is_stale()) local_to_model(pose_);
-
+void Skinning::skin_pool(std::uint32_t number, std::uint32_t vertices, std::uint64_t at) {
+    const Pool& pool = data_.object.pools[number];
+    if (vertices == 0) return;
     SkinBlock wanted{};
     wanted.vertices = vertices;
-    wanted.palette = pose_.palette_.data();
-    wanted.out_positions = output_at(out.positions, at);
-    wanted.out_normals = output_at(out.normals, at);
-    wanted.out_tangents = output_at(out.tangents, at);
-    wanted.streams = vertices >= kManyVertices;
+    wanted.out_positions = output_at(out_.positions, at);
+    wanted.out_normals = output_at(out_.normals, at);
+    wanted.out_tangents = output_at(out_.tangents, at);
     const auto weights =
-        std::span(pose_.target_weights_).subspan(model_.first_target(pool_number), pool.targets.size());
+        std::span<const float>(state_.target_weights).subspan(data_.first_target[number], pool.targets.size());
+    if (method_ == SkinningMethod::dual_quaternion && !pool.is_rigid() &&
+        skin_by_dual_quaternions(state_, number, motions_of_, weights, wanted)) {
+        return;
+    }
+    wanted.palette = state_.palette.data();
+    wanted.streams = vertices >= kManyVertices;
     if (pool.is_rigid()) {
         Staging staging(pool, nullptr, weights, wanted);
-        skin_rigid(pool_number, staging, wanted);
-        return true;
+        skin_rigid(number, staging, wanted);
+        return;
     }
     // Lanes multiply by weights that are zero, too.
-    const Kernel chosen = pose_.make_palette(pool_number) ? kernel() : Kernel::plain;
-    Staging staging(pool, chosen == Kernel::avx2 ? &model_.plan(pool_number) : nullptr, weights, wanted);
+    const Kernel chosen = state_.make_palette(number) ? kernel() : Kernel::plain;
+    Staging staging(pool, chosen == Kernel::avx2 ? &data_.skin_plans[number] : nullptr, weights, wanted);
     run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
-    return true;
 }
 
-bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const VertexBuffer& out) {
-    const std::uint32_t vertices = model.pools()[pool].vertices;
-    return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
+}  // namespace
+
+Result<void, CallError> skin(Pose& pose, const SkinRequest& request) {
+    PoseState& state = PoseState::of(pose);
+    const auto& pools = state.data->object.pools;
+    const bool has_all = request.mesh == kAllMeshes;
+    if (!has_all && request.mesh >= pools.size()) return CallError::out_of_range;
+    if (request.lod != nullptr && request.lod->model() != state.model) return CallError::other_model;
+    const auto vertices_of = [&](std::uint32_t mesh) {
+        return request.lod != nullptr ? request.lod->vertices(mesh) : pools[mesh].vertices;
+    };
+    const auto& first_vertex = state.data->first_vertex;
+    const auto room = check_room(request.out, has_all ? first_vertex.back() : vertices_of(request.mesh));
+    if (!room) return room;
+    state.refresh();
+    Skinning skinning(state, request);
+    if (!has_all) {
+        skinning.skin_pool(request.mesh, vertices_of(request.mesh), 0);
+        return {};
+    }
+    for (std::uint32_t mesh = 0; mesh < pools.size(); ++mesh)
+        skinning.skin_pool(mesh, vertices_of(mesh), first_vertex[mesh]);
+    return {};
 }
 
-bool skin_into(const Model& model, Pose& pose, const VertexBuffer& out) {
-    return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return model.pools()[pool].vertices; }, out);
-}
-
-bool skin_into(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const VertexBuffer& out) {
-    const std::uint32_t vertices = lod.vertices(pool);
-    return fits(out, vertices) && Skinning(model, pose).skin_pool(pool, vertices, 0, out);
-}
-
-bool skin_into(const Model& model, Pose& pose, const Lod& lod, const VertexBuffer& out) {
-    return Skinning(model, pose).skin_all([&](std::uint32_t pool) { return lod.vertices(pool); }, out);
-}
-
-bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Vertices& out) {
-    return skin_into(model, pool, pose, as_buffer(out));
-}
-
-bool skin(const Model& model, Pose& pose, const Vertices& out) {
-    return skin_into(model, pose, as_buffer(out));
-}
-
-bool skin(const Model& model, std::uint32_t pool, Pose& pose, const Lod& lod, const Vertices& out) {
-    return skin_into(model, pool, pose, lod, as_buffer(out));
-}
-
-bool skin(const Model& model, Pose& pose, const Lod& lod, const Vertices& out) {
-    return skin_into(model, pose, lod, as_buffer(out));
+void prepare_skin(Pose& pose, SkinningMethod method) {
+    PoseState& state = PoseState::of(pose);
+    if (method == SkinningMethod::dual_quaternion && !state.dual) state.dual.emplace(state.model);
 }
 
 }  // namespace bendy

@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
     bendy_model* model = bendy_open(argc > 1 ? argv[1] : NULL, NULL, &error);
     bendy_pose* pose = bendy_pose_new(model, model == NULL ? NULL : &error);
     float matrix[16];
-    bendy_joint_matrices(pose, NULL, 0, 1, matrix, pose == NULL ? NULL : &error);
+    bendy_joint_matrices(pose, 0, 1, NULL, matrix, pose == NULL ? NULL : &error);
     if (error.status == BENDY_OK)
         printf("%u joints, the first at %g %g %g\n", (unsigned)bendy_joint_count(model), (double)matrix[12],
                (double)matrix[13], (double)matrix[14]);

@@ -80,9 +80,11 @@ std::vector<glm::vec3> skinned(const std::vector<std::byte>& bytes, float time) 
     const auto model = Model::from_memory(bytes);
     EXPECT_TRUE(model.has_value());
     Pose pose(*model);
-    if (!model->cycles().empty()) sample(&model->cycles()[0], time, pose);
+    if (!model->cycles().empty()) {
+        EXPECT_TRUE(sample(pose, &model->cycles()[0], time));
+    }
     std::vector<glm::vec3> positions(model->vertex_count());
-    EXPECT_TRUE(skin(*model, pose, {positions, {}, {}}));
+    EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
     return positions;
 }
 

@@ -85,8 +85,7 @@ public:
     explicit Played(const Scene& scene) : bytes_(build(scene)), model_(open(bytes_)), pose_(model_) {}
 
     std::vector<glm::mat4> at(float seconds) {
-        sample(&model_.cycles()[0], seconds, pose_);
-        local_to_model(pose_);
+        EXPECT_TRUE(sample(pose_, &model_.cycles()[0], seconds));
         return {pose_.model_space().begin(), pose_.model_space().end()};
     }
     [[nodiscard]] const CycleView& cycle() const { return model_.cycles()[0]; }

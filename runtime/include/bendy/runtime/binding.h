@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
 #include <cstdint>
@@ -32,16 +34,15 @@ struct BindingOptions {
 /// rest. Rotations are not corrected: where two skeletons' rest poses differ in how joints are turned, or in which
 /// joints lie between, the pose does too.
 ///
-/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do). Both models must outlive it
-/// where they stand.
+/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do).
 class Binding {
 public:
     /// \param animated  has the cycles
     /// \param posed     has the skeleton that is to move
     Binding(const Model& animated, const Model& posed, const BindingOptions& options = {});
 
-    [[nodiscard]] const Model& animated() const { return *animated_; }
-    [[nodiscard]] const Model& posed() const { return *posed_; }
+    [[nodiscard]] const Model& animated() const { return animated_; }
+    [[nodiscard]] const Model& posed() const { return posed_; }
     /// For each joint of the animated model the posed model's, or kNone.
     [[nodiscard]] std::span<const std::uint32_t> joints() const { return joints_; }
     /// For each target of the animated model (see Model::first_target) the posed model's, or kNone. Of pools of the
@@ -52,7 +53,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> unmatched_targets() const { return unmatched_targets_; }
 
 private:
-    friend bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose);
+    friend Result<void, CallError> sample(Pose& pose, Binding& binding, const Cycle* cycle, float seconds);
 
     /// What a cycle animates of a joint that is matched.
     struct BoundJoint {
@@ -74,16 +75,17 @@ private:
               std::vector<bool>& missed_joints, std::vector<bool>& missed_targets);
     [[nodiscard]] std::vector<bool> find_roots(std::uint32_t root) const;
 
-    const Model* animated_;
-    const Model* posed_;
+    Model animated_;
+    Model posed_;
     Pose sampled_;  // of the animated model
     std::vector<std::uint32_t> joints_, targets_;
     std::vector<std::uint32_t> unmatched_joints_, unmatched_targets_;
     std::vector<BoundCycle> cycles_;
 };
 
-/// As sample, of a cycle of the animated model, for a pose of the posed one. The rest pose, and false, for NaN seconds
-/// and for a cycle that is null or not the animated model's; false, and nothing changes, for a pose of another model.
-bool sample(Binding& binding, const Cycle* cycle, float seconds, Pose& pose);
+/// As sample, of a cycle of the animated model, for a pose of the posed one. An error, and the rest pose, for NaN
+/// seconds and for a cycle that is null or not the animated model's; an error, and nothing changes, for a pose of
+/// another model.
+[[nodiscard]] Result<void, CallError> sample(Pose& pose, Binding& binding, const Cycle* cycle, float seconds);
 
 }  // namespace bendy

@@ -27,7 +27,7 @@ struct Box {
 };
 
 /// The smallest box around both.
-Box unite(const Box& a, const Box& b);
+[[nodiscard]] Box unite(const Box& a, const Box& b);
 
 /// Boxes that hold all that `skin` makes of a model in any pose, without skinning it: for culling, level of detail, and
 /// rays that look for a joint first. Made once, in time linear in vertices, influences and displacements; asking costs
@@ -41,11 +41,11 @@ class Bounds {
 public:
     explicit Bounds(const Model& model);
 
-    [[nodiscard]] const Model& model() const { return *model_; }
+    [[nodiscard]] const Model& model() const { return model_; }
     /// In joint space, of the vertices that the joint moves, with target weights 0; empty if it moves none.
     [[nodiscard]] const Box& joint(std::uint32_t joint) const { return joints_[joint].box; }
 
-    // Of a pose of the model, in model space. They bring a stale pose up to date first.
+    // Of a pose of the model, in model space.
 
     /// Of all that the joint moves, as the joint alone would have it.
     [[nodiscard]] Box of(Pose& pose, std::uint32_t joint) const;
@@ -67,7 +67,7 @@ private:
 
     [[nodiscard]] Box shifted(const JointBox& joint, std::span<const float> weights) const;
 
-    const Model* model_;
+    Model model_;
     std::vector<JointBox> joints_;  // the last one: what nothing moves
     std::vector<Shift> shifts_;
     double slack_ = 0.0;       // how far weights are from positive and a sum of 1, at worst

@@ -13,18 +13,19 @@ namespace BENDY_PUBLIC bendy {
 /// clamping once, and nothing jumps where an angle passes pi. For the Euler box it is the nearest that an ascent over
 /// the three angles finds from several starts. Same result on every machine.
 /// \param R  unit quaternion
-glm::dquat clamp_rotation(const Constraint& constraint, const glm::dquat& R);
+[[nodiscard]] glm::dquat clamp_rotation(const Constraint& constraint, const glm::dquat& R);
 
 /// How far R is from the nearest legal rotation, radians.
-double violation(const Constraint& constraint, const glm::dquat& R);
+[[nodiscard]] double violation(const Constraint& constraint, const glm::dquat& R);
 
 /// R of a joint: conj(C) * conj(rest) * local * C. And back.
-glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local);
-glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
+[[nodiscard]] glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local);
+[[nodiscard]] glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
 
 /// A joint's translation held to the constraint, metres: each component of d in its range, where
 /// translation = rest.translation + rest.rotation * C * d.
-glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest, const glm::vec3& translation);
+[[nodiscard]] glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest,
+                                          const glm::vec3& translation);
 
 /// Brings every joint of a pose inside its constraints, those for the IK solver only excepted.
 void constrain(Pose& pose);

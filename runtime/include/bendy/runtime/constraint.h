@@ -49,6 +49,6 @@ struct Constraint {
 };
 
 /// Makes a constraint ready. Numbers that are not possible (the file may hold any) are taken as the nearest that are.
-Constraint make_constraint(const LimitView& view);
+[[nodiscard]] Constraint make_constraint(const LimitView& view);
 
 }  // namespace bendy

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
 
@@ -17,7 +19,7 @@ enum class Easing : std::uint8_t {
 };
 
 /// The weight at a share of the way, 0 to 1 (held to that; NaN is 1).
-float ease(Easing easing, float share);
+[[nodiscard]] float ease(Easing easing, float share);
 
 /// A weight on its way to another one: of a layer, of an additive pose.
 class Fade {
@@ -75,8 +77,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Sets the pose to what plays, by the shares. `scratch`: another pose of the same model, overwritten. The rest pose,
-/// and false, if nothing plays; false, and nothing changes, for poses of different models.
-bool sample(const Crossfade& crossfade, Pose& pose, Pose& scratch);
+/// Sets the pose to what plays, by the shares. `scratch`: another pose of the same model, overwritten. An error,
+/// and the rest pose, if nothing plays; an error, and nothing changes, for poses of different models.
+[[nodiscard]] Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scratch);
 
 }  // namespace bendy

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/pose.h>
@@ -18,7 +20,8 @@
 //
 //     bendy::Crowd crowd(*model, tbb::this_task_arena::max_concurrency());
 //     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 8), [&](const auto& range) {
-//         crowd.play(members.subspan(range.begin(), range.size()), tbb::this_task_arena::current_thread_index());
+//         const auto part = members.subspan(range.begin(), range.size());
+//         if (!crowd.play(part, tbb::this_task_arena::current_thread_index())) is_too_short = true;
 //     });
 namespace BENDY_PUBLIC bendy {
 
@@ -27,37 +30,37 @@ struct CrowdMember {
     const Cycle* cycle = nullptr;      ///< of the crowd's model; null: the rest pose
     float seconds = 0.0f;              ///< on the cycle's own time line, as for sample
     const Lod* lod = nullptr;          ///< vertices of that level only; members may share one; null: all
-    VertexBuffer out;                  ///< all pools' vertices, as for skin_into; empty: not wanted
+    VertexBuffer out;                  ///< all pools' vertices, as for skin; empty: not wanted
     std::span<PaletteMatrix> palette;  ///< Crowd::palette_size() matrices, for skinning elsewhere; empty: not wanted
 };
 
-/// The work memory of a crowd: a Pose for each worker, and nothing for each member. Playing allocates nothing. The
-/// model must outlive it where it stands.
+/// The work memory of a crowd: a Pose for each worker, and nothing for each member. Playing allocates nothing.
 class Crowd {
 public:
     /// \param workers  how many ranges are played at a time at most: the pool's threads; at least 1
     explicit Crowd(const Model& model, std::size_t workers = 1);
 
-    [[nodiscard]] const Model& model() const { return *model_; }
-    [[nodiscard]] std::size_t workers() const { return workers_.size(); }
+    [[nodiscard]] const Model& model() const { return model_; }
+    [[nodiscard]] std::size_t workers() const { return poses_.size(); }
 
     /// Samples, poses and skins each of the members. What comes out does not depend on how members are split or which
-    /// worker plays them. False if the memory of one is too short: that is then not written, all else is.
-    /// \param worker  0 to workers() - 1, and no other call's at the same time
-    bool play(std::span<const CrowdMember> members, std::size_t worker = 0);
+    /// worker plays them. Where the memory of a member is too short, that is not written, and all else is; the first
+    /// such error is returned. \param worker  0 to workers() - 1, and no other call's at the same time
+    [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker = 0);
 
     /// The same where the caller poses: blends cycles, lets chains reach. pose_member(member, pose) sets the whole
     /// pose, which is as the worker's last member left it; the members' cycles and times are the caller's to read.
     template <class PoseMember>
-    bool play(std::span<const CrowdMember> members, std::size_t worker, const PoseMember& pose_member) {
-        assert(worker < workers_.size());
-        Pose& pose = workers_[worker].pose;
-        bool is_good = true;
+    [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker,
+                                               const PoseMember& pose_member) {
+        assert(worker < poses_.size());
+        Result<void, CallError> result;
         for (const CrowdMember& member : members) {
-            pose_member(member, pose);
-            is_good = write(member, pose) && is_good;
+            pose_member(member, poses_[worker]);
+            const Result<void, CallError> written = write(member, poses_[worker]);
+            if (result && !written) result = written;
         }
-        return is_good;
+        return result;
     }
 
     /// Matrices of all pools together, pool after pool, and where a pool's begin: its bind palette's entries, in order;
@@ -66,16 +69,11 @@ public:
     [[nodiscard]] std::size_t first_entry(std::uint32_t pool) const { return first_entry_[pool]; }
 
 private:
-    struct alignas(64) Worker {  // so that no two workers write to one cache line
-        explicit Worker(const Model& model) : pose(model) {}
-        Pose pose;
-    };
-
-    bool write(const CrowdMember& member, Pose& pose) const;
+    Result<void, CallError> write(const CrowdMember& member, Pose& pose) const;
     void write_palette(Pose& pose, std::span<PaletteMatrix> palette) const;
 
-    const Model* model_;
-    std::vector<Worker> workers_;
+    Model model_;
+    std::vector<Pose> poses_;               // of each worker
     std::vector<std::size_t> first_entry_;  // of each pool; one more than pools
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/gtc/quaternion.hpp>
@@ -46,12 +48,11 @@ enum class ReachStatus : std::uint8_t {
     out_of_reach,  ///< farther than the chain is long: it points at the target
     not_reached,   ///< stopped at the nearest that was found; of aim: the tip does not point at the target
     aimed,         ///< of aim alone: the tip's Z axis points at the target within the tolerance, however far it is
-    refused        ///< no chain, or numbers that are not finite: the pose is as it was
 };
 
 /// Of the whole solution, also where the influence mixes in less.
 struct ReachResult {
-    ReachStatus status = ReachStatus::refused;
+    ReachStatus status = ReachStatus::not_reached;
     float distance = 0.0f;  ///< metres between tip and target; aim leaves it about as it is
     /// Radians left: between the tip's orientation and the target's, 0 if the target has none; of aim: between the
     /// tip's Z axis and the line to the target.
@@ -73,7 +74,10 @@ struct ReachResult {
 /// on from there; iterations and restarts hold for it too. Solver::any: two_bone for chains of two bones, else
 /// least_squares. A mirrored chain and target come out mirrored, if the chain is bent, has a pole, or its constraints
 /// let it turn farther to one side.
-ReachResult reach(const Chain* chain, const ReachTarget& target, Pose& pose, const ReachOptions& options = {});
+/// A target that is not reached is a result, not an error. An error, and the pose as it was: chain is null, or a number
+/// of the pose or the target is not finite.
+[[nodiscard]] Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
+                                                   const ReachOptions& options = {});
 
 /// Runs every chain that follows a target joint, in the order of their priority, with the chains' own influence.
 void reach_all(Pose& pose);

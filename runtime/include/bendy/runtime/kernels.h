@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 
 #include <cstdint>
 #include <span>
@@ -18,16 +20,16 @@ enum class Kernel : std::uint8_t {
 };
 
 /// Those that this program holds and this machine can run, the quickest that is known first; plain is the last.
-std::span<const Kernel> kernels();
+[[nodiscard]] std::span<const Kernel> kernels();
 
 /// "plain", "sse4", ...
-std::string_view kernel_name(Kernel kernel);
+[[nodiscard]] std::string_view kernel_name(Kernel kernel);
 
 /// The one in use: the first of kernels(), unless the environment variable BENDY_KERNEL named another one of kernels()
 /// when this was first asked, or set_kernel has changed it.
-Kernel kernel();
+[[nodiscard]] Kernel kernel();
 
-/// From now on, in every thread. False, and nothing changes, if it is not one of kernels().
-bool set_kernel(Kernel kernel);
+/// From now on, in every thread. An error, and nothing changes, if it is not one of kernels().
+[[nodiscard]] Result<void, CallError> set_kernel(Kernel kernel);
 
 }  // namespace bendy

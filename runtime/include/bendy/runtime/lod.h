@@ -10,11 +10,12 @@
 namespace BENDY_PUBLIC bendy {
 
 /// A model at one level of detail: which vertices are alive, and what is drawn of them. Allocates all that it needs
-/// when it is made; starts at full detail. The model must outlive it where it stands. A model whose file has no
-/// collapse sequence has one level: all of it.
+/// when it is made; starts at full detail. A model whose file has no collapse sequence has one level: all of it.
 class Lod {
 public:
     explicit Lod(const Model& model);
+
+    [[nodiscard]] const Model& model() const { return model_; }
 
     /// Keeps about so many of the model's triangles: 1 all, 0 as few as the sequence goes. NaN: all.
     void set_share(float triangles);
@@ -51,7 +52,7 @@ private:
     [[nodiscard]] std::uint64_t triangles_at(double level) const;
     void make_list(std::uint32_t pool);
 
-    const Model* model_;
+    Model model_;
     std::vector<PoolLevel> pools_;
     std::vector<Draw> draws_;
     std::vector<std::uint32_t> first_draw_;  // of each pool, in draws_; one more than pools

@@ -13,10 +13,10 @@
 namespace BENDY_PUBLIC bendy {
 
 /// Those of a stretch: `markers` ascend by seconds. In the order of the time line, whichever way it was walked.
-std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretch& stretch);
+[[nodiscard]] std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretch& stretch);
 
 /// How many a walk meets; passes are counted, not walked.
-std::uint64_t count_markers(std::span<const Marker> markers, const Walk& walk);
+[[nodiscard]] std::uint64_t count_markers(std::span<const Marker> markers, const Walk& walk);
 
 /// Calls visit(marker) for each that the walk meets, in the order in which it meets them. Each is met once in a pass:
 /// one at the start as playing begins there, one at the end as it gets there, one where ping_pong turns as it turns. A
@@ -45,6 +45,7 @@ void visit_markers(std::span<const Marker> markers, const Walk& walk, const Visi
 }
 
 /// The first of them, as many as `met` takes, into the caller's memory. How many were written.
-std::size_t collect_markers(std::span<const Marker> markers, const Walk& walk, std::span<const Marker*> met);
+[[nodiscard]] std::size_t collect_markers(std::span<const Marker> markers, const Walk& walk,
+                                          std::span<const Marker*> met);
 
 }  // namespace bendy

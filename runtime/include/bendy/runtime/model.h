@@ -10,15 +10,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 namespace bendy {
 
-class Sampling;  // not exported
-class Skinning;
+struct ModelData;  // the library's own
 
 }  // namespace bendy
 
@@ -29,10 +27,6 @@ using Cycle = CycleView;
 using Pool = PoolView;
 using Material = MaterialView;
 using Texture = TextureView;
-
-class Pose;
-struct PosePlan;
-struct SkinPlan;
 
 struct Joint {
     std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
@@ -80,39 +74,46 @@ struct OpenOptions {
     Sums sums = Sums::checked;
 };
 
-/// A character: the mapped file and a linear array of its joints, parents before children.
+/// A character: the mapped file and a linear array of its joints, parents before children. Nothing about it changes, so
+/// any number of threads may use it.
+///
+/// A Model is a handle: copies share the character, and so does everything that is made from one (Pose, Lod, Bounds,
+/// ...). A Model may therefore be moved, copied or destroyed at any time; the file is closed when the last of them is
+/// gone. Spans, views and pointers that a Model returns are valid as long. A Model that was moved from has no
+/// character: it may be assigned to or destroyed, nothing else.
 class Model {
 public:
     /// Maps and checks a file. The first fault, with its offset in the file, if it is not a good one.
     static Result<Model> open(const std::filesystem::path& path, const OpenOptions& options = {});
-    /// The same for bytes in memory, which must start on a 16-byte boundary and outlive the model.
+    /// The same for bytes in memory, which must start on a 16-byte boundary and outlive the character.
     static Result<Model> from_memory(Bytes bytes, const OpenOptions& options = {});
 
-    /// Holds the bytes against their sums, for Sums::later: the first chunk that differs, with its offset. From any
+    /// Whether both are handles to one character: a file that was opened twice makes two.
+    [[nodiscard]] friend bool operator==(const Model& a, const Model& b) { return a.data_ == b.data_; }
+
+    /// Checks the bytes against their sums, for Sums::later: the first chunk that differs, with its offset. From any
     /// thread, while others use the model; takes about as long as reading the file once.
     [[nodiscard]] Result<void> check_sums() const;
 
-    [[nodiscard]] std::string_view name() const { return data_->object.name; }
-    [[nodiscard]] std::span<const Joint> joints() const { return data_->joints; }
+    [[nodiscard]] std::string_view name() const;
+    [[nodiscard]] std::span<const Joint> joints() const;
     /// The joints' parents alone: less memory to walk through.
-    [[nodiscard]] std::span<const std::uint32_t> parents() const { return data_->parents; }
+    [[nodiscard]] std::span<const std::uint32_t> parents() const;
     /// Whether some joint has shear.
-    [[nodiscard]] bool is_sheared() const { return data_->is_sheared; }
-    [[nodiscard]] std::span<const Pool> pools() const { return data_->object.pools; }
-    [[nodiscard]] std::span<const Cycle> cycles() const { return data_->object.cycles; }
-    [[nodiscard]] std::span<const Material> materials() const { return data_->document.materials; }
-    [[nodiscard]] std::span<const Texture> textures() const { return data_->document.textures; }
-    [[nodiscard]] std::span<const Draw> draws() const { return data_->draws; }
+    [[nodiscard]] bool is_sheared() const;
+    [[nodiscard]] std::span<const Pool> pools() const;
+    [[nodiscard]] std::span<const Cycle> cycles() const;
+    [[nodiscard]] std::span<const Material> materials() const;
+    [[nodiscard]] std::span<const Texture> textures() const;
+    [[nodiscard]] std::span<const Draw> draws() const;
     /// The sequence in which vertices are collapsed; null if the file has none. Lod plays it.
-    [[nodiscard]] const CollapseView* collapse() const {
-        return data_->object.collapse ? &*data_->object.collapse : nullptr;
-    }
+    [[nodiscard]] const CollapseView* collapse() const;
     /// Each joint's own polygons: for hits, severed limbs, culling.
-    [[nodiscard]] std::span<const PolygonView> polygons() const { return data_->object.skeleton.polygons; }
+    [[nodiscard]] std::span<const PolygonView> polygons() const;
 
     /// The joints' constraints, ordered by joint.
-    [[nodiscard]] std::span<const Constraint> constraints() const { return data_->constraints; }
-    [[nodiscard]] std::span<const Chain> chains() const { return data_->chains; }
+    [[nodiscard]] std::span<const Constraint> constraints() const;
+    [[nodiscard]] std::span<const Chain> chains() const;
     /// Weights of joints in chains, ordered by chain, then joint; a joint without one has weight 1.
     [[nodiscard]] std::span<const PullView> chain_weights(const Chain& chain) const;
 
@@ -124,79 +125,28 @@ public:
     [[nodiscard]] const Constraint* constraint(std::uint32_t joint) const;
     [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const;
     /// The chains' numbers in the order in which several are solved: by ascending priority, then as in the file.
-    [[nodiscard]] std::span<const std::uint32_t> chain_order() const { return data_->chain_order; }
+    [[nodiscard]] std::span<const std::uint32_t> chain_order() const;
     /// Links of the longest chain.
-    [[nodiscard]] std::uint32_t longest_chain() const { return data_->longest_chain; }
+    [[nodiscard]] std::uint32_t longest_chain() const;
 
     /// Vertices of all pools together, pool after pool; and where a pool's begin.
-    [[nodiscard]] std::uint64_t vertex_count() const { return data_->first_vertex.back(); }
-    [[nodiscard]] std::uint64_t first_vertex(std::uint32_t pool) const { return data_->first_vertex[pool]; }
+    [[nodiscard]] std::uint64_t vertex_count() const;
+    [[nodiscard]] std::uint64_t first_vertex(std::uint32_t pool) const;
     /// Inbetweening targets of all pools together, pool after pool; and where a pool's begin.
-    [[nodiscard]] std::uint32_t target_count() const { return data_->first_target.back(); }
-    [[nodiscard]] std::uint32_t first_target(std::uint32_t pool) const { return data_->first_target[pool]; }
+    [[nodiscard]] std::uint32_t target_count() const;
+    [[nodiscard]] std::uint32_t first_target(std::uint32_t pool) const;
     /// Entries of the largest bind palette.
-    [[nodiscard]] std::uint32_t largest_palette() const { return data_->largest_palette; }
+    [[nodiscard]] std::uint32_t largest_palette() const;
     /// The joint that moves a vertex of a rigid pool, or kNone.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
     /// Whether that is the same for all vertices of the pool.
-    [[nodiscard]] bool has_one_mover(std::uint32_t pool) const { return data_->movers[pool].per_vertex.empty(); }
+    [[nodiscard]] bool has_one_mover(std::uint32_t pool) const;
 
 private:
-    friend class DualSkinning;
-    friend class Pose;
-    friend class Sampling;
-    friend class Skinning;
-    friend void local_to_model(Pose& pose);
+    friend struct ModelData;
+    explicit Model(std::shared_ptr<const ModelData> data) : data_(std::move(data)) {}
 
-    struct RigidMovers {
-        std::uint32_t joint = kNone;            // of every vertex, if per_vertex is empty: the pool's own
-        std::vector<std::uint32_t> per_vertex;  // only for a pool with polygons of other joints
-    };
-    struct Obeyed {
-        std::uint32_t in_poses = kNone;  // into constraints
-        std::uint32_t in_ik = kNone;
-    };
-    struct Data {
-        MappedFile file;
-        Bytes bytes;           // the whole file: of `file`, or the caller's
-        AlignedBytes decoded;  // what the file has encoded; the document's views lie in either
-        Document document;
-        ObjectView object;
-        std::vector<Joint> joints;
-        std::vector<std::uint32_t> parents;  // as joints
-        bool is_sheared = false;
-        std::vector<Draw> draws;
-        std::vector<std::uint64_t> first_vertex;  // one more than pools
-        std::vector<std::uint32_t> first_target;  // one more than pools
-        std::vector<RigidMovers> movers;          // one per pool
-        std::uint32_t largest_palette = 0;
-        std::vector<Constraint> constraints;
-        std::vector<Obeyed> obeyed;  // one per joint, if there are constraints
-        std::vector<Chain> chains;
-        std::vector<std::uint32_t> chain_order;
-        std::vector<PullView> weights;  // by chain, then joint
-        std::uint32_t longest_chain = 0;
-        mutable std::mutex making_plans;  // by the first Pose
-        mutable std::unique_ptr<const PosePlan> pose_plan;
-        mutable std::vector<SkinPlan> plans;  // one per pool
-    };
-
-    struct DeleteData {
-        void operator()(const Data* data) const;  // where SkinPlan is known
-    };
-    explicit Model(const Data* data) : data_(data) {}
-    static Result<Model> build(MappedFile file, Bytes bytes, const OpenOptions& options);
-    static std::vector<RigidMovers> find_movers(const ObjectView& object);
-    static void build_rig(Data& data);
-    /// What posing and skinning need beside the file's own streams: made once, before it is asked for.
-    void make_plans() const;
-    /// Of a cycle among cycles(); as many as there are, if it is not one of them.
-    [[nodiscard]] std::size_t number_of(const Cycle& cycle) const;
-    [[nodiscard]] const PosePlan& pose_plan() const { return *data_->pose_plan; }
-    [[nodiscard]] const SkinPlan& plan(std::uint32_t pool) const;
-
-    // Behind a pointer, so that views into it survive a move of the Model.
-    std::unique_ptr<const Data, DeleteData> data_;
+    std::shared_ptr<const ModelData> data_;
 };
 
 }  // namespace bendy

@@ -12,9 +12,4 @@ struct alignas(64) PaletteMatrix {
     float unused[4];
 };
 
-/// A rigid motion as a unit dual quaternion; each part is x y z w.
-struct DualMotion {
-    float real[4], dual[4];
-};
-
 }  // namespace bendy

@@ -24,13 +24,13 @@ struct RootMotion {
 };
 
 /// `motion` in the axes of `before`, after it: character = then(character, motion) each frame.
-RootMotion then(const RootMotion& before, const RootMotion& motion);
+[[nodiscard]] RootMotion then(const RootMotion& before, const RootMotion& motion);
 /// What undoes it.
-RootMotion inverse(const RootMotion& motion);
+[[nodiscard]] RootMotion inverse(const RootMotion& motion);
 /// A share of the way from one to the other, 0 to 1, the short way round: for crossfades.
-RootMotion blend(const RootMotion& motion, const RootMotion& other, double weight);
+[[nodiscard]] RootMotion blend(const RootMotion& motion, const RootMotion& other, double weight);
 /// `motion` so many times over. Exact to about 1e-15 of what it moves for each of the `times` at worst.
-RootMotion repeat(const RootMotion& motion, std::uint64_t times);
+[[nodiscard]] RootMotion repeat(const RootMotion& motion, std::uint64_t times);
 
 enum class RootTurn : std::uint8_t {
     none,
@@ -45,7 +45,7 @@ struct RootAxes {
 };
 
 /// The joint that carries a character over the ground: a root joint, or hips. Reads cycles of its model only; any
-/// number of threads may share one. Made once; nothing else allocates. The model must outlive it where it stands.
+/// number of threads may share one. Made once; nothing else allocates.
 class RootPath {
 public:
     /// \param joint  of the model; one that it does not have never moves
@@ -69,7 +69,7 @@ private:
     [[nodiscard]] RootMotion motion_of(const glm::dmat4& root) const;
     [[nodiscard]] RootMotion along(const Cycle& cycle, const Stretch& stretch) const;
 
-    const Model* model_;
+    Model model_;
     RootAxes axes_;
     std::vector<std::uint32_t> path_;  // from the model's root down to the joint; empty: none
     glm::dvec3 chosen_{0.0};           // 1 for axes that are taken

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
 #include <span>
@@ -9,8 +11,8 @@ namespace BENDY_PUBLIC bendy {
 
 /// Sets the pose to the cycle at `seconds` on the cycle's own time line (Cycle::start to Cycle::end): what a track
 /// animates gets its value there, the rest is at rest. Times outside a track's keys are held at its first or last key;
-/// the caller wraps time for cycles that loop. Null, or NaN seconds: the rest pose, and false.
-bool sample(const Cycle* cycle, float seconds, Pose& pose);
+/// the caller wraps time for cycles that loop. Null, or NaN seconds: an error, and the rest pose.
+[[nodiscard]] Result<void, CallError> sample(Pose& pose, const Cycle* cycle, float seconds);
 
 /// One track at a time, as glTF 2.0 defines it (3.11 and appendix C): step, linear (slerp for rotations, the short way
 /// round), cubic (Hermite, tangents times the key distance; rotations normalised). `value` takes the track's
@@ -25,6 +27,6 @@ struct FrameMix {
 
 /// The frames between which fixed frames are at `seconds`, held to their first and last; closed ones go on from the
 /// last frame to the first, and are there again at the end.
-FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds);
+[[nodiscard]] FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds);
 
 }  // namespace bendy

@@ -19,10 +19,11 @@ struct Socket {
 };
 
 /// At the first joint of that name; in the model's own space if there is none, which Socket::joint says.
-Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& offset = glm::mat4(1.0f));
+[[nodiscard]] Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& offset = glm::mat4(1.0f));
 
 /// Socket space to world: world = model_to_world * joint * offset. With keeps_size the joint's axes are made unit, at
-/// right angles and right-handed first; an axis without length is replaced. Brings a stale pose up to date first.
-glm::mat4 socket_matrix(const Socket& socket, Pose& pose, const glm::mat4& model_to_world = glm::mat4(1.0f));
+/// right angles and right-handed first; an axis without length is replaced.
+[[nodiscard]] glm::mat4 socket_matrix(Pose& pose, const Socket& socket,
+                                      const glm::mat4& model_to_world = glm::mat4(1.0f));
 
 }  // namespace bendy

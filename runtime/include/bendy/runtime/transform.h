@@ -16,6 +16,6 @@ struct JointTransform {
 };
 
 /// T * R * U, U upper triangular with the scale on its diagonal and `shear` (xy, xz, yz) above it.
-glm::dmat4 to_matrix(const JointTransform& transform, const glm::vec3& shear);
+[[nodiscard]] glm::dmat4 to_matrix(const JointTransform& transform, const glm::vec3& shear);
 
 }  // namespace bendy

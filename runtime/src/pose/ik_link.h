@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bendy/format/public.h>
 #include <bendy/runtime/constraint.h>
 
 #include <glm/gtc/quaternion.hpp>
@@ -9,9 +8,9 @@
 
 #include <cstdint>
 
-namespace BENDY_PUBLIC bendy {
+namespace bendy {
 
-/// A joint of a chain while an IK solver works on it; a Pose keeps as many as its model's longest chain has, so that
+/// A joint of a chain while an IK solver works on it; a PoseState has as many as its model's longest chain has, so that
 /// reaching allocates nothing. Rotations and bones in the space of the start's parent, lengths in chain lengths.
 struct IkLink {
     glm::dquat local;                        ///< relative to the link before

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <bendy/format/public.h>
-
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-namespace BENDY_PUBLIC bendy {
+namespace bendy {
 
-/// What DualSkinning makes of a palette's entry: v -> rigid motion of (stretch * v + shift).
+/// What skinning by dual quaternions makes of a palette's entry: v -> rigid motion of (stretch * v + shift).
 struct StretchedMotion {
     glm::dquat real{1.0, 0.0, 0.0, 0.0};  ///< of the rigid motion as a dual quaternion; unit
     glm::dquat dual{0.0, 0.0, 0.0, 0.0};

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <bendy/runtime/palette_matrix.h>
+#include <bendy/runtime/pose.h>
+
+#include "ik_link.h"
+#include "model/model_data.h"
+#include "plan/skin_block.h"
+#include "plan/stretched_motion.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bendy {
+
+/// The work memory of skinning by dual quaternions.
+struct DualMotions {
+    explicit DualMotions(const Model& model);
+
+    std::vector<glm::dvec3> places;          ///< of each palette entry's joint in pool space when it was bound
+    std::vector<std::uint32_t> first_place;  ///< of each pool
+    std::vector<StretchedMotion> motions;    ///< of the pool that is being skinned, by palette entry
+    std::vector<DualMotion> kernel_motions;
+    std::vector<PaletteMatrix> kernel_stretches;
+    double scale = 1.0;
+    bool is_stretched = false;
+    bool are_good = false;    ///< all of `motions` are finite
+    bool has_kernel = false;  ///< kernel_motions hold what `motions` do
+};
+
+/// What a Pose holds. No two of them share a cache line: each is written by a thread of its own.
+struct alignas(64) PoseState {
+    struct alignas(64) JointMatrix {  // on a cache line of its own
+        glm::mat4 matrix;
+    };
+    static_assert(sizeof(JointMatrix) == sizeof(glm::mat4));
+
+    static PoseState& of(Pose& pose) { return *pose.state_; }
+    static const PoseState& of(const Pose& pose) { return *pose.state_; }
+
+    explicit PoseState(const Model& from);
+
+    void set_rest();
+    /// Fills model_space from the local transforms, parents before children, if these may have changed.
+    void refresh() {
+        if (is_stale) find_model_space();
+    }
+    void find_model_space();
+    /// Joint space to model space, as exact as find_model_space had it.
+    [[nodiscard]] glm::dmat4 exact_matrix(std::uint32_t joint) const {
+        return is_exact ? exact_model_space[joint] : glm::dmat4(model_space[joint].matrix);
+    }
+    /// Sets `palette` for a skinned pool, if it is not that already. Whether all numbers are finite. Not of a stale
+    /// pose.
+    bool make_palette(std::uint32_t pool);
+    /// Sets `palette` for what one joint moves. Whether all numbers are finite. Not of a stale pose.
+    bool make_rigid_palette(std::uint32_t joint);
+
+    Model model;
+    const ModelData* data;  ///< of `model`
+    std::vector<JointTransform> local;
+    std::vector<JointMatrix> model_space;
+    std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
+    std::vector<float> target_weights;
+    std::vector<IkLink> ik_links;        ///< of the chain that reaches
+    std::vector<PaletteMatrix> palette;  ///< of the pool that is being skinned; never empty
+    std::uint32_t palette_pool = kNone;  ///< whose palette is
+    bool is_palette_finite = false;
+    bool is_exact = true;             ///< in doubles, so that rounding does not add up along deep chains
+    bool is_stale = true;             ///< a local transform may have changed since find_model_space
+    std::optional<DualMotions> dual;  ///< once it is skinned by dual quaternions
+};
+
+}  // namespace bendy
