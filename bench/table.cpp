@@ -67,7 +67,7 @@ public:
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 4), [&](const auto& range) {
                 (void)crowd.play(members.subspan(range.begin(), range.size()),
-                           static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+                                 static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
             });
         });
     }

@@ -1,7 +1,7 @@
-#include "colour.h"
-#include "commands.h"
-#include "console.h"
-#include "problem.h"
+#include "commands/commands.h"
+#include "terminal/colour.h"
+#include "terminal/console.h"
+#include "terminal/problem.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,0 +1,89 @@
+#include "commands/commands.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "terminal/problem.h"
+#include "terminal/progress.h"
+
+#include <bendy/converter/source_format.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/validate.h>
+#include <bendy/twin/assemble.h>
+
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct AssembleArguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+    bool force = false;
+    bool allow_invalid = false;
+};
+
+/// fox.bendy.json and fox.json give fox.bendy; what is piped in is piped on.
+std::filesystem::path default_output(const std::filesystem::path& file) {
+    if (is_dash(file)) return file;
+    std::filesystem::path stem = file;
+    if (stem.extension() == ".json") stem.replace_extension();
+    if (stem.extension() != ".bendy") stem += ".bendy";
+    return stem;
+}
+
+/// Fails for a file that is known to be something else than text of ours, with the command that reads it.
+void refuse_other_kinds(const std::filesystem::path& file, Bytes bytes) {
+    const auto kind = converter::find_file_kind(bytes, file);
+    if (!kind) return;
+    if (kind->format == converter::SourceFormat::bendy)
+        fail(file, "is a bendy file, not the text of one, which `bendy dump` writes");
+    if (kind->format || !kind->way_in.empty()) fail(file, printable(converter::why_not_bendy(*kind, file)));
+}
+
+void run(AssembleArguments arguments) {
+    require_folder_of(arguments.output);
+    const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
+    if (arguments.output.empty()) arguments.output = default_output(arguments.file);
+    Outputs outputs(arguments.force);
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, named, Content::binary);
+    check_suffix({"assemble", "--output", {".bendy"}}, arguments.file, arguments.output);
+    const InputBytes file = open_file(arguments.file);
+    refuse_other_kinds(arguments.file, file.bytes());
+
+    LateProgress progress("assembling");
+    const auto bytes = twin::assemble(as_text(file.bytes()), progress.callback());
+    if (!bytes) {
+        const twin::TextFault& fault = bytes.error();
+        const std::string place = std::to_string(fault.line) + ':' + std::to_string(fault.column);
+        fail(std::filesystem::path(shown_name(arguments.file)) += ':' + place, printable(fault.what));
+    }
+    const Faults faults = validate(*bytes);
+    if (!faults.empty() && !arguments.allow_invalid) {
+        print_fault_lines(std::cerr, arguments.file, faults, *bytes);
+        fail(arguments.file, "would be a file with faults, and is not written; --allow-invalid writes it all the same");
+    }
+    outputs.write(arguments.output, *bytes);
+    if (!faults.empty()) {
+        warn(output_name(arguments.output), "the file has faults, `bendy validate` lists them; the first: " +
+                                                describe_with_place(faults.list().front(), *bytes));
+    }
+}
+
+}  // namespace
+
+void add_assemble(CLI::App& program) {
+    const auto arguments = std::make_shared<AssembleArguments>();
+    CLI::App* command = program.add_subcommand("assemble", "Make a bendy file of the JSON that `bendy dump` writes");
+    command->add_option("FILE", arguments->file, "a text: FILE.bendy.json")->required();
+    command->add_option("-o,--output", arguments->output, "where to write; FILE.bendy if not given");
+    command->add_flag("--force", arguments->force, "replace FILE.bendy even if bendy did not write it");
+    command->add_flag("--allow-invalid", arguments->allow_invalid,
+                      "write a file with faults too, for tests of readers; else they are listed, and the exit is 1");
+    command->footer(
+        "The form is described in spec/text.md, with a JSON Schema beside it.\n"
+        "Example: bendy assemble fox.bendy.json -o edited.bendy");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,189 @@
+#include "commands/commands.h"
+#include "commands/model_options.h"
+#include "commands/side_by_side.h"
+#include "files/input.h"
+#include "terminal/problem.h"
+#include "terminal/progress.h"
+
+#include <bendy/runtime.h>
+#include <bendy/runtime/kernels.h>
+#include <bendy/stages/stages.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct BenchArguments {
+    std::filesystem::path file;
+    std::vector<std::string> kernels;
+    std::string clip;
+    int rounds = 41;
+    bool json = false;
+};
+
+std::vector<std::string> names_of(std::span<const Kernel> kernels) {
+    std::vector<std::string> names;
+    for (const Kernel kernel : kernels) names.emplace_back(kernel_name(kernel));
+    return names;
+}
+
+/// The names of all kernels, so that the help is the same on every machine.
+std::vector<std::string> kernel_names() {
+    using enum Kernel;
+    return names_of(std::array{plain, sse4, avx2, neon, wasm});
+}
+
+/// What is wrong with the name of a kernel; empty if this machine has it.
+std::string check_kernel(const std::string& name) {
+    const std::vector<std::string> here = names_of(kernels());
+    if (std::find(here.begin(), here.end(), name) != here.end()) return {};
+    return name + " does not run here; these do: " + CLI::detail::join(here, ", ");
+}
+
+std::vector<Kernel> chosen_kernels(const BenchArguments& arguments) {
+    std::vector<Kernel> chosen;
+    for (const Kernel kernel : kernels()) {
+        const auto& names = arguments.kernels;
+        if (std::find(names.begin(), names.end(), kernel_name(kernel)) != names.end()) chosen.push_back(kernel);
+    }
+    if (chosen.empty()) chosen.push_back(kernel());
+    return chosen;
+}
+
+/// One Timing for each kernel, by turns, in nanoseconds per item.
+std::vector<Timing> time_stage(const stages::Stage& stage, const std::vector<Kernel>& kernels, int rounds) {
+    std::vector<Contestant> contestants;
+    contestants.reserve(kernels.size());
+    for (const Kernel kernel : kernels) {
+        contestants.push_back({"", [&stage, kernel] {
+                                   (void)set_kernel(kernel);
+                                   stage.run();
+                               }});
+    }
+    return side_by_side(contestants, stage.items, rounds);
+}
+
+/// Three digits and a unit.
+std::string brief_time(double nanoseconds) {
+    constexpr std::array kUnits{"ns", "us", "ms", "s"};
+    std::size_t unit = 0;
+    for (; nanoseconds >= 1000.0 && unit + 1 < kUnits.size(); ++unit) nanoseconds /= 1000.0;
+    std::array<char, 32> text{};
+    const int decimals = nanoseconds < 10.0 ? 2 : nanoseconds < 100.0 ? 1 : 0;
+    std::snprintf(text.data(), text.size(), "%.*f %s", decimals, nanoseconds, kUnits.at(unit));
+    return text.data();
+}
+
+struct Row {
+    const stages::Stage* stage;
+    std::vector<Timing> timings;  // one per kernel
+};
+
+std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.insert(0, width - text.size(), ' ');
+    return text;
+}
+
+void print_page(const BenchArguments& arguments, const Model& model, const Cycle* cycle,
+                const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
+    std::cout << shown_name(arguments.file.filename()) << ": " << grouped(model.joints().size()) << " joints, "
+              << grouped(model.vertex_count()) << " vertices, " << grouped(model.target_count()) << " targets";
+    if (cycle != nullptr) std::cout << "; cycle \"" << printable(cycle->name) << '"';
+    std::cout << "\none thread; median of " << arguments.rounds << " turns (and the shortest)\n\n"
+              << std::string(36, ' ');
+    constexpr std::size_t kWidth = 22;
+    for (const Kernel kernel : kernels) std::cout << padded(std::string(kernel_name(kernel)), kWidth);
+    std::cout << '\n';
+    for (const Row& row : rows) {
+        std::string name = row.stage->name;
+        name.resize(std::max<std::size_t>(name.size(), 36), ' ');
+        std::cout << name;
+        for (const Timing& timing : row.timings)
+            std::cout << padded(brief_time(timing.median) + " (" + brief_time(timing.least) + ')', kWidth);
+        std::cout << "  a " << row.stage->item << '\n';
+    }
+}
+
+void print_json(const BenchArguments& arguments, const Model& model, const Cycle* cycle,
+                const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
+    nlohmann::json stages = nlohmann::json::array();
+    for (const Row& row : rows) {
+        nlohmann::json times = nlohmann::json::object();
+        for (std::size_t k = 0; k < kernels.size(); ++k) {
+            times[std::string(kernel_name(kernels[k]))] = {{"medianNs", row.timings[k].median},
+                                                           {"leastNs", row.timings[k].least}};
+        }
+        stages.push_back(
+            {{"name", row.stage->name}, {"item", row.stage->item}, {"items", row.stage->items}, {"perItem", times}});
+    }
+    const nlohmann::json report = {{"file", arguments.file.string()},
+                                   {"joints", model.joints().size()},
+                                   {"vertices", model.vertex_count()},
+                                   {"targets", model.target_count()},
+                                   {"cycle", cycle == nullptr ? nlohmann::json() : nlohmann::json(cycle->name)},
+                                   {"rounds", arguments.rounds},
+                                   {"stages", stages}};
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+void run(const BenchArguments& arguments) {
+    const InputBytes file = open_bendy_file(arguments.file);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
+    const Cycle* cycle = model->cycles().empty() ? nullptr : model->cycles().data();
+    if (!arguments.clip.empty()) cycle = &find_cycle(arguments.clip, arguments.file, *model);
+
+    const std::vector<Kernel> kernels = chosen_kernels(arguments);
+    const auto open = [&](const OpenOptions& options) {
+        return is_dash(arguments.file) ? Model::from_memory(file.bytes(), options)
+                                       : Model::open(arguments.file, options);
+    };
+    const stages::Stages steps(open, *model, cycle);
+    std::vector<Row> rows;
+    {
+        ProgressBar bar("measuring");
+        for (const stages::Stage& stage : steps.list()) {
+            bar.show(rows.size(), steps.list().size());
+            rows.push_back({&stage, time_stage(stage, kernels, arguments.rounds)});
+        }
+    }
+    (arguments.json ? print_json : print_page)(arguments, *model, cycle, kernels, rows);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program) {
+    const auto arguments = std::make_shared<BenchArguments>();
+    CLI::App* command =
+        program.add_subcommand("bench", "Say what each step costs, from opening a file to its vertices");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command
+        ->add_option(
+            "--kernel", arguments->kernels,
+            "measure with this arithmetic, if the machine has it; may be repeated, and they then run by turns; "
+            "the quickest if not given")
+        ->check(CLI::IsMember(kernel_names()))
+        ->check(check_kernel)
+        ->allow_extra_args(false);
+    command->add_option("--clip", arguments->clip, "the cycle to play, by number or name; the first if not given");
+    command->add_option("--rounds", arguments->rounds, "turns of about 2 ms for each step")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "print a JSON report, in nanoseconds");
+    command->footer(
+        "Times are for one joint, vertex, ... on one thread, with everything in the caches. Other programs disturb\n"
+        "them: compare what was measured by turns, in one run.\n"
+        "Example: bendy bench fox.bendy\n"
+        "         bendy bench fox.bendy --clip Run --kernel plain --kernel " +
+        std::string(kernel_name(kernels().front())));
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

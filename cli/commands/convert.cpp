@@ -1,0 +1,255 @@
+#include "commands/commands.h"
+#include "convert/conversion.h"
+#include "convert/convert_batch.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "inspect/summary.h"
+#include "terminal/console.h"
+#include "terminal/problem.h"
+#include "terminal/progress.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/converter/source_format.h>
+#include <bendy/runtime.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+/// Bytes by kind before and after, and the worst error.
+void print_compact(const converter::CompactReport& report, std::ostream& out) {
+    std::uint64_t before = 0;
+    std::uint64_t after = 0;
+    const auto print_line = [&out](std::string_view kind, std::uint64_t exact, std::uint64_t compact) {
+        out << "  " << std::left << std::setw(19) << kind << std::right << std::setw(14) << grouped(exact)
+            << std::setw(14) << grouped(compact) << '\n';
+    };
+    out << "  bytes                       exact       compact\n";
+    for (std::size_t k = 0; k < report.compact.size(); ++k) {
+        before += report.exact[k].bytes;
+        after += report.compact[k].bytes;
+        if (report.exact[k].bytes + report.compact[k].bytes != 0)
+            print_line(kind_in_words(report.compact[k].kind), report.exact[k].bytes, report.compact[k].bytes);
+    }
+    print_line("total", before, after);
+    constexpr double kMillimetres = 1e3;
+    out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres << " mm; worst met "
+        << report.measured_error * kMillimetres << " mm";
+    if (!report.place.empty()) out << ": " << printable(report.place);
+    out << '\n';
+    if (report.curves == 0) return;
+    constexpr double kPercent = 100.0;
+    out << "  curves         " << report.packed_curves << " of " << report.curves << " packed";
+    if (report.packed_curves != 0)
+        out << "; largest error " << report.curve_error * kPercent << " % of the range of values";
+    out << '\n';
+}
+
+auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,
+                           converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    LiveProgress progress("converting " + shown_name(input.filename()), !arguments.quiet);
+    options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
+    options.progress = [&](double share) { progress.set(share); };
+    return convert_input(input, options, report);
+}
+
+void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_bytes_by_kind) {
+    const Result<Model> model = Model::from_memory(bytes);
+    if (!model) fail(output_name(arguments.output), model.error(), bytes);
+    const Stream stream = is_dash(arguments.output) ? Stream::error : Stream::output;
+    summary_stream(arguments.output) << summary_as_text(summarize(*model, bytes), output_name(arguments.output),
+                                                        columns_of(stream), with_bytes_by_kind);
+}
+
+void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {
+    const std::string text = depfile_text(arguments.output, report.sources());
+    if (text.empty()) fail(output_name(arguments.depfile), "cannot hold a file name with a line break");
+    outputs.write(arguments.depfile, text);
+}
+
+/// \returns the bytes that it has written
+std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, NamedBy named, converter::Report& report) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    if (named == NamedBy::user) require_folder_of(arguments.output);  // else it is the input's
+    require_folder_of(arguments.depfile);
+    Outputs outputs(arguments.force);
+    outputs.reads(input);
+    if (!arguments.rig.empty()) outputs.reads(arguments.rig);
+    outputs.writes(arguments.output, named, Content::binary);
+    check_suffix({"convert", "--output", {".bendy"}}, input, arguments.output);
+    if (!arguments.depfile.empty()) outputs.writes(arguments.depfile, NamedBy::user, Content::text);
+    auto bytes = convert_with_progress(arguments, options_of(arguments), report);
+    if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
+    for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
+    outputs.write(arguments.output, *bytes);
+    if (!arguments.depfile.empty()) write_depfile(arguments, report, outputs);
+    return *std::move(bytes);
+}
+
+void convert_file(const ConvertArguments& arguments, NamedBy named) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    converter::Report report;
+    if (arguments.json) {
+        try {
+            const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
+            print_report(converted_report(input, arguments.output, report, bytes));
+        } catch (const Failed& failed) {
+            print_report(failed_report(input, arguments.output, report, failed.file, failed.what));
+            throw;
+        }
+        return;
+    }
+    const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
+    print_warnings(input, report);
+    print_proposals(report);
+    if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
+    if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
+}
+
+/// What one run can do with standard input and output, and with names.
+void check_names(const ConvertArguments& arguments, bool is_batch) {
+    const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);
+    if (is_batch && (has_dash || is_dash(arguments.rig)))
+        throw CLI::ValidationError("-", "standard input goes alone, and not into a folder");
+    if (is_batch && is_dash(arguments.output))
+        throw CLI::ValidationError("--output", "several files cannot go to standard output: give a folder");
+    const bool takes_output = is_dash(arguments.output) || is_dash(arguments.depfile);
+    if (arguments.json && takes_output)
+        throw CLI::ValidationError("--json", "goes to standard output, and so does a file: give that a name");
+    if (!arguments.depfile.empty() && is_dash(arguments.output))
+        throw CLI::ValidationError("--depfile", "goes with an output that has a name");
+    if (const auto format = format_named_by(arguments.depfile); !format.empty()) {
+        throw CLI::ValidationError("--depfile", printable(arguments.depfile.string()) + " would be " +
+                                                    std::string(format) + ", not a rule for Make");
+    }
+    std::error_code ignored;
+    if (const auto format = format_named_by(arguments.output);
+        is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {
+        const std::string name = printable(arguments.output.string());
+        throw CLI::ValidationError("--output", "several files go to a folder, and " + name + " would be " +
+                                                   std::string(format) + "; " + name + "/ is a folder");
+    }
+}
+
+void run(ConvertArguments arguments) {
+    const std::filesystem::path& input = arguments.inputs.front();
+    std::error_code ignored;
+    const bool has_folder =
+        std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
+                    [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
+    const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
+    const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
+                          (!arguments.output.empty() && (!arguments.output.has_filename() ||
+                                                         std::filesystem::is_directory(arguments.output, ignored)));
+    if (arguments.output.empty() && !is_batch)
+        arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
+    check_names(arguments, is_batch);
+    if (!is_batch) return convert_file(arguments, named);
+    if (!arguments.depfile.empty())
+        throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
+    convert_batch(arguments);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+    const auto arguments = std::make_shared<ConvertArguments>();
+    const std::string extensions = converter::list_readable_suffixes();
+    CLI::App* command =
+        program.add_subcommand("convert", "Convert characters (" + extensions + "), or bendy files, to bendy files");
+    command
+        ->add_option("IN", arguments->inputs,
+                     "a file (" + extensions +
+                         ", or a bendy file), told apart by content; or several, or folders: all such files "
+                         "in them and below, bendy files apart")
+        ->required();
+    command->add_option("-o,--output", arguments->output,
+                        "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "
+                        "folder to write to, which is made, and where files from a folder have the places that they "
+                        "have in it; beside each input if not given");
+    command
+        ->add_option("-j,--jobs", arguments->jobs,
+                     "of several inputs, how many at a time; one for each processor if not given")
+        ->check(CLI::Range(1u, 1024u));
+    command->add_flag("--force", arguments->force,
+                      "replace outputs that bendy did not write, unless -o names the one file; and of several inputs, "
+                      "convert all, not only what has changed since it was converted to the same place");
+    command->add_flag("--json", arguments->json,
+                      "print a JSON object for each input, on a line of its own, instead of the summary and warnings");
+    command->add_option("--depfile", arguments->depfile,
+                        "of one input: write which files were read, as a rule for Make or Ninja");
+    command->add_option("--scene", arguments->scene,
+                        "the scene of a glTF file to take, by name or number; the file's default if not given");
+    command
+        ->add_option("--images", arguments->images,
+                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "to the output's folder")
+        ->check(CLI::IsMember({"embed", "link"}))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--ticks-per-second", arguments->ticks_per_second,
+            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
+            "file's AnimTicksPerSecond, or 4800, if not given")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--merge-clips", arguments->merge_clips,
+                      "clips that move different joints become one, as for files with a clip for each joint");
+    command->add_flag("--instances", arguments->instances,
+                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
+                      "numbers are kept, and the mesh is drawn once");
+    command->add_option("--rig", arguments->rig,
+                        "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
+    CLI::Option* exact =
+        command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
+    command->add_flag("--auto-rig", arguments->auto_rig,
+                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
+                      "the clips, and list them");
+    command->add_flag("--auto-skin", arguments->auto_skin,
+                      "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
+                      "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");
+    command->add_option("--skeleton", arguments->skeleton,
+                        "for --auto-skin, which it implies: the bones are this joint and all below it; a name, or #12");
+    CLI::Option* compact =
+        command
+            ->add_flag(
+                "--compact", arguments->compact,
+                "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
+            ->excludes(exact);
+    CLI::Option* max_error =
+        command
+            ->add_option("--max-error", arguments->max_error,
+                         "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
+                         "character's height (0.005%); implies --compact")
+            ->check([](const std::string& text) {
+                const auto bound = converter::parse_error_bound(text);
+                return bound ? std::string() : bound.error();
+            });
+    CLI::Option* lod = command->add_flag(
+        "--lod", arguments->lod,
+        "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its order");
+    command
+        ->add_flag(
+            "--sort-vertices", arguments->sort_vertices,
+            "put vertices that follow the same bones beside one another: less work in every frame. Else they keep "
+            "the source's order; --lod and --compact have orders of their own")
+        ->excludes(lod)
+        ->excludes(compact)
+        ->excludes(max_error);
+    command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command->footer(
+        "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
+        "Example: bendy convert fox.glb -o build/fox.bendy\n"
+        "         bendy convert *.glb\n"
+        "         bendy convert models/ -o build/models --compact");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,264 @@
+#include "commands/commands.h"
+#include "commands/diff_characters.h"
+#include "files/input.h"
+#include "terminal/colour.h"
+#include "terminal/problem.h"
+#include "terminal/text.h"
+
+#include <bendy/diff/compare_files.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/validate.h>
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bendy::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using diff::Difference;
+using diff::Differences;
+using diff::ReadFile;
+using Kind = Difference::Kind;
+
+constexpr int kDiffers = 1;
+constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands return
+
+struct DiffArguments {
+    std::array<std::filesystem::path, 2> files;
+    std::optional<converter::ErrorBound> bound;  // of places; without one, chunks are compared
+    bool json = false;
+};
+
+/// The shortest digits that are the number, as the float that it was in the file.
+std::string number_text(double number) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<float>(number)).ptr;
+    return {digits.data(), end};
+}
+
+std::string scalar_text(const diff::Scalar& scalar) {
+    if (const auto* text = std::get_if<std::string>(&scalar)) return '"' + brief(*text) + '"';
+    if (const auto* number = std::get_if<double>(&scalar)) return number_text(*number);
+    if (const auto* whole = std::get_if<std::uint64_t>(&scalar)) return std::to_string(*whole);
+    if (const auto* truth = std::get_if<bool>(&scalar)) return *truth ? "true" : "false";
+    return "none";
+}
+
+/// A record's field: one value or a list of them.
+std::string value_text(const diff::Value& value) {
+    std::string text;
+    for (const diff::Scalar& item : value.items) text += (text.empty() ? "" : " ") + scalar_text(item);
+    return text;
+}
+
+Json to_json(const diff::Value& value) {
+    Json list = Json::array();
+    for (const diff::Scalar& item : value.items) {
+        std::visit(
+            [&](const auto& scalar) {
+                if constexpr (std::is_same_v<decltype(scalar), const std::monostate&>) {
+                    list.push_back(nullptr);
+                } else {
+                    list.push_back(scalar);
+                }
+            },
+            item);
+    }
+    return value.is_list ? list : list.front();
+}
+
+/// "3 of 300 numbers differ, by up to 0.25; the first: element 4, component 1: 0 -> 0.25".
+std::string numbers_text(const Difference& difference) {
+    std::string text = grouped(difference.count) + " of " + grouped(difference.of) + " numbers differ, by up to " +
+                       number_text(difference.largest) + "; the first: element " +
+                       std::to_string(difference.first_element);
+    if (difference.first_component != 0) text += ", component " + std::to_string(difference.first_component);
+    return text + ": " + value_text(difference.a_value) + " -> " + value_text(difference.b_value);
+}
+
+std::string bytes_text(const Difference& difference) {
+    std::string text = grouped(difference.count) + " of " + grouped(difference.of) + " bytes differ, the first at " +
+                       std::to_string(difference.first_element);
+    if (difference.a_value != difference.b_value)
+        text += "; " + value_text(difference.a_value) + " bytes -> " + value_text(difference.b_value);
+    return text;
+}
+
+std::string what_text(const Difference& difference) {
+    std::string text = difference.part.empty() ? "" : difference.part + ": ";
+    switch (difference.kind) {
+        case Kind::only_in_a:
+            return text + "only in A";
+        case Kind::only_in_b:
+            return text + "only in B";
+        case Kind::order:
+            return text + "stands in another order";
+        case Kind::value:
+            return text + value_text(difference.a_value) + " -> " + value_text(difference.b_value);
+        case Kind::numbers:
+            return text + numbers_text(difference);
+        case Kind::bytes:
+            return text + bytes_text(difference);
+        case Kind::storage:
+            return text + "the same content, stored otherwise";
+    }
+    return text;
+}
+
+const char* kind_name(Kind kind) {
+    constexpr std::array kNames{"onlyInA", "onlyInB", "order", "value", "numbers", "bytes", "storage"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+/// The name of a chunk, or of the nearest around it that has one.
+std::string name_of(const ChunkTree& tree, std::uint32_t number) {
+    constexpr unsigned kMostSteps = 3;
+    for (unsigned step = 0; step < kMostSteps && number != 0; ++step) {
+        const std::uint32_t name = tree[number].is_container() ? tree.find(number, FourCC("NAME")) : kNone;
+        if (name != kNone) return std::string(as_text(tree.payload(name)));
+        number = tree[number].parent;
+    }
+    return {};
+}
+
+void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differences) {
+    for (const Difference& difference : differences.list()) {
+        const auto& [here, there] = difference.chunks;
+        const bool only_in_b = here == kNone;
+        const ReadFile& file = only_in_b ? b : a;
+        const std::uint32_t chunk = only_in_b ? there : here;
+        const std::string path = chunk_path(file.tree.bytes(), file.tree[chunk].offset);
+        const char mark = difference.kind == Kind::only_in_a ? '-' : difference.kind == Kind::only_in_b ? '+' : '!';
+        std::string line = std::string(1, mark) + ' ' + path;
+        if (const std::string name = name_of(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
+        if (here != kNone && there != kNone) {
+            const std::string other = chunk_path(b.tree.bytes(), b.tree[there].offset);
+            if (other != path) line += " (in B: " + other + ')';
+        }
+        std::cout << line << ": " << printable(what_text(difference)) << '\n';
+    }
+    if (differences.left_out() != 0) std::cout << grouped(differences.left_out()) << " more differences\n";
+}
+
+Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
+    Json list = Json::array();
+    for (const Difference& difference : differences.list()) {
+        const auto& [here, there] = difference.chunks;
+        Json entry{{"kind", kind_name(difference.kind)}};
+        if (here != kNone) entry["pathInA"] = whole_chunk_path(a.tree.bytes(), a.tree[here].offset);
+        if (there != kNone) entry["pathInB"] = whole_chunk_path(b.tree.bytes(), b.tree[there].offset);
+        const std::string name = here != kNone ? name_of(a.tree, here) : name_of(b.tree, there);
+        if (!name.empty()) entry["name"] = name;
+        if (!difference.part.empty()) entry["part"] = difference.part;
+        if (difference.kind == Kind::value || difference.kind == Kind::numbers) {
+            entry["a"] = to_json(difference.a_value);
+            entry["b"] = to_json(difference.b_value);
+        }
+        if (difference.kind == Kind::bytes) {
+            entry["bytesInA"] = to_json(difference.a_value);
+            entry["bytesInB"] = to_json(difference.b_value);
+            entry["first"] = difference.first_element;
+        }
+        if (difference.kind == Kind::numbers) {
+            entry["largest"] = difference.largest;
+            entry["element"] = difference.first_element;
+            entry["component"] = difference.first_component;
+        }
+        if (difference.kind == Kind::numbers || difference.kind == Kind::bytes) {
+            entry["differing"] = difference.count;
+            entry["of"] = difference.of;
+        }
+        list.push_back(std::move(entry));
+    }
+    Json report{
+        {"a", arguments.files[0].string()}, {"b", arguments.files[1].string()}, {"same", differences.count() == 0}};
+    report["differences"] = std::move(list);
+    report["differencesLeftOut"] = differences.left_out();
+    return report;
+}
+
+/// A damaged file is refused before anything is compared: its sums would say nothing.
+std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
+    const Faults faults = validate(file.bytes());
+    if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
+    return diff::read_file(file.bytes());
+}
+
+bool are_same(const DiffArguments& arguments) {
+    if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
+    std::array<InputBytes, 2> files;
+    std::array<std::unique_ptr<ReadFile>, 2> read;
+    for (std::size_t i = 0; i < 2; ++i) {
+        files[i] = open_bendy_file(arguments.files[i]);
+        read[i] = open(arguments.files[i], files[i]);
+    }
+    const Differences differences = diff::compare_files(*read[0], *read[1]);
+    if (arguments.json) {
+        std::cout
+            << to_json(arguments, *read[0], *read[1], differences).dump(2, ' ', false, Json::error_handler_t::replace)
+            << '\n';
+    } else {
+        print_lines(*read[0], *read[1], differences);
+    }
+    return differences.count() == 0;
+}
+
+void run(const DiffArguments& arguments) {
+    bool same = false;
+    try {
+        same = are_same(arguments);
+        std::cout.flush();
+        if (!std::cout) fail("standard output", "cannot be written");
+    } catch (const Failed&) {
+        throw Failed{kTrouble};
+    } catch (const diff::TooMuchToCompare&) {
+        std::cerr << error_label() << shown_name(arguments.files[0])
+                  << ": tracks share more keys than can be compared\n";
+        throw Failed{kTrouble};
+    } catch (const std::exception& problem) {
+        std::cerr << error_label() << problem.what() << '\n';
+        throw Failed{kTrouble};
+    }
+    if (!same) throw Failed{kDiffers};
+}
+
+}  // namespace
+
+void add_diff(CLI::App& program) {
+    const auto arguments = std::make_shared<DiffArguments>();
+    const auto tolerance = std::make_shared<std::string>();
+    CLI::App* command = program.add_subcommand(
+        "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");
+    command->add_option("A", arguments->files[0], "a bendy file")->required();
+    command->add_option("B", arguments->files[1], "another")->required();
+    CLI::Option* given =
+        command->add_option("--tolerance", *tolerance,
+                            "compare the characters instead, as an exact file and its compact twin: a length (0.1mm) "
+                            "or a share of the height "
+                            "(0.005%); no point of the skin may be so far from where it should be, in any cycle");
+    command->add_flag("--json", arguments->json, "print a JSON report");
+    command->footer(
+        "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"
+        "Example: bendy diff fox.bendy build/fox.bendy\n"
+        "Example: bendy diff fox.bendy compact.bendy --tolerance 0.005%");
+    command->callback([arguments, tolerance, given] {
+        if (given->count() != 0) {
+            const auto bound = converter::parse_error_bound(*tolerance);
+            if (!bound) throw CLI::ValidationError("--tolerance", bound.error());
+            arguments->bound = *bound;
+        }
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::cli

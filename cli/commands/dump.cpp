@@ -1,0 +1,69 @@
+#include "commands/commands.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "terminal/problem.h"
+#include "terminal/progress.h"
+
+#include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/twin/dump.h>
+
+#include <memory>
+
+namespace bendy::cli {
+namespace {
+
+struct DumpArguments {
+    std::filesystem::path file;
+    std::filesystem::path output = "-";
+    bool decode = false;
+    bool ignore_sums = false;
+};
+
+void run(const DumpArguments& arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::text);
+    check_suffix({"dump", "--output", {".json", ".txt"}}, arguments.file, arguments.output);
+    require_folder_of(arguments.output);
+    const InputBytes file = open_bendy_file(arguments.file);
+    const Bytes bytes = file.bytes();
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) fail(arguments.file, tree.error(), bytes);
+    Faults faults;
+    check_sums(*tree, faults);
+    if (!faults.empty()) {
+        const std::string what = describe_with_place(faults.list().front(), bytes);
+        if (!arguments.ignore_sums)
+            fail(arguments.file, what + "; with --ignore-sums the text is written all the same");
+        warn(arguments.file, what + "; the text does not tell");
+    }
+    decode_leaves(*tree);
+    twin::DumpOptions options;
+    options.decode = arguments.decode;
+    LateProgress progress("dumping");
+    const std::string text = twin::dump(*tree, options, progress.callback());
+    outputs.write(arguments.output, text);
+}
+
+}  // namespace
+
+void add_dump(CLI::App& program) {
+    const auto arguments = std::make_shared<DumpArguments>();
+    CLI::App* command = program.add_subcommand(
+        "dump", "Write a file as JSON to read and edit; `bendy assemble` makes the same bytes of it again");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");
+    command->add_flag("--decode", arguments->decode,
+                      "write encoded chunks as plain ones: shorter text, that assembles to the same content without "
+                      "encodings");
+    command->add_flag("--ignore-sums", arguments->ignore_sums,
+                      "also of a file whose integrity sums are wrong; assembling puts them right");
+    command->footer(
+        "The form is described in spec/text.md.\n"
+        "Example: bendy dump fox.bendy -o fox.bendy.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

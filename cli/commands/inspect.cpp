@@ -1,0 +1,295 @@
+#include "commands/commands.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "inspect/describe_chunk.h"
+#include "inspect/inspect_html.h"
+#include "inspect/inspect_json.h"
+#include "inspect/summary.h"
+#include "terminal/colour.h"
+#include "terminal/problem.h"
+#include "terminal/text.h"
+
+#include <bendy/format/check_sums.h>
+#include <bendy/format/decode_leaves.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/runtime/model.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+namespace bendy::cli {
+namespace {
+
+struct InspectArguments {
+    std::filesystem::path file;
+    std::string chunk;
+    bool json = false;
+    bool summary = false;
+    bool hex = false;
+    bool all = false;
+    std::filesystem::path html;
+};
+
+/// Chunks whose content the line of their parent already tells.
+bool is_folded(const ChunkTree& tree, const Chunk& chunk) {
+    constexpr std::array kFolded{FourCC("NAME"), FourCC("PIVO"), FourCC("REST"), FourCC("VINF"), FourCC("CINF"),
+                                 FourCC("TINF"), FourCC("SURF"), FourCC("SAMP"), FourCC("POLY"), FourCC("KINF")};
+    if (chunk.id == FourCC("EXTR") || chunk.id == FourCC("EXTN") || chunk.id == FourCC("MORE"))
+        return tree[chunk.parent].id == FourCC("SKIN");
+    return std::find(kFolded.begin(), kFolded.end(), chunk.id) != kFolded.end();
+}
+
+/// Gives chunks that other records refer to their numbers, in file order.
+class Counters {
+public:
+    /// " 7", or nothing for a chunk without a number of its kind.
+    std::string label(FourCC id) {
+        if (id == FourCC("OBJE")) {
+            for (Counter& counter : counters_) counter.next = counter.is_of_object ? 0 : counter.next;
+        }
+        for (Counter& counter : counters_) {
+            if (counter.id == id) return ' ' + std::to_string(counter.next++);
+        }
+        return {};
+    }
+
+private:
+    struct Counter {
+        FourCC id;
+        bool is_of_object;  // numbered inside it
+        std::uint32_t next = 0;
+    };
+    std::array<Counter, 6> counters_{{{FourCC("SKIN"), true},
+                                      {FourCC("IKCH"), true},
+                                      {FourCC("VECT"), true},
+                                      {FourCC("CYCL"), true},
+                                      {FourCC("MATE"), false},
+                                      {FourCC("TEXT"), false}}};
+};
+
+std::string indentation(std::size_t depth) {
+    constexpr std::size_t kMostLevels = 40;
+    std::string spaces(2 * std::min(depth, kMostLevels), ' ');
+    if (depth > kMostLevels) spaces += '[' + std::to_string(depth) + "] ";
+    return spaces;
+}
+
+void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
+    const std::size_t width = columns_of(Stream::output);
+    std::cout << in_colour(Colour::bold, "      offset         size  chunk", Stream::output) << '\n';
+    std::vector<std::uint32_t> ends;  // of the containers that we are in
+    Counters counters;
+    const RigIndex rigs(tree);
+    for (std::uint32_t number = 0; number < tree[root].end;) {
+        const Chunk& chunk = tree[number];
+        const std::string label = counters.label(chunk.id);
+        if (number < root) {
+            ++number;  // only counted
+            continue;
+        }
+        while (!ends.empty() && number >= ends.back()) ends.pop_back();
+        if (!all && number != root && is_folded(tree, chunk)) {
+            number = chunk.end;
+            continue;
+        }
+        std::array<char, 32> columns{};
+        std::snprintf(columns.data(), columns.size(), "%12llu %12llu  ", static_cast<unsigned long long>(chunk.offset),
+                      static_cast<unsigned long long>(chunk.size));
+        const std::string before = columns.data() + indentation(ends.size());
+        std::string line = before;
+        line += chunk.id.letters().data();
+        line += label;
+        const std::string content = describe_chunk(tree, number, rigs);
+        if (!content.empty()) line += "  " + content;
+        line = cut_to(line, width);
+        const std::size_t start = std::min(before.size(), line.size());
+        const std::size_t end = std::min(start + chunk.id.letters().size() - 1, line.size());
+        std::cout << line.substr(0, start)
+                  << in_colour(Colour::bold, std::string_view(line).substr(start, end - start), Stream::output)
+                  << line.substr(end) << '\n';
+        if (chunk.is_container()) ends.push_back(chunk.end);
+        ++number;
+    }
+}
+
+void print_hex(Bytes bytes, std::uint64_t offset) {
+    constexpr std::size_t kPerLine = 16;
+    for (std::size_t at = 0; at < bytes.size(); at += kPerLine) {
+        const Bytes line = bytes.subspan(at, std::min(kPerLine, bytes.size() - at));
+        const unsigned long long address = offset + at;
+        std::array<char, 24> start{};
+        std::snprintf(start.data(), start.size(), "%12llx ", address);
+        std::cout << start.data();
+        std::string text;
+        for (std::size_t i = 0; i < kPerLine; ++i) {
+            if (i % 4 == 0) std::cout << ' ';
+            if (i >= line.size()) {
+                std::cout << "  ";
+                continue;
+            }
+            const auto byte = std::to_integer<unsigned>(line[i]);
+            std::array<char, 3> digits{};
+            std::snprintf(digits.data(), digits.size(), "%02x", byte);
+            std::cout << digits.data();
+            text += byte >= 0x20 && byte < 0x7f ? static_cast<char>(byte) : '.';
+        }
+        std::cout << "  " << text << '\n';
+    }
+}
+
+void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
+                const std::optional<Summary>& summary) {
+    nlohmann::ordered_json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};
+    if (arguments.chunk.empty())
+        document["summary"] = summary ? summary_as_json(*summary) : nlohmann::ordered_json(nullptr);
+    if (!arguments.summary) document["chunks"] = chunks_as_json(tree, root);
+    std::cout << document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
+                const std::optional<Summary>& summary) {
+    const std::string name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    if (arguments.chunk.empty() && summary) {
+        std::cout << summary_as_text(*summary, name, columns_of(Stream::output));
+        if (arguments.summary) return;
+        std::cout << '\n';
+    } else if (root == 0) {
+        std::cout << printable(name) << ", " << grouped(tree.bytes().size()) << " bytes, "
+                  << grouped(tree.chunks().size()) << " chunks\n";
+    }
+    print_tree(tree, root, arguments.all);
+}
+
+void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+    warn(file, "the file has faults, `bendy validate` lists them; the first: " +
+                   describe_with_place(faults.list().front(), bytes));
+}
+
+/// \returns its size, bytes
+std::size_t write_page(const InspectArguments& arguments, const Outputs& outputs, const InspectedFile& file) {
+    const std::string page = inspect_page(file);
+    outputs.write(arguments.html, page);
+    return page.size();
+}
+
+/// Writes the page also of a faulty file; one whose grammar is broken, which has no tree, is bad input all the same.
+void run_html(const InspectArguments& arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.html, NamedBy::user, Content::text);
+    check_suffix({"inspect", "--html", {".html", ".htm", ".xhtml"}}, arguments.file, arguments.html);
+    const InputBytes input = open_bendy_file(arguments.file);
+    InspectedFile file;
+    file.name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    file.bytes = input.bytes();
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes);
+    if (!tree) {
+        file.faults.add(tree.error());
+        write_page(arguments, outputs, file);
+        fail(arguments.file, tree.error(), file.bytes);
+    }
+    check_sums(*tree, file.faults);
+    decode_leaves(*tree);
+    file.tree = &*tree;
+    file.document = read_document(*tree, file.faults);
+    check_values(*tree, file.document, file.faults);
+    file.pictures = draw_page_pictures(
+        file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
+    const std::size_t size = write_page(arguments, outputs, file);
+    summary_stream(arguments.html) << printable(output_name(arguments.html)) << ": " << grouped(size) << " bytes, "
+                                   << grouped(file.faults.count())
+                                   << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
+}
+
+/// Nothing of a file with faults, which has chunks to show, but no character to sum up.
+std::optional<Summary> summarize_file(const InspectArguments& arguments, const ChunkTree& tree, Bytes bytes) {
+    const auto& chunks = tree.chunks();
+    const bool is_empty =
+        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
+    if (is_empty) return summarize_empty(bytes);
+    const Result<Model> model = Model::from_memory(bytes);
+    if (model) return summarize(*model, bytes);
+    if (arguments.summary) fail(arguments.file, model.error(), bytes);
+    return std::nullopt;
+}
+
+void run(const InspectArguments& arguments) {
+    require_folder_of(arguments.html);
+    if (!arguments.html.empty()) {
+        run_html(arguments);
+        return;
+    }
+    const InputBytes file = open_bendy_file(arguments.file);
+    Result<ChunkTree> tree = read_chunk_tree(file.bytes());
+    if (!tree) fail(arguments.file, tree.error(), file.bytes());
+    decode_leaves(*tree);
+    const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
+    if (root == kNone) {
+        fail(arguments.file,
+             "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
+    }
+
+    std::optional<Summary> summary;
+    if (root == 0 && !arguments.hex) {
+        summary = summarize_file(arguments, *tree, file.bytes());
+    }
+    if (arguments.json) {
+        print_json(arguments, *tree, root, summary);
+    } else if (arguments.hex) {
+        const Chunk& chunk = (*tree)[root];
+        print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
+    } else {
+        print_text(arguments, *tree, root, summary);
+    }
+    Faults faults;
+    check_sums(*tree, faults);
+    if (faults.empty()) read_document(*tree, faults);
+    if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program) {
+    const auto arguments = std::make_shared<InspectArguments>();
+    CLI::App* command = program.add_subcommand(
+        "inspect", "Show what is in a file: a summary, then the chunk tree with ids, offsets, sizes");
+    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    CLI::Option* chunk =
+        command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
+    CLI::Option* json = command->add_flag("--json", arguments->json,
+                                          "print JSON: the summary by name, and every chunk with its record's fields");
+    CLI::Option* hex = command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
+    CLI::Option* all =
+        command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
+    CLI::Option* summary = command
+                               ->add_flag("--summary", arguments->summary,
+                                          "only what the character consists of: joints, rig, meshes, clips, materials, "
+                                          "textures, bounds, sizes; without the chunk tree")
+                               ->excludes(hex)
+                               ->excludes(all)
+                               ->excludes(chunk);
+    command
+        ->add_option("--html", arguments->html,
+                     "write OUT.html instead: one page for a browser with the chunks, skeleton, cycles, textures, "
+                     "materials and faults; it loads nothing, and images of more than 32 MiB in all are left out")
+        ->excludes(json)
+        ->excludes(hex)
+        ->excludes(chunk)
+        ->excludes(all)
+        ->excludes(summary);
+    command->footer(
+        "What is in the JSON: docs/inspect.md.\n"
+        "Example: bendy inspect fox.bendy --summary\n"
+        "         bendy inspect fox.bendy --chunk HEAD/OBJE/CYCL[2]\n"
+        "         bendy inspect fox.bendy --html fox.html");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

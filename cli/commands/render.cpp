@@ -1,0 +1,339 @@
+#include "commands/commands.h"
+#include "terminal/problem.h"
+
+#ifdef BENDY_HAS_VIEWER
+
+#include "commands/model_options.h"
+#include "commands/reach_request.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "terminal/progress.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/runtime.h>
+#include <bendy/viewer/linked_file.h>
+#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/render.h>
+#include <bendy/viewer/viewer_error.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+struct RenderArguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+    std::string clip;
+    bool has_clip = false;
+    float time = 0.0f;
+    bool has_time = false;
+    std::string size;
+    std::string camera;
+    std::string background;
+    std::string format;   // empty: as the output's name says
+    unsigned frames = 0;  // 0: not said
+    bool verbose = false;
+    ReachRequest reach;
+    viewer::RenderOptions render;
+};
+
+[[noreturn]] void fail_option(const char* option, const std::string& what) {
+    throw CLI::ValidationError(option, what);
+}
+
+/// Numbers with commas between them; nothing if the text is anything else, or holds fewer than `least`.
+std::optional<std::vector<float>> parse_numbers(std::string_view text, std::size_t least, std::size_t most) {
+    std::vector<float> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (numbers.size() < most) {
+        float number = 0.0f;
+        const auto [stop, problem] = std::from_chars(at, end, number);
+        if (problem != std::errc() || !std::isfinite(number)) return std::nullopt;
+        numbers.push_back(number);
+        at = stop;
+        if (at == end) break;
+        if (*at++ != ',') return std::nullopt;
+    }
+    return at == end && numbers.size() >= least ? std::optional(numbers) : std::nullopt;
+}
+
+void parse_size(const std::string& text, viewer::RenderOptions& options) {
+    const char* const end = text.data() + text.size();
+    const auto [cross, bad_width] = std::from_chars(text.data(), end, options.width);
+    const bool has_cross = bad_width == std::errc() && cross != end && *cross == 'x';
+    const auto [stop, bad_height] = std::from_chars(has_cross ? cross + 1 : end, end, options.height);
+    const auto fits = [](std::uint32_t side) { return side >= 1 && side <= viewer::kMostPixels; };
+    if (!has_cross || bad_height != std::errc() || stop != end || !fits(options.width) || !fits(options.height))
+        fail_option("--size", "must be WIDTHxHEIGHT in pixels, 1 to " + std::to_string(viewer::kMostPixels) + " each");
+}
+
+void parse_camera(const std::string& text, viewer::CameraOptions& camera) {
+    const auto numbers = parse_numbers(text, 2, 3);
+    if (!numbers || (numbers->size() == 3 && (*numbers)[2] <= 0.0f))
+        fail_option("--camera", "must be YAW,PITCH or YAW,PITCH,DISTANCE: degrees, and a factor above 0");
+    constexpr float kDegree = 3.14159265f / 180.0f;
+    camera.yaw = (*numbers)[0] * kDegree;
+    camera.pitch = (*numbers)[1] * kDegree;
+    if (numbers->size() == 3) camera.distance = (*numbers)[2];
+}
+
+float linear(unsigned srgb) {
+    const float value = static_cast<float>(srgb) / 255.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+void parse_background(const std::string& text, glm::vec4& background) {
+    if (text == "transparent") {
+        background = glm::vec4(0.0f);
+        return;
+    }
+    struct Named {
+        std::string_view name;
+        unsigned colour;
+    };
+    constexpr std::array<Named, 3> kNamed{{{"white", 0xffffff}, {"black", 0}, {"grey", 0x808080}}};
+    for (const Named& named : kNamed) {
+        if (text != named.name) continue;
+        background = {linear(named.colour >> 16u), linear(named.colour >> 8u & 255u), linear(named.colour & 255u),
+                      1.0f};
+        return;
+    }
+    unsigned colour = 0;
+    const std::size_t hash = text.starts_with('#') ? 1 : 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data() + hash, end, colour, 16);
+    if (text.size() - hash != 6 || problem != std::errc() || stop != end)
+        fail_option("--background", "must be RRGGBB, white, black, grey or transparent");
+    background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
+}
+
+/// When the frames are, on the cycle's time line: a cycle that repeats does not show its end, which is its start again.
+std::vector<float> frame_times(const Cycle& cycle, unsigned frames, bool repeats) {
+    std::vector<float> times;
+    const float steps = static_cast<float>(repeats ? frames : std::max(1u, frames - 1));
+    for (unsigned k = 0; k < frames; ++k)
+        times.push_back(cycle.start + (cycle.end - cycle.start) * static_cast<float>(k) / steps);
+    return times;
+}
+
+std::uint32_t sheet_columns(unsigned frames) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
+}
+
+/// A sheet is one picture, and made in memory.
+void check_sheet(const RenderArguments& arguments) {
+    constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
+    const std::uint64_t columns = sheet_columns(arguments.frames);
+    if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
+        fail_option("--frames", "so many pictures of this --size are too large for one");
+}
+
+/// Draws poses whose chains have reached for their targets, and keeps count of how near they came.
+class ReachingMaker {
+public:
+    ReachingMaker(const RenderArguments& arguments, const Model& model)
+        : goals_(find_goals(arguments.reach, arguments.file, model)),
+          maker_(model, options_of(arguments),
+                 [&](const std::string& what) { warn(arguments.file, printable(what)); }) {}
+
+    viewer::Picture draw(float time) {
+        viewer::Picture picture = maker_.draw(time);
+        tally_.add(results_, time);
+        return picture;
+    }
+    viewer::Picture draw_nothing() { return maker_.draw_nothing(); }
+
+    [[nodiscard]] const std::string& context() const { return maker_.context(); }
+    void print_tally(const std::filesystem::path& file, const Model& model) const { tally_.print(file, model, goals_); }
+
+private:
+    viewer::RenderOptions options_of(const RenderArguments& arguments) {
+        viewer::RenderOptions options = arguments.render;
+        options.adjust = [this, &request = arguments.reach](Pose& pose) {
+            results_ = reach_goals(request, goals_, pose);
+        };
+        for (const ReachGoal& goal : goals_) options.targets.push_back({goal.chain, goal.target.position});
+        return options;
+    }
+
+    std::vector<ReachGoal> goals_;
+    std::vector<Reached> results_;  // of the last pose
+    ReachTally tally_;
+    viewer::PictureMaker maker_;
+};
+
+std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& arguments) {
+    ProgressBar bar("drawing");
+    std::vector<viewer::Picture> pictures;
+    const Cycle& cycle = *arguments.render.cycle;
+    for (const float time : frame_times(cycle, arguments.frames, cycle.loop)) {
+        pictures.push_back(maker.draw(time));
+        bar.show(pictures.size(), arguments.frames);
+    }
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames), maker.draw_nothing()));
+}
+
+std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArguments& arguments, bool is_gif) {
+    const viewer::RenderOptions& render = arguments.render;
+    const auto file =
+        is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
+    const double length = static_cast<double>(render.cycle->end) - static_cast<double>(render.cycle->start);
+    ProgressBar bar("drawing");
+    unsigned done = 0;
+    for (const float time : frame_times(*render.cycle, arguments.frames, true)) {
+        file->add(maker.draw(time), length * done / arguments.frames);
+        bar.show(++done, arguments.frames);
+    }
+    return file->finish(length);
+}
+
+/// Frames of an animation whose number was not given: 25 a second.
+unsigned default_frames(const Cycle& cycle) {
+    constexpr double kRate = 25.0;
+    constexpr double kMost = 1000.0;
+    const double length = static_cast<double>(cycle.end) - static_cast<double>(cycle.start);
+    return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
+}
+
+std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& format) {
+    const bool is_animation = format != "png";
+    viewer::RenderOptions& render = arguments.render;
+    if (arguments.has_clip) render.cycle = &find_cycle(arguments.clip, arguments.file, model);
+    if (render.cycle == nullptr && (is_animation || arguments.frames > 1)) {
+        if (model.cycles().empty()) fail(arguments.file, "there is no cycle to show in several frames");
+        render.cycle = model.cycles().data();
+    }
+    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.cycle);
+    warn_without_levels(arguments.file, model, render.lod);
+    ReachingMaker maker(arguments, model);
+    if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
+    const float start = render.cycle == nullptr ? 0.0f : render.cycle->start;
+    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, format == "gif")
+                                   : arguments.frames > 1
+                                       ? draw_sheet(maker, arguments)
+                                       : viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+    maker.print_tally(arguments.file, model);
+    return bytes;
+}
+
+/// Of the output: what --format says, or its name does.
+std::string format_of(const RenderArguments& arguments) {
+    if (!arguments.format.empty()) return arguments.format;
+    const std::string suffix = suffix_of(arguments.output);
+    return is_dash(arguments.output) || suffix.empty() ? "png" : suffix.substr(1);
+}
+
+/// The file and the images beside it that it names, which are drawn.
+void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
+    for (const Texture& texture : model.textures()) {
+        for (const ImageView& image : texture.images) {
+            if (const auto file = viewer::linked_file(arguments.render.folder, image.uri)) outputs.reads(*file);
+        }
+    }
+}
+
+void run(RenderArguments arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::binary);
+    check_format({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.format, arguments.file,
+                 arguments.output);
+    const std::string format = format_of(arguments);
+    if (arguments.frames > 1 && arguments.has_time) fail_option("--time", "does not go with --frames");
+    if (arguments.frames > 1 || format != "png") {
+        arguments.render.width = 320;
+        arguments.render.height = 240;
+    }
+    if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
+    if (format == "png") check_sheet(arguments);
+    if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
+    if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
+    arguments.render.draw.targets = arguments.render.draw.constraints;
+    require_folder_of(arguments.output);
+    const CharacterFile file = open_character(arguments.file, outputs);
+    const Result<Model> model = Model::from_memory(file.bytes());
+    if (!model) fail(arguments.file, model.error(), file.bytes());
+    arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
+    note_inputs(arguments, *model, outputs);
+    try {
+        const std::vector<std::byte> bytes = draw_all(arguments, *model, format);
+        outputs.write(arguments.output, bytes);
+    } catch (const viewer::ViewerError& problem) {
+        fail(arguments.file, printable(problem.what()));
+    }
+}
+
+}  // namespace
+
+void add_render(CLI::App& program) {
+    const auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = program.add_subcommand("render", "Make a picture or an animation, without a display");
+    command
+        ->add_option("FILE", arguments->file,
+                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "OUT.png; or OUT.gif, OUT.webp: an animation; - is standard output")
+        ->required();
+    command
+        ->add_option("--format", arguments->format,
+                     "png, gif or webp, where no name says it; to standard output: png if not given")
+        ->check(CLI::IsMember({"png", "gif", "webp"}));
+    CLI::Option* clip =
+        command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
+    CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the cycle's time line")->needs(clip);
+    add_reach(*command, arguments->reach);
+    command
+        ->add_option("--frames", arguments->frames,
+                     "so many pictures over the cycle: in rows in OUT.png, or one after another in an animation")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
+    command->add_option("--camera", arguments->camera,
+                        "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");
+    command->add_flag("--bones", arguments->render.draw.bones, "draw the skeleton");
+    command->add_flag("--axes", arguments->render.draw.axes, "draw the joints' axes");
+    command->add_flag("--constraints", arguments->render.draw.constraints,
+                      "draw the joints' limits and the IK targets");
+    command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
+    add_lod(*command, arguments->render.lod);
+    command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
+    command->add_flag("-v,--verbose", arguments->verbose, "say which OpenGL draws");
+    command->footer(
+        "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, with a line to what is to "
+        "reach them.\n"
+        "Example: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n"
+        "         bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
+    command->callback([arguments, clip, time] {
+        arguments->has_clip = clip->count() != 0;
+        arguments->has_time = time->count() != 0;
+        if (!std::isfinite(arguments->time)) fail_option("--time", "must be a finite number");
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::cli
+
+#else
+
+namespace bendy::cli {
+
+void add_render(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "Make a picture (this bendy was built without it)");
+    command->allow_extras();
+    command->callback([] { fail("render", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+}
+
+}  // namespace bendy::cli
+
+#endif

@@ -1,0 +1,119 @@
+#include "commands/commands.h"
+#include "files/dangling_links.h"
+#include "files/input.h"
+#include "terminal/colour.h"
+#include "terminal/problem.h"
+
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/validate.h>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bendy::cli {
+namespace {
+
+struct ValidateArguments {
+    std::vector<std::filesystem::path> files;
+    bool json = false;
+};
+
+const char* class_name(ErrorClass kind) {
+    switch (kind) {
+        case ErrorClass::malformed:
+            return "malformed";
+        case ErrorClass::invalid:
+            return "invalid";
+        case ErrorClass::unsupported:
+            return "unsupported";
+        case ErrorClass::io:
+            return "io";
+    }
+    return "";
+}
+
+/// What is wrong with a file that is no bendy file at all: it cannot be opened, or is known to be something else.
+/// Empty for all others, whose faults tell.
+std::string why_no_file(const std::filesystem::path& file, const Result<InputBytes>& mapped) {
+    return mapped ? why_not_bendy(file, mapped->bytes()) : why_not_opened(file, mapped.error());
+}
+
+using Links = std::vector<DanglingLink>;
+
+std::string text_of(const DanglingLink& link) {
+    return "linked image does not exist: " + link.uri;
+}
+
+nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, const Links& links, Bytes bytes,
+                       const std::string& why) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Error& fault : faults.list()) {
+        list.push_back({{"code", code_name(fault.code)},
+                        {"class", class_name(error_class(fault.code))},
+                        {"path", whole_chunk_path(bytes, fault.offset)},
+                        {"offset", fault.offset},
+                        {"message", why.empty() ? describe(fault) : why}});
+    }
+    nlohmann::json warnings = nlohmann::json::array();
+    for (const DanglingLink& link : links) {
+        warnings.push_back(
+            {{"path", whole_chunk_path(bytes, link.offset)}, {"offset", link.offset}, {"message", text_of(link)}});
+    }
+    return {{"file", file.string()},
+            {"valid", faults.empty()},
+            {"faults", list},
+            {"faultsLeftOut", faults.left_out()},
+            {"warnings", warnings}};
+}
+
+void run(const ValidateArguments& arguments) {
+    bool all_good = true;
+    nlohmann::json report = nlohmann::json::array();
+    for (const std::filesystem::path& file : arguments.files) {
+        const Result<InputBytes> mapped = InputBytes::open(file);
+        Faults faults;
+        Bytes bytes;
+        Links links;
+        if (mapped) {
+            bytes = mapped->bytes();
+            faults = validate(bytes);
+            if (faults.empty()) links = find_dangling_links(file, bytes);
+        } else {
+            faults.add(mapped.error());
+        }
+        all_good = all_good && faults.empty();
+        const std::string why = why_no_file(file, mapped);
+        if (arguments.json) {
+            report.push_back(to_json(file, faults, links, bytes, why));
+        } else if (!why.empty()) {
+            std::cerr << error_label() << shown_name(file) << ": " << printable(why) << '\n';
+        } else {
+            print_fault_lines(std::cout, file, faults, bytes);
+            for (const DanglingLink& link : links)
+                warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
+        }
+    }
+    if (arguments.json) std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    if (!all_good) throw Failed{};
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program) {
+    const auto arguments = std::make_shared<ValidateArguments>();
+    CLI::App* command = program.add_subcommand("validate", "Say everything that is wrong with files, and where");
+    command->add_option("FILE", arguments->files, "bendy files")->required();
+    command->add_flag("--json", arguments->json, "print a JSON report");
+    command->footer(
+        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1. A link to an image that does "
+        "not "
+        "exist is a warning, on standard error or in the report's \"warnings\": the exit status stays 0.\n"
+        "Example: bendy validate fox.bendy");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,190 @@
+#include "batch.h"
+
+#include "files/output.h"
+#include "terminal/problem.h"
+
+#include <bendy/converter/source_format.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <set>
+#include <span>
+#include <system_error>
+#include <utility>
+
+namespace bendy::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path that is the same for the same file, however it was written.
+fs::path plain(const fs::path& path) {
+    std::error_code unknown;
+    fs::path canonical = fs::weakly_canonical(path, unknown);
+    return unknown ? fs::absolute(path).lexically_normal() : canonical;
+}
+
+class Planner {
+public:
+    explicit Planner(fs::path folder) : folder_(std::move(folder)) {}
+
+    void add(const fs::path& input) {
+        std::error_code ignored;
+        if (fs::is_directory(input, ignored)) {
+            add_folder(input);
+        } else {
+            add_file(input, folder_.empty() ? input.parent_path() : folder_, input.filename());
+        }
+    }
+
+    BatchPlan finish() {
+        std::set<fs::path> folders;
+        for (const auto& [key, file] : files_) {
+            if (const std::string problem = outputs_.claim(file.output, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({file.input, file.output, problem});
+            folders.insert(file.folder);
+            plan_.files.push_back(file);
+        }
+        for (const fs::path& folder : folders) {
+            const fs::path record = BatchRecord::file_in(folder);
+            if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({{}, record, problem});
+        }
+        return std::move(plan_);
+    }
+
+    void reads(const fs::path& file) { outputs_.reads(file); }
+
+private:
+    void add_folder(const fs::path& folder) {
+        const std::size_t before = files_.size();
+        std::error_code error;
+        fs::recursive_directory_iterator entry(folder, error);
+        for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+            std::error_code ignored;
+            if (converter::has_readable_suffix(entry->path()) && !entry->is_directory(ignored))
+                add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
+        }
+        if (error) {
+            plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
+        } else if (files_.size() == before) {
+            warn(folder, "has no file to convert (" + converter::list_readable_suffixes() + ')');
+        }
+    }
+
+    void add_file(const fs::path& input, const fs::path& folder, fs::path place) {
+        place.replace_extension(".bendy");
+        const fs::path output = folder / place;
+        const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
+        if (!is_new && plain(earlier->second.input) != plain(input)) {
+            plan_.clashes.push_back({input, output,
+                                     "both " + printable(earlier->second.input.string()) + " and " +
+                                         printable(input.string()) + " would be written there"});
+        }
+        outputs_.reads(input);
+    }
+
+    fs::path folder_;
+    std::map<fs::path, BatchFile> files_;  // by output, plain
+    Outputs outputs_;
+    BatchPlan plan_;
+};
+
+using converter::FileStamp;
+using converter::SourceFile;
+using nlohmann::json;
+
+/// The same for a file however its folder was written. Not what a link names: other files are looked for beside the
+/// link.
+std::filesystem::path in_plain_folder(const std::filesystem::path& file) {
+    const std::filesystem::path whole = std::filesystem::absolute(file);
+    std::error_code unknown;
+    return std::filesystem::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
+}
+
+json as_json(const FileStamp& stamp) {
+    return stamp.is_there ? json::array({stamp.size, stamp.modified}) : json();
+}
+
+FileStamp as_stamp(const json& numbers) {
+    if (numbers.is_null()) return {};
+    return {true, numbers.at(0).get<std::uint64_t>(), numbers.at(1).get<std::int64_t>()};
+}
+
+}  // namespace
+
+BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& rig) {
+    Planner planner(folder);
+    for (const fs::path& input : inputs) planner.add(input);
+    if (!rig.empty()) planner.reads(rig);
+    return planner.finish();
+}
+
+BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(file_in(folder)) {
+    try {
+        read();
+    } catch (const json::exception&) {
+        entries_.clear();  // damaged, or of another version: all is made again
+    }
+}
+
+std::filesystem::path BatchRecord::file_in(const std::filesystem::path& folder) {
+    return folder / ".bendy_batch.json";
+}
+
+bool BatchRecord::knows(const BatchFile& file) const {
+    return entries_.contains(file.place.generic_string());
+}
+
+void BatchRecord::read() {
+    const Result<MappedFile> mapped = MappedFile::open(file_);
+    if (!mapped) return;
+    const Bytes bytes = mapped->bytes();
+    const auto* text = reinterpret_cast<const char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
+    const json record = json::parse(text, text + bytes.size());
+    for (const auto& [output, members] : record.at("outputs").items()) {
+        Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
+        for (const json& source : members.at("sources"))
+            entry.sources.push_back({source.at(0).get<std::string>(), as_stamp(source.at(1))});
+        entries_.emplace(output, std::move(entry));
+    }
+}
+
+bool BatchRecord::is_up_to_date(const BatchFile& file, const std::string& recipe) const {
+    const auto found = entries_.find(file.place.generic_string());
+    if (found == entries_.end()) return false;
+    const Entry& entry = found->second;
+    return entry.recipe == recipe && entry.output.is_there && entry.output == converter::stamp_of(file.output) &&
+           !entry.sources.empty() && in_plain_folder(entry.sources.front().file) == in_plain_folder(file.input) &&
+           std::all_of(entry.sources.begin(), entry.sources.end(),
+                       [](const SourceFile& source) { return source.stamp == converter::stamp_of(source.file); });
+}
+
+void BatchRecord::note(const BatchFile& file, const std::string& recipe, const std::vector<SourceFile>& sources) {
+    Entry entry{recipe, converter::stamp_of(file.output), sources};
+    for (SourceFile& source : entry.sources) source.file = std::filesystem::absolute(source.file);
+    entries_[file.place.generic_string()] = std::move(entry);
+}
+
+std::string BatchRecord::write() const {
+    json outputs = json::object();
+    for (const auto& [output, entry] : entries_) {
+        if (!converter::stamp_of(folder_ / output).is_there) continue;
+        json sources = json::array();
+        for (const SourceFile& source : entry.sources)
+            sources.push_back(json::array({source.file.string(), as_json(source.stamp)}));
+        outputs[output] = {
+            {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
+    }
+    // A name that is no UTF-8 is not found again, and its file made again.
+    const std::string text = json{{"outputs", std::move(outputs)}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    const auto written = write_file(file_, std::as_bytes(std::span(text)));
+    return written ? std::string() : bendy::describe(written.error());
+}
+
+}  // namespace bendy::cli

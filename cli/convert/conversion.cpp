@@ -1,0 +1,191 @@
+#include "conversion.h"
+
+#include "files/input.h"
+
+#include <bendy/runtime.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+namespace bendy::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json start(const std::filesystem::path& input, const std::filesystem::path& output, const char* status) {
+    return {{"status", status}, {"input", input.string()}, {"output", output.string()}};
+}
+
+void add_remarks(Json& json, const converter::Report& report) {
+    Json warnings = Json::array();
+    for (const converter::Warning& warning : report.warnings())
+        warnings.push_back({{"message", warning.message}, {"place", warning.first_place}, {"count", warning.count}});
+    json["warnings"] = std::move(warnings);
+    json["proposals"] = report.proposals();
+    json["suggestions"] = report.suggestions();
+}
+
+Json list_clips(const Model& model) {
+    Json clips = Json::array();
+    for (const Cycle& cycle : model.cycles()) {
+        const double start = cycle.start;
+        clips.push_back({{"name", cycle.name}, {"start", start}, {"seconds", static_cast<double>(cycle.end) - start}});
+    }
+    return clips;
+}
+
+Json describe_compact(const converter::CompactReport& report) {
+    std::uint64_t exact = 0;
+    std::uint64_t compact = 0;
+    Json kinds = Json::array();
+    for (std::size_t k = 0; k < report.compact.size(); ++k) {
+        exact += report.exact[k].bytes;
+        compact += report.compact[k].bytes;
+        if (report.exact[k].bytes + report.compact[k].bytes == 0) continue;
+        kinds.push_back({{"kind", report.compact[k].kind},
+                         {"exactBytes", report.exact[k].bytes},
+                         {"compactBytes", report.compact[k].bytes}});
+    }
+    Json json{{"maxError", report.max_error}, {"measuredError", report.measured_error},
+              {"place", report.place},        {"height", report.height},
+              {"exactBytes", exact},          {"compactBytes", compact},
+              {"kinds", std::move(kinds)}};
+    if (report.curves != 0) {
+        json["curves"] = {
+            {"count", report.curves}, {"packed", report.packed_curves}, {"largestError", report.curve_error}};
+    }
+    return json;
+}
+
+void add_contents(Json& json, const Model& model) {
+    std::uint64_t images = 0;
+    for (const Texture& texture : model.textures()) {
+        for (const ImageView& image : texture.images) images += image.bytes.size();
+    }
+    Lod lod(model);
+    json["imageBytes"] = images;
+    json["joints"] = model.joints().size();
+    json["constraints"] = model.constraints().size();
+    json["chains"] = model.chains().size();
+    json["meshes"] = model.pools().size();
+    json["vertices"] = model.vertex_count();
+    json["triangles"] = lod.triangles();
+    if (model.collapse() != nullptr) {
+        lod.set_share(0.0f);
+        json["fewestTriangles"] = lod.triangles();
+    }
+    json["morphTargets"] = model.target_count();
+    json["materials"] = model.materials().size();
+    json["textures"] = model.textures().size();
+    json["clips"] = list_clips(model);
+}
+
+/// A file's name as Make reads it: before a space, or a #, every backslash is doubled and one more is put.
+std::string escaped(std::string_view name) {
+    std::string text;
+    std::size_t backslashes = 0;
+    for (const char c : name) {
+        if (c == ' ' || c == '\t' || c == '#') text += std::string(backslashes + 1, '\\');
+        if (c == '$') text += '$';
+        text += c;
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+    }
+    return text;
+}
+
+}  // namespace
+
+converter::ConvertOptions options_of(const ConvertArguments& arguments) {
+    converter::ConvertOptions options;
+    if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
+    options.gltf.embed_images = arguments.images == "embed";
+    options.gltf.instances = arguments.instances;
+    if (!arguments.rig.empty()) options.rig = arguments.rig;
+    options.ticks_per_second = arguments.ticks_per_second;
+    options.merge_clips = arguments.merge_clips;
+    options.auto_rig = arguments.auto_rig;
+    options.auto_skin = arguments.auto_skin || !arguments.skeleton.empty();
+    options.skeleton = arguments.skeleton;
+    if (arguments.compact) options.compact = converter::ErrorBound();
+    if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
+    options.lod = arguments.lod;
+    options.sort_vertices = arguments.sort_vertices;
+    return options;
+}
+
+std::string recipe_of(const ConvertArguments& arguments) {
+    const nlohmann::json recipe{{"bendy", BENDY_VERSION},
+                                {"scene", arguments.scene},
+                                {"images", arguments.images},
+                                {"instances", arguments.instances},
+                                {"rig", arguments.rig.empty() ? "" : std::filesystem::absolute(arguments.rig).string()},
+                                {"ticks_per_second", arguments.ticks_per_second},
+                                {"merge_clips", arguments.merge_clips},
+                                {"auto_rig", arguments.auto_rig},
+                                {"auto_skin", arguments.auto_skin},
+                                {"skeleton", arguments.skeleton},
+                                {"compact", arguments.compact},
+                                {"max_error", arguments.max_error},
+                                {"lod", arguments.lod},
+                                {"sort_vertices", arguments.sort_vertices}};
+    return recipe.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
+                                                                     converter::ConvertOptions options,
+                                                                     converter::Report& report) {
+    const std::filesystem::path name = "standard input";
+    if (options.rig && is_dash(*options.rig)) {
+        const InputBytes rig = InputBytes::read(*options.rig);
+        options.rig_text = std::string(as_text(rig.bytes()));
+        options.rig = name;
+    }
+    if (!is_dash(input)) return converter::convert(input, options, report);
+    return converter::convert(InputBytes::read(input).take(), name, options, report);
+}
+
+Json converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                      const converter::Report& report, Bytes bytes) {
+    Json json = start(input, output, "converted");
+    json["bytes"] = bytes.size();
+    if (const Result<Model> model = Model::from_memory(bytes)) add_contents(json, *model);
+    if (report.compact) json["compact"] = describe_compact(*report.compact);
+    add_remarks(json, report);
+    return json;
+}
+
+Json up_to_date_report(const std::filesystem::path& input, const std::filesystem::path& output) {
+    return start(input, output, "upToDate");
+}
+
+Json failed_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                   const converter::Report& report, const std::filesystem::path& file, const std::string& what) {
+    Json json = start(input, output, "failed");
+    json["error"] = {{"file", file.string()}, {"message", what}};
+    add_remarks(json, report);
+    return json;
+}
+
+void print_report(const Json& report) {
+    std::cout << report.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources) {
+    const std::string target = output.string();
+    std::string text = escaped(target) + ':';
+    bool is_one_line = target.find('\n') == std::string::npos;
+    for (const converter::SourceFile& source : sources) {
+        if (!source.stamp.is_there) continue;
+        const std::string name = source.file.string();
+        is_one_line = is_one_line && name.find('\n') == std::string::npos;
+        text += " \\\n  " + escaped(name);
+    }
+    return is_one_line ? text + '\n' : std::string();
+}
+
+}  // namespace bendy::cli

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <bendy/converter/convert.h>
+#include <bendy/converter/report.h>
+#include <bendy/format/byte_reader.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+// What `bendy convert --json` says of each input: docs/convert.md.
+namespace bendy::cli {
+
+/// What `bendy convert` is told.
+struct ConvertArguments {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;  ///< a file; of several inputs, a folder
+    std::string scene;
+    std::string images = "embed";
+    bool instances = false;
+    std::filesystem::path rig;
+    std::filesystem::path depfile;
+    bool exact = true;
+    double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says
+    bool merge_clips = false;
+    bool auto_rig = false;
+    bool auto_skin = false;
+    std::string skeleton;
+    bool compact = false;
+    std::string max_error;
+    bool lod = false;
+    bool sort_vertices = false;
+    unsigned jobs = 0;  ///< files at a time; 0: one for each processor
+    bool force = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+converter::ConvertOptions options_of(const ConvertArguments& arguments);
+
+/// All that decides which bytes come out, with the program's version, as one line of text.
+std::string recipe_of(const ConvertArguments& arguments);
+
+/// converter::convert of a file, or of standard input if its name is a dash: what that refers to is relative to the
+/// working directory. A rig file may be a dash too. Prints what cannot be read of standard input and throws Failed.
+Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
+                                                                     converter::ConvertOptions options,
+                                                                     converter::Report& report);
+
+/// Of an input that was converted. \param bytes  of the output
+nlohmann::ordered_json converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                                        const converter::Report& report, Bytes bytes);
+/// Of an output that stays as it is.
+nlohmann::ordered_json up_to_date_report(const std::filesystem::path& input, const std::filesystem::path& output);
+/// Of an input that could not be converted. \param file  that is to blame
+nlohmann::ordered_json failed_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                                     const converter::Report& report, const std::filesystem::path& file,
+                                     const std::string& what);
+
+/// On a line of its own, to standard output.
+void print_report(const nlohmann::ordered_json& report);
+
+/// A rule for Make and Ninja: `output` depends on the sources that are there; no commands. A name with a line break
+/// cannot be written: the result is empty.
+std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources);
+
+}  // namespace bendy::cli

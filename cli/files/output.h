@@ -1,0 +1,93 @@
+#pragma once
+
+#include "files/file_identity.h"
+
+#include <bendy/format/byte_reader.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Where all subcommands write through, so that none of them loses a file (docs/decisions/0031).
+namespace bendy::cli {
+
+/// Who chose an output's name.
+enum class NamedBy : std::uint8_t {
+    user,     ///< with -o and the like: what is there is replaced, as compilers do
+    program,  ///< the input's name with another suffix, for one: replaces only what bendy wrote
+};
+
+enum class Content : std::uint8_t { binary, text };
+
+/// The files that one run reads and writes. No output is an input, and no two are the same file, hard links and
+/// symbolic links included. A dash is standard output.
+class Outputs {
+public:
+    /// \param force  a name that the program chose may lead to any file
+    explicit Outputs(bool force = false) : force_(force) {}
+
+    /// Notes a file that is read, a dash being standard input; one that is not there is none.
+    void reads(const std::filesystem::path& input);
+
+    /// Notes an output. \returns why it must not be written, in words that follow its name; empty if it may.
+    [[nodiscard]] std::string claim(const std::filesystem::path& output, NamedBy named);
+    /// The same; prints why not and throws Failed. A terminal takes no binary.
+    void writes(const std::filesystem::path& output, NamedBy named, Content content);
+    /// For a file whose name follows from that of `beside`, such as fox.bin beside fox.gltf: replaces an existing file
+    /// only if bendy wrote `beside` and it refers to that file.
+    void writes_beside(const std::filesystem::path& output, const std::filesystem::path& beside);
+
+    /// Writes an output that was noted. Fails where any of them has turned out to be an input since.
+    void write(const std::filesystem::path& output, Bytes bytes) const;
+    void write(const std::filesystem::path& output, std::string_view text) const;
+
+private:
+    [[nodiscard]] const std::filesystem::path* input_at(const std::filesystem::path& output) const;
+    void fail_if(const std::string& problem, const std::filesystem::path& output) const;
+
+    bool force_;
+    std::map<FileIdentity, std::filesystem::path> inputs_;
+    std::set<std::filesystem::path> outputs_;   // as they were given
+    std::set<std::filesystem::path> resolved_;  // links followed, whether there is a file or not
+    std::set<FileIdentity> replaced_;           // of those that are there
+};
+
+/// The name by which messages call an output.
+std::string output_name(const std::filesystem::path& output);
+
+/// Where a summary goes: to standard error if the result takes standard output.
+std::ostream& summary_stream(const std::filesystem::path& output);
+
+/// Fails, naming the folder, where the one that an output goes to is not there: before the work, not after it.
+void require_folder_of(const std::filesystem::path& output);
+
+/// The suffix in small letters, ".glb".
+std::string suffix_of(const std::filesystem::path& file);
+
+/// The format that the suffix means, as "binary glTF"; empty if it has no meaning.
+std::string_view format_named_by(const std::filesystem::path& file);
+
+/// What a subcommand writes.
+struct Writes {
+    std::string_view command;                ///< "convert"
+    std::string_view option;                 ///< whose value the output is: "--output"
+    std::vector<std::string_view> suffixes;  ///< what it writes, in small letters
+    bool others_too = true;                  ///< suffixes without a meaning, and none, name the same format
+};
+
+/// Throws CLI::ValidationError where the output's suffix means a format that the subcommand does not write, saying by
+/// which commands `input` becomes it; or, unless `others_too`, where it is none of the suffixes. Standard output is
+/// always right.
+void check_suffix(const Writes& writes, const std::filesystem::path& input, const std::filesystem::path& output);
+
+/// The same for a subcommand with --format: a format that is given goes before a suffix without a meaning, and must
+/// agree with one that has it. \param format  a suffix without its dot; empty: not given
+void check_format(const Writes& writes, const std::string& format, const std::filesystem::path& input,
+                  const std::filesystem::path& output);
+
+}  // namespace bendy::cli

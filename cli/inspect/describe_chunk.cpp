@@ -1,0 +1,348 @@
+#include "inspect/describe_chunk.h"
+
+#include "inspect/describe_leaf.h"
+#include "inspect/record_at.h"
+#include "terminal/problem.h"
+#include "terminal/text.h"
+
+#include <bendy/format/leaf_parts.h>
+#include <bendy/format/marker.h>
+#include <bendy/format/packed_cycle.h>
+#include <bendy/format/read_record.h>
+#include <bendy/format/text.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace bendy::cli {
+namespace {
+
+std::string quoted(std::string_view text) {
+    return '"' + brief(text) + '"';
+}
+
+std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::array<std::string_view, kComponentTypes> kTypes{"u8", "i8", "u16", "i16", "u32", "f32"};
+    const auto record = record_at<StreamRecord>(tree, number);
+    std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
+    text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
+    if (record.normalised == static_cast<std::uint8_t>(Numbers::listed)) text += " listed";
+    if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
+        text += ", set " + std::to_string(record.set);
+    return text;
+}
+
+constexpr std::array<std::string_view, kTopologies> kTopologyNames{"triangles", "lines", "points"};
+
+std::string polygons_text(const PolygonRecord& record) {
+    if (record.topology >= kTopologies) return "?";
+    std::string text = grouped(record.count / corners(static_cast<Topology>(record.topology))) + ' ';
+    text += kTopologyNames[record.topology];
+    text += " of pool " + std::to_string(record.pool);
+    if (record.material != kNone) {
+        const bool is_local = (record.material & kLocalMaterial) != 0;
+        text += is_local ? ", own material " : ", material ";
+        text += std::to_string(record.material & ~kLocalMaterial);
+    }
+    return text;
+}
+
+/// A joint's constraints, one after another; empty if it has none.
+std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
+    std::string text;
+    if (pivot == kNone) return text;
+    for (const std::uint32_t child : tree.children(pivot)) {
+        if (!(tree[child].id == FourCC("LIMT"))) continue;
+        text += text.empty() ? "limits: " : " | ";
+        text += tree.encoding_fault(child) ? "encoded" : limit_text(record_at<LimitRecord>(tree, child));
+    }
+    return text;
+}
+
+/// Where the joint is, what moves with it, what limits it, and whether the author left data on it.
+std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
+    std::string text;
+    const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
+    if (rigs.has_rest(number)) text.append("at ").append(brief(rigs.joint_of(number)->rest.translation));
+    std::array<std::uint64_t, kTopologies> polygons{};
+    for (const PolygonView& range : rigs.polygons_of(number))
+        polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
+    bool has_extras = false;
+    bool has_extensions = false;
+    bool has_more = false;
+    for (const std::uint32_t child : tree.children(number)) {
+        has_extras = has_extras || (tree[child].id == FourCC("EXTR") && tree[child].size != 0);
+        has_extensions = has_extensions || (tree[child].id == FourCC("EXTN") && tree[child].size != 0);
+        has_more = has_more || (tree[child].id == FourCC("MORE") && tree[child].size != 0);
+    }
+    for (std::size_t topology = 0; topology < kTopologies; ++topology) {
+        if (polygons[topology] != 0)
+            add_part(text, grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]));
+    }
+    if (const std::string limits = limits_text(tree, pivot); !limits.empty()) add_part(text, limits);
+    if (has_extras) add_part(text, "extras");
+    if (has_extensions) add_part(text, "extensions");
+    if (has_more) add_part(text, "further members");
+    return text;
+}
+
+/// The packed tracks of a leaf; nothing if it is faulty.
+std::optional<PackedView> packed_at(const ChunkTree& tree, std::uint32_t number) {
+    Faults unread;
+    if (number == kNone || tree[number].is_container()) return std::nullopt;
+    return read_packed(tree.payload(number), kMaxJoints, tree[number].offset, unread);
+}
+
+std::uint64_t track_count(const PackedView& packed) {
+    std::uint64_t tracks = 0;
+    for (const PackedList& list : packed.lists) tracks += list.count;
+    return tracks;
+}
+
+std::string packed_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto packed = packed_at(tree, number);
+    if (!packed) return {};
+    std::string text = grouped(track_count(*packed)) + " tracks, " + grouped(packed->record.frames) + " frames";
+    if (packed->is_even()) text += ", " + brief(packed->record.frame_rate) + " frames/s";
+    return text;
+}
+
+/// The markers of a leaf; nothing if it is faulty.
+std::vector<Marker> markers_at(const ChunkTree& tree, std::uint32_t number) {
+    Faults unread;
+    if (number == kNone || tree[number].is_container() || tree.encoding_fault(number)) return {};
+    return read_markers(tree.payload(number), tree[number].offset, unread).value_or(std::vector<Marker>());
+}
+
+std::string markers_text(const ChunkTree& tree, std::uint32_t number) {
+    const std::vector<Marker> markers = markers_at(tree, number);
+    std::string text = grouped(markers.size()) + (markers.size() == 1 ? " marker" : " markers");
+    constexpr std::size_t kShown = 6;
+    for (std::size_t k = 0; k < std::min(markers.size(), kShown); ++k)
+        text += (k == 0 ? ": " : ", ") + quoted(markers[k].name) + " at " + brief(markers[k].seconds) + " s";
+    return markers.size() > kShown ? text + ", ..." : text;
+}
+
+constexpr std::uint64_t kGridBytes = 24;    // of a frame
+constexpr std::uint64_t kNormalBytes = 12;  // three f32
+
+std::uint64_t frames_in(const ChunkTree& tree, std::uint32_t grid) {
+    return grid == kNone || tree.encoding_fault(grid) ? 0 : tree.payload(grid).size() / kGridBytes;
+}
+
+std::string frames_text(const ChunkTree& tree, std::uint32_t number) {
+    const std::uint64_t frames = frames_in(tree, tree.find(number, FourCC("GRID")));
+    const auto positions = record_at<StreamRecord>(tree, tree.find(number, FourCC("POSI")));
+    std::string text = grouped(frames) + (frames == 1 ? " frame" : " frames");
+    if (frames != 0) text += " of " + grouped(positions.elements / frames) + " places";
+    return text;
+}
+
+/// The records of PLAY; nothing if it cannot be read.
+std::vector<PlayRecord> plays_at(const ChunkTree& tree, std::uint32_t number) {
+    std::vector<PlayRecord> plays;
+    if (number == kNone || tree[number].is_container() || tree.encoding_fault(number)) return plays;
+    const Bytes payload = tree.payload(number);
+    const auto records = view_at<PlayRecord>(payload, 0, payload.size() / sizeof(PlayRecord));
+    plays.assign(records.begin(), records.end());
+    return plays;
+}
+
+std::string plays_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::size_t kShown = 6;
+    std::string text;
+    const std::vector<PlayRecord> plays = plays_at(tree, number);
+    for (std::size_t k = 0; k < std::min(plays.size(), kShown); ++k) {
+        const PlayRecord& play = plays[k];
+        add_part(text, grouped(play.frames) + (play.frames == 1 ? " frame" : " frames") + " of pool " +
+                           std::to_string(play.pool) + " from frame " + std::to_string(play.first) +
+                           (play.closed != 0 ? ", closed" : ""));
+    }
+    return plays.size() > kShown ? text + ", ..." : text;
+}
+
+std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
+    const std::uint32_t table = tree.find(number, FourCC("TRAK"));
+    std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
+    if (const auto packed = packed_at(tree, tree.find(number, FourCC("PACK")))) tracks += track_count(*packed);
+    std::uint64_t frames = 0;
+    for (const PlayRecord& play : plays_at(tree, tree.find(number, FourCC("PLAY"))))
+        frames = std::max(frames, std::uint64_t{play.frames});
+    std::string text = brief(info.start) + " to " + brief(info.end) + " s, ";
+    if (frames != 0) text += grouped(frames) + (frames == 1 ? " frame" : " frames");
+    if (frames != 0 && tracks != 0) text += ", ";
+    if (frames == 0 || tracks != 0) text += grouped(tracks) + " tracks";
+    if (info.loop != 0) text += ", repeats";
+    if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
+    const std::size_t markers = markers_at(tree, tree.find(number, FourCC("MARK"))).size();
+    if (markers != 0) text += ", " + grouped(markers) + (markers == 1 ? " marker" : " markers");
+    return text;
+}
+
+/// The error of the last level, and how few vertices are left of each pool.
+std::string collapse_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto record = record_at<CollapseRecord>(tree, number);
+    const Bytes payload = tree.payload(number);
+    std::string text = grouped(record.pools) + (record.pools == 1 ? " pool, " : " pools, ") + grouped(record.levels) +
+                       (record.levels == 1 ? " level" : " levels");
+    constexpr std::uint32_t kShown = 6;
+    for (std::uint32_t k = 0; k < std::min(record.pools, kShown); ++k) {
+        const std::uint64_t at = sizeof(CollapseRecord) + k * sizeof(PoolCollapseRecord);
+        if (payload.size() < at + sizeof(PoolCollapseRecord)) break;
+        PoolCollapseRecord pool;
+        copy_at(payload, at, pool);
+        text += (k == 0 ? ": pool " : ", pool ") + std::to_string(pool.pool) + " down to " + grouped(pool.base);
+    }
+    if (record.pools > kShown) text += ", ...";
+    const std::uint64_t row = (std::uint64_t{1} + record.pools) * sizeof(std::uint32_t);
+    const std::uint64_t rows = sizeof(CollapseRecord) + std::uint64_t{record.pools} * sizeof(PoolCollapseRecord);
+    if (record.levels == 0 || rows > payload.size() || record.levels > (payload.size() - rows) / row) return text;
+    float error = 0.0f;
+    copy_at(payload, rows + (record.levels - 1) * row, error);
+    return text + "; error at most " + brief(error) + " m";
+}
+
+std::string material_text(const SurfaceRecord& surface) {
+    std::string text = "base " + brief(surface.base_colour) + ", metallic " + brief(surface.metallic) + ", roughness " +
+                       brief(surface.roughness);
+    if (surface.base_colour_texture.texture != kNone)
+        text += ", texture " + std::to_string(surface.base_colour_texture.texture);
+    if (surface.unlit != 0) text += ", unlit";
+    return text;
+}
+
+std::string version_text(const VersionRecord& version) {
+    std::string generator;
+    for (const std::uint8_t byte : version.generator) {
+        if (byte == 0) break;
+        generator += static_cast<char>(byte);
+    }
+    std::string text = "format " + std::to_string(version.major) + '.' + std::to_string(version.minor);
+    if (!generator.empty()) text += ", written by " + printable(generator);
+    return text;
+}
+
+std::string bound_text(const BoundRecord& bound) {
+    constexpr float kMillimetres = 1e3f;
+    return "error at most " + brief(bound.max_error * kMillimetres) + " mm, met " +
+           brief(bound.measured_error * kMillimetres) + " mm, of a height of " + brief(bound.height) + " m";
+}
+
+/// What a record says, without the chunk's name.
+std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
+    const Chunk& chunk = tree[number];
+    constexpr std::array<std::string_view, kMediaTypes> kMedia{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
+    if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
+    if (is_stream(chunk.id)) return stream_text(tree, number);
+    if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
+    if (chunk.id == FourCC("BNDS")) return bound_text(record_at<BoundRecord>(tree, number));
+    if (chunk.id == FourCC("SKIN")) return joint_text(tree, number, rigs);
+    if (chunk.id == FourCC("JNTS")) {
+        const auto table = record_at<JointsRecord>(tree, number);
+        return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
+    }
+    if (chunk.id == FourCC("FRMS")) return frames_text(tree, number);
+    if (chunk.id == FourCC("GRID")) return grouped(frames_in(tree, number)) + " frames";
+    if (chunk.id == FourCC("NLST")) return grouped(tree.payload(number).size() / kNormalBytes) + " normals";
+    if (chunk.id == FourCC("PLAY")) return plays_text(tree, number);
+    if (chunk.id == FourCC("JNAM") || chunk.id == FourCC("FNAM")) {
+        std::string names(as_text(tree.payload(number)));
+        std::replace(names.begin(), names.end(), '\0', ' ');
+        return quoted(std::string_view(names));
+    }
+    if (chunk.id == FourCC("REST")) {
+        const auto rest = record_at<RestRecord>(tree, number);
+        return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
+               brief(rest.scale);
+    }
+    if (chunk.id == FourCC("LIMT")) return limit_text(record_at<LimitRecord>(tree, number));
+    if (chunk.id == FourCC("PULL")) return rigs.pull_text(number);
+    if (chunk.id == FourCC("IKCH")) return rigs.chain_text(number);
+    if (chunk.id == FourCC("KINF")) return rigs.chain_info_text(number);
+    if (chunk.id == FourCC("POLY")) return polygons_text(record_at<PolygonRecord>(tree, number));
+    if (chunk.id == FourCC("VECT"))
+        return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
+    if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
+    if (chunk.id == FourCC("TARG"))
+        return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+    if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
+    if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
+    if (chunk.id == FourCC("PACK")) return packed_text(tree, number);
+    if (chunk.id == FourCC("MARK")) return markers_text(tree, number);
+    if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
+    if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))
+        return grouped(tree.payload(number).size() / sizeof(float)) + " f32";
+    if (chunk.id == FourCC("MATE"))
+        return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
+    if (chunk.id == FourCC("IMAG")) {
+        const auto image = record_at<ImageRecord>(tree, number);
+        return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
+    }
+    const LeafLayout* leaf = find_leaf(chunk.id);
+    return leaf == nullptr || chunk.is_container() ? std::string() : leaf_text(*leaf, tree.payload(number));
+}
+
+}  // namespace
+
+std::string encoding_text(const ChunkTree& tree, std::uint32_t number) {
+    constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
+                                                           "indices", "indices, zstd", "cycle",    "sums"};
+    const unsigned codec = tree[number].codec();
+    if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
+    std::string text = "encoded: " + std::string(kNames[codec]);
+    if (!tree.encoding_fault(number)) text += ", " + grouped(tree.payload(number).size()) + " bytes decoded";
+    return text;
+}
+
+std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
+    std::string text;
+    const auto add = [&](const std::string& part, std::string_view separator) {
+        if (part.empty()) return;
+        if (!text.empty()) text += separator;
+        text += part;
+    };
+    if (tree[number].is_container()) {
+        const std::uint32_t name = tree.find(number, FourCC("NAME"));
+        if (name != kNone) {
+            add(quoted(as_text(tree.payload(name))), " ");
+        } else if (const JointView* joint = rigs.joint_of(number); joint != nullptr && !joint->name.empty()) {
+            add(quoted(joint->name), " ");
+        }
+    }
+    const bool is_readable = !tree.encoding_fault(number);
+    if (is_readable) add(content_text(tree, number, rigs), "  ");
+    if (tree[number].codec() != 0) add(encoding_text(tree, number), "  ");
+    if (chunk_meaning(tree[number].id) == "unknown")
+        add(tree[number].is_required() ? "unknown, required" : "unknown", " ");
+    return text;
+}
+
+nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
+    const Chunk& chunk = tree[number];
+    if (chunk.is_container() || tree.encoding_fault(number)) return nlohmann::ordered_json::object();
+    const Bytes payload = tree.payload(number);
+    const LeafLayout* leaf = find_leaf(chunk.id);
+    if (leaf == nullptr) return nlohmann::ordered_json::object();
+    if (chunk.id == FourCC("MARK")) {
+        nlohmann::ordered_json markers = nlohmann::ordered_json::array();
+        for (const Marker& marker : markers_at(tree, number))
+            markers.push_back({{"seconds", marker.seconds}, {"name", marker.name}});
+        return {{"markers", markers}};
+    }
+    return leaf_fields(*leaf, payload);
+}
+
+std::string_view chunk_meaning(FourCC id) {
+#define BENDY_CHUNK(letters, shape, parents, times, what) \
+    if (id == FourCC(#letters)) return what;
+#include <bendy/format/chunk_ids.def>
+#undef BENDY_CHUNK
+    return "unknown";
+}
+
+}  // namespace bendy::cli

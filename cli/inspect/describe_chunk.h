@@ -1,0 +1,28 @@
+#pragma once
+
+#include "inspect/describe_rig.h"
+
+#include <bendy/format/chunk_reader.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace bendy::cli {
+
+/// What is in a chunk, in a few words for the tree: a name, counts, the values that matter. Works on any tree, whatever
+/// its records hold. \param rigs made of the same tree
+std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs);
+
+/// How a chunk with a codec is encoded: "encoded: zstd, 1,024 bytes decoded".
+std::string encoding_text(const ChunkTree& tree, std::uint32_t number);
+
+/// The fields of a chunk's record by name, as records.def has them; text chunks give {"text": ...}. Empty for chunks
+/// without a record.
+nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number);
+
+/// What the id stands for ("joint", "key times", ...), or "unknown".
+std::string_view chunk_meaning(FourCC id);
+
+}  // namespace bendy::cli

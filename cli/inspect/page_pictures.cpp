@@ -1,0 +1,83 @@
+#include "inspect/page_pictures.h"
+
+#ifdef BENDY_HAS_VIEWER
+
+#include <bendy/runtime/model.h>
+#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/render.h>
+#include <bendy/viewer/viewer_error.h>
+
+#include <algorithm>
+
+namespace bendy::cli {
+namespace {
+
+constexpr std::size_t kMostClips = 6;
+constexpr std::size_t kMostBytes = std::size_t{8} << 20u;  // of all pictures
+constexpr std::uint32_t kStillSide = 512;                  // pixels
+constexpr std::uint32_t kClipSide = 256;
+constexpr unsigned kFrames = 16;  // of an animation
+
+viewer::RenderOptions options_of(std::uint32_t side, const Cycle* clip, const std::filesystem::path& folder) {
+    viewer::RenderOptions options;
+    options.width = options.height = side;
+    options.cycle = clip;
+    options.folder = folder;
+    options.draw.background = glm::vec4(0.0f);
+    return options;
+}
+
+std::vector<std::byte> animate(const Model& model, const Cycle& clip, const std::filesystem::path& folder) {
+    viewer::PictureMaker maker(model, options_of(kClipSide, &clip, folder), [](const std::string&) {});
+    const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
+    if (!(length > 0.0)) return viewer::encode_png(maker.draw(clip.start));
+    const auto file = viewer::make_webp(kClipSide, kClipSide);
+    for (unsigned frame = 0; frame < kFrames; ++frame) {
+        const double share = static_cast<double>(frame) / kFrames;
+        file->add(maker.draw(static_cast<float>(clip.start + share * length)), share * length);
+    }
+    return file->finish(length);
+}
+
+}  // namespace
+
+PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder) {
+    PagePictures pictures;
+    const Result<Model> model = Model::from_memory(file);
+    if (!model) {
+        pictures.why_none = "the file has faults";
+        return pictures;
+    }
+    try {
+        viewer::PictureMaker maker(*model, options_of(kStillSide, nullptr, folder), [](const std::string&) {});
+        pictures.list.push_back({{}, false, "image/png", viewer::encode_png(maker.draw(0.0f))});
+        std::size_t bytes = pictures.list.back().bytes.size();
+        const auto clips = model->cycles();
+        std::size_t shown = 0;
+        for (; shown < std::min(clips.size(), kMostClips) && bytes < kMostBytes; ++shown) {
+            const Cycle& clip = clips[shown];
+            const bool moves = clip.end > clip.start;
+            pictures.list.push_back(
+                {std::string(clip.name), true, moves ? "image/webp" : "image/png", animate(*model, clip, folder)});
+            bytes += pictures.list.back().bytes.size();
+        }
+        pictures.clips_left_out = clips.size() - shown;
+    } catch (const viewer::ViewerError& problem) {
+        pictures.why_none = problem.what();
+    }
+    return pictures;
+}
+
+}  // namespace bendy::cli
+
+#else
+
+namespace bendy::cli {
+
+PagePictures draw_page_pictures(Bytes /*file*/, const std::filesystem::path& /*folder*/) {
+    return {{}, 0, "this program was built without the viewer"};
+}
+
+}  // namespace bendy::cli
+
+#endif
