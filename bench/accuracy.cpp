@@ -1,6 +1,6 @@
 // bench_accuracy FILE...: how far posed vertices are from a double-precision evaluation of the same file (the
 // converter's, which shares no code with the runtime), with every kernel that this machine has: the worst of all
-// vertices, at rest and at 41 times of every cycle, in millionths of the extent (the bounding box's diagonal at rest).
+// vertices, at rest and at 41 times of every clip, in millionths of the extent (the bounding box's diagonal at rest).
 #include "evaluate.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -37,7 +37,7 @@ double worst_of(const Scene& scene, const bendy::converter::EvaluatedPose& expec
     std::size_t at = 0;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         for (const glm::dvec3& place :
-             bendy::converter::evaluate_vertices(scene.meshes[mesh], expected.target_weights[mesh], expected.joints))
+             bendy::converter::evaluate_vertices(scene.meshes[mesh], expected.morph_weights[mesh], expected.joints))
             worst = std::max(worst, glm::distance(place, glm::dvec3(found[at++])));
     }
     return worst;
@@ -52,14 +52,14 @@ double measure(const Scene& scene, const bendy::Model& model) {
     const double extent = extent_of(positions);
     bendy::converter::evaluate_rest(scene, expected);
     double worst = worst_of(scene, expected, positions);
-    for (std::size_t number = 0; number < scene.cycles.size(); ++number) {
-        const bendy::Cycle& cycle = model.cycles()[number];
+    for (std::size_t number = 0; number < scene.clips.size(); ++number) {
+        const bendy::Clip& clip = model.clips()[number];
         for (int k = 0; k < kTimes; ++k) {
             const float share = static_cast<float>(k) / (kTimes - 1);
-            const float seconds = cycle.start + share * (cycle.end - cycle.start);
-            (void)bendy::sample(pose, &cycle, seconds);
+            const float seconds = clip.start + share * (clip.end - clip.start);
+            (void)bendy::sample(pose, &clip, seconds);
             (void)bendy::skin(pose, {.out = {.positions = positions}});
-            bendy::converter::evaluate(scene, scene.cycles[number], seconds, expected);
+            bendy::converter::evaluate(scene, scene.clips[number], seconds, expected);
             worst = std::max(worst, worst_of(scene, expected, positions));
         }
     }

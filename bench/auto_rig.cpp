@@ -56,7 +56,7 @@ std::optional<Limb> find_limb(const Model& model, const char* name) {
     const bool has_tip = offset[0] != 0.0f || offset[1] != 0.0f || offset[2] != 0.0f;
     for (std::uint32_t joint = limb.chain->effector; joint != kNone; joint = model.joints()[joint].parent) {
         bool is_passive = joint == limb.chain->effector && !has_tip;
-        for (const PullView& weight : model.chain_weights(*limb.chain))
+        for (const ChainWeightView& weight : model.chain_weights(*limb.chain))
             is_passive = is_passive || (weight.joint == joint && weight.weight == 0.0f);
         if (!is_passive) limb.joints.push_back(joint);
         if (joint == limb.chain->start) break;
@@ -69,8 +69,8 @@ std::optional<Limb> find_limb(const Model& model, const char* name) {
 
 bool is_limited(const Model& model, std::uint32_t joint) {
     const Constraint* constraint = model.constraint(joint);
-    if (constraint == nullptr || constraint->model == LimitModel::free) return false;
-    if (constraint->model == LimitModel::hinge || constraint->model == LimitModel::locked) return true;
+    if (constraint == nullptr || constraint->model == ConstraintModel::free) return false;
+    if (constraint->model == ConstraintModel::hinge || constraint->model == ConstraintModel::locked) return true;
     // A swing and twist that allow every direction and every twist are no constraint.
     const LimitShape& shape = constraint->shape;
     return shape.swing_low[0] < 1.0 || shape.swing_high[0] < 1.0 || shape.swing_low[1] < 1.0 ||
@@ -131,7 +131,7 @@ glm::quat random_rotation(const Constraint& constraint, const glm::quat& rest, s
     for (int attempt = 0; attempt < 1000; ++attempt) {
         const double t = 0.5 * uniform(twist.middle - twist.half, twist.middle + twist.half);
         glm::dquat R(std::cos(t), std::sin(t), 0.0, 0.0);
-        if (constraint.model != LimitModel::hinge) {
+        if (constraint.model != ConstraintModel::hinge) {
             const LimitShape& s = constraint.shape;
             const double y = uniform(-std::min(s.swing_low[0], 1.0), std::min(s.swing_high[0], 1.0));
             const double z = uniform(-std::min(s.swing_low[1], 1.0), std::min(s.swing_high[1], 1.0));
@@ -140,7 +140,7 @@ glm::quat random_rotation(const Constraint& constraint, const glm::quat& rest, s
             R = glm::dquat(std::sqrt(1.0 - square), 0.0, y, z) * R;
         }
         if (violation(constraint, R) > 1e-9) continue;
-        return from_limit_space(constraint, rest, R);
+        return from_constraint_space(constraint, rest, R);
     }
     return rest;
 }
@@ -190,22 +190,23 @@ private:
     void play_clips() {
         sums_.assign(limbs_.size(), glm::dvec3(0.0));
         axes_.assign(limbs_.size(), {});
-        for (const Cycle& cycle : model_.cycles()) {
-            const auto frames = static_cast<int>((cycle.end - cycle.start) * kRate) + 1;
+        for (const Clip& clip : model_.clips()) {
+            const auto frames = static_cast<int>((clip.end - clip.start) * kRate) + 1;
             for (int frame = 0; frame < frames; ++frame) {
-                (void)sample(pose_, &cycle, cycle.start + static_cast<float>(frame) / kRate);
+                (void)sample(pose_, &clip, clip.start + static_cast<float>(frame) / kRate);
                 double worst = 0.0;
                 for (const Constraint& constraint : model_.constraints()) {
                     const glm::quat& rest = model_.joints()[constraint.joint].rest.rotation;
                     const glm::quat& local = pose_.local()[constraint.joint].rotation;
-                    worst = std::max(worst, violation(constraint, to_limit_space(constraint, rest, local)) / kDegree);
+                    worst =
+                        std::max(worst, violation(constraint, to_constraint_space(constraint, rest, local)) / kDegree);
                 }
                 row_.frames.add(worst <= kTolerance);
                 row_.worst = std::max(row_.worst, worst);
                 add_bends();
             }
         }
-        if (!model_.cycles().empty()) return;
+        if (!model_.clips().empty()) return;
         pose_.set_rest();
         add_bends();
     }
@@ -278,7 +279,7 @@ std::optional<std::vector<std::byte>> convert(const std::filesystem::path& file)
         std::fprintf(stderr, "%s: %s\n", file.string().c_str(), scene.error().message.c_str());
         return std::nullopt;
     }
-    for (converter::Joint& joint : scene->joints) joint.limits.clear();
+    for (converter::Joint& joint : scene->joints) joint.constraints.clear();
     scene->chains.clear();
     converter::auto_rig(*scene, {}, report);
     return converter::build_chunks(*std::move(scene), "bench", report);
@@ -293,7 +294,7 @@ std::string row_of(const std::string& name, const Model& model, const Row& row) 
         return std::string(number.data());
     };
     std::snprintf(text.data(), text.size(), "| %s | %zu | %zu | %llu of %llu%s | %llu | %s | %.1f | %s | %s |",
-                  name.c_str(), model.joints().size(), model.cycles().size(),
+                  name.c_str(), model.joints().size(), model.clips().size(),
                   static_cast<unsigned long long>(row.parts.good), static_cast<unsigned long long>(row.parts.all),
                   row.missing.empty() ? "" : (" (not " + row.missing + ")").c_str(),
                   static_cast<unsigned long long>(row.frames.all), targets(row.frames).c_str(), row.worst,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What compact files weigh, beside gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%]
 
-Prints a Markdown table: bytes without images, with and without the cycles. Python 3, nothing else.
+Prints a Markdown table: bytes without images, with and without the clips. Python 3, nothing else.
 """
 
 import argparse
@@ -24,23 +24,23 @@ def chunks(data, at, end):
 
 
 def bendy_bytes(path):
-    """bytes without images, and the cycles' bytes"""
+    """bytes without images, and the clips' bytes"""
     data = path.read_bytes()
-    images = cycles = 0
+    images = clips = 0
     open_chunks = [(0, len(data))]
     while open_chunks:
         for name, at, whole, is_container in chunks(data, *open_chunks.pop()):
             if name == 'IMAG':
                 images += whole
             elif name == 'CYCL':
-                cycles += whole
+                clips += whole
             elif is_container:
                 open_chunks.append((at + 16, at + whole))
-    return len(data) - images, cycles
+    return len(data) - images, clips
 
 
 def gltf_bytes(path):
-    """The same of a .glb; the cycles': their JSON and the buffer views that only they use."""
+    """The same of a .glb; the clips': their JSON and the buffer views that only they use."""
     data = path.read_bytes()
     size = struct.unpack_from('<I', data, 12)[0]
     gltf = json.loads(data[20:20 + size])
@@ -56,9 +56,9 @@ def gltf_bytes(path):
     for animation in gltf.get('animations', []):
         for sampler in animation['samplers']:
             used |= {gltf['accessors'][sampler[key]].get('bufferView') for key in ('input', 'output')}
-    cycles = sum(length(views[view]) for view in used if view is not None)
-    cycles += len(json.dumps(gltf.get('animations', []), separators=(',', ':')))
-    return len(data) - images, cycles
+    clips = sum(length(views[view]) for view in used if view is not None)
+    clips += len(json.dumps(gltf.get('animations', []), separators=(',', ':')))
+    return len(data) - images, clips
 
 
 def main():
@@ -68,7 +68,7 @@ def main():
     parser.add_argument('--gltfpack')
     parser.add_argument('--max-error', default='0.005%')
     arguments = parser.parse_args()
-    print('| file | exact | compact | without cycles | gltfpack -cc | -cz | -cz without cycles | compact / -cz | without cycles |')
+    print('| file | exact | compact | without clips | gltfpack -cc | -cz | -cz without clips | compact / -cz | without clips |')
     print('|---|---|---|---|---|---|---|---|---|')
     for path in arguments.files:
         with tempfile.TemporaryDirectory() as folder:

@@ -44,32 +44,32 @@ std::vector<std::byte> make_chain_file(std::uint32_t joints, bool is_constrained
         rest.rotation = {std::sin(bend / 2.0f), 0.0f, 0.0f, std::cos(bend / 2.0f)};
         out.leaf(FourCC("REST"), bytes_of(rest));
         if (is_constrained && joint < joints) {
-            LimitRecord limit;
-            limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};  // X of the frame along the bone
-            const auto set = [&](LimitModel model, std::array<double, 3> low, std::array<double, 3> high) {
-                limit.model = static_cast<std::uint8_t>(model);
+            ConstraintRecord constraint;
+            constraint.frame = {0.5f, 0.5f, 0.5f, 0.5f};  // X of the frame along the bone
+            const auto set = [&](ConstraintModel model, std::array<double, 3> low, std::array<double, 3> high) {
+                constraint.model = static_cast<std::uint8_t>(model);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    limit.rotation_min[axis] = radians(low[axis]);
-                    limit.rotation_max[axis] = radians(high[axis]);
+                    constraint.rotation_min[axis] = radians(low[axis]);
+                    constraint.rotation_max[axis] = radians(high[axis]);
                 }
             };
             // A shoulder, an elbow, and what a spine or a tentacle has, by turns.
             switch (joint % 4) {
                 case 0:
-                    set(LimitModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60});
+                    set(ConstraintModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60});
                     break;
                 case 1:
-                    set(LimitModel::hinge, {-10, 0, 0}, {140, 0, 0});
-                    limit.frame = {0.0f, 0.0f, 0.0f, 1.0f};
+                    set(ConstraintModel::hinge, {-10, 0, 0}, {140, 0, 0});
+                    constraint.frame = {0.0f, 0.0f, 0.0f, 1.0f};
                     break;
                 case 2:
-                    set(LimitModel::euler_box, {-30, -40, -40}, {30, 40, 40});
+                    set(ConstraintModel::euler_box, {-30, -40, -40}, {30, 40, 40});
                     break;
                 default:
-                    set(LimitModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 35});
+                    set(ConstraintModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 35});
                     break;
             }
-            out.leaf(FourCC("LIMT"), bytes_of(limit));
+            out.leaf(FourCC("LIMT"), bytes_of(constraint));
         }
         out.end();
     }
@@ -101,7 +101,7 @@ void pose_at_random(const Model& model, Pose& pose, std::mt19937& random) {
         const glm::quat rest = model.joints()[joint].rest.rotation;
         local[joint].rotation = constraint == nullptr
                                     ? glm::quat(glm::dquat(rest) * R)
-                                    : from_limit_space(*constraint, rest, clamp_rotation(*constraint, R));
+                                    : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
     }
 }
 
@@ -137,7 +137,7 @@ void solve(const Model& model, Pose& pose, const glm::vec3& target, const ReachO
         const Constraint* constraint = model.ik_constraint(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
-            to_limit_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
+            to_constraint_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
         outcome.worst_violation = std::max(outcome.worst_violation, violation(*constraint, R));
     }
 }

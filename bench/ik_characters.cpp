@@ -46,8 +46,8 @@ std::vector<std::uint32_t> joints_of(const Model& model, const Chain& chain) {
     std::vector<std::uint32_t> joints;
     for (std::uint32_t joint = chain.effector;; joint = model.joints()[joint].parent) {
         const auto weights = model.chain_weights(chain);
-        const bool is_fixed = std::any_of(weights.begin(), weights.end(), [&](const PullView& pull) {
-            return pull.joint == joint && pull.weight == 0.0f;
+        const bool is_fixed = std::any_of(weights.begin(), weights.end(), [&](const ChainWeightView& chain_weight) {
+            return chain_weight.joint == joint && chain_weight.weight == 0.0f;
         });
         if (!is_fixed) joints.push_back(joint);
         if (joint == chain.start) break;
@@ -66,7 +66,7 @@ void pose_at_random(const Model& model, const Chain& chain, bool is_free, Pose& 
         const glm::quat rest = model.joints()[joint].rest.rotation;
         local[joint].rotation = constraint == nullptr
                                     ? glm::quat(glm::dquat(rest) * R)
-                                    : from_limit_space(*constraint, rest, clamp_rotation(*constraint, R));
+                                    : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
     }
 }
 

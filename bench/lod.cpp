@@ -4,7 +4,7 @@
 //     bendy_bench_lod FILE.glb...
 //
 // Two-sided Hausdorff distance, from samples: every vertex and 20,000 points spread by area, on either surface. At rest
-// and in three poses of the cycles.
+// and in three poses of the clips.
 
 #include "collapse/distances.h"
 
@@ -177,48 +177,48 @@ float hausdorff(std::span<const glm::vec3> places, const Indices& a, const Indic
     return std::max(one_sided(first, second), one_sided(second, first));
 }
 
-/// The triangles at a level, as indices into all pools' vertices together.
+/// The triangles at a level, as indices into all meshes' vertices together.
 Indices triangles_of(const bendy::Model& model, const bendy::Lod& lod) {
     Indices list;
-    for (const bendy::Draw& draw : lod.draws()) {
-        if (draw.topology != bendy::Topology::triangles) continue;
-        for (std::uint32_t k = 0; k < draw.count; ++k) {
-            list.push_back(lod.indices(draw.pool)[draw.first + k] +
-                           static_cast<std::uint32_t>(model.first_vertex(draw.pool)));
+    for (const bendy::Submesh& submesh : lod.submeshes()) {
+        if (submesh.topology != bendy::Topology::triangles) continue;
+        for (std::uint32_t k = 0; k < submesh.count; ++k) {
+            list.push_back(lod.indices(submesh.mesh)[submesh.first + k] +
+                           static_cast<std::uint32_t>(model.first_vertex(submesh.mesh)));
         }
     }
     return list;
 }
 
-/// A pool without doubles.
+/// A mesh without doubles.
 struct Welded {
     Indices indices;
     std::vector<glm::vec3> places;
-    std::vector<std::uint32_t> vertices;  // their numbers in the pool
+    std::vector<std::uint32_t> vertices;  // their numbers in the mesh
 };
 
 /// What meshoptimizer is asked to look at: vertices alike in everything are one; or, where that hinders it, in place.
-Welded weld(const bendy::Pool& pool, const Indices& indices, std::span<const glm::vec3> places, bool by_place) {
+Welded weld(const bendy::Mesh& mesh, const Indices& indices, std::span<const glm::vec3> places, bool by_place) {
     std::vector<float> numbers;
     std::size_t width = 3;
-    for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+    for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
         const std::size_t before = numbers.size();
         numbers.insert(numbers.end(), {places[v].x, places[v].y, places[v].z});
         const auto add = [&](const bendy::StreamView& stream) {
             for (std::uint32_t k = 0; k < stream.components; ++k) numbers.push_back(stream.number(v, k));
         };
         if (!by_place) {
-            if (pool.normals) add(*pool.normals);
-            for (const auto& stream : pool.texture_coords) add(stream);
-            for (const auto& stream : pool.colours) add(stream);
+            if (mesh.normals) add(*mesh.normals);
+            for (const auto& stream : mesh.texture_coords) add(stream);
+            for (const auto& stream : mesh.colours) add(stream);
         }
         width = numbers.size() - before;
     }
-    std::vector<std::uint32_t> remap(pool.vertices);
+    std::vector<std::uint32_t> remap(mesh.vertices);
     const std::size_t unique = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), numbers.data(),
-                                                           pool.vertices, width * sizeof(float));
+                                                           mesh.vertices, width * sizeof(float));
     std::vector<std::uint32_t> first(unique, bendy::kNone);
-    for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+    for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
         if (remap[v] != bendy::kNone && first[remap[v]] == bendy::kNone) first[remap[v]] = v;
     }
     Welded welded;
@@ -228,24 +228,24 @@ Welded weld(const bendy::Pool& pool, const Indices& indices, std::span<const glm
     return welded;
 }
 
-/// meshoptimizer's, each pool by itself down to `share` of its triangles.
+/// meshoptimizer's, each mesh by itself down to `share` of its triangles.
 Indices simplify(const bendy::Model& model, const bendy::Lod& full, float share) {
     Indices list;
-    for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) {
+    for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) {
         Indices indices;
-        for (const bendy::Draw& draw : full.draws()) {
-            if (draw.topology != bendy::Topology::triangles || draw.pool != pool) continue;
-            const auto part = full.indices(pool).subspan(draw.first, draw.count);
+        for (const bendy::Submesh& submesh : full.submeshes()) {
+            if (submesh.topology != bendy::Topology::triangles || submesh.mesh != mesh) continue;
+            const auto part = full.indices(mesh).subspan(submesh.first, submesh.count);
             indices.insert(indices.end(), part.begin(), part.end());
         }
         if (indices.empty()) continue;
         const auto goal = static_cast<std::size_t>(share * static_cast<float>(indices.size()) / 3.0f) * 3;
         // Not as posed: rounding would part vertices that lie at one place.
         const auto places =
-            bendy::view_at<glm::vec3>(model.pools()[pool].positions.data, 0, model.pools()[pool].vertices);
+            bendy::view_at<glm::vec3>(model.meshes()[mesh].positions.data, 0, model.meshes()[mesh].vertices);
         Indices out;
         for (const bool by_place : {false, true}) {
-            const Welded welded = weld(model.pools()[pool], indices, places, by_place);
+            const Welded welded = weld(model.meshes()[mesh], indices, places, by_place);
             Indices attempt(indices.size());
             attempt.resize(meshopt_simplify(attempt.data(), welded.indices.data(), welded.indices.size(),
                                             &welded.places.front().x, welded.places.size(), sizeof(glm::vec3), goal,
@@ -256,7 +256,7 @@ Indices simplify(const bendy::Model& model, const bendy::Lod& full, float share)
             if (out.size() <= goal + goal / 10) break;
         }
         for (const std::uint32_t vertex : out)
-            list.push_back(vertex + static_cast<std::uint32_t>(model.first_vertex(pool)));
+            list.push_back(vertex + static_cast<std::uint32_t>(model.first_vertex(mesh)));
     }
     return list;
 }
@@ -270,12 +270,12 @@ std::vector<std::vector<glm::vec3>> make_poses(const bendy::Model& model) {
         shapes.push_back(std::move(places));
     };
     add();
-    const auto cycles = model.cycles();
-    for (std::size_t k = 0; k < 3 && !cycles.empty(); ++k) {
-        const bendy::Cycle& cycle = cycles[k * (cycles.size() - 1) / 2];
+    const auto clips = model.clips();
+    for (std::size_t k = 0; k < 3 && !clips.empty(); ++k) {
+        const bendy::Clip& clip = clips[k * (clips.size() - 1) / 2];
         const float share = 0.25f * static_cast<float>(k + 1);
         pose.set_rest();
-        (void)bendy::sample(pose, &cycle, cycle.start + share * (cycle.end - cycle.start));
+        (void)bendy::sample(pose, &clip, clip.start + share * (clip.end - clip.start));
         add();
     }
     return shapes;

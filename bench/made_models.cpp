@@ -23,7 +23,7 @@ constexpr std::uint32_t kKeys = 31;
 constexpr std::uint32_t kInfluences = 4;
 
 /// A vertex' numbers, of as many as there are.
-struct PoolNumbers {
+struct MeshNumbers {
     std::vector<float> positions, normals, tangents, weights;
     std::vector<std::uint16_t> bones;
 };
@@ -37,13 +37,13 @@ std::unique_ptr<const MadeModel> open(std::vector<std::byte> bytes) {
     return std::make_unique<const MadeModel>(MadeModel{std::move(bytes), *std::move(model)});
 }
 
-void begin_file(ChunkWriter& out, std::uint32_t joints, std::uint32_t vertices, std::uint32_t cycles) {
+void begin_file(ChunkWriter& out, std::uint32_t joints, std::uint32_t vertices, std::uint32_t clips) {
     VersionRecord version;
     version.objects = 1;
     version.joints = joints;
-    version.pools = vertices == 0 ? 0 : 1;
+    version.meshes = vertices == 0 ? 0 : 1;
     version.vertices = vertices;
-    version.cycles = cycles;
+    version.clips = clips;
     out.begin(FourCC("HEAD"));
     out.leaf(FourCC("VERS"), bytes_of(version));
     out.begin(FourCC("OBJE"));
@@ -56,12 +56,13 @@ std::vector<std::byte> end_file(ChunkWriter&& out) {
 }
 
 /// A joint's chunk without its end.
-void begin_joint(ChunkWriter& out, std::uint32_t joint, const RestRecord& rest, const LimitRecord* limit = nullptr) {
+void begin_joint(ChunkWriter& out, std::uint32_t joint, const RestRecord& rest,
+                 const ConstraintRecord* constraint = nullptr) {
     out.begin(FourCC("SKIN"));
     out.text_leaf(FourCC("NAME"), "joint" + std::to_string(joint));
     out.begin(FourCC("PIVO"));
     out.leaf(FourCC("REST"), bytes_of(rest));
-    if (limit != nullptr) out.leaf(FourCC("LIMT"), bytes_of(*limit));
+    if (constraint != nullptr) out.leaf(FourCC("LIMT"), bytes_of(*constraint));
     out.end();
 }
 
@@ -102,7 +103,7 @@ void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t c
 }
 
 /// All joints are in the palette.
-void put_pool(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, const PoolNumbers& numbers) {
+void put_mesh(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, const MeshNumbers& numbers) {
     std::vector<std::uint32_t> palette(joints);
     for (std::uint32_t joint = 0; joint < joints; ++joint) palette[joint] = joint;
     const std::vector<glm::mat4> inverse_bind(joints, glm::mat4(1.0f));
@@ -112,7 +113,7 @@ void put_pool(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, co
     const std::array pieces{bytes_of(record), std::as_bytes(std::span(palette)), Bytes(gap),
                             std::as_bytes(std::span(inverse_bind))};
     out.begin(FourCC("VECT"));
-    out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, 0}));
+    out.leaf(FourCC("VINF"), bytes_of(MeshRecord{vertices, 0}));
     out.leaf(FourCC("PALT"), pieces);
     put_stream(out, FourCC("POSI"), ComponentType::f32, 3, numbers.positions);
     put_stream(out, FourCC("NORM"), ComponentType::f32, 3, numbers.normals);
@@ -123,8 +124,8 @@ void put_pool(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, co
 }
 
 /// A sheet; a vertex follows four bones that follow one another, sixty-four vertices the same.
-PoolNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
-    PoolNumbers numbers;
+MeshNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
+    MeshNumbers numbers;
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         const std::uint32_t row = vertex / 1000;
         numbers.positions.insert(numbers.positions.end(),
@@ -138,10 +139,10 @@ PoolNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
 }
 
 /// Places at random; a vertex follows four of six bones that are near.
-PoolNumbers make_cloud(std::uint32_t vertices, std::uint32_t joints) {
+MeshNumbers make_cloud(std::uint32_t vertices, std::uint32_t joints) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-    PoolNumbers numbers;
+    MeshNumbers numbers;
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         numbers.positions.insert(numbers.positions.end(), {number(random), number(random), number(random)});
         numbers.normals.insert(numbers.normals.end(), {0.0f, 0.6f, 0.8f});
@@ -154,7 +155,7 @@ PoolNumbers make_cloud(std::uint32_t vertices, std::uint32_t joints) {
     return numbers;
 }
 
-void put_cycle(ChunkWriter& out, std::uint32_t joints) {
+void put_clip(ChunkWriter& out, std::uint32_t joints) {
     std::vector<TrackRecord> tracks(joints);
     std::vector<float> times;
     std::vector<float> values;
@@ -172,7 +173,7 @@ void put_cycle(ChunkWriter& out, std::uint32_t joints) {
             values.insert(values.end(), {0.0f, 0.0f, std::sin(half), std::cos(half)});
         }
     }
-    CycleRecord info;
+    ClipRecord info;
     info.end = times.back();
     out.begin(FourCC("CYCL"));
     out.leaf(FourCC("CINF"), bytes_of(info));
@@ -189,31 +190,31 @@ std::vector<std::byte> make_character(std::uint32_t joints, std::uint32_t vertic
     out.reserve(std::uint64_t{vertices} * 48 + std::uint64_t{joints} * 1024 + 65536);
     begin_file(out, joints, vertices, 1);
     put_joints(out, joints);
-    if (vertices != 0) put_pool(out, vertices, joints, make_sheet(vertices, joints));
-    put_cycle(out, joints);
+    if (vertices != 0) put_mesh(out, vertices, joints, make_sheet(vertices, joints));
+    put_clip(out, joints);
     return end_file(std::move(out));
 }
 
-std::unique_ptr<const MadeModel> make_pool(std::uint32_t vertices) {
+std::unique_ptr<const MadeModel> make_mesh(std::uint32_t vertices) {
     constexpr std::uint32_t kJoints = 64;
     ChunkWriter out;
     begin_file(out, kJoints, vertices, 0);
     put_joints(out, kJoints);
-    put_pool(out, vertices, kJoints, make_cloud(vertices, kJoints));
+    put_mesh(out, vertices, kJoints, make_cloud(vertices, kJoints));
     return open(end_file(std::move(out)));
 }
 
 std::unique_ptr<const MadeModel> make_chain(Solver solver, bool is_limited) {
     constexpr std::uint32_t kJoints = 3;
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
-    limit.rotation_min[0] = -0.5f;
-    limit.rotation_max[0] = 2.6f;
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
+    constraint.rotation_min[0] = -0.5f;
+    constraint.rotation_max[0] = 2.6f;
     ChunkWriter out;
     begin_file(out, kJoints, 0, 0);
     for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
         const RestRecord rest = rest_of(joint == 1 ? 0.44f : 0.09f, {0.0f, joint == 0 ? 0.0f : 0.5f, 0.0f});
-        begin_joint(out, joint, rest, is_limited && joint == 1 ? &limit : nullptr);
+        begin_joint(out, joint, rest, is_limited && joint == 1 ? &constraint : nullptr);
     }
     for (std::uint32_t joint = 0; joint < kJoints; ++joint) out.end();
     ChainRecord chain;

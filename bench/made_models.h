@@ -15,13 +15,13 @@ struct MadeModel {
     Model model;
 };
 
-/// The bytes of a character with one cycle: chains of ten joints on one root, each with a rotation track of 31 keys; on
+/// The bytes of a character with one clip: chains of ten joints on one root, each with a rotation track of 31 keys; on
 /// them a sheet of vertices, four influences of bones that are near, sixty-four neighbours the same. On a 16-byte
 /// boundary, as vectors of bytes are on all machines that we build for.
 std::vector<std::byte> make_character(std::uint32_t joints, std::uint32_t vertices);
 
-/// A pool of vertices with four influences among 64 joints, near ones together, as characters have them.
-std::unique_ptr<const MadeModel> make_pool(std::uint32_t vertices);
+/// A mesh with four influences among 64 joints, near ones together, as characters have them.
+std::unique_ptr<const MadeModel> make_mesh(std::uint32_t vertices);
 
 /// A chain with a pole: two bones, or for Solver::aim one joint.
 /// \param is_limited  the middle joint is a hinge

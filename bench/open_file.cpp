@@ -32,7 +32,7 @@ void open(const std::string& path, Sums sums, bool poses) {
     const auto model = Model::open(path, options);
     if (!model || !poses) return;
     Pose pose(*model);
-    if (!model->cycles().empty()) (void)sample(pose, &model->cycles().front(), model->cycles().front().start);
+    if (!model->clips().empty()) (void)sample(pose, &model->clips().front(), model->clips().front().start);
     (void)pose.model_space();
 }
 

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
         return 1;
     }
     const auto open = [&](const bendy::OpenOptions& options) { return bendy::Model::open(argv[1], options); };
-    const bendy::stages::Stages stages(open, *model, model->cycles().empty() ? nullptr : model->cycles().data());
+    const bendy::stages::Stages stages(open, *model, model->clips().empty() ? nullptr : model->clips().data());
     for (std::size_t k = 0; argc == 2 && k < stages.list().size(); ++k) {
         const bendy::stages::Stage& stage = stages.list()[k];
         std::printf("%zu\t%.0f\t%s\t%s\n", k, stage.items, stage.item, stage.name.c_str());

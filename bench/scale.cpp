@@ -63,13 +63,13 @@ void open_to_first_pose(benchmark::State& state, Character& of) {
 }
 
 void sample_steps(benchmark::State& state, const Model& model, float step) {
-    const Cycle& cycle = model.cycles().front();
+    const Clip& clip = model.clips().front();
     Pose pose(model);
     float seconds = 0.0f;
     while (state.KeepRunning()) {
         seconds += step;
-        if (seconds > cycle.end) seconds -= cycle.end;
-        (void)sample(pose, &cycle, seconds);
+        if (seconds > clip.end) seconds -= clip.end;
+        (void)sample(pose, &clip, seconds);
     }
 }
 
@@ -83,7 +83,7 @@ void random_time(benchmark::State& state, Character& of) {
 
 void to_model(benchmark::State& state, Character& of) {
     Pose pose(of.model);
-    (void)sample(pose, &of.model.cycles().front(), 0.5f);
+    (void)sample(pose, &of.model.clips().front(), 0.5f);
     while (state.KeepRunning()) {
         (void)pose.change_local();
         (void)pose.model_space();
@@ -92,7 +92,7 @@ void to_model(benchmark::State& state, Character& of) {
 
 void skin_vertices(benchmark::State& state, Character& of, bool with_normals) {
     Pose pose(of.model);
-    (void)sample(pose, &of.model.cycles().front(), 0.5f);
+    (void)sample(pose, &of.model.clips().front(), 0.5f);
     std::vector<glm::vec3> positions(of.vertices);
     std::vector<glm::vec3> normals(with_normals ? of.vertices : 0);
     while (state.KeepRunning()) {

@@ -1,5 +1,5 @@
 // The whole table of what posing costs: bendy_bench [FILE.bendy...] [--benchmark_...]. Of each file every stage that
-// `bendy bench` knows and crowds of it; then pools of four influences from 1,000 vertices to 1,000,000, and chains.
+// `bendy bench` knows and crowds of it; then meshes of four influences from 1,000 vertices to 1,000,000, and chains.
 // Single stages: --benchmark_filter=REGEX; two builds or kernels beside each other: BENDY_KERNEL=plain, or `bendy bench
 // --kernel`, which measures by turns.
 #include "made_models.h"
@@ -50,7 +50,7 @@ struct File {
     File(const std::filesystem::path& path, Model opened)
         : model(std::move(opened)),
           steps([path](const OpenOptions& options) { return Model::open(path, options); }, model,
-                model.cycles().empty() ? nullptr : model.cycles().data()) {}
+                model.clips().empty() ? nullptr : model.clips().data()) {}
     Model model;
     stages::Stages steps;
 };
@@ -83,8 +83,8 @@ private:
 };
 
 bool has_normals(const Model& model) {
-    return std::any_of(model.pools().begin(), model.pools().end(),
-                       [](const Pool& pool) { return pool.normals.has_value(); });
+    return std::any_of(model.meshes().begin(), model.meshes().end(),
+                       [](const Mesh& mesh) { return mesh.normals.has_value(); });
 }
 
 /// Each member at a time of its own; positions and normals, if there are any, into memory of its own, or its palettes
@@ -98,11 +98,11 @@ void measure_crowd(benchmark::State& state, const Model& model, std::size_t coun
     std::vector<float> vertices(count * numbers);
     std::vector<PaletteMatrix> palettes(count * entries);
     std::vector<CrowdMember> members(count);
-    const Cycle& cycle = model.cycles().front();
+    const Clip& clip = model.clips().front();
     std::mt19937 random(1);
-    std::uniform_real_distribution<float> anywhere(cycle.start, cycle.end);
+    std::uniform_real_distribution<float> anywhere(clip.start, clip.end);
     for (std::size_t k = 0; k < count; ++k) {
-        members[k].cycle = &cycle;
+        members[k].clip = &clip;
         members[k].seconds = anywhere(random);
         members[k].palette = std::span(palettes).subspan(k * entries, entries);
         if (!is_skinned) continue;
@@ -110,10 +110,10 @@ void measure_crowd(benchmark::State& state, const Model& model, std::size_t coun
         members[k].out.positions = {own, each};
         if (each == 6) members[k].out.normals = {own.subspan(3), each};
     }
-    Threads pool(crowd);
-    pool.play(crowd, members);
+    Threads mesh(crowd);
+    mesh.play(crowd, members);
     while (state.KeepRunning()) {
-        pool.play(crowd, members);
+        mesh.play(crowd, members);
         benchmark::ClobberMemory();
     }
     state.counters["characters/ms"] = benchmark::Counter(
@@ -121,7 +121,7 @@ void measure_crowd(benchmark::State& state, const Model& model, std::size_t coun
 }
 
 void add_crowds(const std::string& name, const Model& model) {
-    if (model.cycles().empty() || model.vertex_count() == 0) return;
+    if (model.clips().empty() || model.vertex_count() == 0) return;
     constexpr std::size_t kMost = std::size_t{4} << 30;  // bytes
 #ifdef BENDY_HAS_TBB
     constexpr std::array<std::size_t, 2> kThreads{1, 2};
@@ -155,7 +155,7 @@ void add_bounds_and_duals(const std::string& name, const Model& model) {
     });
     add(name + "/skin by dual quaternions", [&model](auto& state) {
         Pose pose(model);
-        if (!model.cycles().empty()) (void)sample(pose, &model.cycles().front(), model.cycles().front().end);
+        if (!model.clips().empty()) (void)sample(pose, &model.clips().front(), model.clips().front().end);
         std::vector<glm::vec3> positions(model.vertex_count()), normals(model.vertex_count());
         while (state.KeepRunning()) {
             (void)skin(
@@ -184,12 +184,12 @@ void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
     add_crowds(name, files.back()->model);
 }
 
-// --- pools of any size
+// --- meshes of any size
 
-/// Made when it is first measured, and kept while it is: pools are large.
-void measure_pool(benchmark::State& state, std::uint32_t vertices, int attributes) {
+/// Made when it is first measured, and kept while it is: meshes are large.
+void measure_mesh(benchmark::State& state, std::uint32_t vertices, int attributes) {
     static std::unique_ptr<const bench::MadeModel> made;
-    if (!made || made->model.vertex_count() != vertices) made = bench::make_pool(vertices);
+    if (!made || made->model.vertex_count() != vertices) made = bench::make_mesh(vertices);
     Pose pose(made->model);
     std::vector<glm::vec3> positions(vertices), normals(attributes > 1 ? vertices : 0);
     std::vector<glm::vec4> tangents(attributes > 2 ? vertices : 0);
@@ -200,12 +200,12 @@ void measure_pool(benchmark::State& state, std::uint32_t vertices, int attribute
     per_item(state, "vertex", vertices);
 }
 
-void add_pools() {
+void add_meshes() {
     constexpr std::array kNames{"positions", "positions, normals", "positions, normals, tangents"};
     for (const std::uint32_t vertices : {1'000u, 10'000u, 100'000u, 1'000'000u}) {
         for (int attributes = 1; attributes <= 3; ++attributes) {
-            add("pool of " + std::to_string(vertices) + "/skin " + kNames.at(static_cast<std::size_t>(attributes) - 1),
-                [vertices, attributes](auto& state) { measure_pool(state, vertices, attributes); });
+            add("mesh of " + std::to_string(vertices) + "/skin " + kNames.at(static_cast<std::size_t>(attributes) - 1),
+                [vertices, attributes](auto& state) { measure_mesh(state, vertices, attributes); });
         }
     }
 }
@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     std::vector<std::unique_ptr<File>> files;
     for (int k = 1; k < argc; ++k) add_file(argv[k], files);
-    add_pools();
+    add_meshes();
     add_chains();
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();

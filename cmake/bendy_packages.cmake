@@ -34,7 +34,7 @@ if(BENDY_TOOLS)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1, libgl1-mesa-dri")
   set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "tools for animated characters in bendy files
 Makes bendy files of glTF and back, checks, shows, poses, draws, compares and
-changes them. A bendy file holds a character's skeleton, skin, cycles,
+changes them. A bendy file holds a character's skeleton, skin, clips,
 materials, levels of detail, joint limits and chains for inverse kinematics.")
 endif()
 

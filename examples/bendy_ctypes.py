@@ -49,18 +49,18 @@ class Joint(Sized):
     _fields_ = [("size", c_uint32), ("parent", c_uint32), ("name", c_char_p), ("rest", Transform), ("shear", c_float * 3)]
 
 
-class Cycle(Sized):
+class Clip(Sized):
     _fields_ = [("size", c_uint32), ("loops", c_uint32), ("name", c_char_p), ("start", c_float), ("end", c_float),
                 ("frame_rate", c_float)]
 
 
 class Mesh(Sized):
     _fields_ = [("size", c_uint32), ("vertices", c_uint32), ("first_vertex", c_uint64), ("name", c_char_p),
-                *((field, c_uint32) for field in ("indices", "joint", "first_target", "targets", "has_normals", "has_tangents",
+                *((field, c_uint32) for field in ("indices", "joint", "first_morph_target", "targets", "has_normals", "has_tangents",
                                                   "texture_coord_sets", "bones", "influences"))]
 
 
-class Draw(Sized):
+class Submesh(Sized):
     _fields_ = [(field, c_uint32) for field in ("size", "mesh", "material", "topology", "first", "count")]
 
 
@@ -88,8 +88,8 @@ SIGNATURES = {
     "open": (c_void_p, c_char_p, c_void_p),
     "open_copy": (c_void_p, c_char_p, c_size_t, c_void_p),
     "pose_new": (c_void_p, c_void_p),
-    **{f"find_{kind}": (c_uint32, c_void_p, c_char_p) for kind in ("joint", "cycle", "chain", "target", "mesh", "material")},
-    **{f"get_{kind}": (c_int, c_void_p, c_uint32, c_void_p) for kind in ("joint", "cycle", "mesh", "draw")},
+    **{f"find_{kind}": (c_uint32, c_void_p, c_char_p) for kind in ("joint", "clip", "chain", "morph_target", "mesh", "material")},
+    **{f"get_{kind}": (c_int, c_void_p, c_uint32, c_void_p) for kind in ("joint", "clip", "mesh", "submesh")},
     "get_indices": (c_int, c_void_p, c_uint32, c_void_p, c_size_t),
     "sample": (c_int, c_void_p, c_uint32, c_float),
     "blend": (c_int, c_void_p, c_void_p, c_float, c_void_p),
@@ -98,7 +98,7 @@ SIGNATURES = {
     "joint_matrices": (c_int, c_void_p, c_uint32, c_uint32, c_void_p, c_void_p),
     "skin": (c_int, c_void_p, c_void_p, c_void_p),
 }
-COUNTS = ("joint", "cycle", "chain", "target", "mesh", "draw", "material")
+COUNTS = ("joint", "clip", "chain", "morph_target", "mesh", "submesh", "material")
 
 
 def find_library():
@@ -153,7 +153,7 @@ def address(numbers):
 
 
 class Model:
-    """A character. Count joints, cycles, ... by count("joint"), look them up by find("joint", NAME)."""
+    """A character. Count joints, clips, ... by count("joint"), look them up by find("joint", NAME)."""
 
     def __init__(self, source):
         """source: a path, or the bytes of a file."""
@@ -173,8 +173,8 @@ class Model:
         return call("find_" + kind, self.handle, name.encode())
 
     def get(self, kind, number):
-        """A Joint, Cycle, Mesh or Draw."""
-        value = {"joint": Joint, "cycle": Cycle, "mesh": Mesh, "draw": Draw}[kind]()
+        """A Joint, Clip, Mesh or Submesh."""
+        value = {"joint": Joint, "clip": Clip, "mesh": Mesh, "submesh": Submesh}[kind]()
         call("get_" + kind, self.handle, number, byref(value))
         return value
 
@@ -196,8 +196,8 @@ class Pose:
     def __del__(self):
         LIBRARY.bendy_pose_free(self.handle)
 
-    def sample(self, cycle, seconds):
-        call("sample", self.handle, self.model.find("cycle", cycle), seconds)
+    def sample(self, clip, seconds):
+        call("sample", self.handle, self.model.find("clip", clip), seconds)
 
     def blend(self, other, weight):
         call("blend", self.handle, other.handle, weight, None)
@@ -232,18 +232,18 @@ def write_obj(model, pose, out):
     for keyword, numbers in zip(("v", "vn"), pose.skin()):
         for at in range(0, len(numbers), 3):
             out.write(f"{keyword} {numbers[at]:.9g} {numbers[at + 1]:.9g} {numbers[at + 2]:.9g}\n")
-    for draw in (model.get("draw", number) for number in range(model.count("draw"))):
-        if draw.topology != TRIANGLES:
+    for submesh in (model.get("submesh", number) for number in range(model.count("submesh"))):
+        if submesh.topology != TRIANGLES:
             continue
-        first = model.get("mesh", draw.mesh).first_vertex + 1
-        corners = [first + index for index in model.indices(draw.mesh)[draw.first:draw.first + draw.count]]
+        first = model.get("mesh", submesh.mesh).first_vertex + 1
+        corners = [first + index for index in model.indices(submesh.mesh)[submesh.first:submesh.first + submesh.count]]
         for a, b, c in zip(*[iter(corners)] * 3):
             out.write(f"f {a}//{a} {b}//{b} {c}//{c}\n")
 
 
 def main(arguments):
     if len(arguments) not in (3, 7):
-        sys.exit("usage: bendy_ctypes.py FILE.bendy CYCLE SECONDS [CHAIN X Y Z]")
+        sys.exit("usage: bendy_ctypes.py FILE.bendy CLIP SECONDS [CHAIN X Y Z]")
     try:
         model = Model(arguments[0])
         pose = Pose(model)

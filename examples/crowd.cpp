@@ -31,11 +31,11 @@ int main(int argc, char** argv) {
     const std::size_t numbers = model->vertex_count() * 6;  // a position and a normal for each vertex
     std::vector<float> vertices(count * numbers);
     std::vector<bendy::CrowdMember> members(count);
-    const auto cycles = model->cycles();
-    const auto length = [](const bendy::Cycle& cycle) { return std::max(cycle.end - cycle.start, 1e-3f); };
+    const auto clips = model->clips();
+    const auto length = [](const bendy::Clip& clip) { return std::max(clip.end - clip.start, 1e-3f); };
     for (std::size_t k = 0; k < count; ++k) {
         const std::span<float> own = std::span(vertices).subspan(k * numbers, numbers);
-        if (!cycles.empty()) members[k].cycle = &cycles[k % cycles.size()];
+        if (!clips.empty()) members[k].clip = &clips[k % clips.size()];
         members[k].out = {{own, 6}, {own.subspan(std::min<std::size_t>(3, numbers)), 6}, {}};
     }
 
@@ -47,8 +47,7 @@ int main(int argc, char** argv) {
         for (std::size_t k = 0; k < count; ++k) {
             bendy::CrowdMember& member = members[k];
             const float seconds = static_cast<float>(frame) / 60.0f + 0.37f * static_cast<float>(k);
-            if (member.cycle != nullptr)
-                member.seconds = member.cycle->start + std::fmod(seconds, length(*member.cycle));
+            if (member.clip != nullptr) member.seconds = member.clip->start + std::fmod(seconds, length(*member.clip));
         }
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4), [&](const auto& range) {
             const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
         return 1;
     }
     const std::array legs{model->chain("IK_LeftLeg"), model->chain("IK_RightLeg")};
-    const bendy::Cycle* walk = model->cycle("Walk");
+    const bendy::Clip* walk = model->clip("Walk");
     const std::uint32_t hips = model->joint("mixamorig:Hips");
     if (legs[0] == nullptr || legs[1] == nullptr || walk == nullptr || hips == bendy::kNone) {
         std::fprintf(stderr, "%s: no Walk, no legs or no hips\n", file);

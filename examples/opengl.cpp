@@ -2,7 +2,7 @@
 //
 //     bendy convert mannequin.glb && bendy_opengl mannequin.bendy
 //
-// Up and down arrows choose the level of detail, space the next cycle. With a number of frames and a file's name it
+// Up and down arrows choose the level of detail, space the next clip. With a number of frames and a file's name it
 // draws so many, a thirtieth of a second apart, keeps the last as a PPM picture, and ends.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
@@ -84,7 +84,7 @@ bool write_picture(const char* path) {
     return std::fclose(file) == 0;
 }
 
-/// The model's vertices in one buffer, positions first, then normals; its index lists, pool after pool, in another.
+/// The model's vertices in one buffer, positions first, then normals; its index lists, mesh after mesh, in another.
 struct Buffers {
     GLuint vertices = 0;
     GLuint indices = 0;
@@ -113,18 +113,18 @@ struct Buffers {
         glBufferSubData(GL_ARRAY_BUFFER, bytes, bytes, normals.data());
     }
 
-    /// A pool's list; what it draws begins at the pool's first vertex.
-    static void send_indices(const bendy::Lod& lod, std::uint32_t pool) {
-        const auto list = lod.indices(pool);
+    /// A mesh's list; what it draws begins at the mesh's first vertex.
+    static void send_indices(const bendy::Lod& lod, std::uint32_t mesh) {
+        const auto list = lod.indices(mesh);
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size_bytes()), list.data(), GL_STREAM_DRAW);
     }
 };
 
 void draw(const bendy::Model& model, const bendy::Lod& lod, GLint base) {
     std::uint32_t sent = bendy::kNone;
-    for (const bendy::Draw& range : lod.draws()) {
+    for (const bendy::Submesh& range : lod.submeshes()) {
         if (range.topology != bendy::Topology::triangles || range.count == 0) continue;
-        if (range.pool != sent) Buffers::send_indices(lod, sent = range.pool);
+        if (range.mesh != sent) Buffers::send_indices(lod, sent = range.mesh);
         const std::array grey{0.7f, 0.7f, 0.7f, 1.0f};
         const std::array colour =
             range.material == bendy::kNone ? grey : model.materials()[range.material].surface.base_colour;
@@ -132,7 +132,7 @@ void draw(const bendy::Model& model, const bendy::Lod& lod, GLint base) {
         // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how OpenGL takes an offset
         const auto* first = reinterpret_cast<const void*>(std::size_t{range.first} * sizeof(std::uint32_t));
         glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT, first,
-                                 static_cast<GLint>(model.first_vertex(range.pool)));
+                                 static_cast<GLint>(model.first_vertex(range.mesh)));
     }
 }
 
@@ -159,12 +159,12 @@ int show(GLFWwindow* window, const bendy::Model& model, int frames, const char* 
                        glm::value_ptr(see_all(buffers.positions)));
     const GLint base = glGetUniformLocation(program, "base");
 
-    std::size_t cycle = 0;
+    std::size_t clip = 0;
     float share = 1.0f;
     for (int frame = 0; glfwWindowShouldClose(window) == 0 && (frames == 0 || frame < frames); ++frame) {
-        if (!model.cycles().empty()) {
-            if (was_pressed(window, GLFW_KEY_SPACE)) cycle = (cycle + 1) % model.cycles().size();
-            const bendy::Cycle& played = model.cycles()[cycle];
+        if (!model.clips().empty()) {
+            if (was_pressed(window, GLFW_KEY_SPACE)) clip = (clip + 1) % model.clips().size();
+            const bendy::Clip& played = model.clips()[clip];
             const double now = frames > 0 ? frame / 30.0 : glfwGetTime();
             const float length = played.end - played.start;
             const float passed = length > 0.0f ? static_cast<float>(std::fmod(now, length)) : 0.0f;

@@ -1,4 +1,4 @@
-// What a game does with a character's cycles: one fades into the next, footsteps are heard, the root's movement carries
+// What a game does with a character's clips: one fades into the next, footsteps are heard, the root's movement carries
 // the character, something hangs in a hand, and what the camera cannot see is not skinned.
 //
 //     bendy convert mannequin.glb && play mannequin.bendy [ROOT JOINT] [SOCKET JOINT]
@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s: %s\n", file, bendy::describe(model.error()).c_str());
         return 1;
     }
-    if (model->cycles().empty()) {
-        std::fprintf(stderr, "%s: no cycles\n", file);
+    if (model->clips().empty()) {
+        std::fprintf(stderr, "%s: no clips\n", file);
         return 1;
     }
     const char* const root_name = argc > 2 ? argv[2] : "mixamorig:Hips";
@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
     std::size_t outside = 0;
     constexpr int kFrames = 240;
     for (int frame = 0; frame < kFrames; ++frame) {
-        if (frame % 80 == 0) {  // the next cycle, over a third of a second
-            const bendy::Cycle& next = model->cycles()[static_cast<std::size_t>(frame) / 80 % model->cycles().size()];
+        if (frame % 80 == 0) {  // the next clip, over a third of a second
+            const bendy::Clip& next = model->clips()[static_cast<std::size_t>(frame) / 80 % model->clips().size()];
             fade.play(next, bendy::Playback(next.start, next.end, bendy::LoopMode::repeat), 1.0f / 3.0f);
         }
         fade.advance(1.0 / 60.0);
@@ -50,24 +50,24 @@ int main(int argc, char** argv) {
         float share = 0.0f;
         for (const bendy::Playing& playing : fade.playing()) {
             share += playing.share;
-            if (share > 0.0f) moved = blend(moved, root.over(*playing.cycle, playing.walk), playing.share / share);
-            // A foot is set down at a quarter and at three quarters of each cycle.
-            const float length = playing.cycle->end - playing.cycle->start;
+            if (share > 0.0f) moved = blend(moved, root.over(*playing.clip, playing.played), playing.share / share);
+            // A foot is set down at a quarter and at three quarters of each clip.
+            const float length = playing.clip->end - playing.clip->start;
             const std::array<bendy::Marker, 2> feet{
-                {{playing.cycle->start + 0.25f * length, "left"}, {playing.cycle->start + 0.75f * length, "right"}}};
-            bendy::visit_markers(feet, playing.walk, [&](const bendy::Marker&) { steps += playing.share > 0.5f; });
+                {{playing.clip->start + 0.25f * length, "left"}, {playing.clip->start + 0.75f * length, "right"}}};
+            bendy::visit_markers(feet, playing.played, [&](const bendy::Marker&) { steps += playing.share > 0.5f; });
         }
-        character = then(character, moved);
+        character = compose(character, moved);
 
         if (!bendy::sample(pose, fade, scratch)) return 1;
-        root.take_out(pose);
+        root.extract(pose);
         const bendy::Box box = bounds.of(pose);  // in model space: hold it against the camera before skinning
         if (!bendy::skin(pose, {.out = {.positions = positions}})) return 1;
         for (const glm::vec3& position : positions) outside += box.contains(position) ? 0 : 1;
         if (frame % 20 != 0) continue;
         const glm::mat4 sword = bendy::socket_matrix(pose, hand, glm::mat4(character.matrix()));
         std::printf("%5.2f s  %-12.12s %3.0f %%  at (%6.3f, %6.3f)  hand at (%6.3f, %6.3f, %6.3f)  %zu steps\n",
-                    frame / 60.0, std::string(fade.playing().back().cycle->name).c_str(),
+                    frame / 60.0, std::string(fade.playing().back().clip->name).c_str(),
                     100.0 * fade.playing().back().share, character.translation.x, character.translation.z, sword[3].x,
                     sword[3].y, sword[3].z, steps);
     }

@@ -1,4 +1,4 @@
-/* A character posed from C: opens a file, samples a cycle, lets an IK chain reach, skins the vertices and writes them
+/* A character posed from C: opens a file, samples a clip, lets an IK chain reach, skins the vertices and writes them
  * as OBJ.
  *
  *     cc -std=c99 pose.c $(pkg-config --cflags --libs bendy) -o pose
@@ -10,7 +10,7 @@
 
 typedef struct Request {
     const char* file;
-    const char* cycle;
+    const char* clip;
     float seconds;
     const char* chain; /* NULL: nothing reaches */
     float target[3];
@@ -60,9 +60,9 @@ static void close_character(Character* character) {
 /* What a game does in every frame. */
 static bendy_status pose_character(const Request* request, Character* character, bendy_error* error) {
     bendy_vertices vertices = BENDY_VERTICES_INIT;
-    uint32_t cycle = bendy_find_cycle(character->model, request->cycle, error);
-    if (cycle == BENDY_NONE) return (bendy_status)error->status;
-    if (bendy_sample(character->pose, cycle, request->seconds, error) != BENDY_OK) return (bendy_status)error->status;
+    uint32_t clip = bendy_find_clip(character->model, request->clip, error);
+    if (clip == BENDY_NONE) return (bendy_status)error->status;
+    if (bendy_sample(character->pose, clip, request->seconds, error) != BENDY_OK) return (bendy_status)error->status;
     if (request->chain != NULL) {
         bendy_reach_result result;
         uint32_t chain = bendy_find_chain(character->model, request->chain, error);
@@ -78,9 +78,9 @@ static bendy_status pose_character(const Request* request, Character* character,
     return bendy_skin(character->pose, NULL, &vertices, error);
 }
 
-static void write_triangles(const Character* character, const bendy_draw* draw, const bendy_mesh* mesh) {
+static void write_triangles(const Character* character, const bendy_submesh* submesh, const bendy_mesh* mesh) {
     uint32_t k;
-    for (k = draw->first; draw->topology == BENDY_TRIANGLES && k < draw->first + draw->count; k += 3) {
+    for (k = submesh->first; submesh->topology == BENDY_TRIANGLES && k < submesh->first + submesh->count; k += 3) {
         int corner;
         printf("f");
         for (corner = 0; corner < 3; ++corner) {
@@ -103,16 +103,16 @@ static bendy_status write_obj(const Character* character, bendy_error* error) {
         const float* n = character->normals + 3 * v;
         printf("vn %.9g %.9g %.9g\n", (double)n[0], (double)n[1], (double)n[2]);
     }
-    for (d = 0; d < bendy_draw_count(character->model); ++d) {
-        bendy_draw draw;
+    for (d = 0; d < bendy_submesh_count(character->model); ++d) {
+        bendy_submesh submesh;
         bendy_mesh mesh;
-        draw.size = sizeof draw;
+        submesh.size = sizeof submesh;
         mesh.size = sizeof mesh;
-        if (bendy_get_draw(character->model, d, &draw, error) != BENDY_OK ||
-            bendy_get_mesh(character->model, draw.mesh, &mesh, error) != BENDY_OK ||
-            bendy_get_indices(character->model, draw.mesh, character->indices, mesh.indices, error) != BENDY_OK)
+        if (bendy_get_submesh(character->model, d, &submesh, error) != BENDY_OK ||
+            bendy_get_mesh(character->model, submesh.mesh, &mesh, error) != BENDY_OK ||
+            bendy_get_indices(character->model, submesh.mesh, character->indices, mesh.indices, error) != BENDY_OK)
             return (bendy_status)error->status;
-        write_triangles(character, &draw, &mesh);
+        write_triangles(character, &submesh, &mesh);
     }
     return BENDY_OK;
 }
@@ -123,11 +123,11 @@ int main(int argc, char** argv) {
     Request request = {NULL, NULL, 0.0f, NULL, {0.0f, 0.0f, 0.0f}};
     int failed;
     if (argc != 4 && argc != 8) {
-        fprintf(stderr, "usage: pose FILE.bendy CYCLE SECONDS [CHAIN X Y Z]\n");
+        fprintf(stderr, "usage: pose FILE.bendy CLIP SECONDS [CHAIN X Y Z]\n");
         return 2;
     }
     request.file = argv[1];
-    request.cycle = argv[2];
+    request.clip = argv[2];
     request.seconds = (float)atof(argv[3]);
     if (argc == 8) {
         int c;

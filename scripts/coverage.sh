@@ -9,8 +9,8 @@ cd "$(dirname "$0")/.."
 build=build/coverage
 cov=$(ls /usr/bin/llvm-cov /usr/lib/llvm-*/bin/llvm-cov 2>/dev/null | head -1)
 profdata=$(ls /usr/bin/llvm-profdata /usr/lib/llvm-*/bin/llvm-profdata 2>/dev/null | head -1)
-targets=(bendy_format_tests bendy_conformance_tests bendy_runtime_tests bendy_sweep_tests)
-programs=("$build"/tests/{bendy_format_tests,conformance/bendy_conformance_tests,bendy_runtime_tests,bendy_sweep_tests})
+targets=(bendy_format_tests bendy_conformance_tests bendy_runtime_tests bendy_mutation_tests)
+programs=("$build"/tests/{bendy_format_tests,conformance/bendy_conformance_tests,bendy_runtime_tests,bendy_mutation_tests})
 
 # It warns of mismatched data: inline functions that some programs call and others do not; some of these count as not run.
 export_counts() {

@@ -106,10 +106,10 @@ def main():
     folder = build / "lint"
     folder.mkdir(exist_ok=True)
     failed = False
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        groups = [group for made in pool.map(lambda item: make_groups(folder, *item), by_flags.items()) for group in made]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
+        groups = [group for made in workers.map(lambda item: make_groups(folder, *item), by_flags.items()) for group in made]
         groups.sort(key=lambda group: -len(group.sources))
-        for status, text in pool.map(Group.lint, groups):
+        for status, text in workers.map(Group.lint, groups):
             failed |= status != 0
             if status:
                 print(text, end="")

@@ -91,15 +91,15 @@ types:
             '"EXTR"': text
             '"MORE"': text
             '"REST"': rest_record
-            '"LIMT"': limit_record
-            '"PULL"': pull_record
-            '"POLY"': polygon_record
+            '"LIMT"': constraint_record
+            '"PULL"': chain_weight_record
+            '"POLY"': submesh_record
             '"JNTS"': joints
             '"JNAM"': jnam_list
             '"KINF"': chain_record
-            '"VINF"': pool_record
+            '"VINF"': mesh_record
             '"PALT"': palette
-            '"TINF"': target_record
+            '"TINF"': morph_target_record
             '"FNAM"': fnam_list
             '"GRID"': grid_list
             '"NLST"': nlst_list
@@ -113,7 +113,7 @@ types:
             '"VALS"': stream
             '"INDX"': stream
             '"LODD"': collapse_sequence
-            '"CINF"': cycle_record
+            '"CINF"': clip_record
             '"TRAK"': trak_list
             '"PACK"': packed_tracks
             '"PLAY"': play_list
@@ -140,7 +140,7 @@ types:
     seq:
       - {id: record, type: joints_record}
       - {id: rests, type: rest_record, size: 52, repeat: expr, repeat-expr: record.joints, doc: "rest transform of each joint, all 52 bytes"}
-      - {id: ranges, type: joint_polygons, repeat: expr, repeat-expr: record.polygons, doc: "a joint, and polygons that it owns"}
+      - {id: ranges, type: joint_submesh, repeat: expr, repeat-expr: record.submeshes, doc: "a joint, and polygons that it owns"}
   jnam_list:
     seq:
       - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
@@ -202,10 +202,10 @@ types:
             false: f4
       - {id: path, type: str, size: record.path_size, doc: "of the property, from the target"}
       - {id: name, type: str, size: record.name_size, doc: "the author's"}
-  joint_polygons:
+  joint_submesh:
     seq:
       - {id: joint, type: u4, doc: "to which the polygons belong"}
-      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: mesh, type: u4, doc: "VECT number in the object"}
       - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF: none"}
       - {id: first, type: u4, doc: "first entry in the mesh's INDX"}
       - {id: count, type: u4, doc: "number of entries: a multiple of 3, 2 or 1, depending on topology"}
@@ -214,16 +214,16 @@ types:
   collapse_sequence:
     seq:
       - {id: record, type: collapse_record}
-      - {id: pools, type: pool_collapse_record, repeat: expr, repeat-expr: record.pools}
-      - {id: levels, type: collapse_level(record.pools), repeat: expr, repeat-expr: record.levels}
-      - {id: zeros, size: (16 - record.levels * (record.pools + 1) * 4 % 16) % 16}
+      - {id: meshes, type: mesh_collapse_record, repeat: expr, repeat-expr: record.meshes}
+      - {id: levels, type: collapse_level(record.meshes), repeat: expr, repeat-expr: record.levels}
+      - {id: zeros, size: (16 - record.levels * (record.meshes + 1) * 4 % 16) % 16}
       - {id: rest, size-eos: true, doc: "for each mesh: targets, zeros, joined bits, zeros; their number depends on the vertices in its VINF: see collapses"}
   collapse_level:
     params:
-      - {id: pools, type: u4}
+      - {id: meshes, type: u4}
     seq:
       - {id: error, type: f4, doc: "metres"}
-      - {id: alive, type: u4, repeat: expr, repeat-expr: pools, doc: "vertices of each pool"}
+      - {id: alive, type: u4, repeat: expr, repeat-expr: meshes, doc: "vertices of each mesh"}
   collapses:
     doc: "The data after the levels, for each mesh; count is its number of vertices minus its base, which is in another chunk."
     params:
@@ -332,9 +332,9 @@ types:
       - {id: minor, type: u2, doc: "minor version; later ones only add what readers may skip"}
       - {id: objects, type: u4, doc: "number of OBJE chunks"}
       - {id: joints, type: u4, doc: "number of SKIN chunks in all objects"}
-      - {id: pools, type: u4, doc: "number of VECT chunks in all objects"}
+      - {id: meshes, type: u4, doc: "number of VECT chunks in all objects"}
       - {id: vertices, type: u8, doc: "total number of vertices of all meshes"}
-      - {id: cycles, type: u4, doc: "number of CYCL chunks in all objects"}
+      - {id: clips, type: u4, doc: "number of CYCL chunks in all objects"}
       - {id: materials, type: u4, doc: "number of MATE chunks, including local ones"}
       - {id: textures, type: u4, doc: "number of TEXT chunks"}
       - {id: reserved, type: u4, doc: "zero"}
@@ -386,11 +386,11 @@ types:
       - {id: translation, type: f4, repeat: expr, repeat-expr: 3, doc: "metres, in the parent's space"}
       - {id: scale, type: f4, repeat: expr, repeat-expr: 3, doc: "factors along the joint's axes; may be negative or zero"}
       - {id: shear, type: f4, repeat: expr, repeat-expr: 3, if: not _io.eof, doc: "xy, xz, yz: the entries above the diagonal"}
-  limit_record:
+  constraint_record:
     seq:
-      - {id: model, type: u1, enum: limit_model, doc: "0 free, 1 locked, 2 hinge, 3 swing-twist ellipse, 4 swing-twist pyramid, 5 Euler box, 6 largest angle"}
+      - {id: model, type: u1, enum: constraint_model, doc: "0 free, 1 locked, 2 hinge, 3 swing-twist ellipse, 4 swing-twist pyramid, 5 Euler box, 6 largest angle"}
       - {id: euler_order, type: u1, enum: euler_order, doc: "for an Euler box, the axes in the order of their rotations: 0 XYZ, 1 XZY, 2 YXZ, 3 YZX, 4 ZXY, 5 ZYX; otherwise 0"}
-      - {id: scope, type: u1, enum: limit_scope, doc: "0 every pose, 1 only the IK solver, 2 every pose except the IK solver's"}
+      - {id: scope, type: u1, enum: constraint_scope, doc: "0 every pose, 1 only the IK solver, 2 every pose except the IK solver's"}
       - {id: flags, type: u1, doc: "sum of 1 approximated, 2 proposed, 4 rest pose outside"}
       - {id: soft_zone, type: f4, doc: "radians: width of the zone inside the limits in which an IK solver halves steps towards them; 0: none"}
       - {id: frame, type: f4, repeat: expr, repeat-expr: 4, doc: "C, unit quaternion x y z w in the joint's rest space: its X is the twist or hinge axis, its Y and Z the swing axes"}
@@ -400,7 +400,7 @@ types:
       - {id: translation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; infinity: free"}
       - {id: stiffness, type: f4, repeat: expr, repeat-expr: 3, doc: "0 to 1 about X, Y, Z of the frame: how much an IK solver resists turning about the axis; 1 locks it"}
       - {id: preferred, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame: where a solver restarts when it is stuck, and which way a straight chain bends"}
-  pull_record:
+  chain_weight_record:
     seq:
       - {id: chain, type: u4, doc: "IKCH number in the object"}
       - {id: weight, type: f4, doc: "0 to 1: how much the joint moves for the chain; a joint without PULL has weight 1"}
@@ -425,9 +425,9 @@ types:
       - {id: influence, type: f4, doc: "0 to 1: how much of the solution is blended in when a player runs the file's chains; 0: initially off"}
       - {id: stretch, type: f4, doc: "0 or more: the fraction of its length by which the chain may grow to reach the target"}
       - {id: compress, type: f4, doc: "0 to 1: the fraction of its length by which the chain may shrink"}
-  polygon_record:
+  submesh_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: mesh, type: u4, doc: "VECT number in the object"}
       - {id: material, type: u4, doc: "MATE number in HEAD; with the top bit set, number among the joint's own MATE; 0xFFFFFFFF: none"}
       - {id: first, type: u4, doc: "first entry in the mesh's INDX"}
       - {id: count, type: u4, doc: "number of entries: a multiple of 3, 2 or 1, depending on topology"}
@@ -436,16 +436,16 @@ types:
   joints_record:
     seq:
       - {id: joints, type: u4, doc: "number of SKIN chunks in the object; as many RestRecords of 52 bytes follow"}
-      - {id: polygons, type: u4, doc: "number of submeshes, which follow the rest transforms: u32 joint and a PolygonRecord, 24 bytes each"}
+      - {id: submeshes, type: u4, doc: "number of submeshes, which follow the rest transforms: u32 joint and a SubmeshRecord, 24 bytes each"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
-  pool_record:
+  mesh_record:
     seq:
       - {id: vertices, type: u4, doc: "number of vertices; every stream has this many elements"}
       - {id: joint, type: u4, doc: "the joint that carries the mesh; 0xFFFFFFFF: none"}
-  target_record:
+  morph_target_record:
     seq:
       - {id: rest_weight, type: f4, doc: "weight when no clip animates it"}
-  cycle_record:
+  clip_record:
     seq:
       - {id: start, type: f4, doc: "seconds: time of the earliest key"}
       - {id: end, type: f4, doc: "seconds: time of the latest key; the length of the clip is end - start"}
@@ -494,7 +494,7 @@ types:
       - {id: first_value, type: u8, doc: "index into KEYV, counted in numbers"}
   play_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number in the object"}
+      - {id: mesh, type: u4, doc: "VECT number in the object"}
       - {id: first, type: u4, doc: "frame at the clip's start; 0: the mesh's own streams, k: frame k - 1 of its FRMS"}
       - {id: frames, type: u4, doc: "number of frames, 1 or more; frame k is at start + k / frame_rate"}
       - {id: closed, type: u1, doc: "1: the first frame follows the last one after another 1 / frame_rate; otherwise 0"}
@@ -512,15 +512,15 @@ types:
       - {id: entries, type: u4, doc: "number of entries; joints u32[entries], zeros up to a multiple of 16 bytes and inverse bind matrices f32[16][entries] follow"}
       - {id: derived, type: u4, doc: "1: a single matrix f32[16] is stored, from which all matrices are derived with the rest pose; otherwise 0"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
-  pool_collapse_record:
+  mesh_collapse_record:
     seq:
-      - {id: pool, type: u4, doc: "VECT number in the object; ascending"}
+      - {id: mesh, type: u4, doc: "VECT number in the object; ascending"}
       - {id: base, type: u4, doc: "number of vertices that never collapse: the first ones of the mesh"}
       - {id: target_type, type: u1, enum: component_type, doc: "type of the collapse targets: 2 u16, 4 u32"}
       - {id: reserved, size: 7, doc: "zero"}
   collapse_record:
     seq:
-      - {id: pools, type: u4, doc: "number of PoolCollapseRecords, which follow this record"}
+      - {id: meshes, type: u4, doc: "number of MeshCollapseRecords, which follow this record"}
       - {id: levels, type: u4, doc: "number of rows in the table of levels, which follows them"}
       - {id: reserved, type: u4, repeat: expr, repeat-expr: 2, doc: "zero"}
   image_record:
@@ -531,9 +531,9 @@ enums:
   filter: {0: unspecified, 1: nearest, 2: linear, 3: nearest_mipmap_nearest, 4: linear_mipmap_nearest, 5: nearest_mipmap_linear, 6: linear_mipmap_linear}
   wrap: {0: repeat, 1: clamp_to_edge, 2: mirrored_repeat}
   alpha_mode: {0: opaque, 1: mask, 2: blend}
-  limit_model: {0: free, 1: locked, 2: hinge, 3: swing_twist_ellipse, 4: swing_twist_pyramid, 5: euler_box, 6: largest_angle}
+  constraint_model: {0: free, 1: locked, 2: hinge, 3: swing_twist_ellipse, 4: swing_twist_pyramid, 5: euler_box, 6: largest_angle}
   euler_order: {0: xyz, 1: xzy, 2: yxz, 3: yzx, 4: zxy, 5: zyx}
-  limit_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
+  constraint_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
   solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}
   topology: {0: triangles, 1: lines, 2: points}
   curve_target: {0: nothing, 1: joint, 2: material, 3: mesh, 4: texture}

@@ -177,10 +177,10 @@ def extras(json):
 
 # --- records ---------------------------------------------------------------------------------------------------------
 
-def version(objects=0, joints=0, pools=0, vertices=0, cycles=0, materials=0, textures=0, generator=None):
+def version(objects=0, joints=0, meshes=0, vertices=0, clips=0, materials=0, textures=0, generator=None):
     pieces = [raw(b'BENDY\r\n\x1a', 'signature'), u16(0, 'major 0'), u16(1, 'minor 1'),
-              u32(objects, 'objects %d' % objects), u32(joints, 'joints %d' % joints), u32(pools, 'pools %d' % pools),
-              u64(vertices, 'vertices %d' % vertices), u32(cycles, 'cycles %d' % cycles),
+              u32(objects, 'objects %d' % objects), u32(joints, 'joints %d' % joints), u32(meshes, 'meshes %d' % meshes),
+              u64(vertices, 'vertices %d' % vertices), u32(clips, 'clips %d' % clips),
               u32(materials, 'materials %d' % materials), u32(textures, 'textures %d' % textures), u32(0, 'reserved')]
     if generator is not None:
         pieces.append(raw(generator.encode('utf-8').ljust(32, b'\0'), 'generator "%s"' % generator))
@@ -257,18 +257,18 @@ def chain_info(start, effector, target=NONE, pole=NONE, solver=0, tip_offset=(0,
                 f32(0, 'compress 0'))
 
 
-def polygons(pool, material, first, count):
+def submesh(mesh, material, first, count):
     if material == NONE:
         word = 'none'
     elif material & LOCAL:
         word = 'local %d' % (material & ~LOCAL)
     else:
         word = str(material)
-    return leaf('POLY', u32(pool, 'pool %d' % pool), u32(material, 'material ' + word), u32(first, 'first %d' % first),
+    return leaf('POLY', u32(mesh, 'mesh %d' % mesh), u32(material, 'material ' + word), u32(first, 'first %d' % first),
                 u32(count, 'count %d' % count), u8(0, 'topology 0 (triangles)'), u8([0, 0, 0], 'reserved'))
 
 
-def pool_info(vertices, joint):
+def mesh_info(vertices, joint):
     return leaf('VINF', u32(vertices, 'vertices %d' % vertices), u32(joint, 'joint %s' % ('none' if joint == NONE else joint)))
 
 
@@ -303,23 +303,23 @@ def palette(entries):
     return leaf('PALT', *pieces)
 
 
-def collapse(pools, levels):
-    """pools: (number, base, targets, joined bits); levels: (error, vertices alive of each pool)"""
-    pieces = [u32(len(pools), 'pools %d' % len(pools)), u32(len(levels), 'levels %d' % len(levels)),
+def collapse(meshes, levels):
+    """meshes: (number, base, targets, joined bits); levels: (error, vertices alive of each mesh)"""
+    pieces = [u32(len(meshes), 'meshes %d' % len(meshes)), u32(len(levels), 'levels %d' % len(levels)),
               u32([0, 0], 'reserved')]
 
     def pad(size):
         if size % 16:
             pieces.append(raw(bytes(-size % 16), 'zeros up to 16 bytes'))
 
-    for number, base, _, _ in pools:
-        pieces += [u32(number, 'pool %d' % number), u32(base, 'base %d' % base), u8(2, 'target_type 2 (u16)'),
+    for number, base, _, _ in meshes:
+        pieces += [u32(number, 'mesh %d' % number), u32(base, 'base %d' % base), u8(2, 'target_type 2 (u16)'),
                    u8([0] * 7, 'reserved')]
     for index, (error, *alive) in enumerate(levels):
         pieces += [f32(error, 'level %d: error %g' % (index, error)),
                    u32(alive, 'level %d: alive %s' % (index, ' '.join(map(str, alive))))]
     pad(sum(4 + 4 * len(alive) for _, *alive in levels))
-    for number, base, targets, joined in pools:
+    for number, base, targets, joined in meshes:
         pieces.append(u16(targets, 'targets of vertices %d and on: %s' % (base, ' '.join(map(str, targets)))))
         pad(2 * len(targets))
         pieces.append(u8(joined, 'joined bits of vertices %d and on' % base))
@@ -327,7 +327,7 @@ def collapse(pools, levels):
     return leaf('LODD', *pieces)
 
 
-def cycle_info(start, end, rate, loop):
+def clip_info(start, end, rate, loop):
     return leaf('CINF', f32(start, 'start %g' % start), f32(end, 'end %g' % end), f32(rate, 'frame_rate %g' % rate),
                 u8(loop, 'loop %d' % loop), u8([0, 0, 0], 'reserved'))
 
@@ -342,8 +342,8 @@ def track(target, path, interpolation, components, keys, first_time, first_value
             u32(first_time, 'first_time ' + time), u64(first_value, 'first_value %d' % first_value)]
 
 
-def play(pool, first, frames, closed):
-    return leaf('PLAY', u32(pool, 'pool %d' % pool), u32(first, 'first %d' % first), u32(frames, 'frames %d' % frames),
+def play(mesh, first, frames, closed):
+    return leaf('PLAY', u32(mesh, 'mesh %d' % mesh), u32(first, 'first %d' % first), u32(frames, 'frames %d' % frames),
                 u8(closed, 'closed %d' % closed), u8([0, 0, 0], 'reserved'))
 
 
@@ -405,11 +405,11 @@ def make_one_joint():
     """A rigid triangle on one joint, one metre above the ground."""
     return box(
         'HEAD',
-        version(objects=1, joints=1, pools=1, vertices=3, generator='make_bytes'),
+        version(objects=1, joints=1, meshes=1, vertices=3, generator='make_bytes'),
         box('OBJE',
             name('flag'),
-            box('SKIN', name('pole'), box('PIVO', rest([0, 1, 0])), polygons(0, NONE, 0, 3)),
-            box('VECT', pool_info(3, 0),
+            box('SKIN', name('pole'), box('PIVO', rest([0, 1, 0])), submesh(0, NONE, 0, 3)),
+            box('VECT', mesh_info(3, 0),
                 stream('POSI', 'f32', [[0, 0, 0], [1, 0, 0], [0, 1, 0]]),
                 stream('INDX', 'u16', [[0], [1], [2]]))))
 
@@ -422,7 +422,7 @@ def make_every_chunk():
     half = 0.7071067811865476
     tracks = (track(1, 1, 1, 4, 2, 0, 0) +                # joint 1, rotation, linear, timed: 8 numbers
               track(0, 0, 0, 3, 3, NONE, 8) +             # joint 0, translation, step, fixed frames: 9 numbers
-              track(0, 3, 2, 1, 2, 0, 17))                # pool 0, weights, cubic, timed: 6 numbers
+              track(0, 3, 2, 1, 2, 0, 17))                # mesh 0, weights, cubic, timed: 6 numbers
     values = [f32([0, 0, 0, 1], '[0] track 0, key 0'), f32([0, 0, half, half], '[4] track 0, key 1'),
               f32([0, 0, 0], '[8] track 1, key 0'), f32([0, 0.5, 0], '[11] track 1, key 1'),
               f32([0, 0, 0], '[14] track 1, key 2'),
@@ -431,7 +431,7 @@ def make_every_chunk():
     png = smallest_png()
     return box(
         'HEAD',
-        version(objects=1, joints=2, pools=2, vertices=6, cycles=2, materials=2, textures=3, generator='make_bytes'),
+        version(objects=1, joints=2, meshes=2, vertices=6, clips=2, materials=2, textures=3, generator='make_bytes'),
         leaf('BNDS', f32(0.0005, 'max_error 0.0005'), f32(0.0004, 'measured_error 0.0004'), f32(2, 'height 2')),
         box('TEXT', name('cloth'), sampler(2, 6, 0, 1), leaf('LINK', text('cloth.png')), extras('{"from":"scan"}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('SAME', u32(2, 'texture 2'), u32(0, 'image 0'))),
@@ -440,17 +440,17 @@ def make_every_chunk():
         box('OBJE',
             name('worm'),
             extras('{"species":"worm"}'),
-            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0]), pull(0, 0.5)), polygons(1, NONE, 0, 3), extras('{"side":"mid"}'),
+            box('SKIN', name('root'), box('PIVO', rest([0, 0, 0]), pull(0, 0.5)), submesh(1, NONE, 0, 3), extras('{"side":"mid"}'),
                 leaf('EXTN', text('{"KHR_node_visibility":{"visible":true}}')),
                 box('SKIN', name('tip'),
                     box('PIVO', rest([0, 1, 0]),
                         limit(3, [0.5, 0.5, 0.5, 0.5], [(-30, 30), (-40, 40), (-20, 60)])),
-                    box('MATE', surface([0, 0, 1, 1])), polygons(0, LOCAL | 0, 0, 3))),
-            leaf('JNTS', u32(2, 'joints 2'), u32(0, 'polygons 0'), u32([0, 0], 'reserved'),
+                    box('MATE', surface([0, 0, 1, 1])), submesh(0, LOCAL | 0, 0, 3))),
+            leaf('JNTS', u32(2, 'joints 2'), u32(0, 'submeshes 0'), u32([0, 0], 'reserved'),
                  *joint_rest(0, [0, 0, 0]), *joint_rest(1, [0, 1, 0])),
             leaf('JNAM', raw(b'root\0', '"root"'), raw(b'tip\0', '"tip"')),
             box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
-            box('VECT', name('body'), pool_info(3, 0), extras('{"unit":"m"}'),
+            box('VECT', name('body'), mesh_info(3, 0), extras('{"unit":"m"}'),
                 palette([(0, identity), (1, one_down)]),
                 stream('POSI', 'f32', [[0, 0, 0], [1, 2, 0], [0, 2, 0]]),
                 stream('NORM', 'f32', [[0, 0, 1]] * 3),
@@ -466,7 +466,7 @@ def make_every_chunk():
                     stream('NORM', 'f32', [[0, 0, 0]] * 2),
                     stream('TANG', 'f32', [[0, 0, 0]] * 2)),
                 stream('INDX', 'u16', [[0], [1], [2]])),
-            box('VECT', name('wing'), pool_info(3, 0),
+            box('VECT', name('wing'), mesh_info(3, 0),
                 leaf('NLST', f32([0, 0, 1], '[0] 0 0 1'), f32([0, 1, 0], '[1] 0 1 0')),
                 stream('POSI', 'u8', [[0, 0, 0], [2, 0, 0], [2, 2, 0]], normalised=2, box=[(0, 0.5)] * 3),
                 stream('NORM', 'u8', [[0]] * 3, normalised=3),
@@ -477,11 +477,11 @@ def make_every_chunk():
                     stream('NORM', 'u8', [[0], [1], [0], [1]], normalised=3)),
                 stream('INDX', 'u16', [[0], [1], [2]])),
             collapse([(0, 2, [0], [0])], [(0, 3), (0.5, 2)]),
-            box('CYCL', name('wave'), cycle_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
+            box('CYCL', name('wave'), clip_info(0, 1, 2, 1), extras('{"mood":"glad"}'),
                 leaf('TRAK', *tracks), leaf('PACK', *packed_tracks()), leaf('TIME', f32([0, 1], '[0] 0 1')), leaf('KEYV', *values),
                 marked((0.25, 'up'), (0.75, 'down')),
                 curve(2, 0, 'pbrMetallicRoughness/roughnessFactor', 'shine', [0, 1], [1, 0.25])),
-            box('CYCL', name('flap'), cycle_info(0, 1.5, 2, 1), play(1, 0, 3, 1))),
+            box('CYCL', name('flap'), clip_info(0, 1.5, 2, 1), play(1, 0, 3, 1))),
         extras('{"author":"us"}'),
         leaf('EXTN', text('{"KHR_xmp_json_ld":{"packets":[]}}')),
         box('TEXT', sampler(1, 1, 0, 0), leaf('IMAG', u8(1, 'media 1 (PNG)'), u8([0] * 15, 'reserved'),

@@ -28,10 +28,10 @@ def camel(name):
     return "".join(word.capitalize() for word in name.split("_"))
 
 
-def joint_polygons():
-    """The record of JNTS that is no struct of records.def: a joint, then a PolygonRecord."""
+def joint_submesh():
+    """The record of JNTS that is no struct of records.def: a joint, then a SubmeshRecord."""
     joint = tables.Row(name="joint", type="u32", count=1, offset=0, what="to which the polygons belong", values="", unit="", reference=None)
-    return [joint, *RECORDS["PolygonRecord"].fields]
+    return [joint, *RECORDS["SubmeshRecord"].fields]
 
 
 def merged(parts):
@@ -171,7 +171,7 @@ def kaitai_types():
             lines += kaitai_part(part, other, parts)
         if name == "text":
             lines[-1] = "      - {id: value, type: str, size-eos: true}"
-    lines += ["  joint_polygons:", "    seq:"] + [kaitai_field(field, 0) for field in joint_polygons()]
+    lines += ["  joint_submesh:", "    seq:"] + [kaitai_field(field, 0) for field in joint_submesh()]
     return lines
 
 
@@ -261,7 +261,7 @@ def imhex_part(part, parts):
 
 def imhex_types():
     lines = imhex_struct("Name", ["    char text[];"])
-    lines += imhex_struct("JointPolygons", [imhex_field(field) for field in joint_polygons()])
+    lines += imhex_struct("JointSubmesh", [imhex_field(field) for field in joint_submesh()])
     for name, parts in leaf_types()[0].items():
         lines += imhex_struct(camel(name), [line for part in parts for line in imhex_part(part, parts)], "<auto end>")
     return lines

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes text.schema.json, the JSON Schema of the text twin, from the tables of chunks, records and leaves.
+"""Writes text.schema.json, the JSON Schema of the text form, from the tables of chunks, records and leaves.
 
     make_text_schema.py [--check]      --check: only check whether the file is up to date
 """
@@ -128,10 +128,10 @@ def schema():
         "dependentRequired": {"codec": ["encoded"], "encoded": ["codec"]}}
     for struct in structs_in_arrays(records):
         definitions[struct] = record(records, struct, is_in_array=True)
-    polygons = record(records, "PolygonRecord", is_in_array=True)
+    polygons = record(records, "SubmeshRecord", is_in_array=True)
     polygons["properties"] = {"joint": ref("u32"), **polygons["properties"]}
     polygons["required"] = ["joint", *polygons["required"]]
-    definitions["JointPolygons"] = polygons
+    definitions["JointSubmesh"] = polygons
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "The text form of a Bendy file: see text.md",

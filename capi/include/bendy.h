@@ -4,7 +4,7 @@
  *     bendy_model* model = bendy_open("fox.bendy", NULL, &error);
  *     if (model == NULL) return fail(error.message);
  *     bendy_pose* pose = bendy_pose_new(model, &error);
- *     bendy_sample(pose, bendy_find_cycle(model, "Run", &error), seconds, &error);
+ *     bendy_sample(pose, bendy_find_clip(model, "Run", &error), seconds, &error);
  *     bendy_reach(pose, bendy_find_chain(model, "LeftArm", &error), target, NULL, NULL, NULL, &error);
  *     bendy_skin(pose, NULL, &vertices, &error);
  *
@@ -125,24 +125,23 @@ BENDY_API bendy_status bendy_check_sums(const bendy_model* model, bendy_error* e
 /* ---- What is in a model ---------------------------------------------------------------------------------- */
 
 /* Things are numbered from 0; each of these says how many there are, 0 for NULL.
- * A mesh is a pool of vertices with its index list (spec and C++: "pool"); a target is an inbetweening target (glTF:
- * "morph target"), counted through all meshes, mesh after mesh; a draw is what one draw call draws: a range of one
- * mesh' indices with one material. */
+ * A mesh has vertices and an index list; a morph target is counted through all meshes, mesh after mesh; a submesh is
+ * what one draw call draws: a range of one mesh' indices with one material. */
 BENDY_API uint32_t bendy_joint_count(const bendy_model* model);
-BENDY_API uint32_t bendy_cycle_count(const bendy_model* model);
+BENDY_API uint32_t bendy_clip_count(const bendy_model* model);
 BENDY_API uint32_t bendy_chain_count(const bendy_model* model);
-BENDY_API uint32_t bendy_target_count(const bendy_model* model);
+BENDY_API uint32_t bendy_morph_target_count(const bendy_model* model);
 BENDY_API uint32_t bendy_mesh_count(const bendy_model* model);
-BENDY_API uint32_t bendy_draw_count(const bendy_model* model);
+BENDY_API uint32_t bendy_submesh_count(const bendy_model* model);
 BENDY_API uint32_t bendy_material_count(const bendy_model* model);
 /* Vertices of all meshes together. */
 BENDY_API uint64_t bendy_vertex_count(const bendy_model* model);
 
 /* The first one of that name; BENDY_NONE, and an error that says which names there are, if there is none. */
 BENDY_API uint32_t bendy_find_joint(const bendy_model* model, const char* name, bendy_error* error);
-BENDY_API uint32_t bendy_find_cycle(const bendy_model* model, const char* name, bendy_error* error);
+BENDY_API uint32_t bendy_find_clip(const bendy_model* model, const char* name, bendy_error* error);
 BENDY_API uint32_t bendy_find_chain(const bendy_model* model, const char* name, bendy_error* error);
-BENDY_API uint32_t bendy_find_target(const bendy_model* model, const char* name, bendy_error* error);
+BENDY_API uint32_t bendy_find_morph_target(const bendy_model* model, const char* name, bendy_error* error);
 BENDY_API uint32_t bendy_find_mesh(const bendy_model* model, const char* name, bendy_error* error);
 BENDY_API uint32_t bendy_find_material(const bendy_model* model, const char* name, bendy_error* error);
 
@@ -166,14 +165,14 @@ typedef struct bendy_joint {
     float shear[3]; /* xy, xz, yz: stand above the diagonal of the scale's matrix */
 } bendy_joint;
 
-typedef struct bendy_cycle {
+typedef struct bendy_clip {
     uint32_t size;
     uint32_t loops; /* 1: made to be repeated */
     const char* name;
-    float start;      /* seconds: the cycle's time line goes from here */
+    float start;      /* seconds: the clip's time line goes from here */
     float end;        /* seconds: to here */
     float frame_rate; /* frames per second, 0 if its keys are not at fixed frames */
-} bendy_cycle;
+} bendy_clip;
 
 typedef struct bendy_chain { /* an IK chain: the joints on the path from the effector up to the start */
     uint32_t size;
@@ -185,12 +184,12 @@ typedef struct bendy_chain { /* an IK chain: the joints on the path from the eff
     const char* name;
 } bendy_chain;
 
-typedef struct bendy_target {
+typedef struct bendy_morph_target {
     uint32_t size;
     uint32_t mesh;
     const char* name;
     float rest_weight;
-} bendy_target;
+} bendy_morph_target;
 
 typedef struct bendy_mesh {
     uint32_t size;
@@ -198,8 +197,8 @@ typedef struct bendy_mesh {
     uint64_t first_vertex; /* among those of all meshes, where bendy_skin writes them */
     const char* name;
     uint32_t indices;
-    uint32_t joint;        /* that carries the mesh, or BENDY_NONE */
-    uint32_t first_target; /* among those of all meshes */
+    uint32_t joint;              /* that carries the mesh, or BENDY_NONE */
+    uint32_t first_morph_target; /* among those of all meshes */
     uint32_t targets;
     uint32_t has_normals;        /* 0 or 1; skinned normals are zero where there are none */
     uint32_t has_tangents;       /* 0 or 1 */
@@ -210,14 +209,14 @@ typedef struct bendy_mesh {
 
 typedef enum bendy_topology { BENDY_TRIANGLES = 0, BENDY_LINES = 1, BENDY_POINTS = 2 } bendy_topology;
 
-typedef struct bendy_draw {
+typedef struct bendy_submesh {
     uint32_t size;
     uint32_t mesh;
     uint32_t material; /* or BENDY_NONE */
     uint32_t topology; /* a bendy_topology: every 3, 2 or 1 indices are one element */
     uint32_t first;    /* in the mesh' indices */
     uint32_t count;    /* of indices */
-} bendy_draw;
+} bendy_submesh;
 
 typedef struct bendy_material {
     uint32_t size;
@@ -231,12 +230,13 @@ typedef struct bendy_material {
 
 BENDY_API const char* bendy_model_name(const bendy_model* model); /* "" if it has none; NULL for NULL */
 BENDY_API bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error);
-BENDY_API bendy_status bendy_get_cycle(const bendy_model* model, uint32_t cycle, bendy_cycle* out, bendy_error* error);
+BENDY_API bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_chain* out, bendy_error* error);
-BENDY_API bendy_status bendy_get_target(const bendy_model* model, uint32_t target, bendy_target* out,
-                                        bendy_error* error);
+BENDY_API bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t target, bendy_morph_target* out,
+                                              bendy_error* error);
 BENDY_API bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error);
-BENDY_API bendy_status bendy_get_draw(const bendy_model* model, uint32_t draw, bendy_draw* out, bendy_error* error);
+BENDY_API bendy_status bendy_get_submesh(const bendy_model* model, uint32_t submesh, bendy_submesh* out,
+                                         bendy_error* error);
 BENDY_API bendy_status bendy_get_material(const bendy_model* model, uint32_t material, bendy_material* out,
                                           bendy_error* error);
 
@@ -266,13 +266,13 @@ BENDY_API void bendy_pose_free(bendy_pose* pose); /* NULL: nothing happens */
 
 BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
 
-/* Sets the pose to a cycle at `seconds` on its own time line, bendy_cycle.start to end: what the cycle animates gets
- * its value there, all else is at rest. Times outside are held at the ends: the caller wraps time for cycles that loop.
+/* Sets the pose to a clip at `seconds` on its own time line, bendy_clip.start to end: what the clip animates gets
+ * its value there, all else is at rest. Times outside are held at the ends: the caller wraps time for clips that loop.
  * NaN is an error. */
-BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t cycle, float seconds, bendy_error* error);
+BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds, bendy_error* error);
 
-/* A named curve of a cycle: a number that is animated, or up to four, and is neither a joint's transform nor a target's
- * weight: a material's colour, a camera's field of view. A cycle's curves are numbered from 0. */
+/* A named curve of a clip: a number that is animated, or up to four, and is neither a joint's transform nor a target's
+ * weight: a material's colour, a camera's field of view. A clip's curves are numbered from 0. */
 typedef enum bendy_curve_target {
     BENDY_CURVE_NOTHING = 0,
     BENDY_CURVE_JOINT = 1,
@@ -293,16 +293,16 @@ typedef struct bendy_curve {
     float end;            /* seconds: the last key */
 } bendy_curve;
 
-/* 0 for NULL and for a cycle that there is not. */
-BENDY_API uint32_t bendy_curve_count(const bendy_model* model, uint32_t cycle);
-/* The cycle's first curve of that name; if none has the name, the first of that path. BENDY_NONE if there is none. */
-BENDY_API uint32_t bendy_find_curve(const bendy_model* model, uint32_t cycle, const char* name_or_path,
+/* 0 for NULL and for a clip that there is not. */
+BENDY_API uint32_t bendy_curve_count(const bendy_model* model, uint32_t clip);
+/* The clip's first curve of that name; if none has the name, the first of that path. BENDY_NONE if there is none. */
+BENDY_API uint32_t bendy_find_curve(const bendy_model* model, uint32_t clip, const char* name_or_path,
                                     bendy_error* error);
-BENDY_API bendy_status bendy_get_curve(const bendy_model* model, uint32_t cycle, uint32_t curve, bendy_curve* out,
+BENDY_API bendy_status bendy_get_curve(const bendy_model* model, uint32_t clip, uint32_t curve, bendy_curve* out,
                                        bendy_error* error);
-/* The curve's value at `seconds` on its cycle's time line; before its first and after its last key it holds. `count` is
+/* The curve's value at `seconds` on its clip's time line; before its first and after its last key it holds. `count` is
  * what `values` holds, at least bendy_curve.components. NaN is an error. Allocates nothing but the text of an error. */
-BENDY_API bendy_status bendy_sample_curve(const bendy_model* model, uint32_t cycle, uint32_t curve, double seconds,
+BENDY_API bendy_status bendy_sample_curve(const bendy_model* model, uint32_t clip, uint32_t curve, double seconds,
                                           float* values, size_t count, bendy_error* error);
 
 /* Moves `pose` towards `other`, a pose of the same model: 0 leaves it, 1 makes it the other; any finite number. `mask`
@@ -423,8 +423,9 @@ BENDY_API uint32_t bendy_lod_vertices(const bendy_lod* lod, uint32_t mesh);
 /* The mesh' index list at this level, and in `*count` how many there are; the lod's, until it changes. NULL where it
  * fails or the list is empty. */
 BENDY_API const uint32_t* bendy_lod_indices(const bendy_lod* lod, uint32_t mesh, size_t* count, bendy_error* error);
-/* A draw at this level: a range of bendy_lod_indices; numbered as those of the model. */
-BENDY_API bendy_status bendy_lod_draw(const bendy_lod* lod, uint32_t draw, bendy_draw* out, bendy_error* error);
+/* A submesh at this level: a range of bendy_lod_indices; numbered as those of the model. */
+BENDY_API bendy_status bendy_lod_submesh(const bendy_lod* lod, uint32_t submesh, bendy_submesh* out,
+                                         bendy_error* error);
 
 /* ---- Vertices -------------------------------------------------------------------------------------------- */
 
@@ -463,9 +464,9 @@ typedef struct bendy_skin_options {
 #define BENDY_SKIN_OPTIONS_INIT \
     { sizeof(bendy_skin_options), BENDY_NONE, NULL, BENDY_SKIN_LINEAR, 0 }
 
-/* Inbetweens and skins vertices into the caller's memory, whose capacity is at least bendy_vertex_count; of one mesh,
- * at least its vertices, or those alive. `options` may be NULL: all meshes, linear. A pose's first call by dual
- * quaternions allocates memory. */
+/* Applies morph targets and skins vertices into the caller's memory, whose capacity is at least bendy_vertex_count; of
+ * one mesh, at least its vertices, or those alive. `options` may be NULL: all meshes, linear. A pose's first call by
+ * dual quaternions allocates memory. */
 BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, const bendy_vertices* out,
                                   bendy_error* error);
 

@@ -14,7 +14,7 @@ std::uint32_t count_of(const bendy_model* model, NameList list) {
     return model == nullptr ? 0 : static_cast<std::uint32_t>((model->character->names.*list).size());
 }
 
-/// `there is no cycle "Rum"; there are: "Walk", "Run"`
+/// `there is no clip "Rum"; there are: "Walk", "Run"`
 std::string not_found(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
     constexpr std::size_t kEnough = 400;  // what a message shows
     std::string text = "there is no " + std::string(kind) + " \"" + std::string(name) + '"';
@@ -58,18 +58,18 @@ bendy_status get(const bendy_model* model, NameList list, const char* kind, std:
 }
 
 void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
-    const Pool& pool = model.pools()[number];
-    out.vertices = pool.vertices;
+    const Mesh& mesh_view = model.meshes()[number];
+    out.vertices = mesh_view.vertices;
     out.first_vertex = model.first_vertex(number);
-    out.indices = pool.indices ? pool.indices->elements : 0;
-    out.joint = pool.joint;
-    out.first_target = model.first_target(number);
-    out.targets = static_cast<std::uint32_t>(pool.targets.size());
-    out.has_normals = pool.normals ? 1 : 0;
-    out.has_tangents = pool.tangents ? 1 : 0;
-    out.texture_coord_sets = static_cast<std::uint32_t>(pool.texture_coords.size());
-    out.bones = pool.is_rigid() ? 0 : static_cast<std::uint32_t>(pool.palette.joints.size());
-    out.influences = pool.is_rigid() ? 0 : pool.bones->components;
+    out.indices = mesh_view.indices ? mesh_view.indices->elements : 0;
+    out.joint = mesh_view.joint;
+    out.first_morph_target = model.first_morph_target(number);
+    out.targets = static_cast<std::uint32_t>(mesh_view.targets.size());
+    out.has_normals = mesh_view.normals ? 1 : 0;
+    out.has_tangents = mesh_view.tangents ? 1 : 0;
+    out.texture_coord_sets = static_cast<std::uint32_t>(mesh_view.texture_coords.size());
+    out.bones = mesh_view.is_rigid() ? 0 : static_cast<std::uint32_t>(mesh_view.palette.joints.size());
+    out.influences = mesh_view.is_rigid() ? 0 : mesh_view.bones->components;
 }
 
 }  // namespace
@@ -80,20 +80,20 @@ using namespace bendy::capi;
 uint32_t bendy_joint_count(const bendy_model* model) {
     return count_of(model, &Names::joints);
 }
-uint32_t bendy_cycle_count(const bendy_model* model) {
-    return count_of(model, &Names::cycles);
+uint32_t bendy_clip_count(const bendy_model* model) {
+    return count_of(model, &Names::clips);
 }
 uint32_t bendy_chain_count(const bendy_model* model) {
     return count_of(model, &Names::chains);
 }
-uint32_t bendy_target_count(const bendy_model* model) {
+uint32_t bendy_morph_target_count(const bendy_model* model) {
     return count_of(model, &Names::targets);
 }
 uint32_t bendy_mesh_count(const bendy_model* model) {
     return count_of(model, &Names::meshes);
 }
-uint32_t bendy_draw_count(const bendy_model* model) {
-    return model == nullptr ? 0 : static_cast<std::uint32_t>(model->get().draws().size());
+uint32_t bendy_submesh_count(const bendy_model* model) {
+    return model == nullptr ? 0 : static_cast<std::uint32_t>(model->get().submeshes().size());
 }
 uint32_t bendy_material_count(const bendy_model* model) {
     return count_of(model, &Names::materials);
@@ -105,13 +105,13 @@ uint64_t bendy_vertex_count(const bendy_model* model) {
 uint32_t bendy_find_joint(const bendy_model* model, const char* name, bendy_error* error) {
     return find(model, &Names::joints, "joint", name, error);
 }
-uint32_t bendy_find_cycle(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::cycles, "cycle", name, error);
+uint32_t bendy_find_clip(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::clips, "clip", name, error);
 }
 uint32_t bendy_find_chain(const bendy_model* model, const char* name, bendy_error* error) {
     return find(model, &Names::chains, "chain", name, error);
 }
-uint32_t bendy_find_target(const bendy_model* model, const char* name, bendy_error* error) {
+uint32_t bendy_find_morph_target(const bendy_model* model, const char* name, bendy_error* error) {
     return find(model, &Names::targets, "target", name, error);
 }
 uint32_t bendy_find_mesh(const bendy_model* model, const char* name, bendy_error* error) {
@@ -138,9 +138,9 @@ bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joi
     });
 }
 
-bendy_status bendy_get_cycle(const bendy_model* model, uint32_t cycle, bendy_cycle* out, bendy_error* error) {
-    return get(model, &Names::cycles, "cycle", cycle, out, error, [&](const bendy::Model& from, bendy_cycle& value) {
-        const bendy::Cycle& view = from.cycles()[cycle];
+bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip* out, bendy_error* error) {
+    return get(model, &Names::clips, "clip", clip, out, error, [&](const bendy::Model& from, bendy_clip& value) {
+        const bendy::Clip& view = from.clips()[clip];
         value.start = view.start;
         value.end = view.end;
         value.frame_rate = view.frame_rate;
@@ -159,12 +159,14 @@ bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_cha
     });
 }
 
-bendy_status bendy_get_target(const bendy_model* model, uint32_t target, bendy_target* out, bendy_error* error) {
-    return get(
-        model, &Names::targets, "target", target, out, error, [&](const bendy::Model& from, bendy_target& value) {
-            value.mesh = model->character->target_meshes[target];
-            value.rest_weight = from.pools()[value.mesh].targets[target - from.first_target(value.mesh)].rest_weight;
-        });
+bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t target, bendy_morph_target* out,
+                                    bendy_error* error) {
+    return get(model, &Names::targets, "target", target, out, error,
+               [&](const bendy::Model& from, bendy_morph_target& value) {
+                   value.mesh = model->character->target_meshes[target];
+                   value.rest_weight =
+                       from.meshes()[value.mesh].targets[target - from.first_morph_target(value.mesh)].rest_weight;
+               });
 }
 
 bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error) {

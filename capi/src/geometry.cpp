@@ -1,29 +1,29 @@
 // What a model's meshes hold that posing does not change: draws, index lists, texture coordinates, influences.
-#include "draw.h"
 #include "handles.h"
+#include "submesh.h"
 
 namespace bendy::capi {
 namespace {
 
 bendy_status check_mesh(const bendy_model* model, std::uint32_t mesh, bendy_error* error) {
     if (const bendy_status status = check_pointer(model, "model", error)) return status;
-    return check_index(mesh, model->get().pools().size(), "mesh", error);
+    return check_index(mesh, model->get().meshes().size(), "mesh", error);
 }
 
 /// The mesh' texture coordinates of that set; null if there are none.
-const StreamView* texture_coords(const Pool& pool, std::uint32_t set) {
-    for (const StreamView& stream : pool.texture_coords) {
+const StreamView* texture_coords(const Mesh& mesh, std::uint32_t set) {
+    for (const StreamView& stream : mesh.texture_coords) {
         if (stream.set == set) return &stream;
     }
     return nullptr;
 }
 
-void copy_influences(const Pool& pool, std::uint32_t* bones, float* weights) {
-    const std::uint32_t influences = pool.bones->components;
-    for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+void copy_influences(const Mesh& mesh, std::uint32_t* bones, float* weights) {
+    const std::uint32_t influences = mesh.bones->components;
+    for (std::uint32_t vertex = 0; vertex < mesh.vertices; ++vertex) {
         for (std::uint32_t k = 0; k < influences; ++k) {
-            *bones++ = pool.bones->index(vertex, k);
-            *weights++ = pool.weights->number(vertex, k);
+            *bones++ = mesh.bones->index(vertex, k);
+            *weights++ = mesh.weights->number(vertex, k);
         }
     }
 }
@@ -33,10 +33,10 @@ void copy_influences(const Pool& pool, std::uint32_t* bones, float* weights) {
 
 using namespace bendy::capi;
 
-bendy_status bendy_get_draw(const bendy_model* model, uint32_t draw, bendy_draw* out, bendy_error* error) {
+bendy_status bendy_get_submesh(const bendy_model* model, uint32_t submesh, bendy_submesh* out, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        return get_draw(model->get().draws(), draw, out, error);
+        return get_submesh(model->get().submeshes(), submesh, out, error);
     });
 }
 
@@ -44,7 +44,7 @@ bendy_status bendy_get_indices(const bendy_model* model, uint32_t mesh, uint32_t
                                bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
-        const auto& stream = model->get().pools()[mesh].indices;
+        const auto& stream = model->get().meshes()[mesh].indices;
         const std::uint32_t elements = stream ? stream->elements : 0;
         if (elements == 0) return BENDY_OK;
         if (const bendy_status status = check_pointer(indices, "indices", error)) return status;
@@ -58,14 +58,14 @@ bendy_status bendy_get_texture_coords(const bendy_model* model, uint32_t mesh, u
                                       bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
-        const bendy::Pool& pool = model->get().pools()[mesh];
-        const bendy::StreamView* stream = texture_coords(pool, set);
+        const bendy::Mesh& view = model->get().meshes()[mesh];
+        const bendy::StreamView* stream = texture_coords(view, set);
         if (stream == nullptr)
             return fail(error, BENDY_BAD_ARGUMENT,
                         "mesh " + std::to_string(mesh) + " has no texture coordinates of set " + std::to_string(set));
         if (const bendy_status status = check_pointer(uv, "uv", error)) return status;
-        if (const bendy_status status = check_room(count, std::uint64_t{2} * pool.vertices, "uv", error)) return status;
-        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+        if (const bendy_status status = check_room(count, std::uint64_t{2} * view.vertices, "uv", error)) return status;
+        for (std::uint32_t vertex = 0; vertex < view.vertices; ++vertex) {
             for (std::uint32_t c = 0; c < 2; ++c) *uv++ = stream->number(vertex, c);
         }
         return BENDY_OK;
@@ -76,14 +76,14 @@ bendy_status bendy_get_influences(const bendy_model* model, uint32_t mesh, uint3
                                   size_t count, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
-        const bendy::Pool& pool = model->get().pools()[mesh];
-        if (pool.is_rigid())
+        const bendy::Mesh& view = model->get().meshes()[mesh];
+        if (view.is_rigid())
             return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is rigid: it has no bones");
         if (const bendy_status status = check_pointer(bones, "bones", error)) return status;
         if (const bendy_status status = check_pointer(weights, "weights", error)) return status;
-        const std::uint64_t needed = std::uint64_t{pool.vertices} * pool.bones->components;
+        const std::uint64_t needed = std::uint64_t{view.vertices} * view.bones->components;
         if (const bendy_status status = check_room(count, needed, "bones", error)) return status;
-        copy_influences(pool, bones, weights);
+        copy_influences(view, bones, weights);
         return BENDY_OK;
     });
 }

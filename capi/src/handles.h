@@ -22,8 +22,8 @@ struct CurveNames {
 /// As C wants names: with a zero after them.
 struct Names {
     std::string model;
-    std::vector<std::string> joints, cycles, chains, targets, meshes, materials;
-    std::vector<std::vector<CurveNames>> curves;  ///< of each cycle
+    std::vector<std::string> joints, clips, chains, targets, meshes, materials;
+    std::vector<std::vector<CurveNames>> curves;  ///< of each clip
 };
 
 /// The bytes of a file, in one of three ways.

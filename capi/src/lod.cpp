@@ -1,6 +1,6 @@
 // Levels of detail.
-#include "draw.h"
 #include "handles.h"
+#include "submesh.h"
 
 using namespace bendy::capi;
 
@@ -41,7 +41,7 @@ bendy_status bendy_get_lod(const bendy_lod* lod, bendy_lod_info* out, bendy_erro
 }
 
 uint32_t bendy_lod_vertices(const bendy_lod* lod, uint32_t mesh) {
-    if (lod == nullptr || mesh >= lod->character->model.pools().size()) return 0;
+    if (lod == nullptr || mesh >= lod->character->model.meshes().size()) return 0;
     return lod->lod.vertices(mesh);
 }
 
@@ -50,7 +50,7 @@ const uint32_t* bendy_lod_indices(const bendy_lod* lod, uint32_t mesh, size_t* c
     guarded(error, [&] {
         if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
         if (const bendy_status status = check_pointer(count, "count", error)) return status;
-        if (const bendy_status status = check_index(mesh, lod->character->model.pools().size(), "mesh", error))
+        if (const bendy_status status = check_index(mesh, lod->character->model.meshes().size(), "mesh", error))
             return status;
         const auto list = lod->lod.indices(mesh);
         *count = list.size();
@@ -60,9 +60,9 @@ const uint32_t* bendy_lod_indices(const bendy_lod* lod, uint32_t mesh, size_t* c
     return indices;
 }
 
-bendy_status bendy_lod_draw(const bendy_lod* lod, uint32_t draw, bendy_draw* out, bendy_error* error) {
+bendy_status bendy_lod_submesh(const bendy_lod* lod, uint32_t submesh, bendy_submesh* out, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
-        return get_draw(lod->lod.draws(), draw, out, error);
+        return get_submesh(lod->lod.submeshes(), submesh, out, error);
     });
 }

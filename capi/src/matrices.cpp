@@ -47,9 +47,9 @@ bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t cou
 bendy_status bendy_bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrices, size_t count, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const auto pools = pose->pose.model().pools();
-        if (const bendy_status status = check_index(mesh, pools.size(), "mesh", error)) return status;
-        if (pools[mesh].is_rigid())
+        const auto meshes = pose->pose.model().meshes();
+        if (const bendy_status status = check_index(mesh, meshes.size(), "mesh", error)) return status;
+        if (meshes[mesh].is_rigid())
             return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is rigid: it has no bones");
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;
         const auto palette = pose->pose.palette(mesh);

@@ -68,13 +68,13 @@ bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error) {
     });
 }
 
-bendy_status bendy_sample(bendy_pose* pose, uint32_t cycle, float seconds, bendy_error* error) {
+bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds, bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const auto cycles = pose->pose.model().cycles();
-        if (const bendy_status status = check_index(cycle, cycles.size(), "cycle", error)) return status;
+        const auto clips = pose->pose.model().clips();
+        if (const bendy_status status = check_index(clip, clips.size(), "clip", error)) return status;
         if (std::isnan(seconds)) return fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number");
-        return from_call(bendy::sample(pose->pose, &cycles[cycle], seconds), error);
+        return from_call(bendy::sample(pose->pose, &clips[clip], seconds), error);
     });
 }
 
@@ -151,7 +151,7 @@ bendy_status bendy_get_weights(const bendy_pose* pose, uint32_t first, uint32_t 
                                bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const auto all = pose->pose.target_weights();
+        const auto all = pose->pose.morph_weights();
         if (const bendy_status status = check_part(first, count, all.size(), "target", weights, "weights", error))
             return status;
         std::copy_n(all.begin() + first, count, weights);
@@ -163,7 +163,7 @@ bendy_status bendy_set_weights(bendy_pose* pose, uint32_t first, uint32_t count,
                                bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const auto all = pose->pose.change_target_weights();
+        const auto all = pose->pose.change_morph_weights();
         if (const bendy_status status = check_part(first, count, all.size(), "target", weights, "weights", error))
             return status;
         if (count == 0) return BENDY_OK;

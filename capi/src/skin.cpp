@@ -49,7 +49,7 @@ bendy_status take_options(const bendy_pose& pose, const bendy_skin_options* opti
     bendy_skin_options values = BENDY_SKIN_OPTIONS_INIT;
     if (const bendy_status status = take(options, "options", values, error)) return status;
     if (values.mesh != BENDY_NONE) {
-        if (const bendy_status status = check_index(values.mesh, pose.pose.model().pools().size(), "mesh", error))
+        if (const bendy_status status = check_index(values.mesh, pose.pose.model().meshes().size(), "mesh", error))
             return status;
         taken.mesh = values.mesh;
     }
@@ -68,7 +68,7 @@ bendy_status take_options(const bendy_pose& pose, const bendy_skin_options* opti
 /// Vertices that `out` must have room for.
 std::uint64_t needed_by(const SkinRequest& request, const Model& model) {
     if (request.mesh == kAllMeshes) return model.vertex_count();
-    return request.lod == nullptr ? model.pools()[request.mesh].vertices : request.lod->vertices(request.mesh);
+    return request.lod == nullptr ? model.meshes()[request.mesh].vertices : request.lod->vertices(request.mesh);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/validate.h>
-#include <bendy/twin/assemble.h>
+#include <bendy/text_form/assemble.h>
 
 #include <iostream>
 #include <memory>
@@ -52,9 +52,9 @@ void run(AssembleArguments arguments) {
     refuse_other_kinds(arguments.file, file.bytes());
 
     LateProgress progress("assembling");
-    const auto bytes = twin::assemble(as_text(file.bytes()), progress.callback());
+    const auto bytes = text_form::assemble(as_text(file.bytes()), progress.callback());
     if (!bytes) {
-        const twin::TextFault& fault = bytes.error();
+        const text_form::TextFault& fault = bytes.error();
         const std::string place = std::to_string(fault.line) + ':' + std::to_string(fault.column);
         fail(std::filesystem::path(shown_name(arguments.file)) += ':' + place, printable(fault.what));
     }

@@ -91,11 +91,11 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-void print_page(const BenchArguments& arguments, const Model& model, const Cycle* cycle,
+void print_page(const BenchArguments& arguments, const Model& model, const Clip* clip,
                 const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
     std::cout << shown_name(arguments.file.filename()) << ": " << grouped(model.joints().size()) << " joints, "
-              << grouped(model.vertex_count()) << " vertices, " << grouped(model.target_count()) << " targets";
-    if (cycle != nullptr) std::cout << "; cycle \"" << printable(cycle->name) << '"';
+              << grouped(model.vertex_count()) << " vertices, " << grouped(model.morph_target_count()) << " targets";
+    if (clip != nullptr) std::cout << "; clip \"" << printable(clip->name) << '"';
     std::cout << "\none thread; median of " << arguments.rounds << " turns (and the shortest)\n\n"
               << std::string(36, ' ');
     constexpr std::size_t kWidth = 22;
@@ -111,7 +111,7 @@ void print_page(const BenchArguments& arguments, const Model& model, const Cycle
     }
 }
 
-void print_json(const BenchArguments& arguments, const Model& model, const Cycle* cycle,
+void print_json(const BenchArguments& arguments, const Model& model, const Clip* clip,
                 const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
     nlohmann::json stages = nlohmann::json::array();
     for (const Row& row : rows) {
@@ -126,8 +126,8 @@ void print_json(const BenchArguments& arguments, const Model& model, const Cycle
     const nlohmann::json report = {{"file", arguments.file.string()},
                                    {"joints", model.joints().size()},
                                    {"vertices", model.vertex_count()},
-                                   {"targets", model.target_count()},
-                                   {"cycle", cycle == nullptr ? nlohmann::json() : nlohmann::json(cycle->name)},
+                                   {"targets", model.morph_target_count()},
+                                   {"clip", clip == nullptr ? nlohmann::json() : nlohmann::json(clip->name)},
                                    {"rounds", arguments.rounds},
                                    {"stages", stages}};
     std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -137,15 +137,15 @@ void run(const BenchArguments& arguments) {
     const InputBytes file = open_bendy_file(arguments.file);
     const Result<Model> model = Model::from_memory(file.bytes());
     if (!model) fail(arguments.file, model.error(), file.bytes());
-    const Cycle* cycle = model->cycles().empty() ? nullptr : model->cycles().data();
-    if (!arguments.clip.empty()) cycle = &find_cycle(arguments.clip, arguments.file, *model);
+    const Clip* clip = model->clips().empty() ? nullptr : model->clips().data();
+    if (!arguments.clip.empty()) clip = &find_clip(arguments.clip, arguments.file, *model);
 
     const std::vector<Kernel> kernels = chosen_kernels(arguments);
     const auto open = [&](const OpenOptions& options) {
         return is_dash(arguments.file) ? Model::from_memory(file.bytes(), options)
                                        : Model::open(arguments.file, options);
     };
-    const stages::Stages steps(open, *model, cycle);
+    const stages::Stages steps(open, *model, clip);
     std::vector<Row> rows;
     {
         ProgressBar bar("measuring");
@@ -154,7 +154,7 @@ void run(const BenchArguments& arguments) {
             rows.push_back({&stage, time_stage(stage, kernels, arguments.rounds)});
         }
     }
-    (arguments.json ? print_json : print_page)(arguments, *model, cycle, kernels, rows);
+    (arguments.json ? print_json : print_page)(arguments, *model, clip, kernels, rows);
 }
 
 }  // namespace
@@ -172,7 +172,7 @@ void add_bench(CLI::App& program) {
         ->check(CLI::IsMember(kernel_names()))
         ->check(check_kernel)
         ->allow_extra_args(false);
-    command->add_option("--clip", arguments->clip, "the cycle to play, by number or name; the first if not given");
+    command->add_option("--clip", arguments->clip, "the clip to play, by number or name; the first if not given");
     command->add_option("--rounds", arguments->rounds, "turns of about 2 ms for each step")
         ->check(CLI::Range(1, 100'000))
         ->capture_default_str();

@@ -241,11 +241,11 @@ void add_diff(CLI::App& program) {
         "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");
     command->add_option("A", arguments->files[0], "a bendy file")->required();
     command->add_option("B", arguments->files[1], "another")->required();
-    CLI::Option* given =
-        command->add_option("--tolerance", *tolerance,
-                            "compare the characters instead, as an exact file and its compact twin: a length (0.1mm) "
-                            "or a share of the height "
-                            "(0.005%); no point of the skin may be so far from where it should be, in any cycle");
+    CLI::Option* given = command->add_option(
+        "--tolerance", *tolerance,
+        "compare the characters instead, as an exact file and its compact version: a length (0.1mm) "
+        "or a share of the height "
+        "(0.005%); no point of the skin may be so far from where it should be, in any clip");
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
         "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"

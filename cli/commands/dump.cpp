@@ -7,7 +7,7 @@
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/twin/dump.h>
+#include <bendy/text_form/dump.h>
 
 #include <memory>
 
@@ -40,10 +40,10 @@ void run(const DumpArguments& arguments) {
         warn(arguments.file, what + "; the text does not tell");
     }
     decode_leaves(*tree);
-    twin::DumpOptions options;
+    text_form::DumpOptions options;
     options.decode = arguments.decode;
     LateProgress progress("dumping");
-    const std::string text = twin::dump(*tree, options, progress.callback());
+    const std::string text = text_form::dump(*tree, options, progress.callback());
     outputs.write(arguments.output, text);
 }
 

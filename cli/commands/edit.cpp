@@ -4,7 +4,7 @@
 #include "terminal/problem.h"
 
 #include <bendy/edit/extract.h>
-#include <bendy/edit/merge_cycles.h>
+#include <bendy/edit/merge_clips.h>
 #include <bendy/edit/names.h>
 #include <bendy/edit/rename.h>
 #include <bendy/edit/strip.h>
@@ -145,7 +145,7 @@ private:
         steps_.emplace_back([path, same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path, outputs);
             const auto first = log.warnings.size();
-            auto merged = edit::merge_cycles(file, other, same_name, log);
+            auto merged = edit::merge_clips(file, other, same_name, log);
             for (std::size_t k = first; k < log.warnings.size(); ++k)
                 log.warnings[k] = path.string() + ": " + log.warnings[k];
             if (merged) return merged;
@@ -213,28 +213,28 @@ void add_edit(CLI::App& program) {
     };
     add("--strip", arguments->strips,
         "take out all " + edit::strip_words() +
-            "; or one: texture:NAME, cycle:Run, mesh:Hat, target:Smile, chain:Arm, limit:JOINT, chunk:ID");
+            "; or one: texture:NAME, clip:Run, mesh:Hat, target:Smile, chain:Arm, constraint:JOINT, chunk:ID");
     add("--rename-joint", arguments->joint_renames,
         "OLD=NEW; a * stands for anything: 'mixamorig:*=*' takes a prefix away");
     add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
     add("--rename", arguments->renames,
-        "KIND:OLD=NEW, KIND being joint, cycle, chain, mesh, target, material, texture or object");
+        "KIND:OLD=NEW, KIND being joint, clip, chain, mesh, target, material, texture or object");
     add("--merge", arguments->merges,
-        "add the cycles of another file (bendy or glTF); tracks go to the joints of the same name");
+        "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
     command
         ->add_option("--same-name", arguments->same_name,
-                     "what --merge does where a cycle's name is taken: error; replace the one that is there; number "
+                     "what --merge does where a clip's name is taken: error; replace the one that is there; number "
                      "the new one, as in Run.001")
         ->check(CLI::IsMember({"error", "replace", "number"}))
         ->capture_default_str();
     add("--extract", arguments->extracts,
-        "a joint and all below it as a character of its own; it stays where it was, in every cycle");
+        "a joint and all below it as a character of its own; it stays where it was, in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
-        "Names may have * and ?, or be a number: cycle:#0. Options are applied in their order; renames of one kind "
+        "Names may have * and ?, or be a number: clip:#0. Options are applied in their order; renames of one kind "
         "that\n"
         "follow one another happen at once. What is not touched keeps its bytes, unknown chunks too.\n"
-        "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename cycle:mixamo.com=Run");
+        "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename clip:mixamo.com=Run");
     command->callback([arguments, command] {
         if (arguments->output.empty() == !arguments->in_place)
             throw CLI::ValidationError("--output", "or --in-place, one of the two, says where to write");

@@ -50,7 +50,7 @@ converter::ExportOptions options_of(const ExportArguments& arguments, Bytes file
     const Result<Model> model = Model::from_memory(file);
     if (!model) fail(arguments.file, model.error(), file);
     const Lod lod = level_of(arguments.file, *model, arguments.lod);
-    for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
+    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) options.vertices.push_back(lod.vertices(mesh));
     return options;
 }
 

@@ -277,7 +277,7 @@ void add_inspect(CLI::App& program) {
                                ->excludes(chunk);
     command
         ->add_option("--html", arguments->html,
-                     "write OUT.html instead: one page for a browser with the chunks, skeleton, cycles, textures, "
+                     "write OUT.html instead: one page for a browser with the chunks, skeleton, clips, textures, "
                      "materials and faults; it loads nothing, and images of more than 32 MiB in all are left out")
         ->excludes(json)
         ->excludes(hex)

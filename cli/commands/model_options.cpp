@@ -11,15 +11,15 @@
 
 namespace bendy::cli {
 
-const Cycle& find_cycle(const std::string& clip, const std::filesystem::path& file, const Model& model) {
+const Clip& find_clip(const std::string& clip, const std::filesystem::path& file, const Model& model) {
     std::size_t number = 0;
     const auto [end, problem] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
     const bool is_number = problem == std::errc() && end == clip.data() + clip.size();
-    if (is_number && number < model.cycles().size()) return model.cycles()[number];
-    if (const Cycle* cycle = model.cycle(clip)) return *cycle;
+    if (is_number && number < model.clips().size()) return model.clips()[number];
+    if (const Clip* found = model.clip(clip)) return *found;
 
     std::vector<std::string_view> names;
-    for (const Cycle& cycle : model.cycles()) names.push_back(cycle.name);
+    for (const Clip& found : model.clips()) names.push_back(found.name);
     fail(file, printable(no_such_name("clip", clip, names)));
 }
 

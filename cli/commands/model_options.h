@@ -11,8 +11,8 @@
 // The option --lod of what writes geometry.
 namespace bendy::cli {
 
-/// A cycle by its number, or else by its name. Fails with the cycles that there are if it is none.
-const Cycle& find_cycle(const std::string& clip, const std::filesystem::path& file, const Model& model);
+/// A clip by its number, or else by its name. Fails with the clips that there are if it is none.
+const Clip& find_clip(const std::string& clip, const std::filesystem::path& file, const Model& model);
 
 /// Adds it; the share is from 0 to 1.
 void add_lod(CLI::App& command, float& share);

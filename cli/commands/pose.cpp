@@ -30,24 +30,24 @@ struct PoseArguments {
     std::string format;  // empty: as the output's name says
 };
 
-/// True for a rigid pool whose joint mirrors it: its triangles then turn their backs.
-bool is_mirrored(const Model& model, Pose& pose, std::uint32_t pool) {
-    const Pool& view = model.pools()[pool];
+/// True for a rigid mesh whose joint mirrors it: its triangles then turn their backs.
+bool is_mirrored(const Model& model, Pose& pose, std::uint32_t mesh) {
+    const Mesh& view = model.meshes()[mesh];
     if (!view.is_rigid() || view.vertices == 0) return false;
-    const std::uint32_t joint = model.rigid_mover(pool, 0);
+    const std::uint32_t joint = model.rigid_mover(mesh, 0);
     return joint != kNone && glm::determinant(glm::mat3(pose.model_space()[joint])) < 0.0f;
 }
 
 void add_elements(const Model& model, Pose& pose, const Lod& lod, std::vector<PosedMesh>& meshes) {
-    for (const Draw& draw : lod.draws()) {
-        PosedMesh& mesh = meshes[draw.pool];
-        std::vector<std::uint32_t>& list = draw.topology == Topology::triangles ? mesh.triangles
-                                           : draw.topology == Topology::lines   ? mesh.lines
-                                                                                : mesh.points;
+    for (const Submesh& submesh : lod.submeshes()) {
+        PosedMesh& mesh = meshes[submesh.mesh];
+        std::vector<std::uint32_t>& list = submesh.topology == Topology::triangles ? mesh.triangles
+                                           : submesh.topology == Topology::lines   ? mesh.lines
+                                                                                   : mesh.points;
         const std::size_t start = list.size();
-        const auto indices = lod.indices(draw.pool).subspan(draw.first, draw.count);
+        const auto indices = lod.indices(submesh.mesh).subspan(submesh.first, submesh.count);
         list.insert(list.end(), indices.begin(), indices.end());
-        if (draw.topology != Topology::triangles || !is_mirrored(model, pose, draw.pool)) continue;
+        if (submesh.topology != Topology::triangles || !is_mirrored(model, pose, submesh.mesh)) continue;
         for (std::size_t at = start; at + 3 <= list.size(); at += 3) std::swap(list[at + 1], list[at + 2]);
     }
 }
@@ -69,11 +69,11 @@ std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose)
     return reaches;
 }
 
-std::vector<PosedCurve> sample_curves(const Cycle& cycle, float seconds) {
+std::vector<PosedCurve> sample_curves(const Clip& clip, float seconds) {
     constexpr std::array kKinds{"", "joint", "material", "mesh", "texture"};
     static_assert(kKinds.size() == kCurveTargets);
     std::vector<PosedCurve> curves;
-    for (const Curve& curve : cycle.curves) {
+    for (const Curve& curve : clip.curves) {
         PosedCurve& posed = curves.emplace_back();
         posed.name = curve.name;
         posed.path = curve.path;
@@ -90,28 +90,28 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     object.file = arguments.file.filename().string();
     Pose pose(model);
     if (arguments.has_clip) {
-        const Cycle& cycle = find_cycle(arguments.clip, arguments.file, model);
-        (void)sample(pose, &cycle, arguments.time);
-        object.clip = cycle.name.empty() ? arguments.clip : std::string(cycle.name);
+        const Clip& clip = find_clip(arguments.clip, arguments.file, model);
+        (void)sample(pose, &clip, arguments.time);
+        object.clip = clip.name.empty() ? arguments.clip : std::string(clip.name);
         object.time = arguments.time;
-        object.curves = sample_curves(cycle, arguments.time);
+        object.curves = sample_curves(clip, arguments.time);
     }
     object.reaches = reach_chains(arguments, pose);
     const Lod lod = level_of(arguments.file, model, arguments.lod);
     for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
         object.joints.push_back({std::string(model.joints()[joint].name), pose.model_space()[joint]});
     }
-    for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
-        const Pool& pool = model.pools()[number];
+    for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
+        const Mesh& view = model.meshes()[number];
         PosedMesh& mesh = object.meshes.emplace_back();
-        mesh.name = pool.name;
+        mesh.name = view.name;
         mesh.positions.resize(lod.vertices(number));
-        if (pool.normals) mesh.normals.resize(lod.vertices(number));
+        if (view.normals) mesh.normals.resize(lod.vertices(number));
         (void)skin(pose, {.mesh = number, .lod = &lod, .out = {.positions = mesh.positions, .normals = mesh.normals}});
         const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) {
             return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         });
-        if (!all_finite) fail(arguments.file, "the pose is out of a float's range in pool " + std::to_string(number));
+        if (!all_finite) fail(arguments.file, "the pose is out of a float's range in mesh " + std::to_string(number));
     }
     add_elements(model, pose, lod, object.meshes);
     return object;
@@ -145,14 +145,14 @@ void run(const PoseArguments& arguments) {
 
 void add_pose(CLI::App& program) {
     const auto arguments = std::make_shared<PoseArguments>();
-    CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a cycle");
+    CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a clip");
     command
         ->add_option("FILE", arguments->file,
                      "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
         ->required();
     CLI::Option* clip =
-        command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
-    command->add_option("--time", arguments->time, "seconds on the cycle's time line; held at its ends")
+        command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
+    command->add_option("--time", arguments->time, "seconds on the clip's time line; held at its ends")
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
         ->needs(clip);

@@ -145,7 +145,8 @@ void add_reach(CLI::App& command, ReachRequest& request) {
         ->check(CLI::IsMember(solver_names()))
         ->capture_default_str()
         ->needs(reach);
-    command.add_flag("--ignore-limits", request.ignore_limits, "reach without the joints' constraints")->needs(reach);
+    command.add_flag("--ignore-constraints", request.ignore_constraints, "reach without the joints' constraints")
+        ->needs(reach);
 }
 
 bool has_reached(const Reached& result) {
@@ -162,7 +163,7 @@ std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<
     if (request.constrain) constrain(pose);
     ReachOptions options;
     options.solver = find_solver(request.solver);
-    options.obey_constraints = !request.ignore_limits;
+    options.obey_constraints = !request.ignore_constraints;
     options.carry_target = true;
     std::vector<Reached> results;
     results.reserve(goals.size());

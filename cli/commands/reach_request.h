@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-// The options --constrain, --reach, --solver and --ignore-limits: what is done to a pose after the clip.
+// The options --constrain, --reach, --solver and --ignore-constraints: what is done to a pose after the clip.
 namespace bendy::cli {
 
 /// What they ask for.
@@ -17,7 +17,7 @@ struct ReachRequest {
     bool constrain = false;
     std::vector<std::string> targets;  ///< CHAIN=X,Y,Z or CHAIN=X,Y,Z,QX,QY,QZ,QW
     std::string solver = "chain";      ///< the chain's own
-    bool ignore_limits = false;
+    bool ignore_constraints = false;
 };
 
 /// Adds them.

@@ -117,12 +117,12 @@ void parse_background(const std::string& text, glm::vec4& background) {
     background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
 }
 
-/// When the frames are, on the cycle's time line: a cycle that repeats does not show its end, which is its start again.
-std::vector<float> frame_times(const Cycle& cycle, unsigned frames, bool repeats) {
+/// When the frames are, on the clip's time line: a clip that repeats does not show its end, which is its start again.
+std::vector<float> frame_times(const Clip& clip, unsigned frames, bool repeats) {
     std::vector<float> times;
     const float steps = static_cast<float>(repeats ? frames : std::max(1u, frames - 1));
     for (unsigned k = 0; k < frames; ++k)
-        times.push_back(cycle.start + (cycle.end - cycle.start) * static_cast<float>(k) / steps);
+        times.push_back(clip.start + (clip.end - clip.start) * static_cast<float>(k) / steps);
     return times;
 }
 
@@ -175,8 +175,8 @@ private:
 std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& arguments) {
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
-    const Cycle& cycle = *arguments.render.cycle;
-    for (const float time : frame_times(cycle, arguments.frames, cycle.loop)) {
+    const Clip& clip = *arguments.render.clip;
+    for (const float time : frame_times(clip, arguments.frames, clip.loop)) {
         pictures.push_back(maker.draw(time));
         bar.show(pictures.size(), arguments.frames);
     }
@@ -187,10 +187,10 @@ std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArgument
     const viewer::RenderOptions& render = arguments.render;
     const auto file =
         is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
-    const double length = static_cast<double>(render.cycle->end) - static_cast<double>(render.cycle->start);
+    const double length = static_cast<double>(render.clip->end) - static_cast<double>(render.clip->start);
     ProgressBar bar("drawing");
     unsigned done = 0;
-    for (const float time : frame_times(*render.cycle, arguments.frames, true)) {
+    for (const float time : frame_times(*render.clip, arguments.frames, true)) {
         file->add(maker.draw(time), length * done / arguments.frames);
         bar.show(++done, arguments.frames);
     }
@@ -198,26 +198,26 @@ std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArgument
 }
 
 /// Frames of an animation whose number was not given: 25 a second.
-unsigned default_frames(const Cycle& cycle) {
+unsigned default_frames(const Clip& clip) {
     constexpr double kRate = 25.0;
     constexpr double kMost = 1000.0;
-    const double length = static_cast<double>(cycle.end) - static_cast<double>(cycle.start);
+    const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
 std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& format) {
     const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
-    if (arguments.has_clip) render.cycle = &find_cycle(arguments.clip, arguments.file, model);
-    if (render.cycle == nullptr && (is_animation || arguments.frames > 1)) {
-        if (model.cycles().empty()) fail(arguments.file, "there is no cycle to show in several frames");
-        render.cycle = model.cycles().data();
+    if (arguments.has_clip) render.clip = &find_clip(arguments.clip, arguments.file, model);
+    if (render.clip == nullptr && (is_animation || arguments.frames > 1)) {
+        if (model.clips().empty()) fail(arguments.file, "there is no clip to show in several frames");
+        render.clip = model.clips().data();
     }
-    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.cycle);
+    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.clip);
     warn_without_levels(arguments.file, model, render.lod);
     ReachingMaker maker(arguments, model);
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
-    const float start = render.cycle == nullptr ? 0.0f : render.cycle->start;
+    const float start = render.clip == nullptr ? 0.0f : render.clip->start;
     std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, format == "gif")
                                    : arguments.frames > 1
                                        ? draw_sheet(maker, arguments)
@@ -291,12 +291,12 @@ void add_render(CLI::App& program) {
                      "png, gif or webp, where no name says it; to standard output: png if not given")
         ->check(CLI::IsMember({"png", "gif", "webp"}));
     CLI::Option* clip =
-        command->add_option("--clip", arguments->clip, "the cycle, by number or name; the rest pose if not given");
-    CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the cycle's time line")->needs(clip);
+        command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
+    CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
     add_reach(*command, arguments->reach);
     command
         ->add_option("--frames", arguments->frames,
-                     "so many pictures over the cycle: in rows in OUT.png, or one after another in an animation")
+                     "so many pictures over the clip: in rows in OUT.png, or one after another in an animation")
         ->check(CLI::Range(1, 1000));
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,

@@ -32,9 +32,9 @@ void add_remarks(Json& json, const converter::Report& report) {
 
 Json list_clips(const Model& model) {
     Json clips = Json::array();
-    for (const Cycle& cycle : model.cycles()) {
-        const double start = cycle.start;
-        clips.push_back({{"name", cycle.name}, {"start", start}, {"seconds", static_cast<double>(cycle.end) - start}});
+    for (const Clip& clip : model.clips()) {
+        const double start = clip.start;
+        clips.push_back({{"name", clip.name}, {"start", start}, {"seconds", static_cast<double>(clip.end) - start}});
     }
     return clips;
 }
@@ -72,14 +72,14 @@ void add_contents(Json& json, const Model& model) {
     json["joints"] = model.joints().size();
     json["constraints"] = model.constraints().size();
     json["chains"] = model.chains().size();
-    json["meshes"] = model.pools().size();
+    json["meshes"] = model.meshes().size();
     json["vertices"] = model.vertex_count();
     json["triangles"] = lod.triangles();
     if (model.collapse() != nullptr) {
         lod.set_share(0.0f);
         json["fewestTriangles"] = lod.triangles();
     }
-    json["morphTargets"] = model.target_count();
+    json["morphTargets"] = model.morph_target_count();
     json["materials"] = model.materials().size();
     json["textures"] = model.textures().size();
     json["clips"] = list_clips(model);

@@ -8,7 +8,7 @@
 
 namespace bendy::cli {
 
-/// A pool's posed vertices and what connects them.
+/// A mesh's posed vertices and what connects them.
 struct PosedMesh {
     std::string name;
     std::vector<glm::vec3> positions;                     ///< model space

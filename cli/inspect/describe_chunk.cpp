@@ -7,7 +7,7 @@
 
 #include <bendy/format/leaf_parts.h>
 #include <bendy/format/marker.h>
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
@@ -38,11 +38,11 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
 
 constexpr std::array<std::string_view, kTopologies> kTopologyNames{"triangles", "lines", "points"};
 
-std::string polygons_text(const PolygonRecord& record) {
+std::string submesh_text(const SubmeshRecord& record) {
     if (record.topology >= kTopologies) return "?";
     std::string text = grouped(record.count / corners(static_cast<Topology>(record.topology))) + ' ';
     text += kTopologyNames[record.topology];
-    text += " of pool " + std::to_string(record.pool);
+    text += " of mesh " + std::to_string(record.mesh);
     if (record.material != kNone) {
         const bool is_local = (record.material & kLocalMaterial) != 0;
         text += is_local ? ", own material " : ", material ";
@@ -52,13 +52,13 @@ std::string polygons_text(const PolygonRecord& record) {
 }
 
 /// A joint's constraints, one after another; empty if it has none.
-std::string limits_text(const ChunkTree& tree, std::uint32_t pivot) {
+std::string constraints_text(const ChunkTree& tree, std::uint32_t pivot) {
     std::string text;
     if (pivot == kNone) return text;
     for (const std::uint32_t child : tree.children(pivot)) {
         if (!(tree[child].id == FourCC("LIMT"))) continue;
         text += text.empty() ? "limits: " : " | ";
-        text += tree.encoding_fault(child) ? "encoded" : limit_text(record_at<LimitRecord>(tree, child));
+        text += tree.encoding_fault(child) ? "encoded" : constraint_text(record_at<ConstraintRecord>(tree, child));
     }
     return text;
 }
@@ -69,7 +69,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
     if (rigs.has_rest(number)) text.append("at ").append(brief(rigs.joint_of(number)->rest.translation));
     std::array<std::uint64_t, kTopologies> polygons{};
-    for (const PolygonView& range : rigs.polygons_of(number))
+    for (const SubmeshView& range : rigs.submeshes_of(number))
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
     bool has_extras = false;
     bool has_extensions = false;
@@ -83,7 +83,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
         if (polygons[topology] != 0)
             add_part(text, grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]));
     }
-    if (const std::string limits = limits_text(tree, pivot); !limits.empty()) add_part(text, limits);
+    if (const std::string limits = constraints_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
     if (has_extensions) add_part(text, "extensions");
     if (has_more) add_part(text, "further members");
@@ -158,15 +158,15 @@ std::string plays_text(const ChunkTree& tree, std::uint32_t number) {
     const std::vector<PlayRecord> plays = plays_at(tree, number);
     for (std::size_t k = 0; k < std::min(plays.size(), kShown); ++k) {
         const PlayRecord& play = plays[k];
-        add_part(text, grouped(play.frames) + (play.frames == 1 ? " frame" : " frames") + " of pool " +
-                           std::to_string(play.pool) + " from frame " + std::to_string(play.first) +
+        add_part(text, grouped(play.frames) + (play.frames == 1 ? " frame" : " frames") + " of mesh " +
+                           std::to_string(play.mesh) + " from frame " + std::to_string(play.first) +
                            (play.closed != 0 ? ", closed" : ""));
     }
     return plays.size() > kShown ? text + ", ..." : text;
 }
 
-std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
-    const auto info = record_at<CycleRecord>(tree, tree.find(number, FourCC("CINF")));
+std::string clip_text(const ChunkTree& tree, std::uint32_t number) {
+    const auto info = record_at<ClipRecord>(tree, tree.find(number, FourCC("CINF")));
     const std::uint32_t table = tree.find(number, FourCC("TRAK"));
     std::uint64_t tracks = table == kNone ? 0 : tree.payload(table).size() / sizeof(TrackRecord);
     if (const auto packed = packed_at(tree, tree.find(number, FourCC("PACK")))) tracks += track_count(*packed);
@@ -184,23 +184,23 @@ std::string cycle_text(const ChunkTree& tree, std::uint32_t number) {
     return text;
 }
 
-/// The error of the last level, and how few vertices are left of each pool.
+/// The error of the last level, and how few vertices are left of each mesh.
 std::string collapse_text(const ChunkTree& tree, std::uint32_t number) {
     const auto record = record_at<CollapseRecord>(tree, number);
     const Bytes payload = tree.payload(number);
-    std::string text = grouped(record.pools) + (record.pools == 1 ? " pool, " : " pools, ") + grouped(record.levels) +
-                       (record.levels == 1 ? " level" : " levels");
+    std::string text = grouped(record.meshes) + (record.meshes == 1 ? " mesh, " : " meshes, ") +
+                       grouped(record.levels) + (record.levels == 1 ? " level" : " levels");
     constexpr std::uint32_t kShown = 6;
-    for (std::uint32_t k = 0; k < std::min(record.pools, kShown); ++k) {
-        const std::uint64_t at = sizeof(CollapseRecord) + k * sizeof(PoolCollapseRecord);
-        if (payload.size() < at + sizeof(PoolCollapseRecord)) break;
-        PoolCollapseRecord pool;
-        copy_at(payload, at, pool);
-        text += (k == 0 ? ": pool " : ", pool ") + std::to_string(pool.pool) + " down to " + grouped(pool.base);
+    for (std::uint32_t k = 0; k < std::min(record.meshes, kShown); ++k) {
+        const std::uint64_t at = sizeof(CollapseRecord) + k * sizeof(MeshCollapseRecord);
+        if (payload.size() < at + sizeof(MeshCollapseRecord)) break;
+        MeshCollapseRecord mesh;
+        copy_at(payload, at, mesh);
+        text += (k == 0 ? ": mesh " : ", mesh ") + std::to_string(mesh.mesh) + " down to " + grouped(mesh.base);
     }
-    if (record.pools > kShown) text += ", ...";
-    const std::uint64_t row = (std::uint64_t{1} + record.pools) * sizeof(std::uint32_t);
-    const std::uint64_t rows = sizeof(CollapseRecord) + std::uint64_t{record.pools} * sizeof(PoolCollapseRecord);
+    if (record.meshes > kShown) text += ", ...";
+    const std::uint64_t row = (std::uint64_t{1} + record.meshes) * sizeof(std::uint32_t);
+    const std::uint64_t rows = sizeof(CollapseRecord) + std::uint64_t{record.meshes} * sizeof(MeshCollapseRecord);
     if (record.levels == 0 || rows > payload.size() || record.levels > (payload.size() - rows) / row) return text;
     float error = 0.0f;
     copy_at(payload, rows + (record.levels - 1) * row, error);
@@ -244,7 +244,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("SKIN")) return joint_text(tree, number, rigs);
     if (chunk.id == FourCC("JNTS")) {
         const auto table = record_at<JointsRecord>(tree, number);
-        return grouped(table.joints) + " joints, " + grouped(table.polygons) + " ranges of polygons";
+        return grouped(table.joints) + " joints, " + grouped(table.submeshes) + " submeshes";
     }
     if (chunk.id == FourCC("FRMS")) return frames_text(tree, number);
     if (chunk.id == FourCC("GRID")) return grouped(frames_in(tree, number)) + " frames";
@@ -260,18 +260,19 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         return "translation " + brief(rest.translation) + ", rotation " + brief(rest.rotation) + ", scale " +
                brief(rest.scale);
     }
-    if (chunk.id == FourCC("LIMT")) return limit_text(record_at<LimitRecord>(tree, number));
-    if (chunk.id == FourCC("PULL")) return rigs.pull_text(number);
+    if (chunk.id == FourCC("LIMT")) return constraint_text(record_at<ConstraintRecord>(tree, number));
+    if (chunk.id == FourCC("PULL")) return rigs.chain_weight_text(number);
     if (chunk.id == FourCC("IKCH")) return rigs.chain_text(number);
     if (chunk.id == FourCC("KINF")) return rigs.chain_info_text(number);
-    if (chunk.id == FourCC("POLY")) return polygons_text(record_at<PolygonRecord>(tree, number));
+    if (chunk.id == FourCC("POLY")) return submesh_text(record_at<SubmeshRecord>(tree, number));
     if (chunk.id == FourCC("VECT"))
-        return grouped(record_at<PoolRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
+        return grouped(record_at<MeshRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
     if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
     if (chunk.id == FourCC("TARG"))
-        return "rest weight " + brief(record_at<TargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+        return "rest weight " +
+               brief(record_at<MorphTargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
     if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
-    if (chunk.id == FourCC("CYCL")) return cycle_text(tree, number);
+    if (chunk.id == FourCC("CYCL")) return clip_text(tree, number);
     if (chunk.id == FourCC("PACK")) return packed_text(tree, number);
     if (chunk.id == FourCC("MARK")) return markers_text(tree, number);
     if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
@@ -291,7 +292,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
 
 std::string encoding_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kCodecs> kNames{"raw",     "zstd",          "vertices", "vertices, zstd",
-                                                           "indices", "indices, zstd", "cycle",    "sums"};
+                                                           "indices", "indices, zstd", "clip",     "sums"};
     const unsigned codec = tree[number].codec();
     if (codec >= kCodecs) return "encoded with codec " + std::to_string(codec) + ", unknown";
     std::string text = "encoded: " + std::string(kNames[codec]);

@@ -27,13 +27,13 @@ Triple in_degrees(Triple radians) {
 }
 
 bool is_free(float low, float high) {
-    return low == -LimitRecord::kFree && high == LimitRecord::kFree;
+    return low == -ConstraintRecord::kFree && high == ConstraintRecord::kFree;
 }
 
 std::string range_text(float low, float high) {
     if (is_free(low, high)) return "free";
-    if (low == -LimitRecord::kFree) return "up to " + brief(high);
-    if (high == LimitRecord::kFree) return "from " + brief(low);
+    if (low == -ConstraintRecord::kFree) return "up to " + brief(high);
+    if (high == ConstraintRecord::kFree) return "from " + brief(low);
     return brief(low) + " to " + brief(high);
 }
 
@@ -51,39 +51,41 @@ std::string ranges_text(const Triple& low, const Triple& high, std::size_t first
     return text;
 }
 
-std::string rotation_text(const LimitRecord& limit) {
+std::string rotation_text(const ConstraintRecord& constraint) {
     constexpr std::array<std::string_view, kEulerOrders> kOrders{"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
-    const Triple low = in_degrees(limit.rotation_min);
-    const Triple high = in_degrees(limit.rotation_max);
+    const Triple low = in_degrees(constraint.rotation_min);
+    const Triple high = in_degrees(constraint.rotation_max);
     const auto ranges = [&](std::size_t first, std::size_t last) { return ranges_text(low, high, first, last, "deg"); };
-    switch (static_cast<LimitModel>(limit.model)) {
-        case LimitModel::free:
+    switch (static_cast<ConstraintModel>(constraint.model)) {
+        case ConstraintModel::free:
             return "free";
-        case LimitModel::locked:
+        case ConstraintModel::locked:
             return "locked";
-        case LimitModel::hinge:
+        case ConstraintModel::hinge:
             return "hinge " + ranges(0, 1);
-        case LimitModel::swing_twist_ellipse:
+        case ConstraintModel::swing_twist_ellipse:
             return "swing-twist ellipse, twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
-        case LimitModel::swing_twist_pyramid:
+        case ConstraintModel::swing_twist_pyramid:
             return "swing-twist pyramid, twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
-        case LimitModel::euler_box:
-            return "Euler box " + std::string(limit.euler_order < kEulerOrders ? kOrders[limit.euler_order] : "?") +
-                   ' ' + ranges(0, 3);
-        case LimitModel::largest_angle:
-            return high[0] == LimitRecord::kFree ? "largest angle free" : "largest angle " + brief(high[0]) + " deg";
+        case ConstraintModel::euler_box:
+            return "Euler box " +
+                   std::string(constraint.euler_order < kEulerOrders ? kOrders[constraint.euler_order] : "?") + ' ' +
+                   ranges(0, 3);
+        case ConstraintModel::largest_angle:
+            return high[0] == ConstraintRecord::kFree ? "largest angle free"
+                                                      : "largest angle " + brief(high[0]) + " deg";
     }
     return "?";
 }
 
-std::string translation_text(const LimitRecord& limit) {
+std::string translation_text(const ConstraintRecord& constraint) {
     constexpr Triple kNothing{};
     bool all_free = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        all_free = all_free && is_free(limit.translation_min[axis], limit.translation_max[axis]);
+        all_free = all_free && is_free(constraint.translation_min[axis], constraint.translation_max[axis]);
     if (all_free) return {};
-    if (limit.translation_min == kNothing && limit.translation_max == kNothing) return "no translation";
-    return "translation " + ranges_text(limit.translation_min, limit.translation_max, 0, 3, "m");
+    if (constraint.translation_min == kNothing && constraint.translation_max == kNothing) return "no translation";
+    return "translation " + ranges_text(constraint.translation_min, constraint.translation_max, 0, 3, "m");
 }
 
 void add_flags(std::string& text, std::uint8_t flags) {
@@ -112,17 +114,17 @@ std::string joint_name(const SkeletonView& skeleton, std::uint32_t joint) {
 
 }  // namespace
 
-std::string limit_text(const LimitRecord& limit) {
+std::string constraint_text(const ConstraintRecord& constraint) {
     constexpr Triple kNothing{};
-    std::string text = rotation_text(limit);
-    if (const std::string translation = translation_text(limit); !translation.empty()) add_part(text, translation);
-    add_numbers(text, "stiffness", limit.stiffness, kNothing);
-    add_number(text, "soft zone", limit.soft_zone * kDegrees, 0.0f, " deg");
-    add_numbers(text, "preferred", in_degrees(limit.preferred), kNothing, " deg");
-    if (limit.scope == static_cast<std::uint8_t>(LimitScope::ik_only)) add_part(text, "IK only");
-    if (limit.scope == static_cast<std::uint8_t>(LimitScope::all_but_ik)) add_part(text, "all but IK");
-    add_flags(text, limit.flags);
-    if ((limit.flags & kRestOutside) != 0) add_part(text, "rest outside");
+    std::string text = rotation_text(constraint);
+    if (const std::string translation = translation_text(constraint); !translation.empty()) add_part(text, translation);
+    add_numbers(text, "stiffness", constraint.stiffness, kNothing);
+    add_number(text, "soft zone", constraint.soft_zone * kDegrees, 0.0f, " deg");
+    add_numbers(text, "preferred", in_degrees(constraint.preferred), kNothing, " deg");
+    if (constraint.scope == static_cast<std::uint8_t>(ConstraintScope::ik_only)) add_part(text, "IK only");
+    if (constraint.scope == static_cast<std::uint8_t>(ConstraintScope::all_but_ik)) add_part(text, "all but IK");
+    add_flags(text, constraint.flags);
+    if ((constraint.flags & kRestOutside) != 0) add_part(text, "rest outside");
     return text;
 }
 
@@ -134,18 +136,19 @@ RigIndex::RigIndex(const ChunkTree& tree) : tree_(&tree) {
         object.chunk = number;
         object.skeleton = read_skeleton(tree, number, ignored);
         // POLY may stand behind a child's.
-        std::stable_sort(object.skeleton.polygons.begin(), object.skeleton.polygons.end(),
-                         [](const PolygonView& x, const PolygonView& y) { return x.joint < y.joint; });
+        std::stable_sort(object.skeleton.submeshes.begin(), object.skeleton.submeshes.end(),
+                         [](const SubmeshView& x, const SubmeshView& y) { return x.joint < y.joint; });
         object.depths.reserve(object.skeleton.joints.size());
         for (const JointView& joint : object.skeleton.joints)
             object.depths.push_back(joint.parent == kNone ? 0 : object.depths[joint.parent] + 1);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("IKCH") && tree[child].is_container()) object.chains.push_back(child);
         }
-        object.pulls = object.skeleton.pulls;
-        std::stable_sort(object.pulls.begin(), object.pulls.end(), [](const PullView& a, const PullView& b) {
-            return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
-        });
+        object.chain_weights = object.skeleton.chain_weights;
+        std::stable_sort(object.chain_weights.begin(), object.chain_weights.end(),
+                         [](const ChainWeightView& a, const ChainWeightView& b) {
+                             return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
+                         });
     }
 }
 
@@ -175,27 +178,29 @@ bool RigIndex::has_rest(std::uint32_t chunk) const {
     return tree_->find(object_of(chunk)->chunk, FourCC("JNTS")) != kNone;
 }
 
-std::span<const PolygonView> RigIndex::polygons_of(std::uint32_t chunk) const {
+std::span<const SubmeshView> RigIndex::submeshes_of(std::uint32_t chunk) const {
     const JointView* joint = joint_of(chunk);
     if (joint == nullptr) return {};
     const SkeletonView& skeleton = object_of(chunk)->skeleton;
     const auto number = static_cast<std::uint32_t>(joint - skeleton.joints.data());
     const auto first =
-        std::lower_bound(skeleton.polygons.begin(), skeleton.polygons.end(), number,
-                         [](const PolygonView& view, std::uint32_t other) { return view.joint < other; });
+        std::lower_bound(skeleton.submeshes.begin(), skeleton.submeshes.end(), number,
+                         [](const SubmeshView& view, std::uint32_t other) { return view.joint < other; });
     const auto last =
-        std::find_if(first, skeleton.polygons.end(), [&](const PolygonView& view) { return view.joint != number; });
+        std::find_if(first, skeleton.submeshes.end(), [&](const SubmeshView& view) { return view.joint != number; });
     return {first, last};
 }
 
 std::string RigIndex::links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const {
     const auto& joints = object.skeleton.joints;
     const auto label = [&](std::uint32_t joint) {
-        const auto pull = std::lower_bound(
-            object.pulls.begin(), object.pulls.end(), std::tie(chain, joint),
-            [](const PullView& view, const auto& key) { return std::tie(view.chain, view.joint) < key; });
-        const bool has_weight = pull != object.pulls.end() && pull->chain == chain && pull->joint == joint;
-        return joint_name(object.skeleton, joint) + (has_weight ? " (" + brief(pull->weight) + ')' : std::string());
+        const auto chain_weight = std::lower_bound(
+            object.chain_weights.begin(), object.chain_weights.end(), std::tie(chain, joint),
+            [](const ChainWeightView& view, const auto& key) { return std::tie(view.chain, view.joint) < key; });
+        const bool has_weight =
+            chain_weight != object.chain_weights.end() && chain_weight->chain == chain && chain_weight->joint == joint;
+        return joint_name(object.skeleton, joint) +
+               (has_weight ? " (" + brief(chain_weight->weight) + ')' : std::string());
     };
     if (record.start >= joints.size() || record.effector >= joints.size() || record.start > record.effector ||
         (*tree_)[joints[record.start].chunk].end <= joints[record.effector].chunk)
@@ -250,8 +255,8 @@ std::string RigIndex::chain_info_text(std::uint32_t chunk) const {
     return text;
 }
 
-std::string RigIndex::pull_text(std::uint32_t chunk) const {
-    const auto record = record_at<PullRecord>(*tree_, chunk);
+std::string RigIndex::chain_weight_text(std::uint32_t chunk) const {
+    const auto record = record_at<ChainWeightRecord>(*tree_, chunk);
     std::string text = brief(record.weight) + " in ";
     const Object* object = object_of(chunk);
     if (object == nullptr || record.chain >= object->chains.size())

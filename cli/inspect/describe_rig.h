@@ -10,7 +10,7 @@
 namespace bendy::cli {
 
 /// A constraint in few words, angles in degrees: "hinge 0 to 150 deg, IK only, proposed".
-std::string limit_text(const LimitRecord& limit);
+std::string constraint_text(const ConstraintRecord& constraint);
 
 /// The joints, and the names behind the numbers in IKCH, KINF and PULL. Works on any tree, whatever its records hold,
 /// in time linear in it; the tree must outlive this.
@@ -27,18 +27,18 @@ public:
     [[nodiscard]] const JointView* joint_of(std::uint32_t chunk) const;
     /// Whether anything says where a SKIN rests.
     [[nodiscard]] bool has_rest(std::uint32_t chunk) const;
-    /// A SKIN's ranges of polygons, wherever they are stored.
-    [[nodiscard]] std::span<const PolygonView> polygons_of(std::uint32_t chunk) const;
+    /// A SKIN's submeshes, wherever they are stored.
+    [[nodiscard]] std::span<const SubmeshView> submeshes_of(std::uint32_t chunk) const;
     /// Of a PULL: "0.5 in LeftArm".
-    [[nodiscard]] std::string pull_text(std::uint32_t chunk) const;
+    [[nodiscard]] std::string chain_weight_text(std::uint32_t chunk) const;
 
 private:
     struct Object {
         std::uint32_t chunk = 0;
         SkeletonView skeleton;
-        std::vector<std::uint32_t> depths;  ///< of each joint; a root has 0
-        std::vector<std::uint32_t> chains;  ///< the IKCH chunks
-        std::vector<PullView> pulls;        ///< by chain, then joint
+        std::vector<std::uint32_t> depths;           ///< of each joint; a root has 0
+        std::vector<std::uint32_t> chains;           ///< the IKCH chunks
+        std::vector<ChainWeightView> chain_weights;  ///< by chain, then joint
     };
 
     [[nodiscard]] const Object* object_of(std::uint32_t chunk) const;

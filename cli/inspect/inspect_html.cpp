@@ -68,10 +68,10 @@ void warn_of_rig(const ObjectView& object, Warnings& warnings) {
             warnings.add(chunk, what + " is approximated: the source says more, or otherwise");
         if ((flags & kProposed) != 0) warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
     };
-    for (const LimitView& limit : object.skeleton.limits) {
-        warn_of_flags(limit.chunk, limit.record.flags, "the constraint");
-        if ((limit.record.flags & kRestOutside) != 0)
-            warnings.add(limit.chunk, "the rest pose is outside the constraint, and the author knows");
+    for (const ConstraintView& constraint : object.skeleton.constraints) {
+        warn_of_flags(constraint.chunk, constraint.record.flags, "the constraint");
+        if ((constraint.record.flags & kRestOutside) != 0)
+            warnings.add(constraint.chunk, "the rest pose is outside the constraint, and the author knows");
     }
     for (const ChainView& chain : object.chains) warn_of_flags(chain.chunk, chain.record.flags, "the IK chain");
 }
@@ -126,26 +126,26 @@ Json chunks_json(const ChunkTree& tree, const RigIndex& rigs) {
 
 Json facts_json(const Document& document) {
     std::uint64_t joints = 0;
-    std::uint64_t pools = 0;
+    std::uint64_t meshes = 0;
     std::uint64_t vertices = 0;
     std::uint64_t chains = 0;
     std::uint64_t limits = 0;
-    std::uint64_t cycles = 0;
+    std::uint64_t clips = 0;
     for (const ObjectView& object : document.objects) {
         joints += object.skeleton.joints.size();
-        limits += object.skeleton.limits.size();
+        limits += object.skeleton.constraints.size();
         chains += object.chains.size();
-        cycles += object.cycles.size();
-        pools += object.pools.size();
-        for (const PoolView& pool : object.pools) vertices += pool.vertices;
+        clips += object.clips.size();
+        meshes += object.meshes.size();
+        for (const MeshView& mesh : object.meshes) vertices += mesh.vertices;
     }
     return {{"objects", document.objects.size()},
             {"joints", joints},
             {"constraints", limits},
             {"IK chains", chains},
-            {"vertex pools", pools},
+            {"meshes", meshes},
             {"vertices", vertices},
-            {"cycles", cycles},
+            {"clips", clips},
             {"materials", document.materials.size()},
             {"textures", document.textures.size()}};
 }
@@ -182,7 +182,7 @@ Json page_data(const InspectedFile& file) {
         objects.push_back({{"name", brief(object.name)},
                            {"joints", page_joints(object)},
                            {"chains", page_chains(object, rigs)},
-                           {"cycles", curves.cycles(object)}});
+                           {"clips", curves.clips(object)}});
     }
     data["objects"] = std::move(objects);
     data["times"] = curves.times();

@@ -18,7 +18,7 @@ struct InspectedFile {
     PagePictures pictures;
 };
 
-/// One self-contained HTML page: pictures, facts, faults, chunks, skeletons, cycles, textures, materials. It loads
+/// One self-contained HTML page: pictures, facts, faults, chunks, skeletons, clips, textures, materials. It loads
 /// nothing, and no content of the file can run in it: the data are one block of JSON without markup characters, the
 /// page's script turns them into text, and the content security policy allows only that script. The page's size is
 /// bounded for any file; the page counts what it leaves out.

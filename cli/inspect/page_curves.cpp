@@ -18,26 +18,26 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t kMostNumbers = 400'000;  // of all tracks together
 constexpr std::size_t kMostPoints = 240;         // of a track
 constexpr std::size_t kFewestPoints = 16;
-constexpr std::size_t kMostCurves = 24;  // of a track: weights of inbetweening targets
-constexpr std::size_t kMostCycles = 1'000;
+constexpr std::size_t kMostCurves = 24;  // of a track: weights of morph targets
+constexpr std::size_t kMostClips = 1'000;
 
 /// The time of a key, seconds.
-float key_time(const TrackView& track, const CycleView& cycle, std::size_t key) {
+float key_time(const TrackView& track, const ClipView& clip, std::size_t key) {
     if (!track.times.empty()) return track.times[key];
-    return cycle.frame_rate > 0.0f ? cycle.start + static_cast<float>(key) / cycle.frame_rate : cycle.start;
+    return clip.frame_rate > 0.0f ? clip.start + static_cast<float>(key) / clip.frame_rate : clip.start;
 }
 
 /// Where a track is sampled: at its keys, between them too where it is not straight there; if these are too many, at
 /// even distances.
-std::vector<float> times_of(const TrackView& track, const CycleView& cycle, std::size_t most) {
+std::vector<float> times_of(const TrackView& track, const ClipView& clip, std::size_t most) {
     constexpr std::size_t kMostBetween = 8;
     const bool is_straight = track.interpolation == Interpolation::step ||
                              (track.interpolation == Interpolation::linear && track.path != TrackPath::rotation);
     const std::size_t intervals = track.keys - std::size_t{1};
     std::vector<float> times;
-    const float first = key_time(track, cycle, 0);
-    const float last = key_time(track, cycle, intervals);
-    if (cycle.start < first) times.push_back(cycle.start);
+    const float first = key_time(track, clip, 0);
+    const float last = key_time(track, clip, intervals);
+    if (clip.start < first) times.push_back(clip.start);
     if (intervals + 1 > most) {
         const auto steps = static_cast<float>(most - 1);
         for (std::size_t k = 0; k < most; ++k) times.push_back(first + (last - first) * static_cast<float>(k) / steps);
@@ -45,20 +45,20 @@ std::vector<float> times_of(const TrackView& track, const CycleView& cycle, std:
         const std::size_t parts =
             is_straight || intervals == 0 ? 1 : std::clamp<std::size_t>((most - 1) / intervals, 1, kMostBetween);
         for (std::size_t key = 0; key < intervals; ++key) {
-            const float left = key_time(track, cycle, key);
-            const float right = key_time(track, cycle, key + 1);
+            const float left = key_time(track, clip, key);
+            const float right = key_time(track, clip, key + 1);
             for (std::size_t part = 0; part < parts; ++part)
                 times.push_back(left + (right - left) * static_cast<float>(part) / static_cast<float>(parts));
         }
         times.push_back(last);
     }
-    if (cycle.end > last) times.push_back(cycle.end);
+    if (clip.end > last) times.push_back(clip.end);
     return times;
 }
 
-Json target_names(const PoolView& pool) {
+Json target_names(const MeshView& mesh) {
     Json names = Json::array();
-    for (const TargetView& target : pool.targets) {
+    for (const MorphTargetView& target : mesh.targets) {
         if (names.size() == kMostCurves) break;
         names.push_back(brief(target.name));
     }
@@ -98,21 +98,21 @@ std::array<float, 4> unpacked_value(const PackedGroup& group, std::uint32_t trac
     return value;
 }
 
-/// What the page draws of a cycle's markers: [seconds, name] each, and not too many.
-Json shown_markers(const CycleView& cycle) {
+/// What the page draws of a clip's markers: [seconds, name] each, and not too many.
+Json shown_markers(const ClipView& clip) {
     constexpr std::size_t kMostMarkers = 200;
     Json markers = Json::array();
-    for (const Marker& marker : std::span(cycle.markers).first(std::min(cycle.markers.size(), kMostMarkers)))
+    for (const Marker& marker : std::span(clip.markers).first(std::min(clip.markers.size(), kMostMarkers)))
         markers.push_back(Json::array({page_number(marker.seconds), brief(marker.name)}));
     return markers;
 }
 
-/// What frames a cycle plays, of which mesh.
-Json shown_plays(const CycleView& cycle, const ObjectView& object) {
+/// What frames a clip plays, of which mesh.
+Json shown_plays(const ClipView& clip, const ObjectView& object) {
     constexpr std::size_t kMostPlays = 24;
     Json plays = Json::array();
-    for (const PlayView& play : std::span(cycle.plays).first(std::min(cycle.plays.size(), kMostPlays))) {
-        plays.push_back({{"pool", brief(object.pools[play.pool].name)},
+    for (const PlayView& play : std::span(clip.plays).first(std::min(clip.plays.size(), kMostPlays))) {
+        plays.push_back({{"mesh", brief(object.meshes[play.mesh].name)},
                          {"first", play.first},
                          {"frames", play.frames},
                          {"closed", play.closed}});
@@ -125,9 +125,9 @@ Json shown_plays(const CycleView& cycle, const ObjectView& object) {
 CurveSampler::CurveSampler(std::span<const ObjectView> objects) : budget_(kMostNumbers) {
     std::uint64_t components = 0;
     for (const ObjectView& object : objects) {
-        for (const CycleView& cycle : object.cycles) {
-            for (const TrackView& track : cycle.tracks) components += track.components;
-            if (cycle.packed) components += packed_numbers(*cycle.packed);
+        for (const ClipView& clip : object.clips) {
+            for (const TrackView& track : clip.tracks) components += track.components;
+            if (clip.packed) components += packed_numbers(*clip.packed);
         }
     }
     points_ = static_cast<std::size_t>(
@@ -143,8 +143,8 @@ std::size_t CurveSampler::number_of(std::vector<float> times) {
     return found->second;
 }
 
-Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const ObjectView& object) {
-    const std::vector<float> times = times_of(track, cycle, points_);
+Json CurveSampler::sampled(const TrackView& track, const ClipView& clip, const ObjectView& object) {
+    const std::vector<float> times = times_of(track, clip, points_);
     constexpr std::uint64_t kTrackItself = 16;  // what a track takes on the page beside its numbers
     const std::uint64_t numbers = std::uint64_t{track.components} * times.size() + kTrackItself;
     if (numbers > budget_) {
@@ -157,7 +157,7 @@ Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const
     std::vector<Json> curves(shown, Json::array());
     std::vector<float> value(track.components);
     for (const float time : times) {
-        sample_track(track, cycle, time, value);
+        sample_track(track, clip, time, value);
         for (std::size_t c = 0; c < shown; ++c) curves[c].push_back(page_number(value[c]));
     }
     Json json{{"path", static_cast<unsigned>(track.path)},
@@ -167,15 +167,14 @@ Json CurveSampler::sampled(const TrackView& track, const CycleView& cycle, const
               {"components", track.components},
               {"times", number_of(times)},
               {"values", std::move(curves)}};
-    if (track.path == TrackPath::weights && track.target < object.pools.size()) {
-        json["pool"] = brief(object.pools[track.target].name);
-        json["names"] = target_names(object.pools[track.target]);
+    if (track.path == TrackPath::weights && track.target < object.meshes.size()) {
+        json["mesh"] = brief(object.meshes[track.target].name);
+        json["names"] = target_names(object.meshes[track.target]);
     }
     return json;
 }
 
-void CurveSampler::add_packed(const PackedView& packed, const CycleView& cycle, const ObjectView& object,
-                              Json& tracks) {
+void CurveSampler::add_packed(const PackedView& packed, const ClipView& clip, const ObjectView& object, Json& tracks) {
     const std::uint32_t frames = packed.record.frames;
     const std::size_t points = std::min<std::size_t>(frames, points_);
     constexpr std::uint64_t kTrackItself = 16;
@@ -193,9 +192,9 @@ void CurveSampler::add_packed(const PackedView& packed, const CycleView& cycle, 
         const auto frame =
             static_cast<std::uint32_t>(points < 2 ? 0 : std::uint64_t{point} * (frames - 1) / (points - 1));
         times.push_back(static_cast<float>(packed.time_of(frame)));
-        PackedWalk walk(packed, frame);
+        PackedGroupReader reader(packed, frame);
         std::size_t track = first;
-        for (PackedGroup group; walk.next(group);) {
+        for (PackedGroup group; reader.next(group);) {
             for (std::uint32_t t = 0; t < group.count; ++t, ++track) {
                 if (point == 0) tracks.push_back(packed_track(group, t, frames));
                 if (point > 0 && !group.kind.animated) continue;
@@ -206,7 +205,7 @@ void CurveSampler::add_packed(const PackedView& packed, const CycleView& cycle, 
         }
     }
     const std::size_t moving = number_of(times);
-    const std::size_t still = number_of({cycle.start});
+    const std::size_t still = number_of({clip.start});
     for (std::size_t track = first; track < tracks.size(); ++track)
         tracks[track]["times"] = tracks[track]["values"][0].size() == times.size() ? moving : still;
 }
@@ -223,30 +222,30 @@ Json CurveSampler::packed_track(const PackedGroup& group, std::uint32_t track, s
             {"values", std::move(values)}};
 }
 
-Json CurveSampler::cycles(const ObjectView& object) {
+Json CurveSampler::clips(const ObjectView& object) {
     Json list = Json::array();
-    for (const CycleView& cycle : object.cycles) {
-        if (list.size() == kMostCycles) {
-            left_out_ += cycle.tracks.size() + (cycle.packed ? packed_tracks(*cycle.packed) : 0);
+    for (const ClipView& clip : object.clips) {
+        if (list.size() == kMostClips) {
+            left_out_ += clip.tracks.size() + (clip.packed ? packed_tracks(*clip.packed) : 0);
             continue;
         }
         Json tracks = Json::array();
-        for (const TrackView& track : cycle.tracks) {
-            if (Json one = sampled(track, cycle, object); !one.is_null()) tracks.push_back(std::move(one));
+        for (const TrackView& track : clip.tracks) {
+            if (Json one = sampled(track, clip, object); !one.is_null()) tracks.push_back(std::move(one));
         }
-        if (cycle.packed) add_packed(*cycle.packed, cycle, object, tracks);
-        list.push_back({{"name", brief(cycle.name)},
-                        {"chunk", cycle.chunk},
-                        {"start", page_number(cycle.start)},
-                        {"end", page_number(cycle.end)},
-                        {"rate", page_number(cycle.frame_rate)},
-                        {"loop", cycle.loop},
-                        {"total", cycle.tracks.size() + (cycle.packed ? packed_tracks(*cycle.packed) : 0)},
-                        {"plays", shown_plays(cycle, object)},
-                        {"markers", shown_markers(cycle)},
+        if (clip.packed) add_packed(*clip.packed, clip, object, tracks);
+        list.push_back({{"name", brief(clip.name)},
+                        {"chunk", clip.chunk},
+                        {"start", page_number(clip.start)},
+                        {"end", page_number(clip.end)},
+                        {"rate", page_number(clip.frame_rate)},
+                        {"loop", clip.loop},
+                        {"total", clip.tracks.size() + (clip.packed ? packed_tracks(*clip.packed) : 0)},
+                        {"plays", shown_plays(clip, object)},
+                        {"markers", shown_markers(clip)},
                         {"tracks", std::move(tracks)}});
     }
-    return {{"total", object.cycles.size()}, {"list", std::move(list)}};
+    return {{"total", object.clips.size()}, {"list", std::move(list)}};
 }
 
 Json CurveSampler::times() const {

@@ -11,15 +11,15 @@
 
 namespace bendy::cli {
 
-/// Samples the tracks of a file's cycles for drawing, through the runtime, whatever their encoding. The file's size
+/// Samples the tracks of a file's clips for drawing, through the runtime, whatever their encoding. The file's size
 /// does not bound the work, since tracks may share keys: a budget of numbers does.
 class CurveSampler {
 public:
     /// Shares the budget among the tracks of all objects.
     explicit CurveSampler(std::span<const ObjectView> objects);
 
-    /// The cycles of an object: name, length, tracks with their values at some times; how many tracks were left out.
-    nlohmann::ordered_json cycles(const ObjectView& object);
+    /// The clips of an object: name, length, tracks with their values at some times; how many tracks were left out.
+    nlohmann::ordered_json clips(const ObjectView& object);
 
     /// The lists of times that the tracks name by number.
     [[nodiscard]] nlohmann::ordered_json times() const;
@@ -29,9 +29,9 @@ public:
     [[nodiscard]] std::size_t left_out() const { return left_out_; }
 
 private:
-    nlohmann::ordered_json sampled(const TrackView& track, const CycleView& cycle, const ObjectView& object);
+    nlohmann::ordered_json sampled(const TrackView& track, const ClipView& clip, const ObjectView& object);
     /// Adds the tracks of a PACK, at some of its frames.
-    void add_packed(const PackedView& packed, const CycleView& cycle, const ObjectView& object,
+    void add_packed(const PackedView& packed, const ClipView& clip, const ObjectView& object,
                     nlohmann::ordered_json& tracks);
     static nlohmann::ordered_json packed_track(const PackedGroup& group, std::uint32_t track, std::uint32_t frames);
     std::size_t number_of(std::vector<float> times);

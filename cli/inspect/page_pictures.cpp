@@ -18,16 +18,16 @@ constexpr std::uint32_t kStillSide = 512;                  // pixels
 constexpr std::uint32_t kClipSide = 256;
 constexpr unsigned kFrames = 16;  // of an animation
 
-viewer::RenderOptions options_of(std::uint32_t side, const Cycle* clip, const std::filesystem::path& folder) {
+viewer::RenderOptions options_of(std::uint32_t side, const Clip* clip, const std::filesystem::path& folder) {
     viewer::RenderOptions options;
     options.width = options.height = side;
-    options.cycle = clip;
+    options.clip = clip;
     options.folder = folder;
     options.draw.background = glm::vec4(0.0f);
     return options;
 }
 
-std::vector<std::byte> animate(const Model& model, const Cycle& clip, const std::filesystem::path& folder) {
+std::vector<std::byte> animate(const Model& model, const Clip& clip, const std::filesystem::path& folder) {
     viewer::PictureMaker maker(model, options_of(kClipSide, &clip, folder), [](const std::string&) {});
     const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
     if (!(length > 0.0)) return viewer::encode_png(maker.draw(clip.start));
@@ -52,10 +52,10 @@ PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder)
         viewer::PictureMaker maker(*model, options_of(kStillSide, nullptr, folder), [](const std::string&) {});
         pictures.list.push_back({{}, false, "image/png", viewer::encode_png(maker.draw(0.0f))});
         std::size_t bytes = pictures.list.back().bytes.size();
-        const auto clips = model->cycles();
+        const auto clips = model->clips();
         std::size_t shown = 0;
         for (; shown < std::min(clips.size(), kMostClips) && bytes < kMostBytes; ++shown) {
-            const Cycle& clip = clips[shown];
+            const Clip& clip = clips[shown];
             const bool moves = clip.end > clip.start;
             pictures.list.push_back(
                 {std::string(clip.name), true, moves ? "image/webp" : "image/png", animate(*model, clip, folder)});

@@ -26,12 +26,12 @@ glm::dmat4 rest_matrix(const RestRecord& rest) {
 }
 
 /// The constraints of the joints, one text for each.
-std::vector<std::string> limit_texts(const SkeletonView& skeleton, std::size_t joints) {
+std::vector<std::string> constraint_texts(const SkeletonView& skeleton, std::size_t joints) {
     std::vector<std::string> texts(joints);
-    for (const LimitView& limit : skeleton.limits) {
-        if (limit.joint >= joints) continue;
-        std::string& text = texts[limit.joint];
-        text += (text.empty() ? "" : " | ") + limit_text(limit.record);
+    for (const ConstraintView& constraint : skeleton.constraints) {
+        if (constraint.joint >= joints) continue;
+        std::string& text = texts[constraint.joint];
+        text += (text.empty() ? "" : " | ") + constraint_text(constraint.record);
     }
     return texts;
 }
@@ -53,7 +53,7 @@ Json links_of(const SkeletonView& skeleton, const ChainRecord& chain) {
 Json page_joints(const ObjectView& object) {
     const auto& joints = object.skeleton.joints;
     const std::size_t count = std::min(joints.size(), kMostJoints);
-    const std::vector<std::string> limits = limit_texts(object.skeleton, count);
+    const std::vector<std::string> limits = constraint_texts(object.skeleton, count);
     std::vector<glm::dmat4> model_space(count);
     Json parents = Json::array();
     Json names = Json::array();

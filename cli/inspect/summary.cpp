@@ -31,18 +31,18 @@ std::string name_of_joint(const Model& model, std::uint32_t joint) {
 
 std::vector<Summary::MeshLine> list_meshes(const Model& model) {
     std::vector<Summary::MeshLine> meshes;
-    for (const Pool& pool : model.pools()) {
+    for (const Mesh& view : model.meshes()) {
         Summary::MeshLine& mesh = meshes.emplace_back();
-        mesh.name = pool.name;
-        mesh.vertices = pool.vertices;
-        mesh.influences = pool.bones ? pool.bones->components : 0;
-        for (const TargetView& target : pool.targets) mesh.morph_targets.emplace_back(target.name);
+        mesh.name = view.name;
+        mesh.vertices = view.vertices;
+        mesh.influences = view.bones ? view.bones->components : 0;
+        for (const MorphTargetView& target : view.targets) mesh.morph_targets.emplace_back(target.name);
     }
-    for (const Draw& draw : model.draws()) {
-        Summary::MeshLine& mesh = meshes[draw.pool];
-        if (draw.topology == Topology::triangles) mesh.triangles += draw.count / 3;
-        if (draw.topology == Topology::lines) mesh.lines += draw.count / 2;
-        if (draw.topology == Topology::points) mesh.points += draw.count;
+    for (const Submesh& submesh : model.submeshes()) {
+        Summary::MeshLine& mesh = meshes[submesh.mesh];
+        if (submesh.topology == Topology::triangles) mesh.triangles += submesh.count / 3;
+        if (submesh.topology == Topology::lines) mesh.lines += submesh.count / 2;
+        if (submesh.topology == Topology::points) mesh.points += submesh.count;
     }
     return meshes;
 }
@@ -69,7 +69,7 @@ std::vector<Summary::Level> list_levels(const Model& model) {
     for (const float share : {1.0f, 0.5f, 0.25f, 0.1f, 0.0f}) {
         lod.set_share(share);
         std::uint64_t vertices = 0;
-        for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) vertices += lod.vertices(pool);
+        for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) vertices += lod.vertices(mesh);
         levels.push_back({share, lod.triangles(), vertices, lod.error()});
     }
     return levels;
@@ -312,7 +312,7 @@ std::string kind_in_words(const std::string& kind) {
                                                                       {"BONE", "influences"},
                                                                       {"WGHT", "weights"},
                                                                       {"targets", "morph targets"},
-                                                                      {"cycles", "clips"}}};
+                                                                      {"clips", "clips"}}};
     for (const auto& [id, words] : kWords) {
         if (kind == id) return std::string(words);
     }
@@ -344,7 +344,7 @@ Summary summarize(const Model& model, Bytes file) {
     }
     summary.meshes = list_meshes(model);
     summary.levels = list_levels(model);
-    for (const Cycle& clip : model.cycles())
+    for (const Clip& clip : model.clips())
         summary.clips.push_back({std::string(clip.name), clip.start, clip.end, clip.loop});
     for (const Material& material : model.materials()) summary.materials.push_back({std::string(material.name)});
     summary.textures = list_textures(model);

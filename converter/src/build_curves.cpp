@@ -7,9 +7,9 @@
 
 namespace bendy::converter {
 
-void put_curves(LeafWriter& out, const Cycle& cycle) {
+void put_curves(LeafWriter& out, const Clip& clip) {
     constexpr LeafShape kFloats{0, 0, sizeof(float), false};
-    for (const Curve& curve : cycle.curves) {
+    for (const Curve& curve : clip.curves) {
         const std::optional<PackedCurve> packed = out.is_compact() ? pack_curve(curve) : std::nullopt;
         out.leaf(FourCC("CURV"), write_curve(packed ? packed->view(curve) : view_of(curve)), kFloats);
     }

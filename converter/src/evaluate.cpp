@@ -86,11 +86,11 @@ std::vector<Placement> rest_locals(const Scene& scene) {
 }
 
 void rest_weights(const Scene& scene, EvaluatedPose& pose) {
-    pose.target_weights.resize(scene.meshes.size());
+    pose.morph_weights.resize(scene.meshes.size());
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-        std::vector<double>& weights = pose.target_weights[mesh];
+        std::vector<double>& weights = pose.morph_weights[mesh];
         weights.clear();
-        for (const Target& target : scene.meshes[mesh].targets) weights.push_back(target.rest_weight);
+        for (const MorphTarget& target : scene.meshes[mesh].targets) weights.push_back(target.rest_weight);
     }
 }
 
@@ -147,11 +147,11 @@ void evaluate_rest(const Scene& scene, EvaluatedPose& pose) {
     to_model_space(scene, rest_locals(scene), pose);
 }
 
-void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedPose& pose) {
+void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose) {
     rest_weights(scene, pose);
     std::vector<Placement> locals = rest_locals(scene);
     std::vector<double> value;
-    for (const Track& track : cycle.tracks) {
+    for (const Track& track : clip.tracks) {
         evaluate_track(track, seconds, value);
         switch (track.path) {
             case TrackPath::translation:
@@ -164,13 +164,13 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
                 locals[track.target].scale = {value[0], value[1], value[2]};
                 break;
             case TrackPath::weights:
-                pose.target_weights[track.target] = value;
+                pose.morph_weights[track.target] = value;
                 break;
         }
     }
-    for (const Play& play : cycle.plays) {
-        const FramePair pair = frames_at(cycle, play, seconds);
-        std::vector<double>& weights = pose.target_weights[play.mesh];
+    for (const Play& play : clip.plays) {
+        const FramePair pair = frames_at(clip, play, seconds);
+        std::vector<double>& weights = pose.morph_weights[play.mesh];
         const auto add = [&](std::uint32_t frame, double weight) {
             if (frame != 0) weights[first_frame(scene.meshes[play.mesh]) + frame - 1] += weight;
         };
@@ -180,14 +180,14 @@ void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedP
     to_model_space(scene, locals, pose);
 }
 
-std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& target_weights,
+std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& morph_weights,
                                           const std::vector<glm::dmat4>& joints) {
     std::vector<glm::dvec3> vertices(mesh.positions.begin(), mesh.positions.end());
-    for (std::size_t number = 0; number < target_weights.size(); ++number) {
-        if (target_weights[number] == 0.0) continue;
-        const Target& target = mesh.targets[number];
+    for (std::size_t number = 0; number < morph_weights.size(); ++number) {
+        if (morph_weights[number] == 0.0) continue;
+        const MorphTarget& target = mesh.targets[number];
         for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex)
-            vertices[vertex] += target_weights[number] * shift_of(target, target.positions, mesh.positions, vertex);
+            vertices[vertex] += morph_weights[number] * shift_of(target, target.positions, mesh.positions, vertex);
     }
     std::vector<glm::dmat4> palette;
     for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry)
@@ -208,18 +208,18 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<do
     return vertices;
 }
 
-std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most, std::size_t most_of_cycle) {
+std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most, std::size_t most_of_clip) {
     constexpr std::size_t kMostMatrices = std::size_t{1} << 20U;
     std::vector<EvaluatedPose> poses(1);
     evaluate_rest(scene, poses.front());
     most = std::min(most, kMostMatrices / std::max<std::size_t>(scene.joints.size(), 1));
-    const std::size_t cycles = std::min(scene.cycles.size(), most);
-    for (std::size_t c = 0; c < cycles; ++c) {
-        const CycleSpan span = span_of(scene.cycles[c]);
-        const std::size_t count = std::clamp<std::size_t>(most / cycles, 1, most_of_cycle);
+    const std::size_t clips = std::min(scene.clips.size(), most);
+    for (std::size_t c = 0; c < clips; ++c) {
+        const ClipSpan span = span_of(scene.clips[c]);
+        const std::size_t count = std::clamp<std::size_t>(most / clips, 1, most_of_clip);
         for (std::size_t k = 0; k < count; ++k) {
             const double share = count == 1 ? 0.5 : static_cast<double>(k) / static_cast<double>(count - 1);
-            evaluate(scene, scene.cycles[c], span.at(share), poses.emplace_back());
+            evaluate(scene, scene.clips[c], span.at(share), poses.emplace_back());
         }
     }
     return poses;
@@ -246,10 +246,10 @@ double height_of_joints(const Scene& scene, EvaluatedPose& pose) {
     add_origins(pose, box);
     if (height_of(box) > 0.0) return height_of(box);
     constexpr int kSamples = 32;  // of a clip
-    for (const Cycle& cycle : scene.cycles) {
-        const CycleSpan span = span_of(cycle);
+    for (const Clip& clip : scene.clips) {
+        const ClipSpan span = span_of(clip);
         for (int k = 0; k <= kSamples; ++k) {
-            evaluate(scene, cycle, span.at(static_cast<double>(k) / kSamples), pose);
+            evaluate(scene, clip, span.at(static_cast<double>(k) / kSamples), pose);
             add_origins(pose, box);
         }
     }

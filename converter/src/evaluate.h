@@ -15,30 +15,30 @@ namespace bendy::converter {
 // so that each can be held against the other. No function of libm but the square root: the same everywhere.
 
 struct EvaluatedPose {
-    std::vector<glm::dmat4> joints;                   ///< joint to model space
-    std::vector<std::vector<double>> target_weights;  ///< of each mesh
+    std::vector<glm::dmat4> joints;                  ///< joint to model space
+    std::vector<std::vector<double>> morph_weights;  ///< of each mesh
 };
 
 /// The rest pose with the targets' rest weights.
 void evaluate_rest(const Scene& scene, EvaluatedPose& pose);
 
-/// A cycle at a time of its own time line, in seconds; before its first and after its last key a track holds. What it
+/// A clip at a time of its own time line, in seconds; before its first and after its last key a track holds. What it
 /// does not animate rests.
-void evaluate(const Scene& scene, const Cycle& cycle, double seconds, EvaluatedPose& pose);
+void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose);
 
 /// One track's value at a time: `components` numbers. Rotations: linear is the shortest great arc, cubic is normalised.
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value);
 
 /// A mesh's vertices in model space: displaced by its targets, then moved by its bones, or by its joint if it is rigid.
-/// \param target_weights  one per target, or none: not displaced
-std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& target_weights,
+/// \param morph_weights  one per target, or none: not displaced
+std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& morph_weights,
                                           const std::vector<glm::dmat4>& joints);
 
-/// Poses to estimate by: the rest pose, then every cycle at times spread evenly from its first key to its last.
-/// \param most           of all cycles together; large skeletons get fewer, so that they take some 130 MB at most
-/// \param most_of_cycle  of one cycle
+/// Poses to estimate by: the rest pose, then every clip at times spread evenly from its first key to its last.
+/// \param most           of all clips together; large skeletons get fewer, so that they take some 130 MB at most
+/// \param most_of_clip  of one clip
 std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most,
-                                        std::size_t most_of_cycle = std::numeric_limits<std::size_t>::max());
+                                        std::size_t most_of_clip = std::numeric_limits<std::size_t>::max());
 
 /// How far from a joint, as a share of the character's height, its turning and stretching are measured where no skin
 /// shows them.

@@ -5,7 +5,7 @@
 
 namespace bendy::converter {
 
-Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play) {
+Track weights_track(const Scene& scene, const Clip& clip, const Play& play) {
     const Mesh& mesh = scene.meshes[play.mesh];
     const std::size_t targets = mesh.targets.size();
     const std::uint32_t keys = play.frames + (play.closed ? 1 : 0);
@@ -15,11 +15,12 @@ Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play) {
     track.components = static_cast<std::uint32_t>(targets);
     track.values.reserve(keys * targets);
     for (std::uint32_t key = 0; key < keys; ++key) {
-        const auto time = static_cast<float>(cycle.frame_start + key / double{cycle.frame_rate});
+        const auto time = static_cast<float>(clip.frame_start + key / double{clip.frame_rate});
         const bool ascends = track.times.empty() || time > track.times.back();
         track.times.push_back(ascends ? time
                                       : std::nextafter(track.times.back(), std::numeric_limits<float>::infinity()));
-        for (const Target& target : mesh.targets) track.values.push_back(target.is_frame ? 0.0f : target.rest_weight);
+        for (const MorphTarget& target : mesh.targets)
+            track.values.push_back(target.is_frame ? 0.0f : target.rest_weight);
         const std::uint32_t frame = play.first + key % play.frames;
         if (frame != 0) track.values[key * targets + first_frame(mesh) + frame - 1] = 1.0f;
     }

@@ -5,9 +5,9 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bendy::converter {
@@ -17,7 +17,7 @@ namespace bendy::converter {
 /// Where among the mesh's targets its frames begin.
 inline std::uint32_t first_frame(const Mesh& mesh) {
     const auto frame =
-        std::find_if(mesh.targets.begin(), mesh.targets.end(), [](const Target& t) { return t.is_frame; });
+        std::find_if(mesh.targets.begin(), mesh.targets.end(), [](const MorphTarget& t) { return t.is_frame; });
     return static_cast<std::uint32_t>(frame - mesh.targets.begin());
 }
 
@@ -27,14 +27,14 @@ inline bool has_frames(const Mesh& mesh) {
 
 /// What full weight of the target adds to a vertex. `stream`: of the target, not empty; `own`: the mesh's of that kind.
 template <class Vector>
-glm::dvec3 shift_of(const Target& target, const std::vector<glm::vec3>& stream, const std::vector<Vector>& own,
+glm::dvec3 shift_of(const MorphTarget& target, const std::vector<glm::vec3>& stream, const std::vector<Vector>& own,
                     std::size_t vertex) {
     const glm::dvec3 there(stream[vertex]);
     return target.is_frame ? there - glm::dvec3(own[vertex]) : there;
 }
 
 /// All of them, as floats; none if the target or the mesh has no such stream.
-inline std::vector<glm::vec3> shifts_of(const Target& target, const std::vector<glm::vec3>& stream,
+inline std::vector<glm::vec3> shifts_of(const MorphTarget& target, const std::vector<glm::vec3>& stream,
                                         const std::vector<glm::vec3>& own) {
     if (!target.is_frame) return stream;
     std::vector<glm::vec3> shifts;
@@ -46,8 +46,8 @@ inline std::vector<glm::vec3> shifts_of(const Target& target, const std::vector<
 }
 
 /// Seconds from the first frame to where the last one ends.
-inline double length_of(const Cycle& cycle, const Play& play) {
-    return (play.frames - 1.0 + (play.closed ? 1.0 : 0.0)) / cycle.frame_rate;
+inline double length_of(const Clip& clip, const Play& play) {
+    return (play.frames - 1.0 + (play.closed ? 1.0 : 0.0)) / clip.frame_rate;
 }
 
 /// Two frames, numbered as Play::first is, and what the second one weighs.
@@ -56,8 +56,8 @@ struct FramePair {
     double fraction = 0.0;
 };
 
-inline FramePair frames_at(const Cycle& cycle, const Play& play, double seconds) {
-    const double at = (seconds - cycle.frame_start) * cycle.frame_rate;
+inline FramePair frames_at(const Clip& clip, const Play& play, double seconds) {
+    const double at = (seconds - clip.frame_start) * clip.frame_rate;
     const std::uint32_t last = play.closed ? play.frames : play.frames - 1;  // in frames from the first
     const double held = std::clamp(at, 0.0, static_cast<double>(last));
     const auto left = static_cast<std::uint32_t>(held);
@@ -66,36 +66,36 @@ inline FramePair frames_at(const Cycle& cycle, const Play& play, double seconds)
 }
 
 /// The same as timed keys: one for each frame, and for closed ones another of the first at the end.
-Track weights_track(const Scene& scene, const Cycle& cycle, const Play& play);
+Track weights_track(const Scene& scene, const Clip& clip, const Play& play);
 
 /// From the first to the last key of tracks and frames, packed tracks apart; nothing where there are none.
-inline std::optional<CycleSpan> span_of_tracks(const Cycle& cycle) {
-    std::optional<CycleSpan> span;
+inline std::optional<ClipSpan> span_of_tracks(const Clip& clip) {
+    std::optional<ClipSpan> span;
     const auto add = [&](float start, float end) {
-        span = span ? CycleSpan{std::min(span->start, start), std::max(span->end, end)} : CycleSpan{start, end};
+        span = span ? ClipSpan{std::min(span->start, start), std::max(span->end, end)} : ClipSpan{start, end};
     };
-    for (const Track& track : cycle.tracks) add(track.times.front(), track.times.back());
-    for (const Play& play : cycle.plays)
-        add(cycle.frame_start, static_cast<float>(cycle.frame_start + length_of(cycle, play)));
+    for (const Track& track : clip.tracks) add(track.times.front(), track.times.back());
+    for (const Play& play : clip.plays)
+        add(clip.frame_start, static_cast<float>(clip.frame_start + length_of(clip, play)));
     return span;
 }
 
 /// The same with the curves; zeros where there are no keys.
-inline CycleSpan span_of_keys(const Cycle& cycle) {
-    std::optional<CycleSpan> span = span_of_tracks(cycle);
-    for (const Curve& curve : cycle.curves) {
-        const CycleSpan own{curve.times.front(), curve.times.back()};
-        span = span ? CycleSpan{std::min(span->start, own.start), std::max(span->end, own.end)} : own;
+inline ClipSpan span_of_keys(const Clip& clip) {
+    std::optional<ClipSpan> span = span_of_tracks(clip);
+    for (const Curve& curve : clip.curves) {
+        const ClipSpan own{curve.times.front(), curve.times.back()};
+        span = span ? ClipSpan{std::min(span->start, own.start), std::max(span->end, own.end)} : own;
     }
-    return span.value_or(CycleSpan());
+    return span.value_or(ClipSpan());
 }
 
 /// When the clip begins and ends: with its first and last key, or as it states.
-inline CycleSpan span_of(const Cycle& cycle) {
-    const CycleSpan keys = span_of_keys(cycle);
-    if (!cycle.stated_span) return keys;
-    if (cycle.tracks.empty() && cycle.plays.empty() && cycle.curves.empty()) return *cycle.stated_span;
-    return {std::min(keys.start, cycle.stated_span->start), std::max(keys.end, cycle.stated_span->end)};
+inline ClipSpan span_of(const Clip& clip) {
+    const ClipSpan keys = span_of_keys(clip);
+    if (!clip.stated_span) return keys;
+    if (clip.tracks.empty() && clip.plays.empty() && clip.curves.empty()) return *clip.stated_span;
+    return {std::min(keys.start, clip.stated_span->start), std::max(keys.end, clip.stated_span->end)};
 }
 
 }  // namespace bendy::converter

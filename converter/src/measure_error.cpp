@@ -16,7 +16,7 @@ namespace bendy::converter {
 namespace {
 
 constexpr double kSamplesPerSecond = 240.0;
-constexpr double kMostSamples = 100'800.0;  // of one cycle: 7 minutes
+constexpr double kMostSamples = 100'800.0;  // of one clip: 7 minutes
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Influence {
@@ -51,7 +51,7 @@ public:
             }
             first_.push_back(influences_.size());
         }
-        for (const Target& target : mesh.targets) {
+        for (const MorphTarget& target : mesh.targets) {
             std::vector<Displacement>& list = targets_.emplace_back();
             for (std::size_t vertex = 0; vertex < target.positions.size(); ++vertex) {
                 const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
@@ -162,8 +162,8 @@ public:
     /// Raises `worst` to the worst vertex of a pose, if that is worse, and says so.
     bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
                  MeasuredError& worst) {
-        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.target_weights[mesh]);
-        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.target_weights[mesh]);
+        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.morph_weights[mesh]);
+        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.morph_weights[mesh]);
         if (!moved_here && !moved_there && is_measured_) return false;
         is_measured_ = true;
         const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
@@ -329,14 +329,14 @@ std::vector<glm::dvec3> points_of_joints(const Scene& scene) {
     return points;
 }
 
-std::vector<double> sample_times(const Cycle& exact, const Cycle& decoded) {
+std::vector<double> sample_times(const Clip& exact, const Clip& decoded) {
     std::vector<double> times;
-    for (const Cycle* cycle : {&exact, &decoded}) {
-        for (const Track& track : cycle->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
-        for (const Play& play : cycle->plays) {
+    for (const Clip* clip : {&exact, &decoded}) {
+        for (const Track& track : clip->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
+        for (const Play& play : clip->plays) {
             for (std::uint32_t frame = 0; frame <= play.frames; ++frame) {
-                const double at = frame / double{cycle->frame_rate};
-                if (at <= length_of(*cycle, play)) times.push_back(cycle->frame_start + at);
+                const double at = frame / double{clip->frame_rate};
+                if (at <= length_of(*clip, play)) times.push_back(clip->frame_start + at);
             }
         }
         std::sort(times.begin(), times.end());
@@ -375,16 +375,16 @@ public:
         measure(kNone, 0.0);
     }
 
-    void measure_at(std::uint32_t cycle, double seconds) {
-        evaluate(exact_, exact_.cycles[cycle], seconds, exact_pose_);
-        evaluate(decoded_, decoded_.cycles[cycle], seconds, decoded_pose_);
-        measure(cycle, seconds);
+    void measure_at(std::uint32_t clip, double seconds) {
+        evaluate(exact_, exact_.clips[clip], seconds, exact_pose_);
+        evaluate(decoded_, decoded_.clips[clip], seconds, decoded_pose_);
+        measure(clip, seconds);
     }
 
     [[nodiscard]] const MeasuredError& worst() const { return worst_; }
 
 private:
-    void measure(std::uint32_t cycle, double seconds) {
+    void measure(std::uint32_t clip, double seconds) {
         bool has_risen = false;
         for (std::uint32_t mesh = 0; mesh < pairs_.size(); ++mesh) {
             if (!pairs_[mesh].measure(exact_pose_, decoded_pose_, mesh, worst_)) continue;
@@ -403,7 +403,7 @@ private:
             has_risen = true;
         }
         if (!has_risen) return;
-        worst_.cycle = cycle;
+        worst_.clip = clip;
         worst_.seconds = seconds;
     }
 
@@ -423,7 +423,7 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
     MeasuredError impossible;
     impossible.metres = kInfinity;
     if (exact.joints.size() != decoded.joints.size() || exact.meshes.size() != decoded.meshes.size() ||
-        exact.cycles.size() != decoded.cycles.size())
+        exact.clips.size() != decoded.clips.size())
         return impossible;
     for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
         if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible;
@@ -434,8 +434,8 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
 
     std::vector<std::vector<double>> times;
     std::size_t total = 0;
-    for (std::size_t cycle = 0; cycle < exact.cycles.size(); ++cycle) {
-        times.push_back(sample_times(exact.cycles[cycle], decoded.cycles[cycle]));
+    for (std::size_t clip = 0; clip < exact.clips.size(); ++clip) {
+        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip]));
         total += times.back().size();
     }
     std::size_t done = 0;
@@ -443,10 +443,10 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
     // Far apart first: what is found early spares the work of what is less.
     constexpr std::size_t kCoarse = 64;
     for (const bool is_coarse : {true, false}) {
-        for (std::uint32_t cycle = 0; cycle < times.size(); ++cycle) {
-            for (std::size_t k = 0; k < times[cycle].size(); ++k) {
+        for (std::uint32_t clip = 0; clip < times.size(); ++clip) {
+            for (std::size_t k = 0; k < times[clip].size(); ++k) {
                 if ((k % kCoarse == 0) != is_coarse) continue;
-                comparison.measure_at(cycle, times[cycle][k]);
+                comparison.measure_at(clip, times[clip][k]);
                 ++done;
                 if (!progress || done * 100 / total == told) continue;
                 told = done * 100 / total;
@@ -471,10 +471,10 @@ std::string place_of(const Scene& scene, const MeasuredError& error) {
     } else {
         return {};
     }
-    if (error.cycle == kNone) return place + ", at rest";
+    if (error.clip == kNone) return place + ", at rest";
     std::string seconds = std::to_string(error.seconds);
     seconds.resize(seconds.size() - 3);  // milliseconds
-    return place + ", cycle " + quoted_name(scene.cycles[error.cycle].name, error.cycle) + " at " + seconds + " s";
+    return place + ", clip " + quoted_name(scene.clips[error.clip].name, error.clip) + " at " + seconds + " s";
 }
 
 }  // namespace bendy::converter

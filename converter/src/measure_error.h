@@ -17,19 +17,19 @@ struct MeasuredError {
     std::uint32_t mesh = kNone;    ///< kNone: nothing differs, or the worst is a joint
     std::uint32_t vertex = kNone;  ///< of the exact scene's mesh
     std::uint32_t joint = kNone;   ///< set where the worst is the place of a joint that moves no vertex
-    std::uint32_t cycle = kNone;   ///< kNone: the rest pose
-    double seconds = 0.0;          ///< on the cycle's time line
+    std::uint32_t clip = kNone;    ///< kNone: the rest pose
+    double seconds = 0.0;          ///< on the clip's time line
 };
 
 /// For each mesh of the exact scene where its vertices are in the decoded one; kNone: nowhere, not compared. No maps,
 /// or an empty one: the same places.
 using VertexMaps = std::span<const std::vector<std::uint32_t>>;
 
-/// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every cycle:
-/// at 240 times a second, and at all key times of both scenes. Cycles longer than 7 minutes are sampled as often as
+/// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every clip:
+/// at 240 times a second, and at all key times of both scenes. Clips longer than 7 minutes are sampled as often as
 /// ones of that length. Nothing is left out for speed: a vertex is passed over only where a bound on its displacement
 /// (docs/decisions/0013) shows that it cannot be the worst.
-/// \param decoded   joints, meshes and cycles as the exact scene numbers them
+/// \param decoded   joints, meshes and clips as the exact scene numbers them
 /// \param progress  is told the part that is done, 0 to 1; may be empty
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps = {},
                             const std::function<void(double)>& progress = {});
@@ -37,7 +37,7 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
 /// `"Hips"`, or `#3` of what has no name.
 std::string quoted_name(std::string_view name, std::uint32_t number);
 
-/// Where an error was met, in words: `mesh "Body", vertex 3, cycle "Walk" at 0.250 s`; empty if nowhere.
+/// Where an error was met, in words: `mesh "Body", vertex 3, clip "Walk" at 0.250 s`; empty if nowhere.
 std::string place_of(const Scene& scene, const MeasuredError& error);
 
 }  // namespace bendy::converter

@@ -48,14 +48,14 @@ bool as_fractions(std::span<const float> values, std::vector<std::byte>& bytes) 
 
 }  // namespace
 
-StoredNumbers narrow_fractions(std::span<const float> values) {
+StoredNumbers smallest_exact_fractions(std::span<const float> values) {
     std::vector<std::byte> bytes;
     if (as_fractions<std::uint8_t>(values, bytes)) return {ComponentType::u8, true, std::move(bytes)};
     if (as_fractions<std::uint16_t>(values, bytes)) return {ComponentType::u16, true, std::move(bytes)};
     return {ComponentType::f32, false, std::as_bytes(values)};
 }
 
-StoredNumbers narrow_indices(std::span<const std::uint32_t> values, std::uint64_t count, bool allow_bytes) {
+StoredNumbers smallest_exact_indices(std::span<const std::uint32_t> values, std::uint64_t count, bool allow_bytes) {
     if (allow_bytes && count <= 0x100) return {ComponentType::u8, false, as_integers<std::uint8_t>(values)};
     if (count <= 0x10000) return {ComponentType::u16, false, as_integers<std::uint16_t>(values)};
     return {ComponentType::u32, false, std::as_bytes(values)};
@@ -124,7 +124,7 @@ StoredStream to_stream(std::vector<std::byte> numbers) {
 class NormalList {
 public:
     explicit NormalList(const Mesh& mesh) {
-        for (const Target& target : mesh.targets) {
+        for (const MorphTarget& target : mesh.targets) {
             if (target.is_frame) add(target.normals);
         }
         const std::size_t of_frames = list_.size();
@@ -226,7 +226,7 @@ StoredFrames store_frames(const Mesh& mesh, const NormalList& list) {
     std::vector<std::vector<std::byte>> normals;
     bool is_named = false;
     bool has_zero = false;
-    for (const Target& target : mesh.targets) {
+    for (const MorphTarget& target : mesh.targets) {
         if (!target.is_frame) continue;
         steps.push_back(steps_of(target.positions, target.grid));
         if (!target.normals.empty()) normals.push_back(list.numbers_of(target.normals));

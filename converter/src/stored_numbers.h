@@ -2,7 +2,7 @@
 
 #include <bendy/converter/scene.h>
 #include <bendy/format/byte_reader.h>
-#include <bendy/format/pool.h>
+#include <bendy/format/mesh.h>
 #include <bendy/format/records.h>
 
 #include <glm/vec3.hpp>
@@ -37,10 +37,10 @@ struct StoredNumbers {
 };
 
 /// The narrowest of u8 and u16 (normalised, 0 to 1) that gives back every one of these floats to the bit; else f32.
-StoredNumbers narrow_fractions(std::span<const float> values);
+StoredNumbers smallest_exact_fractions(std::span<const float> values);
 
 /// Indices as u8, if `count` of them need no more and `allow_bytes`, else u16 or u32.
-StoredNumbers narrow_indices(std::span<const std::uint32_t> values, std::uint64_t count, bool allow_bytes);
+StoredNumbers smallest_exact_indices(std::span<const std::uint32_t> values, std::uint64_t count, bool allow_bytes);
 
 /// A stream's integers as they will lie in the file.
 struct StoredStream {

@@ -32,7 +32,7 @@ Value number_value(double number, bool is_whole) {
 
 std::string name_of(const TrackView& track) {
     constexpr std::array<std::string_view, kTrackPaths> kPaths{"translation", "rotation", "scale", "weights"};
-    std::string name = track.path == TrackPath::weights ? "track pool " : "track joint ";
+    std::string name = track.path == TrackPath::weights ? "track mesh " : "track joint ";
     name += std::to_string(track.target) + ' ';
     return name.append(kPaths[static_cast<std::size_t>(track.path)]);
 }
@@ -40,7 +40,7 @@ std::string name_of(const TrackView& track) {
 using TrackKey = std::tuple<std::uint32_t, TrackPath>;
 using TracksByKey = std::map<TrackKey, std::pair<const TrackView*, const TrackView*>>;
 
-TracksByKey pair_tracks(const CycleView& a, const CycleView& b) {
+TracksByKey pair_tracks(const ClipView& a, const ClipView& b) {
     TracksByKey tracks;
     for (const TrackView& track : a.tracks) tracks[{track.target, track.path}].first = &track;
     for (const TrackView& track : b.tracks) tracks[{track.target, track.path}].second = &track;
@@ -99,14 +99,14 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
     const Chunk& other = b_.tree[leaves.b];
     const ObjectView* object_a = a_.objects[chunk.parent];
     const ObjectView* object_b = b_.objects[other.parent];
-    const CycleView* cycle_a = a_.cycles[chunk.parent];
-    const CycleView* cycle_b = b_.cycles[other.parent];
+    const ClipView* clip_a = a_.clips[chunk.parent];
+    const ClipView* clip_b = b_.clips[other.parent];
     if (a_.streams[leaves.a] != nullptr && b_.streams[leaves.b] != nullptr) {
         compare_streams(leaves, *a_.streams[leaves.a], *b_.streams[leaves.b]);
     } else if (chunk.id == FourCC("LODD") && object_a != nullptr && object_b != nullptr) {
         compare_collapses(leaves, *object_a->collapse, *object_b->collapse);
-    } else if (chunk.id == FourCC("MARK") && cycle_a != nullptr && cycle_b != nullptr) {
-        compare_markers(leaves, *cycle_a, *cycle_b);
+    } else if (chunk.id == FourCC("MARK") && clip_a != nullptr && clip_b != nullptr) {
+        compare_markers(leaves, *clip_a, *clip_b);
     } else {
         compare_parts(leaves);
         if (differences_.count() == before) compare_bytes(leaves, a_.tree.payload(leaves.a), b_.tree.payload(leaves.b));
@@ -130,7 +130,7 @@ void ContentComparer::compare_streams(ChunkPair leaves, const StreamView& a, con
         [&](std::uint64_t at) { return number_at(b, at); });
 }
 
-void ContentComparer::compare_markers(ChunkPair leaves, const CycleView& a, const CycleView& b) {
+void ContentComparer::compare_markers(ChunkPair leaves, const ClipView& a, const ClipView& b) {
     if (a.markers.size() != b.markers.size())
         add_value(leaves, "markers", count_of(a.markers.size()), count_of(b.markers.size()));
     for (std::size_t k = 0; k < std::min(a.markers.size(), b.markers.size()); ++k) {
@@ -146,18 +146,18 @@ void ContentComparer::compare_markers(ChunkPair leaves, const CycleView& a, cons
 
 void ContentComparer::compare_collapses(ChunkPair leaves, const CollapseView& a, const CollapseView& b) {
     if (a.levels != b.levels) add_value(leaves, "levels", count_of(a.levels), count_of(b.levels));
-    if (a.pools.size() != b.pools.size())
-        return add_value(leaves, "pools", count_of(a.pools.size()), count_of(b.pools.size()));
+    if (a.meshes.size() != b.meshes.size())
+        return add_value(leaves, "meshes", count_of(a.meshes.size()), count_of(b.meshes.size()));
     const std::uint32_t levels = std::min(a.levels, b.levels);
     compare_numbers(
         leaves, "errors of the levels", levels, 1,
         [&](std::uint64_t k) { return a.error(static_cast<std::uint32_t>(k)); },
         [&](std::uint64_t k) { return b.error(static_cast<std::uint32_t>(k)); });
-    for (std::uint32_t p = 0; p < a.pools.size(); ++p) {
-        const PoolCollapseView& here = a.pools[p];
-        const PoolCollapseView& there = b.pools[p];
-        const std::string part = "pool " + std::to_string(here.pool) + ": ";
-        if (here.pool != there.pool) add_value(leaves, part + "number", count_of(here.pool), count_of(there.pool));
+    for (std::uint32_t p = 0; p < a.meshes.size(); ++p) {
+        const MeshCollapseView& here = a.meshes[p];
+        const MeshCollapseView& there = b.meshes[p];
+        const std::string part = "mesh " + std::to_string(here.mesh) + ": ";
+        if (here.mesh != there.mesh) add_value(leaves, part + "number", count_of(here.mesh), count_of(there.mesh));
         if (here.base != there.base) add_value(leaves, part + "base", count_of(here.base), count_of(there.base));
         const auto compare = [&](const char* what, std::uint64_t count, const auto& number) {
             compare_numbers(
@@ -170,32 +170,33 @@ void ContentComparer::compare_collapses(ChunkPair leaves, const CollapseView& a,
         if (here.base != there.base || here.vertices != there.vertices) continue;
         const std::uint32_t base = here.base;
         compare("targets", here.vertices - base,
-                [&](const CollapseView& view, std::uint32_t k) { return view.pools[p].target(base + k); });
-        compare("joined bits", here.vertices - base,
-                [&](const CollapseView& view, std::uint32_t k) { return view.pools[p].is_joined(base + k) ? 1u : 0u; });
+                [&](const CollapseView& view, std::uint32_t k) { return view.meshes[p].target(base + k); });
+        compare("joined bits", here.vertices - base, [&](const CollapseView& view, std::uint32_t k) {
+            return view.meshes[p].is_joined(base + k) ? 1u : 0u;
+        });
     }
 }
 
-void ContentComparer::compare_cycles(ChunkPair cycles) {
+void ContentComparer::compare_clips(ChunkPair clips) {
     const std::size_t before = differences_.count();
-    const CycleView& a = *a_.cycles[cycles.a];
-    const CycleView& b = *b_.cycles[cycles.b];
+    const ClipView& a = *a_.clips[clips.a];
+    const ClipView& b = *b_.clips[clips.b];
     for (const auto& [key, tracks] : pair_tracks(a, b)) {
         const auto& [here, there] = tracks;
         if (here != nullptr && there != nullptr) {
-            compare_tracks(cycles, name_of(*here), *here, *there);
+            compare_tracks(clips, name_of(*here), *here, *there);
             continue;
         }
         Difference difference;
         difference.kind = there == nullptr ? Difference::Kind::only_in_a : Difference::Kind::only_in_b;
-        difference.chunks = cycles;
+        difference.chunks = clips;
         difference.part = name_of(here != nullptr ? *here : *there);
         differences_.add(std::move(difference));
     }
     if (differences_.count() != before) return;
     // The same tracks; say so if their bytes are others all the same.
     for (const FourCC id : {FourCC("TRAK"), FourCC("PACK"), FourCC("TIME"), FourCC("KEYV")}) {
-        const ChunkPair leaves{a_.tree.find(cycles.a, id), b_.tree.find(cycles.b, id)};
+        const ChunkPair leaves{a_.tree.find(clips.a, id), b_.tree.find(clips.b, id)};
         if (leaves.a == kNone && leaves.b == kNone) continue;
         if (leaves.a != kNone && leaves.b != kNone && have_equal_sums(a_.tree, leaves.a, b_.tree, leaves.b)) continue;
         Difference difference;
@@ -205,24 +206,23 @@ void ContentComparer::compare_cycles(ChunkPair cycles) {
     }
 }
 
-void ContentComparer::compare_tracks(ChunkPair cycles, const std::string& name, const TrackView& a,
-                                     const TrackView& b) {
+void ContentComparer::compare_tracks(ChunkPair clips, const std::string& name, const TrackView& a, const TrackView& b) {
     take(std::uint64_t{a.times.size()} + a.values.size() + b.times.size() + b.values.size());
     const bool are_timed = !a.times.empty() && !b.times.empty();
     if (a.interpolation != b.interpolation) {
         const std::array<std::string, kInterpolations> kNames{"step", "linear", "cubic"};
-        add_value(cycles, name + ": interpolation", Scalar{kNames[static_cast<std::size_t>(a.interpolation)]},
+        add_value(clips, name + ": interpolation", Scalar{kNames[static_cast<std::size_t>(a.interpolation)]},
                   Scalar{kNames[static_cast<std::size_t>(b.interpolation)]});
     }
     if (a.components != b.components)
-        add_value(cycles, name + ": components", count_of(a.components), count_of(b.components));
-    if (a.keys != b.keys) add_value(cycles, name + ": keys", count_of(a.keys), count_of(b.keys));
+        add_value(clips, name + ": components", count_of(a.components), count_of(b.components));
+    if (a.keys != b.keys) add_value(clips, name + ": keys", count_of(a.keys), count_of(b.keys));
     if (a.times.empty() != b.times.empty())
-        add_value(cycles, name + ": fixed frames", Scalar{a.times.empty()}, Scalar{b.times.empty()});
-    if (are_timed) compare_spans(cycles, name + ": times", 1, a.times, b.times);
+        add_value(clips, name + ": fixed frames", Scalar{a.times.empty()}, Scalar{b.times.empty()});
+    if (are_timed) compare_spans(clips, name + ": times", 1, a.times, b.times);
     if (a.interpolation == b.interpolation && a.components == b.components) {
         const std::uint32_t per_key = a.components * (a.interpolation == Interpolation::cubic ? 3 : 1);
-        compare_spans(cycles, name + ": values", per_key, a.values, b.values);
+        compare_spans(clips, name + ": values", per_key, a.values, b.values);
     }
 }
 

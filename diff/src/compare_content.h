@@ -22,14 +22,14 @@ public:
     void compare_leaves(ChunkPair leaves);
     /// Compares two CYCL chunks track by track, a track being known by what it animates. Their TRAK, PACK, TIME and
     /// KEYV are done with this.
-    void compare_cycles(ChunkPair cycles);
+    void compare_clips(ChunkPair clips);
 
 private:
     // Of kinds whose numbers mean more than their bytes say: compare_content.cpp.
     void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
     void compare_collapses(ChunkPair leaves, const CollapseView& a, const CollapseView& b);
-    void compare_markers(ChunkPair leaves, const CycleView& a, const CycleView& b);
-    void compare_tracks(ChunkPair cycles, const std::string& name, const TrackView& a, const TrackView& b);
+    void compare_markers(ChunkPair leaves, const ClipView& a, const ClipView& b);
+    void compare_tracks(ChunkPair clips, const std::string& name, const TrackView& a, const TrackView& b);
 
     // Of every other kind, as leaf_parts.def describes it: compare_parts.cpp.
     void compare_parts(ChunkPair leaves);

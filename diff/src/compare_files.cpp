@@ -19,7 +19,7 @@ void add_stream(ReadFile& file, const std::optional<StreamView>& stream) {
 }
 
 /// The streams of all frames together. \param frame  any of them
-void add_frames(ReadFile& file, const TargetView& frame) {
+void add_frames(ReadFile& file, const MorphTargetView& frame) {
     add_stream(file, frame.places);
     for (const auto* stream : {&frame.positions, &frame.normals}) {
         if (!*stream) continue;
@@ -32,19 +32,19 @@ void add_frames(ReadFile& file, const TargetView& frame) {
     }
 }
 
-void add_streams(ReadFile& file, const PoolView& pool) {
-    add_stream(file, pool.positions);
-    for (const auto* stream : {&pool.normals, &pool.tangents, &pool.bones, &pool.weights, &pool.indices})
+void add_streams(ReadFile& file, const MeshView& mesh) {
+    add_stream(file, mesh.positions);
+    for (const auto* stream : {&mesh.normals, &mesh.tangents, &mesh.bones, &mesh.weights, &mesh.indices})
         add_stream(file, *stream);
-    for (const StreamView& stream : pool.texture_coords) add_stream(file, stream);
-    for (const StreamView& stream : pool.colours) add_stream(file, stream);
-    for (const AttributeView& attribute : pool.attributes) add_stream(file, attribute.values);
-    for (const TargetView& target : pool.targets) {
+    for (const StreamView& stream : mesh.texture_coords) add_stream(file, stream);
+    for (const StreamView& stream : mesh.colours) add_stream(file, stream);
+    for (const AttributeView& attribute : mesh.attributes) add_stream(file, attribute.values);
+    for (const MorphTargetView& target : mesh.targets) {
         if (target.is_frame()) break;
         for (const auto* stream : {&target.vertices, &target.positions, &target.normals, &target.tangents})
             add_stream(file, *stream);
     }
-    if (pool.frames() > 1) add_frames(file, pool.targets.back());
+    if (mesh.frames() > 1) add_frames(file, mesh.targets.back());
 }
 
 /// Chunks whose number among their siblings says something.
@@ -70,35 +70,35 @@ void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Diffe
     }
 }
 
-/// Chunks that are done when the tracks of their cycle have been compared: every way in which tracks are stored.
+/// Chunks that are done when the tracks of their clip have been compared: every way in which tracks are stored.
 bool is_of_tracks(FourCC id) {
     return id == FourCC("TRAK") || id == FourCC("PACK") || id == FourCC("TIME") || id == FourCC("KEYV");
 }
 
-/// Gives packed cycles ordinary tracks beside those that they have.
+/// Gives packed clips ordinary tracks beside those that they have.
 void add_unpacked(ReadFile& file) {
     struct Place {
-        std::size_t object, cycle, tracks;
+        std::size_t object, clip, tracks;
     };
     std::vector<Place> places;
     for (std::size_t o = 0; o < file.document.objects.size(); ++o) {
         const ObjectView& object = file.document.objects[o];
         std::vector<RestRecord> rests;
         for (const JointView& joint : object.skeleton.joints) rests.push_back(joint.rest);
-        for (std::size_t c = 0; c < object.cycles.size(); ++c) {
-            if (!object.cycles[c].packed) continue;
-            std::vector<UnpackedTrack> tracks = unpack_cycle(*object.cycles[c].packed, rests);
+        for (std::size_t c = 0; c < object.clips.size(); ++c) {
+            if (!object.clips[c].packed) continue;
+            std::vector<UnpackedTrack> tracks = unpack_clip(*object.clips[c].packed, rests);
             places.push_back({o, c, tracks.size()});
             std::move(tracks.begin(), tracks.end(), std::back_inserter(file.unpacked));
         }
     }
     std::size_t next = 0;
     for (const Place& place : places) {
-        CycleView& cycle = file.document.objects[place.object].cycles[place.cycle];
+        ClipView& clip = file.document.objects[place.object].clips[place.clip];
         for (std::size_t k = 0; k < place.tracks; ++k) {
             const UnpackedTrack& track = file.unpacked[next++];
-            cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
-                                    static_cast<std::uint32_t>(track.times.size()), track.times, track.values});
+            clip.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
+                                   static_cast<std::uint32_t>(track.times.size()), track.times, track.values});
         }
     }
 }
@@ -113,12 +113,12 @@ std::unique_ptr<ReadFile> read_file(Bytes bytes) {
     file->document = read_document(file->tree, faults);
     add_unpacked(*file);
     file->streams.resize(file->tree.chunks().size());
-    file->cycles.resize(file->tree.chunks().size());
+    file->clips.resize(file->tree.chunks().size());
     file->objects.resize(file->tree.chunks().size());
     for (const ObjectView& object : file->document.objects) {
         file->objects[object.chunk] = &object;
-        for (const PoolView& pool : object.pools) add_streams(*file, pool);
-        for (const CycleView& cycle : object.cycles) file->cycles[cycle.chunk] = &cycle;
+        for (const MeshView& mesh : object.meshes) add_streams(*file, mesh);
+        for (const ClipView& clip : object.clips) file->clips[clip.chunk] = &clip;
     }
     return file;
 }
@@ -147,14 +147,14 @@ Differences compare_files(const ReadFile& a, const ReadFile& b) {
             open.push_back({pair.a, kNone});
             continue;
         }
-        const bool is_cycle = a.cycles[pair.a] != nullptr && b.cycles[pair.b] != nullptr;
-        if (is_cycle) content.compare_cycles(pair);
+        const bool is_clip = a.clips[pair.a] != nullptr && b.clips[pair.b] != nullptr;
+        if (is_clip) content.compare_clips(pair);
         std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
         compare_order(a, children, differences);
         std::reverse(children.begin(), children.end());  // the last that is put on the pile is looked at first
         for (const ChunkPair& child : children) {
             const FourCC id = child.a != kNone ? a.tree[child.a].id : b.tree[child.b].id;
-            if (!(is_cycle && is_of_tracks(id))) open.push_back(child);
+            if (!(is_clip && is_of_tracks(id))) open.push_back(child);
         }
     }
     return differences;

@@ -1,8 +1,8 @@
 #include <bendy/edit/extract.h>
 
 #include "finish.h"
+#include "keep_only.h"
 #include "kept_vertices.h"
-#include "mend.h"
 #include "source.h"
 #include "texture_numbers.h"
 
@@ -67,9 +67,9 @@ void keep_parents(const SkeletonView& skeleton, std::vector<bool>& stays) {
 }
 
 /// Materials that the polygons which stay use, and textures that those, or the joints' own materials, use.
-void keep_used_surfaces(const Source& source, std::size_t object_number, Staying& staying) {
+void keep_used_surfaces(const Source& source, std::size_t object_number, Kept& kept) {
     const ObjectView& object = source.document.objects[object_number];
-    const Staying::Object& here = staying.objects[object_number];
+    const Kept::Object& here = kept.objects[object_number];
     std::vector<bool> used(source.document.materials.size());
     std::size_t local = source.document.global_materials;
     for (std::size_t k = 0; k < object_number; ++k) local += source.document.objects[k].skeleton.local_materials.size();
@@ -78,11 +78,11 @@ void keep_used_surfaces(const Source& source, std::size_t object_number, Staying
         const std::size_t next = j + 1 < firsts.size() ? firsts[j + 1] : object.skeleton.local_materials.size();
         for (std::size_t k = firsts[j]; k < next; ++k) used[local + k] = here.polygons[j];
     }
-    for (const PolygonView& polygons : object.skeleton.polygons) {
-        if (here.polygons[polygons.joint] && polygons.material != kNone) used[polygons.material] = true;
+    for (const SubmeshView& submesh : object.skeleton.submeshes) {
+        if (here.polygons[submesh.joint] && submesh.material != kNone) used[submesh.material] = true;
     }
-    std::copy_n(used.begin(), staying.materials.size(), staying.materials.begin());
-    staying.textures.assign(staying.textures.size(), false);
+    std::copy_n(used.begin(), kept.materials.size(), kept.materials.begin());
+    kept.textures.assign(kept.textures.size(), false);
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
         const MaterialView& material = source.document.materials[m];
@@ -90,11 +90,11 @@ void keep_used_surfaces(const Source& source, std::size_t object_number, Staying
         for (const TextureUseRecord& use :
              {surface.base_colour_texture, surface.metallic_roughness_texture, surface.normal_texture,
               surface.occlusion_texture, surface.emissive_texture}) {
-            if (use.texture != kNone) staying.textures[use.texture] = true;
+            if (use.texture != kNone) kept.textures[use.texture] = true;
         }
         const auto more = texture_numbers(material.extensions);
         for (const std::uint32_t number : more.value_or(std::vector<std::uint32_t>())) {
-            if (number < staying.textures.size()) staying.textures[number] = true;
+            if (number < kept.textures.size()) kept.textures[number] = true;
         }
     }
 }
@@ -115,23 +115,23 @@ std::vector<std::size_t> those_without(const std::vector<bool>& stays) {
     return numbers;
 }
 
-void tell(const Source& source, const Found& found, const Staying& staying, Log& log) {
+void tell(const Source& source, const Found& found, const Kept& kept, Log& log) {
     const ObjectView& object = source.document.objects[found.object];
-    const Staying::Object& here = staying.objects[found.object];
+    const Kept::Object& here = kept.objects[found.object];
     const auto names = joint_names(object);
     std::uint64_t vertices = 0;
     std::uint64_t of = 0;
-    std::vector<bool> pools;
-    std::vector<std::string_view> pool_names;
+    std::vector<bool> meshes;
+    std::vector<std::string_view> mesh_names;
     std::vector<std::string_view> chain_names;
-    for (std::size_t p = 0; p < object.pools.size(); ++p) {
-        pools.push_back(here.pools[p].stays);
-        pool_names.push_back(object.pools[p].name);
-        of += object.pools[p].vertices;
-        if (!here.pools[p].stays) continue;
-        vertices += here.pools[p].vertices.empty() ? object.pools[p].vertices : count(here.pools[p].vertices);
-        if (!here.pools[p].keeps_levels)
-            log.warnings.push_back("mesh \"" + std::string(object.pools[p].name) + "\" keeps no levels of detail");
+    for (std::size_t p = 0; p < object.meshes.size(); ++p) {
+        meshes.push_back(here.meshes[p].stays);
+        mesh_names.push_back(object.meshes[p].name);
+        of += object.meshes[p].vertices;
+        if (!here.meshes[p].stays) continue;
+        vertices += here.meshes[p].vertices.empty() ? object.meshes[p].vertices : count(here.meshes[p].vertices);
+        if (!here.meshes[p].keeps_levels)
+            log.warnings.push_back("mesh \"" + std::string(object.meshes[p].name) + "\" keeps no levels of detail");
     }
     for (const ChainView& chain : object.chains) chain_names.push_back(chain.name);
     log.done.push_back("extracted " + counted(count(here.polygons), names.size(), "joint", "joints") + ", " +
@@ -146,10 +146,10 @@ void tell(const Source& source, const Found& found, const Staying& staying, Log&
         if (const auto gone = those_without(stays); !gone.empty())
             log.done.push_back(std::string(what) + " left out: " + list_names(all, gone));
     };
-    tell_gone(pools, pool_names, "meshes");
+    tell_gone(meshes, mesh_names, "meshes");
     tell_gone(here.chains, chain_names, "chains");
-    if (staying.objects.size() > 1)
-        log.warnings.push_back("other objects left out: " + std::to_string(staying.objects.size() - 1));
+    if (kept.objects.size() > 1)
+        log.warnings.push_back("other objects left out: " + std::to_string(kept.objects.size() - 1));
     if (vertices == 0) log.warnings.emplace_back("no polygon belongs to these joints: the file has no vertices");
 }
 
@@ -164,20 +164,20 @@ Edited extract(Bytes file, std::string_view joint, Log& log) {
     const std::uint32_t end = end_of(object.skeleton, found->joint);
     const auto is_inside = [&](std::uint32_t number) { return number >= found->joint && number < end; };
 
-    Staying staying = everything(source->document);
-    for (std::size_t k = 0; k < staying.objects.size(); ++k) staying.objects[k].stays = k == found->object;
-    Staying::Object& here = staying.objects[found->object];
+    Kept kept = everything(source->document);
+    for (std::size_t k = 0; k < kept.objects.size(); ++k) kept.objects[k].stays = k == found->object;
+    Kept::Object& here = kept.objects[found->object];
     for (std::uint32_t j = 0; j < here.joints.size(); ++j) here.joints[j] = here.polygons[j] = is_inside(j);
     keep_used_vertices(object, here);
     keep_joints_of_vertices(object, here);
     keep_parents(object.skeleton, here.joints);
     for (std::size_t k = 0; k < object.chains.size(); ++k)  // the links lie between start and effector
         here.chains[k] = is_inside(object.chains[k].record.start);
-    keep_used_surfaces(*source, found->object, staying);
+    keep_used_surfaces(*source, found->object, kept);
 
     Rewrite rewrite(source->tree);
-    if (const auto mended = mend(*source, staying, rewrite, log); !mended) return mended.error();
-    tell(*source, *found, staying, log);
+    if (const auto updated = keep_only(*source, kept, rewrite, log); !updated) return updated.error();
+    tell(*source, *found, kept, log);
     return finish(rewrite);
 }
 

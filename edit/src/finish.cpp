@@ -16,13 +16,13 @@ VersionRecord counted(VersionRecord version, const Document& document) {
     version.objects = static_cast<std::uint32_t>(document.objects.size());
     version.materials = static_cast<std::uint32_t>(document.materials.size());
     version.textures = static_cast<std::uint32_t>(document.textures.size());
-    version.joints = version.pools = version.cycles = 0;
+    version.joints = version.meshes = version.clips = 0;
     version.vertices = 0;
     for (const ObjectView& object : document.objects) {
         version.joints += static_cast<std::uint32_t>(object.skeleton.joints.size());
-        version.pools += static_cast<std::uint32_t>(object.pools.size());
-        version.cycles += static_cast<std::uint32_t>(object.cycles.size());
-        for (const PoolView& pool : object.pools) version.vertices += pool.vertices;
+        version.meshes += static_cast<std::uint32_t>(object.meshes.size());
+        version.clips += static_cast<std::uint32_t>(object.clips.size());
+        for (const MeshView& mesh : object.meshes) version.vertices += mesh.vertices;
     }
     return version;
 }

@@ -18,7 +18,7 @@
 namespace bendy::edit {
 namespace {
 
-constexpr std::array<std::string_view, 8> kKinds{"joint",  "cycle",    "chain",   "mesh",
+constexpr std::array<std::string_view, 8> kKinds{"joint",  "clip",     "chain",   "mesh",
                                                  "target", "material", "texture", "object"};
 
 std::string_view kind_of(Named kind) {
@@ -83,7 +83,7 @@ public:
             log_.warnings.push_back("no " + std::string(kind_of(what_.kind)) + " is called " +
                                     list_names(wanted, unused));
         }
-        warn_of_twins(names);
+        warn_of_duplicates(names);
         put(names);
         log_.done.push_back("renamed " + std::to_string(changed) + ' ' + std::string(kind_of(what_.kind)) +
                             (changed == 1                ? ""
@@ -129,35 +129,35 @@ private:
         if (what_.kind == Named::material) {
             for (const MaterialView& material : document.materials) add(material.name, material.chunk, 0);
         }
-        std::size_t pools = 0;
+        std::size_t meshes = 0;
         for (std::size_t o = 0; o < document.objects.size(); ++o) {
             const ObjectView& object = document.objects[o];
             if (what_.kind == Named::object) add(object.name, object.chunk, 0);
             if (what_.kind == Named::joint) {
                 for (const JointView& joint : object.skeleton.joints) add(joint.name, joint.chunk, o);
             }
-            if (what_.kind == Named::cycle) {
-                for (const CycleView& cycle : object.cycles) add(cycle.name, cycle.chunk, o);
+            if (what_.kind == Named::clip) {
+                for (const ClipView& clip : object.clips) add(clip.name, clip.chunk, o);
             }
             if (what_.kind == Named::chain) {
                 for (const ChainView& chain : object.chains) add(chain.name, chain.chunk, o);
             }
-            for (const PoolView& pool : object.pools) {
-                if (what_.kind == Named::mesh) add(pool.name, pool.chunk, o);
-                if (what_.kind == Named::target) add_targets(pool, pools);
-                ++pools;
+            for (const MeshView& mesh : object.meshes) {
+                if (what_.kind == Named::mesh) add(mesh.name, mesh.chunk, o);
+                if (what_.kind == Named::target) add_targets(mesh, meshes);
+                ++meshes;
             }
         }
     }
 
-    void add_targets(const PoolView& pool, std::size_t group) {
+    void add_targets(const MeshView& mesh, std::size_t group) {
         std::size_t target = 0;
-        for (const std::uint32_t child : source_.tree.children(pool.chunk)) {
+        for (const std::uint32_t child : source_.tree.children(mesh.chunk)) {
             if (!(source_.tree[child].id == FourCC("TARG"))) continue;
-            things_.push_back({pool.targets[target++].name, child, group});
+            things_.push_back({mesh.targets[target++].name, child, group});
         }
-        for (; target < pool.targets.size(); ++target)
-            things_.push_back({pool.targets[target].name, pool.targets[target].chunk, group});
+        for (; target < mesh.targets.size(); ++target)
+            things_.push_back({mesh.targets[target].name, mesh.targets[target].chunk, group});
     }
 
     [[nodiscard]] static std::optional<Problem> check(std::string_view before, const std::string& after) {
@@ -177,20 +177,20 @@ private:
     }
 
     /// Things that have come to have one name; some of them by name, if there are many.
-    void warn_of_twins(const std::vector<std::string>& names) {
+    void warn_of_duplicates(const std::vector<std::string>& names) {
         constexpr std::size_t kMostTold = 4;
         std::map<std::pair<std::size_t, std::string_view>, std::size_t> seen;
-        std::size_t twins = 0;
+        std::size_t duplicates = 0;
         for (std::size_t k = 0; k < names.size(); ++k) {
-            const auto [twin, is_new] = seen.try_emplace({things_[k].group, names[k]}, k);
-            const bool were_twins = things_[k].name == things_[twin->second].name;
-            if (is_new || names[k].empty() || were_twins || ++twins > kMostTold) continue;
+            const auto [first, is_new] = seen.try_emplace({things_[k].group, names[k]}, k);
+            const bool were_duplicates = things_[k].name == things_[first->second].name;
+            if (is_new || names[k].empty() || were_duplicates || ++duplicates > kMostTold) continue;
             log_.warnings.push_back("two " + plural() + " are called \"" + names[k] + "\" now: \"" +
-                                    std::string(things_[twin->second].name) + "\" and \"" +
+                                    std::string(things_[first->second].name) + "\" and \"" +
                                     std::string(things_[k].name) + '"');
         }
-        if (twins > kMostTold) {
-            log_.warnings.push_back(std::to_string(twins - kMostTold) + " more " + plural() +
+        if (duplicates > kMostTold) {
+            log_.warnings.push_back(std::to_string(duplicates - kMostTold) + " more " + plural() +
                                     " have another one's name now");
         }
     }

@@ -1,7 +1,7 @@
 #include <bendy/edit/strip.h>
 
 #include "finish.h"
-#include "mend.h"
+#include "keep_only.h"
 #include "source.h"
 
 #include <bendy/edit/names.h>
@@ -26,10 +26,10 @@ constexpr std::array kWords{Word{Part::textures, "texture", "textures"},
                             Word{Part::materials, "material", "materials"},
                             Word{Part::meshes, "mesh", "meshes"},
                             Word{Part::targets, "target", "targets"},
-                            Word{Part::cycles, "cycle", "cycles"},
+                            Word{Part::clips, "clip", "clips"},
                             Word{Part::markers, "", "markers"},
                             Word{Part::chains, "chain", "chains"},
-                            Word{Part::limits, "limit", "limits"},
+                            Word{Part::constraints, "constraint", "constraints"},
                             Word{Part::lod, "", "lod"},
                             Word{Part::tangents, "", "tangents"},
                             Word{Part::colours, "", "colours"},
@@ -56,12 +56,12 @@ struct Things {
 class Stripper {
 public:
     Stripper(const Source& source, const Strip& what, Log& log)
-        : source_(source), what_(what), log_(log), rewrite_(source.tree), staying_(everything(source.document)) {}
+        : source_(source), what_(what), log_(log), rewrite_(source.tree), kept_(everything(source.document)) {}
 
     Edited strip() {
         const auto done = strip_part();
         if (!done) return done.error();
-        if (const auto mended = mend(source_, staying_, rewrite_, log_); !mended) return mended.error();
+        if (const auto updated = keep_only(source_, kept_, rewrite_, log_); !updated) return updated.error();
         return finish(rewrite_);
     }
 
@@ -76,12 +76,12 @@ private:
                 return strip_meshes();
             case Part::targets:
                 return strip_targets();
-            case Part::cycles:
-                return strip_cycles();
+            case Part::clips:
+                return strip_clips();
             case Part::chains:
                 return strip_chains();
-            case Part::limits:
-                return strip_limits();
+            case Part::constraints:
+                return strip_constraints();
             case Part::unknown:
                 return strip_unknown();
             case Part::markers:
@@ -126,7 +126,7 @@ private:
         return all;
     }
 
-    Result<void, Problem> take_out(Things things) {
+    Result<void, Problem> extract(Things things) {
         const auto chosen = choose(things.names);
         if (!chosen) return chosen.error();
         for (const std::size_t k : *chosen) things.stay[k] = false;
@@ -135,95 +135,94 @@ private:
 
     Result<void, Problem> strip_textures() {
         Things things;
-        for (std::size_t t = 0; t < staying_.textures.size(); ++t)
-            things.add(source_.document.textures[t].name, staying_.textures[t]);
-        return take_out(std::move(things));
+        for (std::size_t t = 0; t < kept_.textures.size(); ++t)
+            things.add(source_.document.textures[t].name, kept_.textures[t]);
+        return extract(std::move(things));
     }
 
     Result<void, Problem> strip_materials() {
         Things things;
-        for (std::size_t m = 0; m < staying_.materials.size(); ++m)
-            things.add(source_.document.materials[m].name, staying_.materials[m]);
-        if (what_.name.empty()) staying_.local_materials = false;
-        return take_out(std::move(things));
+        for (std::size_t m = 0; m < kept_.materials.size(); ++m)
+            things.add(source_.document.materials[m].name, kept_.materials[m]);
+        if (what_.name.empty()) kept_.local_materials = false;
+        return extract(std::move(things));
     }
 
     /// Calls visit(object, what stays of it).
     template <class Visit>
     void each_object(const Visit& visit) {
-        for (std::size_t k = 0; k < staying_.objects.size(); ++k)
-            visit(source_.document.objects[k], staying_.objects[k]);
+        for (std::size_t k = 0; k < kept_.objects.size(); ++k) visit(source_.document.objects[k], kept_.objects[k]);
     }
 
     Result<void, Problem> strip_meshes() {
         std::vector<std::string_view> names;
-        std::vector<Staying::Pool*> pools;
-        each_object([&](const ObjectView& object, Staying::Object& here) {
-            for (std::size_t p = 0; p < object.pools.size(); ++p) {
-                names.push_back(object.pools[p].name);
-                pools.push_back(&here.pools[p]);
+        std::vector<Kept::Mesh*> meshes;
+        each_object([&](const ObjectView& object, Kept::Object& here) {
+            for (std::size_t p = 0; p < object.meshes.size(); ++p) {
+                names.push_back(object.meshes[p].name);
+                meshes.push_back(&here.meshes[p]);
             }
         });
         const auto chosen = choose(names);
         if (!chosen) return chosen.error();
-        for (const std::size_t k : *chosen) pools[k]->stays = false;
+        for (const std::size_t k : *chosen) meshes[k]->stays = false;
         return {};
     }
 
     Result<void, Problem> strip_targets() {
         Things things;
-        each_object([&](const ObjectView& object, Staying::Object& here) {
-            for (std::size_t p = 0; p < object.pools.size(); ++p) {
-                for (std::size_t t = 0; t < object.pools[p].targets.size(); ++t)
-                    things.add(object.pools[p].targets[t].name, here.pools[p].targets[t]);
+        each_object([&](const ObjectView& object, Kept::Object& here) {
+            for (std::size_t p = 0; p < object.meshes.size(); ++p) {
+                for (std::size_t t = 0; t < object.meshes[p].targets.size(); ++t)
+                    things.add(object.meshes[p].targets[t].name, here.meshes[p].targets[t]);
             }
         });
-        if (auto done = take_out(std::move(things)); !done) return done;
-        for (std::size_t k = 0; k < staying_.objects.size(); ++k) {
+        if (auto done = extract(std::move(things)); !done) return done;
+        for (std::size_t k = 0; k < kept_.objects.size(); ++k) {
             const ObjectView& object = source_.document.objects[k];
-            for (std::size_t p = 0; p < object.pools.size(); ++p) {
-                if (const auto split = find_split_frames(object.pools[p], staying_.objects[k].pools[p])) return *split;
+            for (std::size_t p = 0; p < object.meshes.size(); ++p) {
+                if (const auto split = find_split_frames(object.meshes[p], kept_.objects[k].meshes[p])) return *split;
             }
         }
         return {};
     }
 
-    /// Frames are one block, and cycles play them by their numbers.
-    static std::optional<Problem> find_split_frames(const PoolView& pool, const Staying::Pool& here) {
-        const auto first = here.targets.begin() + static_cast<std::ptrdiff_t>(pool.first_frame);
+    /// Frames are one block, and clips play them by their numbers.
+    static std::optional<Problem> find_split_frames(const MeshView& mesh, const Kept::Mesh& here) {
+        const auto first = here.targets.begin() + static_cast<std::ptrdiff_t>(mesh.first_frame);
         const auto gone = std::find(first, here.targets.end(), false);
         if (gone == here.targets.end() || std::find(first, here.targets.end(), true) == here.targets.end())
             return std::nullopt;
         return Problem{"target \"" +
-                       std::string(pool.targets[static_cast<std::size_t>(gone - here.targets.begin())].name) +
+                       std::string(mesh.targets[static_cast<std::size_t>(gone - here.targets.begin())].name) +
                        "\" is one of " + std::to_string(here.targets.end() - first) + " frames of mesh \"" +
-                       std::string(pool.name) + "\": they can only be stripped together, with all targets"};
+                       std::string(mesh.name) + "\": they can only be stripped together, with all targets"};
     }
 
-    Result<void, Problem> strip_cycles() {
+    Result<void, Problem> strip_clips() {
         Things things;
-        each_object([&](const ObjectView& object, Staying::Object& here) {
-            for (std::size_t k = 0; k < object.cycles.size(); ++k) things.add(object.cycles[k].name, here.cycles[k]);
+        each_object([&](const ObjectView& object, Kept::Object& here) {
+            for (std::size_t k = 0; k < object.clips.size(); ++k) things.add(object.clips[k].name, here.clips[k]);
         });
-        return take_out(std::move(things));
+        return extract(std::move(things));
     }
 
     Result<void, Problem> strip_chains() {
         Things things;
-        each_object([&](const ObjectView& object, Staying::Object& here) {
+        each_object([&](const ObjectView& object, Kept::Object& here) {
             for (std::size_t k = 0; k < object.chains.size(); ++k) things.add(object.chains[k].name, here.chains[k]);
         });
-        return take_out(std::move(things));
+        return extract(std::move(things));
     }
 
     /// By the names of their joints.
-    Result<void, Problem> strip_limits() {
+    Result<void, Problem> strip_constraints() {
         std::vector<std::string_view> names;
         std::vector<std::uint32_t> chunks;
         for (const ObjectView& object : source_.document.objects) {
-            for (const LimitView& limit : object.skeleton.limits) {
-                names.push_back(object.skeleton.joints[limit.joint].name);
-                chunks.push_back(limit.chunk);
+            for (const ConstraintView& constraint : object.skeleton.constraints) {
+                names.push_back(object.skeleton.joints[constraint.joint].name);
+                chunks.push_back(constraint.chunk);
             }
         }
         const auto chosen = choose(names);
@@ -275,7 +274,7 @@ private:
     const Strip& what_;
     Log& log_;
     Rewrite rewrite_;
-    Staying staying_;
+    Kept kept_;
 };
 
 }  // namespace

@@ -370,7 +370,7 @@ def animate_idle(rig, head):
     })
 
 
-STANCE = 0.60                           # the part of the cycle in which a foot is on the ground
+STANCE = 0.60                           # the part of the clip in which a foot is on the ground
 FOOT_FRONT, FOOT_BACK = -0.285, 0.37     # y of the foot, from where it rests, when it lands and when it leaves, metres
 LANDING_PITCH, LEAVING_PITCH = -18, 40  # degrees, positive: the heel is up
 HEEL = Vector((0, 0.030, -0.090))       # from the ankle
@@ -400,7 +400,7 @@ def foot_on_walk(phase):
 
 
 def animate_walk(rig):
-    """One cycle of two steps on the spot; the left heel lands at time 0."""
+    """One clip of two steps on the spot; the left heel lands at time 0."""
     poser = Poser(rig)
     begin_clip(rig, 'Walk')
     for frame in range(WALK_FRAMES + 1):

@@ -1,4 +1,4 @@
-"""Armatures, joint limits, IK chains and clips for the example characters.
+"""Armatures, joint constraints, IK chains and clips for the example characters.
 
 Space: Blender's world, metres, Z up; angles are degrees where a parameter says so, else radians.
 """

@@ -1,6 +1,6 @@
 #include <bendy/format/codec.h>
 
-#include "cycle_codec.h"
+#include "clip_codec.h"
 #include "mesh_codecs.h"
 #include "planes.h"
 #include "sums_codec.h"
@@ -35,7 +35,7 @@ constexpr std::array<bool, kCodecs> kBuiltIn{
     kHasBoth,           // vertices_zstd
     kHasMeshoptimizer,  // indices
     kHasBoth,           // indices_zstd
-    kHasZstd,           // cycle
+    kHasZstd,           // clip
     kHasZstd,           // sums
 };
 
@@ -84,8 +84,8 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
         case Codec::indices:
         case Codec::indices_zstd:
             return decode_triangles(header, codec == Codec::indices_zstd, body, out);
-        case Codec::cycle:
-            return header.head == 0 && header.stride == 0 && decode_cycle(body, out);
+        case Codec::clip:
+            return header.head == 0 && header.stride == 0 && decode_clip(body, out);
         default:
             return false;
     }

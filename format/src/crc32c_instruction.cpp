@@ -18,10 +18,10 @@ namespace bendy {
 #ifdef BENDY_CRC32C
 namespace {
 
-// The instruction takes three cycles and a new one can start in each, so three stretches are summed side by side and
-// put together: what a sum becomes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al., "Fast
-// CRC Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.)
-// Long lanes first: memory is read ahead along each, and that takes a while to begin.
+// The instruction takes three clock ticks and a new one can start in each, so three stretches are summed side by side
+// and put together: what a sum becomes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al.,
+// "Fast CRC Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.) Long lanes first: memory is read ahead
+// along each, and that takes a while to begin.
 constexpr std::size_t kLongLane = 16384;  // bytes
 constexpr std::size_t kLane = 1024;       // bytes
 

@@ -42,7 +42,7 @@ bool check_target(const CurveRecord& record, const TargetCounts& counts, std::ui
     const std::array<Kind, kCurveTargets> kinds{{{0, ErrorCode::kIndexRange},
                                                  {counts.joints, ErrorCode::kJointRange},
                                                  {counts.materials, ErrorCode::kMaterialRange},
-                                                 {counts.meshes, ErrorCode::kPoolRange},
+                                                 {counts.meshes, ErrorCode::kMeshRange},
                                                  {counts.textures, ErrorCode::kTextureRange}}};
     const auto& [count, fault] = kinds[record.kind];
     if (record.target < count) return true;

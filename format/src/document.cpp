@@ -41,8 +41,8 @@ std::size_t count_children(const ChunkTree& tree, std::uint32_t container, FourC
 void derive_palettes(const ChunkTree& tree, ObjectView& object, std::uint64_t& entries, Faults& faults) {
     std::vector<glm::dmat4> rests;
     const std::uint64_t most = tree.bytes().size() * kMaxCodecRatio / sizeof(glm::mat4);
-    for (PoolView& pool : object.pools) {
-        PaletteView& palette = pool.palette;
+    for (MeshView& mesh : object.meshes) {
+        PaletteView& palette = mesh.palette;
         if (!palette.is_derived) continue;
         if (entries > most) return;  // said once
         entries += palette.joints.size();
@@ -65,49 +65,49 @@ void derive_palettes(const ChunkTree& tree, ObjectView& object, std::uint64_t& e
     }
 }
 
-/// Holds the polygon ranges of the joints against pools and materials, and turns local material numbers into the
+/// Holds the submeshes of the joints against meshes and materials, and turns local material numbers into the
 /// document's. `first_local` is where this object's local materials start in the document.
-void resolve_polygons(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials,
-                      std::uint32_t first_local, Faults& faults) {
+void resolve_submeshes(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials,
+                       std::uint32_t first_local, Faults& faults) {
     SkeletonView& skeleton = object.skeleton;
-    for (PolygonView& polygons : skeleton.polygons) {
-        const std::uint64_t offset = tree[polygons.chunk].offset;
-        if (polygons.pool >= object.pools.size()) {
-            faults.add({ErrorCode::kPoolRange, offset, polygons.pool, object.pools.size()});
+    for (SubmeshView& submesh : skeleton.submeshes) {
+        const std::uint64_t offset = tree[submesh.chunk].offset;
+        if (submesh.mesh >= object.meshes.size()) {
+            faults.add({ErrorCode::kMeshRange, offset, submesh.mesh, object.meshes.size()});
             continue;
         }
-        const PoolView& pool = object.pools[polygons.pool];
-        const std::uint32_t available = pool.indices ? pool.indices->elements : 0;
-        const bool is_readable = pool.indices || (pool.has_info && tree.find(pool.chunk, FourCC("INDX")) == kNone);
+        const MeshView& mesh = object.meshes[submesh.mesh];
+        const std::uint32_t available = mesh.indices ? mesh.indices->elements : 0;
+        const bool is_readable = mesh.indices || (mesh.has_info && tree.find(mesh.chunk, FourCC("INDX")) == kNone);
         if (!is_readable) continue;
-        if (polygons.first > available || polygons.count > available - polygons.first) {
-            faults.add({ErrorCode::kIndexRange, offset, std::uint64_t{polygons.first} + polygons.count, available});
+        if (submesh.first > available || submesh.count > available - submesh.first) {
+            faults.add({ErrorCode::kIndexRange, offset, std::uint64_t{submesh.first} + submesh.count, available});
         }
-        if (polygons.material == kNone) continue;
-        if ((polygons.material & kLocalMaterial) == 0) {
-            if (polygons.material >= global_materials)
-                faults.add({ErrorCode::kMaterialRange, offset, polygons.material, global_materials});
+        if (submesh.material == kNone) continue;
+        if ((submesh.material & kLocalMaterial) == 0) {
+            if (submesh.material >= global_materials)
+                faults.add({ErrorCode::kMaterialRange, offset, submesh.material, global_materials});
             continue;
         }
-        const std::uint32_t local = polygons.material & ~kLocalMaterial;
-        const std::uint32_t first = skeleton.first_local_material[polygons.joint];
-        const std::size_t next = std::size_t{polygons.joint} + 1;
+        const std::uint32_t local = submesh.material & ~kLocalMaterial;
+        const std::uint32_t first = skeleton.first_local_material[submesh.joint];
+        const std::size_t next = std::size_t{submesh.joint} + 1;
         const std::size_t end =
             next < skeleton.joints.size() ? skeleton.first_local_material[next] : skeleton.local_materials.size();
         if (local >= end - first) {
             faults.add({ErrorCode::kMaterialRange, offset, local, end - first});
             continue;
         }
-        polygons.material = first_local + first + local;
+        submesh.material = first_local + first + local;
     }
 }
 
-void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<const PolygonView* const> ranges,
+void check_rigid_sharing(const ChunkTree& tree, const MeshView& mesh, std::span<const SubmeshView* const> ranges,
                          Faults& faults) {
-    std::vector<std::uint32_t> mover(pool.vertices, kNone);
-    for (const PolygonView* range : ranges) {
+    std::vector<std::uint32_t> mover(mesh.vertices, kNone);
+    for (const SubmeshView* range : ranges) {
         for (std::uint32_t k = 0; k < range->count; ++k) {
-            const std::uint32_t vertex = pool.indices->index(range->first + k, 0);
+            const std::uint32_t vertex = mesh.indices->index(range->first + k, 0);
             if (mover[vertex] == kNone) mover[vertex] = range->joint;
             if (mover[vertex] == range->joint) continue;
             faults.add({ErrorCode::kRigidShared, tree[range->chunk].offset, vertex});
@@ -116,30 +116,30 @@ void check_rigid_sharing(const ChunkTree& tree, const PoolView& pool, std::span<
     }
 }
 
-/// The ranges of a pool may not overlap, so that walking over them all is linear in the pool. In a rigid pool a vertex
+/// The ranges of a mesh may not overlap, so that walking over them all is linear in the mesh. In a rigid mesh a vertex
 /// is moved by the joint whose polygons use it, so it cannot be used by two.
 void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
-    std::vector<const PolygonView*> ranges;
-    for (const PolygonView& polygons : object.skeleton.polygons) {
-        if (polygons.count != 0) ranges.push_back(&polygons);
+    std::vector<const SubmeshView*> ranges;
+    for (const SubmeshView& submesh : object.skeleton.submeshes) {
+        if (submesh.count != 0) ranges.push_back(&submesh);
     }
-    std::stable_sort(ranges.begin(), ranges.end(), [](const PolygonView* a, const PolygonView* b) {
-        return std::tie(a->pool, a->first) < std::tie(b->pool, b->first);
+    std::stable_sort(ranges.begin(), ranges.end(), [](const SubmeshView* a, const SubmeshView* b) {
+        return std::tie(a->mesh, a->first) < std::tie(b->mesh, b->first);
     });
     for (std::size_t i = 1; i < ranges.size(); ++i) {
-        const PolygonView& before = *ranges[i - 1];
-        if (before.pool == ranges[i]->pool && ranges[i]->first - before.first < before.count) {
-            faults.add({ErrorCode::kPolygonOverlap, tree[ranges[i]->chunk].offset});
+        const SubmeshView& before = *ranges[i - 1];
+        if (before.mesh == ranges[i]->mesh && ranges[i]->first - before.first < before.count) {
+            faults.add({ErrorCode::kSubmeshOverlap, tree[ranges[i]->chunk].offset});
             return;
         }
     }
     for (auto begin = ranges.begin(); begin != ranges.end();) {
-        const PoolView& pool = object.pools[(*begin)->pool];
+        const MeshView& mesh = object.meshes[(*begin)->mesh];
         const auto end =
-            std::find_if(begin, ranges.end(), [&](const PolygonView* range) { return range->pool != (*begin)->pool; });
+            std::find_if(begin, ranges.end(), [&](const SubmeshView* range) { return range->mesh != (*begin)->mesh; });
         const bool one_joint =
-            std::all_of(begin, end, [&](const PolygonView* range) { return range->joint == (*begin)->joint; });
-        if (pool.is_rigid() && !one_joint) check_rigid_sharing(tree, pool, {begin, end}, faults);
+            std::all_of(begin, end, [&](const SubmeshView* range) { return range->joint == (*begin)->joint; });
+        if (mesh.is_rigid() && !one_joint) check_rigid_sharing(tree, mesh, {begin, end}, faults);
         begin = end;
     }
 }
@@ -184,26 +184,26 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
         object.chains = read_chains(tree, number, object.skeleton, faults);
-        object.pools.reserve(count_children(tree, number, FourCC("VECT")));
-        object.cycles.reserve(count_children(tree, number, FourCC("CYCL")));
+        object.meshes.reserve(count_children(tree, number, FourCC("VECT")));
+        object.clips.reserve(count_children(tree, number, FourCC("CYCL")));
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("VECT") && tree[child].is_container())
-                object.pools.push_back(read_pool(tree, child, joints, faults));
+                object.meshes.push_back(read_mesh(tree, child, joints, faults));
         }
         derive_palettes(tree, object, derived_entries, faults);
         for (const std::uint32_t child : tree.children(number)) {
             if (tree[child].id == FourCC("CYCL") && tree[child].is_container()) {
                 const TargetCounts counts{joints, document.global_materials,
-                                          static_cast<std::uint32_t>(object.pools.size()), textures};
-                object.cycles.push_back(read_cycle(tree, child, counts, object.pools, faults));
+                                          static_cast<std::uint32_t>(object.meshes.size()), textures};
+                object.clips.push_back(read_clip(tree, child, counts, object.meshes, faults));
             }
         }
-        object.collapse = read_collapse(tree, number, object.pools, faults);
+        object.collapse = read_collapse(tree, number, object.meshes, faults);
         const auto first_local = static_cast<std::uint32_t>(document.materials.size());
         for (const std::uint32_t local : object.skeleton.local_materials) {
             document.materials.push_back(read_material(tree, local, textures, faults));
         }
-        resolve_polygons(tree, object, document.global_materials, first_local, faults);
+        resolve_submeshes(tree, object, document.global_materials, first_local, faults);
         if (faults.count() == faults_before) check_ranges(tree, object, faults);
         document.objects.push_back(std::move(object));
     }
@@ -212,9 +212,9 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
 
 void check_values(const ChunkTree& tree, const Document& document, Faults& faults) {
     std::uint64_t joints = 0;
-    std::uint64_t pools = 0;
+    std::uint64_t meshes = 0;
     std::uint64_t vertices = 0;
-    std::uint64_t cycles = 0;
+    std::uint64_t clips = 0;
     if (document.bound) {
         const BoundRecord& bound = *document.bound;
         check_finite(std::array{bound.max_error, bound.measured_error, bound.height},
@@ -224,23 +224,23 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     for (const ObjectView& object : document.objects) {
         check_skeleton_values(tree, object.skeleton, faults);
         for (const ChainView& chain : object.chains) check_chain_values(tree, chain, faults);
-        for (const PoolView& pool : object.pools) {
-            check_pool_values(tree, pool, faults);
-            vertices += pool.vertices;
+        for (const MeshView& mesh : object.meshes) {
+            check_mesh_values(tree, mesh, faults);
+            vertices += mesh.vertices;
         }
-        for (const CycleView& cycle : object.cycles) check_cycle_values(tree, cycle, faults);
+        for (const ClipView& clip : object.clips) check_clip_values(tree, clip, faults);
         joints += object.skeleton.joints.size();
-        pools += object.pools.size();
-        cycles += object.cycles.size();
+        meshes += object.meshes.size();
+        clips += object.clips.size();
     }
     if (!document.version) return;
     const std::uint64_t offset = offset_of(tree, 0, FourCC("VERS"));
     const VersionRecord& version = *document.version;
     check_count(version.objects, document.objects.size(), offset, faults);
     check_count(version.joints, joints, offset, faults);
-    check_count(version.pools, pools, offset, faults);
+    check_count(version.meshes, meshes, offset, faults);
     check_count(version.vertices, vertices, offset, faults);
-    check_count(version.cycles, cycles, offset, faults);
+    check_count(version.clips, clips, offset, faults);
     check_count(version.materials, document.materials.size(), offset, faults);
     check_count(version.textures, document.textures.size(), offset, faults);
 }

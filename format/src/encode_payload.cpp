@@ -1,6 +1,6 @@
 #include <bendy/format/codec.h>
 
-#include "cycle_codec.h"
+#include "clip_codec.h"
 #include "mesh_codecs.h"
 #include "planes.h"
 #include "sums_codec.h"
@@ -42,8 +42,8 @@ std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload,
         case Codec::indices_zstd:
             is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
             break;
-        case Codec::cycle:
-            is_done = head == 0 && stride == 0 && encode_cycle(payload, out);
+        case Codec::clip:
+            is_done = head == 0 && stride == 0 && encode_clip(payload, out);
             break;
         default:
             break;

@@ -1,6 +1,6 @@
 #include <bendy/format/ik_chain.h>
 
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
@@ -52,26 +52,30 @@ bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std
 }
 
 /// Holds the joints' weights against the chains.
-void check_pulls(const ChunkTree& tree, const SkeletonView& skeleton, std::span<const ChainView> chains,
-                 std::span<const std::uint32_t> ends, Faults& faults) {
-    std::vector<const PullView*> good;
-    for (const PullView& pull : skeleton.pulls) {
-        const std::uint64_t offset = tree[pull.chunk].offset;
-        if (pull.chain >= chains.size()) {
-            faults.add({ErrorCode::kChainRange, offset, pull.chain, chains.size()});
+void check_chain_weights(const ChunkTree& tree, const SkeletonView& skeleton, std::span<const ChainView> chains,
+                         std::span<const std::uint32_t> ends, Faults& faults) {
+    std::vector<const ChainWeightView*> good;
+    for (const ChainWeightView& chain_weight : skeleton.chain_weights) {
+        const std::uint64_t offset = tree[chain_weight.chunk].offset;
+        if (chain_weight.chain >= chains.size()) {
+            faults.add({ErrorCode::kChainRange, offset, chain_weight.chain, chains.size()});
             continue;
         }
-        const ChainRecord& chain = chains[pull.chain].record;
-        const bool is_link = chain.start <= pull.joint && pull.joint <= chain.effector &&
-                             chain.effector < ends[pull.joint];  // at or above the effector, not above the start
-        if (!is_link) faults.add({ErrorCode::kPullPath, offset, pull.joint, pull.chain});
-        good.push_back(&pull);
+        const ChainRecord& chain = chains[chain_weight.chain].record;
+        const bool is_link =
+            chain.start <= chain_weight.joint && chain_weight.joint <= chain.effector &&
+            chain.effector < ends[chain_weight.joint];  // at or above the effector, not above the start
+        if (!is_link) faults.add({ErrorCode::kChainWeightPath, offset, chain_weight.joint, chain_weight.chain});
+        good.push_back(&chain_weight);
     }
-    const auto key = [](const PullView* pull) { return std::tie(pull->joint, pull->chain); };
-    std::stable_sort(good.begin(), good.end(), [&](const PullView* a, const PullView* b) { return key(a) < key(b); });
+    const auto key = [](const ChainWeightView* chain_weight) {
+        return std::tie(chain_weight->joint, chain_weight->chain);
+    };
+    std::stable_sort(good.begin(), good.end(),
+                     [&](const ChainWeightView* a, const ChainWeightView* b) { return key(a) < key(b); });
     for (std::size_t i = 1; i < good.size(); ++i) {
         if (key(good[i - 1]) == key(good[i]))
-            faults.add({ErrorCode::kPullRepeated, tree[good[i]->chunk].offset, good[i]->joint, good[i]->chain});
+            faults.add({ErrorCode::kChainWeightRepeated, tree[good[i]->chunk].offset, good[i]->joint, good[i]->chain});
     }
 }
 
@@ -90,7 +94,7 @@ std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, 
         chain.extras = read_text(tree, child, FourCC("EXTR"), faults);
         are_sound = read_record_of(tree, chain, ends, faults) && are_sound;
     }
-    if (are_sound) check_pulls(tree, skeleton, chains, ends, faults);
+    if (are_sound) check_chain_weights(tree, skeleton, chains, ends, faults);
     return chains;
 }
 

@@ -1,6 +1,6 @@
 #include <bendy/format/joint.h>
 
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
@@ -11,26 +11,26 @@
 namespace bendy {
 namespace {
 
-void read_limits(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint, std::vector<LimitView>& limits,
-                 Faults& faults) {
-    std::array<bool, kLimitScopes> seen{};
+void read_constraints(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint,
+                      std::vector<ConstraintView>& constraints, Faults& faults) {
+    std::array<bool, kConstraintScopes> seen{};
     for (const std::uint32_t child : tree.children(pivot)) {
-        LimitView limit;
+        ConstraintView constraint;
         if (!(tree[child].id == FourCC("LIMT")) || tree[child].is_container()) continue;
-        if (!read_limit(tree, child, joint, limit, faults)) continue;
-        if (seen[limit.record.scope]) faults.add({ErrorCode::kLimitRepeated, tree[child].offset, joint});
-        seen[limit.record.scope] = true;
-        limits.push_back(limit);
+        if (!read_constraint(tree, child, joint, constraint, faults)) continue;
+        if (seen[constraint.record.scope]) faults.add({ErrorCode::kConstraintRepeated, tree[child].offset, joint});
+        seen[constraint.record.scope] = true;
+        constraints.push_back(constraint);
     }
 }
 
-void read_pulls(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint, std::vector<PullView>& pulls,
-                Faults& faults) {
+void read_chain_weights(const ChunkTree& tree, std::uint32_t pivot, std::uint32_t joint,
+                        std::vector<ChainWeightView>& chain_weights, Faults& faults) {
     for (const std::uint32_t child : tree.children(pivot)) {
         if (!(tree[child].id == FourCC("PULL")) || tree[child].is_container()) continue;
-        const Result<PullRecord> record = read_record<PullRecord>(tree, child);
+        const Result<ChainWeightRecord> record = read_record<ChainWeightRecord>(tree, child);
         if (record) {
-            pulls.push_back({child, joint, record->chain, record->weight});
+            chain_weights.push_back({child, joint, record->chain, record->weight});
         } else {
             faults.add(record.error());
         }
@@ -44,29 +44,29 @@ void read_pivot(const ChunkTree& tree, std::uint32_t skin, SkeletonView& skeleto
     const auto joint = static_cast<std::uint32_t>(skeleton.joints.size() - 1);
     const auto rest = read_child_record<RestRecord>(tree, pivot, FourCC("REST"), faults);
     if (rest) skeleton.joints.back().rest = *rest;
-    read_limits(tree, pivot, joint, skeleton.limits, faults);
-    read_pulls(tree, pivot, joint, skeleton.pulls, faults);
+    read_constraints(tree, pivot, joint, skeleton.constraints, faults);
+    read_chain_weights(tree, pivot, joint, skeleton.chain_weights, faults);
 }
 
-void add_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, const PolygonRecord& record,
-                  std::vector<PolygonView>& polygons, Faults& faults) {
+void add_submesh(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, const SubmeshRecord& record,
+                 std::vector<SubmeshView>& submeshes, Faults& faults) {
     const std::uint64_t offset = tree[chunk].offset;
     check_reserved(record.reserved, offset, faults);
     if (!check_enum(record.topology, kTopologies, offset, faults)) return;
     const auto topology = static_cast<Topology>(record.topology);
     if (record.count % corners(topology) != 0)
         faults.add({ErrorCode::kPolygonCut, offset, record.count, corners(topology)});
-    polygons.push_back({chunk, joint, record.pool, record.material, topology, record.first, record.count});
+    submeshes.push_back({chunk, joint, record.mesh, record.material, topology, record.first, record.count});
 }
 
-void read_polygons(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, std::vector<PolygonView>& polygons,
-                   Faults& faults) {
-    const Result<PolygonRecord> record = read_record<PolygonRecord>(tree, chunk);
+void read_submeshes(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint,
+                    std::vector<SubmeshView>& submeshes, Faults& faults) {
+    const Result<SubmeshRecord> record = read_record<SubmeshRecord>(tree, chunk);
     if (!record) {
         faults.add(record.error());
         return;
     }
-    add_polygons(tree, chunk, joint, *record, polygons, faults);
+    add_submesh(tree, chunk, joint, *record, submeshes, faults);
 }
 
 /// What JNTS says of all joints; a REST of a joint's own goes before it.
@@ -81,7 +81,7 @@ void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& 
     check_reserved(record->reserved, offset, faults);
     const Bytes payload = tree.payload(chunk);
     const std::uint64_t polygons_at = sizeof(JointsRecord) + std::uint64_t{record->joints} * sizeof(RestRecord);
-    const std::uint64_t size = polygons_at + std::uint64_t{record->polygons} * sizeof(JointPolygons);
+    const std::uint64_t size = polygons_at + std::uint64_t{record->submeshes} * sizeof(JointSubmesh);
     if (payload.size() != size) {
         faults.add({ErrorCode::kRecordSize, offset, payload.size(), size});
         return;
@@ -96,17 +96,17 @@ void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& 
         if (pivot != kNone && tree.find(pivot, FourCC("REST")) != kNone) continue;
         copy_at(payload, sizeof(JointsRecord) + std::uint64_t{joint} * sizeof(RestRecord), view.rest);
     }
-    for (std::uint32_t k = 0; k < record->polygons; ++k) {
-        JointPolygons range;
+    for (std::uint32_t k = 0; k < record->submeshes; ++k) {
+        JointSubmesh range;
         copy_at(payload, polygons_at + std::uint64_t{k} * sizeof range, range);
         if (range.joint >= record->joints) {
             faults.add({ErrorCode::kJointRange, offset, range.joint, record->joints});
             return;
         }
-        add_polygons(tree, chunk, range.joint, range.polygons, skeleton.polygons, faults);
+        add_submesh(tree, chunk, range.joint, range.submesh, skeleton.submeshes, faults);
     }
-    std::stable_sort(skeleton.polygons.begin(), skeleton.polygons.end(),
-                     [](const PolygonView& a, const PolygonView& b) { return a.joint < b.joint; });
+    std::stable_sort(skeleton.submeshes.begin(), skeleton.submeshes.end(),
+                     [](const SubmeshView& a, const SubmeshView& b) { return a.joint < b.joint; });
 }
 
 /// Without JNTS, every joint must say its rest transform itself.
@@ -176,7 +176,7 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
             continue;
         }
         if (in_joint && chunk.id == FourCC("POLY") && !chunk.is_container()) {
-            read_polygons(tree, number, open.back().joint, skeleton.polygons, faults);
+            read_submeshes(tree, number, open.back().joint, skeleton.submeshes, faults);
         }
         // A joint's own materials; its children's come later in the file, so a joint's are consecutive only if they
         // stand before its first SKIN, which is where the table below needs them.
@@ -211,11 +211,12 @@ void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, 
         check_finite(rest.shear, offset, faults);
         if (!is_unit(rest.rotation, kUnitTolerance)) faults.add({ErrorCode::kRotationNotUnit, offset, joint});
     }
-    for (const LimitView& limit : skeleton.limits)
-        check_limit(limit.record, limit.joint, tree[limit.chunk].offset, faults);
-    for (const PullView& pull : skeleton.pulls) {
-        if (!(pull.weight >= 0.0f && pull.weight <= 1.0f))
-            faults.add({ErrorCode::kFractionRange, tree[pull.chunk].offset, offsetof(PullRecord, weight)});
+    for (const ConstraintView& constraint : skeleton.constraints)
+        check_constraint(constraint.record, constraint.joint, tree[constraint.chunk].offset, faults);
+    for (const ChainWeightView& chain_weight : skeleton.chain_weights) {
+        if (!(chain_weight.weight >= 0.0f && chain_weight.weight <= 1.0f))
+            faults.add(
+                {ErrorCode::kFractionRange, tree[chain_weight.chunk].offset, offsetof(ChainWeightRecord, weight)});
     }
 }
 

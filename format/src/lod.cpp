@@ -34,33 +34,33 @@ private:
 
 class CollapseReader {
 public:
-    CollapseReader(const ChunkTree& tree, std::uint32_t chunk, std::span<const PoolView> pools, Faults& faults)
-        : payload_(tree.payload(chunk)), offset_(tree[chunk].offset), pools_(pools), faults_(faults) {
+    CollapseReader(const ChunkTree& tree, std::uint32_t chunk, std::span<const MeshView> meshes, Faults& faults)
+        : payload_(tree.payload(chunk)), offset_(tree[chunk].offset), meshes_(meshes), faults_(faults) {
         view_.chunk = chunk;
     }
 
     std::optional<CollapseView> read(const CollapseRecord& record) {
         check_reserved(record.reserved, offset_, faults_);
         Cutter cutter(payload_, sizeof(CollapseRecord));
-        if (record.pools > cutter.left() / sizeof(PoolCollapseRecord)) {
+        if (record.meshes > cutter.left() / sizeof(MeshCollapseRecord)) {
             return fault({ErrorCode::kRecordSize, offset_, payload_.size(),
-                          sizeof(CollapseRecord) + std::uint64_t{record.pools} * sizeof(PoolCollapseRecord)});
+                          sizeof(CollapseRecord) + std::uint64_t{record.meshes} * sizeof(MeshCollapseRecord)});
         }
         const auto table =
-            view_at<PoolCollapseRecord>(cutter.take(record.pools * sizeof(PoolCollapseRecord)), 0, record.pools);
-        const std::uint64_t row = (std::uint64_t{1} + record.pools) * sizeof(std::uint32_t);
+            view_at<MeshCollapseRecord>(cutter.take(record.meshes * sizeof(MeshCollapseRecord)), 0, record.meshes);
+        const std::uint64_t row = (std::uint64_t{1} + record.meshes) * sizeof(std::uint32_t);
         if (record.levels > cutter.left() / row) {
             return fault({ErrorCode::kRecordSize, offset_, payload_.size(), payload_.size() - cutter.left() + row});
         }
         view_.levels = record.levels;
         view_.rows = cutter.take(record.levels * row);
-        for (const PoolCollapseRecord& pool : table) check_reserved(pool.reserved, offset_, faults_);
+        for (const MeshCollapseRecord& mesh : table) check_reserved(mesh.reserved, offset_, faults_);
         const bool sizes_are_known =
-            std::all_of(pools_.begin(), pools_.end(), [](const PoolView& pool) { return pool.has_info; });
+            std::all_of(meshes_.begin(), meshes_.end(), [](const MeshView& mesh) { return mesh.has_info; });
         if (!sizes_are_known) return std::nullopt;  // a fault has said so
-        view_.pools.reserve(record.pools);
-        for (const PoolCollapseRecord& pool : table) {
-            if (!read_pool(pool)) return std::nullopt;
+        view_.meshes.reserve(record.meshes);
+        for (const MeshCollapseRecord& mesh : table) {
+            if (!read_mesh(mesh)) return std::nullopt;
         }
         if (!read_targets(cutter)) return std::nullopt;
         if (!check_levels()) return std::nullopt;
@@ -73,16 +73,16 @@ private:
         return std::nullopt;
     }
 
-    bool read_pool(const PoolCollapseRecord& record) {
-        if (record.pool >= pools_.size()) {
-            faults_.add({ErrorCode::kPoolRange, offset_, record.pool, pools_.size()});
+    bool read_mesh(const MeshCollapseRecord& record) {
+        if (record.mesh >= meshes_.size()) {
+            faults_.add({ErrorCode::kMeshRange, offset_, record.mesh, meshes_.size()});
             return false;
         }
-        if (!view_.pools.empty() && record.pool <= view_.pools.back().pool) {
-            faults_.add({ErrorCode::kCollapsePool, offset_, record.pool, view_.pools.back().pool});
+        if (!view_.meshes.empty() && record.mesh <= view_.meshes.back().mesh) {
+            faults_.add({ErrorCode::kCollapseMesh, offset_, record.mesh, view_.meshes.back().mesh});
             return false;
         }
-        const std::uint32_t vertices = pools_[record.pool].vertices;
+        const std::uint32_t vertices = meshes_[record.mesh].vertices;
         if (record.base > vertices) {
             faults_.add({ErrorCode::kIndexRange, offset_, record.base, vertices});
             return false;
@@ -92,25 +92,25 @@ private:
             faults_.add({ErrorCode::kStreamType, offset_});
             return false;
         }
-        view_.pools.push_back({record.pool, record.base, vertices, type, {}, {}});
+        view_.meshes.push_back({record.mesh, record.base, vertices, type, {}, {}});
         return true;
     }
 
     bool read_targets(Cutter& cutter) {
-        std::uint64_t needed = 0;  // fewer than 2^32 pools, all different, of 2^32 vertices of 5 bytes: no overflow
-        for (const PoolCollapseView& pool : view_.pools) {
-            const std::uint64_t count = pool.vertices - pool.base;
-            needed += collapse_targets_size(count, pool.type) + collapse_bits_size(count);
+        std::uint64_t needed = 0;  // fewer than 2^32 meshes, all different, of 2^32 vertices of 5 bytes: no overflow
+        for (const MeshCollapseView& mesh : view_.meshes) {
+            const std::uint64_t count = mesh.vertices - mesh.base;
+            needed += collapse_targets_size(count, mesh.type) + collapse_bits_size(count);
         }
         if (needed != cutter.left()) {
             faults_.add({ErrorCode::kRecordSize, offset_, payload_.size(), payload_.size() - cutter.left() + needed});
             return false;
         }
-        for (PoolCollapseView& pool : view_.pools) {
-            const std::uint64_t count = pool.vertices - pool.base;
-            pool.targets = cutter.take(count * component_size(pool.type));
-            pool.joined = cutter.take((count + 7) / 8);
-            if (!check_pool(pool)) return false;
+        for (MeshCollapseView& mesh : view_.meshes) {
+            const std::uint64_t count = mesh.vertices - mesh.base;
+            mesh.targets = cutter.take(count * component_size(mesh.type));
+            mesh.joined = cutter.take((count + 7) / 8);
+            if (!check_mesh(mesh)) return false;
         }
         if (cutter.gaps() != 0) {
             faults_.add({ErrorCode::kReservedField, offset_, cutter.gaps()});
@@ -119,15 +119,15 @@ private:
         return true;
     }
 
-    bool check_pool(const PoolCollapseView& pool) {
-        for (std::uint32_t vertex = pool.base; vertex < pool.vertices; ++vertex) {
-            if (pool.target(vertex) < vertex) continue;
-            faults_.add({ErrorCode::kCollapseTarget, offset_, vertex, pool.target(vertex)});
+    bool check_mesh(const MeshCollapseView& mesh) {
+        for (std::uint32_t vertex = mesh.base; vertex < mesh.vertices; ++vertex) {
+            if (mesh.target(vertex) < vertex) continue;
+            faults_.add({ErrorCode::kCollapseTarget, offset_, vertex, mesh.target(vertex)});
             return false;
         }
-        const std::uint32_t count = pool.vertices - pool.base;
-        const bool first_is_joined = count != 0 && pool.is_joined(pool.base);
-        const auto spare = count % 8 == 0 ? 0u : std::to_integer<unsigned>(pool.joined.back()) >> (count % 8);
+        const std::uint32_t count = mesh.vertices - mesh.base;
+        const bool first_is_joined = count != 0 && mesh.is_joined(mesh.base);
+        const auto spare = count % 8 == 0 ? 0u : std::to_integer<unsigned>(mesh.joined.back()) >> (count % 8);
         if (!first_is_joined && spare == 0) return true;
         faults_.add({ErrorCode::kReservedField, offset_, first_is_joined ? 1 : spare});
         return false;
@@ -137,10 +137,10 @@ private:
         for (std::uint32_t level = 0; level < view_.levels; ++level) {
             const float before = level == 0 ? 0.0f : view_.error(level - 1);
             bool follows = std::isfinite(view_.error(level)) && view_.error(level) >= before;
-            for (std::uint32_t place = 0; place < view_.pools.size(); ++place) {
-                const std::uint32_t most = level == 0 ? view_.pools[place].vertices : view_.alive(level - 1, place);
+            for (std::uint32_t place = 0; place < view_.meshes.size(); ++place) {
+                const std::uint32_t most = level == 0 ? view_.meshes[place].vertices : view_.alive(level - 1, place);
                 const std::uint32_t alive = view_.alive(level, place);
-                follows = follows && alive <= most && alive >= view_.pools[place].base;
+                follows = follows && alive <= most && alive >= view_.meshes[place].base;
             }
             if (follows) continue;
             faults_.add({ErrorCode::kCollapseLevel, offset_, level});
@@ -151,14 +151,14 @@ private:
 
     Bytes payload_;
     std::uint64_t offset_;
-    std::span<const PoolView> pools_;
+    std::span<const MeshView> meshes_;
     Faults& faults_;
     CollapseView view_;
 };
 
 }  // namespace
 
-std::uint32_t PoolCollapseView::target(std::uint32_t vertex) const {
+std::uint32_t MeshCollapseView::target(std::uint32_t vertex) const {
     assert(vertex >= base && vertex < vertices);
     const std::uint64_t at = std::uint64_t{vertex} - base;
     if (type == ComponentType::u32) {
@@ -171,7 +171,7 @@ std::uint32_t PoolCollapseView::target(std::uint32_t vertex) const {
     return number;
 }
 
-bool PoolCollapseView::is_joined(std::uint32_t vertex) const {
+bool MeshCollapseView::is_joined(std::uint32_t vertex) const {
     assert(vertex >= base && vertex < vertices);
     const std::uint32_t bit = vertex - base;
     return (std::to_integer<unsigned>(joined[bit / 8]) >> (bit % 8) & 1u) != 0;
@@ -180,18 +180,18 @@ bool PoolCollapseView::is_joined(std::uint32_t vertex) const {
 float CollapseView::error(std::uint32_t level) const {
     assert(level < levels);
     float number = 0.0f;
-    copy_at(rows, level * (std::uint64_t{1} + pools.size()) * sizeof number, number);
+    copy_at(rows, level * (std::uint64_t{1} + meshes.size()) * sizeof number, number);
     return number;
 }
 
 std::uint32_t CollapseView::alive(std::uint32_t level, std::uint32_t place) const {
-    assert(level < levels && place < pools.size());
+    assert(level < levels && place < meshes.size());
     std::uint32_t number = 0;
-    copy_at(rows, (level * (std::uint64_t{1} + pools.size()) + 1 + place) * sizeof number, number);
+    copy_at(rows, (level * (std::uint64_t{1} + meshes.size()) + 1 + place) * sizeof number, number);
     return number;
 }
 
-std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t object, std::span<const PoolView> pools,
+std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t object, std::span<const MeshView> meshes,
                                           Faults& faults) {
     const std::uint32_t chunk = tree.find(object, FourCC("LODD"));
     if (chunk == kNone || tree[chunk].is_container()) return std::nullopt;
@@ -200,7 +200,7 @@ std::optional<CollapseView> read_collapse(const ChunkTree& tree, std::uint32_t o
         faults.add(record.error());
         return std::nullopt;
     }
-    return CollapseReader(tree, chunk, pools, faults).read(*record);
+    return CollapseReader(tree, chunk, meshes, faults).read(*record);
 }
 
 }  // namespace bendy

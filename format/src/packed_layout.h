@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include <cstdint>
 
@@ -36,7 +36,7 @@ inline std::uint64_t table_bytes(const PackedList& list, const PackedKind& kind)
     return std::uint64_t{list.count} * kind.components * (1 + list.base_bytes);
 }
 
-/// Of cycles with an animated track.
+/// Of clips with an animated track.
 inline std::uint32_t segment_count(const PackRecord& record) {
     if (record.segment_frames == 0 || record.frames < 2) return 1;
     return (record.frames - 2) / record.segment_frames + 1;

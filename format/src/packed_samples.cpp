@@ -1,4 +1,4 @@
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include "packed_layout.h"
 
@@ -103,7 +103,7 @@ PackedSamples packed_samples(const PackedView& view) {
     return samples;
 }
 
-std::vector<UnpackedTrack> unpack_cycle(const PackedView& view, std::span<const RestRecord> rests) {
+std::vector<UnpackedTrack> unpack_clip(const PackedView& view, std::span<const RestRecord> rests) {
     std::vector<UnpackedTrack> tracks;
     for (const PackedTrack& packed : packed_samples(view).tracks) {
         UnpackedTrack track;

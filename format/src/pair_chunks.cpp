@@ -22,8 +22,8 @@ std::string_view key_of(const ChunkTree& tree, std::uint32_t number) {
         return payload.size() < offset + size ? std::string_view() : as_text(payload.subspan(offset, size));
     };
     if (chunk.id == FourCC("TEXC") || chunk.id == FourCC("COLR")) return field(offsetof(StreamRecord, set), 4);
-    if (chunk.id == FourCC("LIMT")) return field(offsetof(LimitRecord, scope), 1);
-    if (chunk.id == FourCC("PULL")) return field(offsetof(PullRecord, chain), 4);
+    if (chunk.id == FourCC("LIMT")) return field(offsetof(ConstraintRecord, scope), 1);
+    if (chunk.id == FourCC("PULL")) return field(offsetof(ChainWeightRecord, chain), 4);
     return {};
 }
 

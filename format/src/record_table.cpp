@@ -129,19 +129,19 @@ constexpr RecordLayout kLayouts[] = {
 #include <bendy/format/records.def>
 };
 
-/// JNTS: a joint and the fields of a PolygonRecord, as one record.
+/// JNTS: a joint and the fields of a SubmeshRecord, as one record.
 constexpr auto kJointPolygonsFields = [] {
-    constexpr std::span<const RecordField> kRange = fields_of("PolygonRecord");
+    constexpr std::span<const RecordField> kRange = fields_of("SubmeshRecord");
     std::array<RecordField, 1 + kRange.size()> fields{};
-    fields[0] = make_field("JointPolygons", "joint", "u32", 1, 0);
+    fields[0] = make_field("JointSubmesh", "joint", "u32", 1, 0);
     fields[0].reference.entity = Entity::joint;
     for (std::size_t k = 0; k < kRange.size(); ++k) {
         fields[k + 1] = kRange[k];
-        fields[k + 1].offset += offsetof(JointPolygons, polygons);
+        fields[k + 1].offset += offsetof(JointSubmesh, polygons);
     }
     return fields;
 }();
-constexpr RecordLayout kJointPolygons{"JointPolygons", FourCC("JNTS"), sizeof(JointPolygons), sizeof(JointPolygons),
+constexpr RecordLayout kJointPolygons{"JointSubmesh", FourCC("JNTS"), sizeof(JointSubmesh), sizeof(JointSubmesh),
                                       kJointPolygonsFields};
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What calls zstd, for a library without it: check_encoded refuses all that would be decoded here.
-#include "cycle_codec.h"
+#include "clip_codec.h"
 #include "zstd_frame.h"
 
 namespace bendy {
@@ -13,10 +13,10 @@ std::optional<std::uint64_t> zstd_size(Bytes /*bytes*/) {
 bool put_zstd(Bytes /*bytes*/, std::vector<std::byte>& /*out*/) {
     return false;
 }
-bool decode_cycle(Bytes /*body*/, std::span<std::byte> /*out*/) {
+bool decode_clip(Bytes /*body*/, std::span<std::byte> /*out*/) {
     return false;
 }
-bool encode_cycle(Bytes /*payload*/, std::vector<std::byte>& /*out*/) {
+bool encode_clip(Bytes /*payload*/, std::vector<std::byte>& /*out*/) {
     return false;
 }
 

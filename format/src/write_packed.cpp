@@ -1,4 +1,4 @@
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include "packed_layout.h"
 

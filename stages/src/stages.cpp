@@ -12,21 +12,21 @@ namespace {
 constexpr float kFrame = 1.0f / 60.0f;  // seconds
 
 bool has_attribute(const Model& model, std::size_t attribute) {
-    const auto pools = model.pools();
-    return std::any_of(pools.begin(), pools.end(), [&](const Pool& pool) {
-        return attribute == 0 || (attribute == 1 ? pool.normals.has_value() : pool.tangents.has_value());
+    const auto meshes = model.meshes();
+    return std::any_of(meshes.begin(), meshes.end(), [&](const Mesh& mesh) {
+        return attribute == 0 || (attribute == 1 ? mesh.normals.has_value() : mesh.tangents.has_value());
     });
 }
 
 }  // namespace
 
-Stages::Stages(const Open& open, const Model& model, const Cycle* cycle)
+Stages::Stages(const Open& open, const Model& model, const Clip* clip)
     : model_(model),
-      cycle_(cycle),
+      clip_(clip),
       pose_(model),
       other_(model),
       lod_(model),
-      seconds_(cycle == nullptr ? 0.0f : cycle->start),
+      seconds_(clip == nullptr ? 0.0f : clip->start),
       positions_(model.vertex_count()),
       normals_(has_attribute(model, 1) ? model.vertex_count() : 0),
       tangents_(has_attribute(model, 2) ? model.vertex_count() : 0),
@@ -34,7 +34,7 @@ Stages::Stages(const Open& open, const Model& model, const Cycle* cycle)
     add_opening(open);
     add_posing();
     add_skinning();
-    add_inbetweening();
+    add_morphing();
     add_reaching();
     add_levels();
 }
@@ -50,33 +50,32 @@ void Stages::add_opening(const Open& open) {
         options.sums = Sums::later;
         (void)open(options);
     });
-    const std::size_t cycle = cycle_ == nullptr ? 0 : static_cast<std::size_t>(cycle_ - model_.cycles().data());
-    add("open to the first pose", "file", 1.0, [open, cycle] {
+    const std::size_t clip = clip_ == nullptr ? 0 : static_cast<std::size_t>(clip_ - model_.clips().data());
+    add("open to the first pose", "file", 1.0, [open, clip] {
         const Result<Model> opened = open({});
         if (!opened) return;
         Pose pose(*opened);
-        if (cycle < opened->cycles().size())
-            (void)sample(pose, &opened->cycles()[cycle], opened->cycles()[cycle].start);
+        if (clip < opened->clips().size()) (void)sample(pose, &opened->clips()[clip], opened->clips()[clip].start);
         (void)pose.model_space();
     });
 }
 
 void Stages::next_frame() {
     seconds_ += kFrame;
-    if (!(seconds_ <= cycle_->end)) seconds_ = cycle_->start;
-    (void)sample(pose_, cycle_, seconds_);
+    if (!(seconds_ <= clip_->end)) seconds_ = clip_->start;
+    (void)sample(pose_, clip_, seconds_);
 }
 
 void Stages::add_posing() {
     const auto joints = static_cast<double>(model_.joints().size());
-    if (cycle_ != nullptr) {
+    if (clip_ != nullptr) {
         add("sample, next frame", "joint", joints, [this] { next_frame(); });
         add("sample, random time", "joint", joints, [this] {
             const float share = static_cast<float>(random_() >> 8) / 16777216.0f;
-            (void)sample(pose_, cycle_, cycle_->start + share * (cycle_->end - cycle_->start));
+            (void)sample(pose_, clip_, clip_->start + share * (clip_->end - clip_->start));
         });
     }
-    if (cycle_ != nullptr) (void)sample(other_, cycle_, 0.5f * (cycle_->start + cycle_->end));
+    if (clip_ != nullptr) (void)sample(other_, clip_, 0.5f * (clip_->start + clip_->end));
     add("blend two poses", "joint", joints, [this] { (void)blend(pose_, other_, 0.5f); });
     add("local to model", "joint", joints, [this] {
         (void)pose_.change_local();
@@ -85,7 +84,7 @@ void Stages::add_posing() {
     add("local to model and palettes", "joint", joints, [this] {
         (void)pose_.change_local();
         (void)pose_.model_space();
-        for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool) (void)pose_.palette(pool);
+        for (std::uint32_t mesh = 0; mesh < model_.meshes().size(); ++mesh) (void)pose_.palette(mesh);
     });
 }
 
@@ -107,21 +106,21 @@ void Stages::add_skinning() {
         add(kNames.at(attributes - 1), "vertex", vertices, [this, attributes] { skin_attributes(attributes); });
     }
     add("a whole frame", "character", 1.0, [this, most] {
-        if (cycle_ != nullptr) next_frame();
+        if (clip_ != nullptr) next_frame();
         (void)pose_.change_local();
         skin_attributes(most);
     });
 }
 
-void Stages::add_inbetweening() {
+void Stages::add_morphing() {
     double moved = 0.0;
-    for (const Pool& pool : model_.pools()) moved += pool.targets.empty() ? 0.0 : pool.vertices;
-    add("inbetween, all targets", "vertex", moved, [this] {
-        for (std::uint32_t number = 0; number < model_.pools().size(); ++number) {
-            const Pool& pool = model_.pools()[number];
-            if (pool.targets.empty()) continue;
-            const auto weights = std::span(weights_).subspan(model_.first_target(number), pool.targets.size());
-            (void)inbetween(pool, weights, {positions_, normals_, {}});
+    for (const Mesh& mesh : model_.meshes()) moved += mesh.targets.empty() ? 0.0 : mesh.vertices;
+    add("morph, all targets", "vertex", moved, [this] {
+        for (std::uint32_t number = 0; number < model_.meshes().size(); ++number) {
+            const Mesh& mesh = model_.meshes()[number];
+            if (mesh.targets.empty()) continue;
+            const auto weights = std::span(weights_).subspan(model_.first_morph_target(number), mesh.targets.size());
+            (void)apply_morph_targets(mesh, weights, {positions_, normals_, {}});
         }
     });
 }

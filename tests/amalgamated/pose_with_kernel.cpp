@@ -30,8 +30,8 @@ void pose_all(const bendy::Model& model) {
     bendy::Pose pose(model);
     bendy::Lod lod(model);
     print(model, pose, lod);
-    for (const bendy::Cycle& cycle : model.cycles()) {
-        (void)bendy::sample(pose, &cycle, cycle.start + 0.3f * (cycle.end - cycle.start));
+    for (const bendy::Clip& clip : model.clips()) {
+        (void)bendy::sample(pose, &clip, clip.start + 0.3f * (clip.end - clip.start));
         print(model, pose, lod);
     }
     bendy::Pose rest(model);

@@ -14,9 +14,9 @@ MAY_USE = {
     "diff": {"format"},
     "edit": {"format"},
     "viewer": {"format", "runtime"},
-    "twin": {"format"},
+    "text_form": {"format"},
     "stages": {"format", "runtime"},
-    "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "twin", "stages"},
+    "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "text_form", "stages"},
 }
 # Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
 # in no room, all of them may use.
@@ -56,7 +56,7 @@ PRIVATE = {
     "meshoptimizer.h": ("converter/src/", "format/src/"),
     "draco/": "converter/src/",
     "nlohmann/": ("converter/src/", "cli/", "viewer/src/"),
-    "rapidjson/": "twin/src/",
+    "rapidjson/": "text_form/src/",
     "CLI/": "cli/",
     "epoxy/": "viewer/src/",
     "utf8cpp/": ("converter/src/", "cli/"),

@@ -153,18 +153,18 @@ std::vector<glm::dvec3> corners_of(const Scene& scene, const EvaluatedPose& pose
     std::vector<glm::dvec3> all;
     for (const Mesh* mesh : meshes) {
         std::vector<double> at_rest;  // an X-file has no targets: the mesh is as it rests
-        for (const Target& target : mesh->targets) at_rest.push_back(target.rest_weight);
+        for (const MorphTarget& target : mesh->targets) at_rest.push_back(target.rest_weight);
         const std::vector<glm::dvec3> vertices = evaluate_vertices(*mesh, at_rest, pose.joints);
         std::vector<std::uint32_t> materials;
-        for (const Part& part : mesh->parts) {
-            if (part.topology == Topology::triangles &&
-                std::find(materials.begin(), materials.end(), part.material) == materials.end())
-                materials.push_back(part.material);
+        for (const Submesh& submesh : mesh->submeshes) {
+            if (submesh.topology == Topology::triangles &&
+                std::find(materials.begin(), materials.end(), submesh.material) == materials.end())
+                materials.push_back(submesh.material);
         }
         for (const std::uint32_t material : materials) {
-            for (const Part& part : mesh->parts) {
-                if (part.topology != Topology::triangles || part.material != material) continue;
-                for (const std::uint32_t index : part.indices) all.push_back(vertices[index]);
+            for (const Submesh& submesh : mesh->submeshes) {
+                if (submesh.topology != Topology::triangles || submesh.material != material) continue;
+                for (const std::uint32_t index : submesh.indices) all.push_back(vertices[index]);
             }
         }
     }
@@ -190,15 +190,15 @@ double worst_distance(const std::vector<glm::dvec3>& ours, const std::vector<glm
     return worst / size;
 }
 
-bool is_linear(const Cycle& cycle) {
-    return std::all_of(cycle.tracks.begin(), cycle.tracks.end(),
+bool is_linear(const Clip& clip) {
+    return std::all_of(clip.tracks.begin(), clip.tracks.end(),
                        [](const Track& track) { return track.interpolation == Interpolation::linear; });
 }
 
 /// Seconds of an animation: anywhere where keys are linear, else where the file has keys.
-std::vector<double> times_of(const Cycle& cycle, const aiAnimation& animation) {
-    const CycleSpan span = span_of(cycle);
-    if (is_linear(cycle)) return {span.at(0.0), span.at(0.31), span.at(0.5), span.at(0.77), span.at(1.0)};
+std::vector<double> times_of(const Clip& clip, const aiAnimation& animation) {
+    const ClipSpan span = span_of(clip);
+    if (is_linear(clip)) return {span.at(0.0), span.at(0.31), span.at(0.5), span.at(0.77), span.at(1.0)};
     std::vector<double> times;
     const aiNodeAnim& channel = *animation.mChannels[0];
     for (unsigned key = 0; key < channel.mNumRotationKeys; key += 1 + channel.mNumRotationKeys / 8)
@@ -232,17 +232,17 @@ void compare(const std::vector<std::byte>& bendy, double& worst, int& poses) {
     worst = std::max(worst, worst_distance(rest, opened->corners(), size));
     ++poses;
 
-    std::vector<const Cycle*> cycles;
-    for (const Cycle& cycle : scene.cycles) {
-        if (std::any_of(cycle.tracks.begin(), cycle.tracks.end(),
+    std::vector<const Clip*> clips;
+    for (const Clip& clip : scene.clips) {
+        if (std::any_of(clip.tracks.begin(), clip.tracks.end(),
                         [](const Track& track) { return track.path != TrackPath::weights; }))
-            cycles.push_back(&cycle);
+            clips.push_back(&clip);
     }
-    ASSERT_EQ(opened->scene->mNumAnimations, cycles.size());
-    for (std::size_t i = 0; i < cycles.size(); ++i) {
+    ASSERT_EQ(opened->scene->mNumAnimations, clips.size());
+    for (std::size_t i = 0; i < clips.size(); ++i) {
         const aiAnimation& animation = *opened->scene->mAnimations[i];
-        for (const double seconds : times_of(*cycles[i], animation)) {
-            evaluate(scene, *cycles[i], seconds, pose);
+        for (const double seconds : times_of(*clips[i], animation)) {
+            evaluate(scene, *clips[i], seconds, pose);
             opened->pose(&animation, seconds * animation.mTicksPerSecond);
             worst = std::max(worst, worst_distance(corners_of(scene, pose), opened->corners(), size));
             ++poses;
@@ -293,9 +293,9 @@ TEST(XFileByAssimp, MadeUpScenesStandAndMove) {
             mesh.joint = 1 + influences;
             mesh.influences = influences;
             for (int vertex = 0; vertex < 12; ++vertex) mesh.positions.push_back(numbers.vector(1.0f));
-            Part part;
-            for (std::uint32_t index = 0; index < 12; ++index) part.indices.push_back(index);
-            mesh.parts.push_back(part);
+            Submesh submesh;
+            for (std::uint32_t index = 0; index < 12; ++index) submesh.indices.push_back(index);
+            mesh.submeshes.push_back(submesh);
             if (influences == 0) continue;
             for (std::uint32_t bone = 0; bone < 3; ++bone) {
                 mesh.palette.joints.push_back(5 - bone);
@@ -308,12 +308,12 @@ TEST(XFileByAssimp, MadeUpScenesStandAndMove) {
                 mesh.weights.insert(mesh.weights.end(), {0.75f, 0.25f});
             }
         }
-        Cycle& cycle = scene.cycles.emplace_back();
-        cycle.name = "Move";
+        Clip& clip = scene.clips.emplace_back();
+        clip.name = "Move";
         for (std::uint32_t joint = 0; joint < 5; ++joint) {
             for (const TrackPath path : {TrackPath::translation, TrackPath::rotation, TrackPath::scale}) {
                 if (numbers.below(4) != 0)
-                    cycle.tracks.push_back(test::random_track(numbers, path, Interpolation::linear, joint));
+                    clip.tracks.push_back(test::random_track(numbers, path, Interpolation::linear, joint));
             }
         }
         Report report;
@@ -323,7 +323,7 @@ TEST(XFileByAssimp, MadeUpScenesStandAndMove) {
     std::cout << poses << " poses, worst " << worst << " of the size\n";
 }
 
-TEST(XFileByAssimp, NodesBonesAndCyclesHaveTheirNames) {
+TEST(XFileByAssimp, NodesBonesAndClipsHaveTheirNames) {
     Report report;
     const auto bendy = convert(kSource / "examples/tentacle.glb", {}, report);
     ASSERT_TRUE(bendy);
@@ -346,9 +346,9 @@ TEST(XFileByAssimp, NodesBonesAndCyclesHaveTheirNames) {
             EXPECT_NE(opened->scene->mRootNode->FindNode(mesh.mBones[b]->mName), nullptr)
                 << mesh.mBones[b]->mName.C_Str();
     }
-    ASSERT_EQ(opened->scene->mNumAnimations, imported->cycles.size());
+    ASSERT_EQ(opened->scene->mNumAnimations, imported->clips.size());
     for (unsigned a = 0; a < opened->scene->mNumAnimations; ++a)
-        EXPECT_EQ(opened->scene->mAnimations[a]->mName.C_Str(), plain(imported->cycles[a].name));
+        EXPECT_EQ(opened->scene->mAnimations[a]->mName.C_Str(), plain(imported->clips[a].name));
 }
 
 }  // namespace

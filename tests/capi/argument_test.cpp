@@ -2,7 +2,7 @@
 #include <bendy/format/file.h>
 
 #include "capi/open_handles.h"
-#include "sweep/allocations.h"
+#include "mutation/allocations.h"
 
 #include <array>
 #include <cmath>
@@ -51,7 +51,7 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
     EXPECT_STREQ(error_.message, "model is NULL");
     EXPECT_EQ(bendy_find_joint(model_.get(), nullptr, e), BENDY_NONE);
     EXPECT_STREQ(error_.message, "name is NULL");
-    EXPECT_EQ(bendy_joint_count(none) + bendy_cycle_count(none) + bendy_draw_count(none) + bendy_vertex_count(none),
+    EXPECT_EQ(bendy_joint_count(none) + bendy_clip_count(none) + bendy_submesh_count(none) + bendy_vertex_count(none),
               0u);
     EXPECT_EQ(bendy_joint_parents(none), nullptr);
     EXPECT_EQ(bendy_model_name(none), nullptr);
@@ -91,12 +91,12 @@ TEST_F(CArguments, IndicesOutOfRangeAreErrors) {
     EXPECT_EQ(joint.name, nullptr) << "nothing is written";
     auto mesh = sized<bendy_mesh>();
     EXPECT_EQ(message(bendy_get_mesh(model_.get(), 2, &mesh, &error_)), "mesh 2 is meant, the model has 2 meshes");
-    EXPECT_EQ(message(bendy_sample(pose_.get(), 1, 0, &error_)), "cycle 1 is meant, the model has 1 cycle");
+    EXPECT_EQ(message(bendy_sample(pose_.get(), 1, 0, &error_)), "clip 1 is meant, the model has 1 clip");
     EXPECT_EQ(message(bendy_sample(pose_.get(), BENDY_NONE, 0, &error_)),
-              "cycle is BENDY_NONE: there is none of the name that was looked for");
-    auto draw = sized<bendy_draw>();
-    message(bendy_get_draw(model_.get(), bendy_draw_count(model_.get()), &draw, &error_));
-    message(bendy_lod_draw(lod_.get(), bendy_draw_count(model_.get()), &draw, &error_));
+              "clip is BENDY_NONE: there is none of the name that was looked for");
+    auto submesh = sized<bendy_submesh>();
+    message(bendy_get_submesh(model_.get(), bendy_submesh_count(model_.get()), &submesh, &error_));
+    message(bendy_lod_submesh(lod_.get(), bendy_submesh_count(model_.get()), &submesh, &error_));
     message(bendy_get_indices(model_.get(), 2, nullptr, 0, &error_));
     message(bendy_bone_matrices(pose_.get(), 2, numbers_.data(), 20, &error_));
     const std::array<float, 3> target{};

@@ -18,11 +18,11 @@ TEST_F(CContents, CountsAreTheModels) {
     EXPECT_EQ(bendy_joint_count(model_.get()), 4u);
     EXPECT_EQ(bendy_mesh_count(model_.get()), 2u);
     EXPECT_EQ(bendy_vertex_count(model_.get()), 10u);
-    EXPECT_EQ(bendy_cycle_count(model_.get()), 1u);
+    EXPECT_EQ(bendy_clip_count(model_.get()), 1u);
     EXPECT_EQ(bendy_material_count(model_.get()), 2u);
-    EXPECT_EQ(bendy_target_count(model_.get()), 2u);
+    EXPECT_EQ(bendy_morph_target_count(model_.get()), 2u);
     EXPECT_EQ(bendy_chain_count(model_.get()), expected_->chains().size());
-    EXPECT_EQ(bendy_draw_count(model_.get()), expected_->draws().size());
+    EXPECT_EQ(bendy_submesh_count(model_.get()), expected_->submeshes().size());
     EXPECT_EQ(bendy_has_levels(model_.get()), 1u);
     EXPECT_STREQ(bendy_model_name(model_.get()), "fox");
 }
@@ -43,14 +43,14 @@ TEST_F(CContents, EveryJointIsTheModels) {
     }
 }
 
-TEST_F(CContents, CycleHasItsTimes) {
-    auto cycle = sized<bendy_cycle>();
-    ASSERT_EQ(bendy_get_cycle(model_.get(), bendy_find_cycle(model_.get(), "run", nullptr), &cycle, &error_), BENDY_OK);
-    EXPECT_STREQ(cycle.name, "run");
-    EXPECT_EQ(cycle.start, 0.5f);
-    EXPECT_EQ(cycle.end, 1.0f);
-    EXPECT_EQ(cycle.frame_rate, 4.0f);
-    EXPECT_EQ(cycle.loops, 1u);
+TEST_F(CContents, ClipHasItsTimes) {
+    auto clip = sized<bendy_clip>();
+    ASSERT_EQ(bendy_get_clip(model_.get(), bendy_find_clip(model_.get(), "run", nullptr), &clip, &error_), BENDY_OK);
+    EXPECT_STREQ(clip.name, "run");
+    EXPECT_EQ(clip.start, 0.5f);
+    EXPECT_EQ(clip.end, 1.0f);
+    EXPECT_EQ(clip.frame_rate, 4.0f);
+    EXPECT_EQ(clip.loops, 1u);
 }
 
 TEST_F(CContents, ChainsMeshesTargetsAndMaterialsAreTheModels) {
@@ -64,18 +64,18 @@ TEST_F(CContents, ChainsMeshesTargetsAndMaterialsAreTheModels) {
     }
     std::uint32_t targets = 0;
     for (std::uint32_t number = 0; number < 2; ++number) {
-        const Pool& pool = expected_->pools()[number];
+        const Mesh& expected = expected_->meshes()[number];
         auto mesh = sized<bendy_mesh>();
         ASSERT_EQ(bendy_get_mesh(model_.get(), number, &mesh, &error_), BENDY_OK);
-        EXPECT_EQ(mesh.name, std::string(pool.name));
-        EXPECT_EQ(mesh.vertices, pool.vertices);
+        EXPECT_EQ(mesh.name, std::string(expected.name));
+        EXPECT_EQ(mesh.vertices, expected.vertices);
         EXPECT_EQ(mesh.first_vertex, expected_->first_vertex(number));
-        EXPECT_EQ(mesh.first_target, targets);
-        EXPECT_EQ(mesh.bones == 0, pool.is_rigid());
-        EXPECT_EQ(mesh.has_normals, pool.normals ? 1u : 0u);
-        for (const TargetView& view : pool.targets) {
-            auto target = sized<bendy_target>();
-            ASSERT_EQ(bendy_get_target(model_.get(), targets++, &target, &error_), BENDY_OK);
+        EXPECT_EQ(mesh.first_morph_target, targets);
+        EXPECT_EQ(mesh.bones == 0, expected.is_rigid());
+        EXPECT_EQ(mesh.has_normals, expected.normals ? 1u : 0u);
+        for (const MorphTargetView& view : expected.targets) {
+            auto target = sized<bendy_morph_target>();
+            ASSERT_EQ(bendy_get_morph_target(model_.get(), targets++, &target, &error_), BENDY_OK);
             EXPECT_EQ(target.name, std::string(view.name));
             EXPECT_EQ(target.rest_weight, view.rest_weight);
             EXPECT_EQ(target.mesh, number);
@@ -90,26 +90,26 @@ TEST_F(CContents, ChainsMeshesTargetsAndMaterialsAreTheModels) {
 
 TEST_F(CContents, GeometryIsTheModels) {
     for (std::uint32_t number = 0; number < 2; ++number) {
-        const Pool& pool = expected_->pools()[number];
-        std::vector<std::uint32_t> indices(pool.indices ? pool.indices->elements : 0);
+        const Mesh& expected = expected_->meshes()[number];
+        std::vector<std::uint32_t> indices(expected.indices ? expected.indices->elements : 0);
         ASSERT_EQ(bendy_get_indices(model_.get(), number, indices.data(), indices.size(), &error_), BENDY_OK);
-        for (std::uint32_t k = 0; k < indices.size(); ++k) EXPECT_EQ(indices[k], pool.indices->index(k, 0));
-        for (const StreamView& set : pool.texture_coords) {
-            std::vector<float> uv(std::size_t{2} * pool.vertices);
+        for (std::uint32_t k = 0; k < indices.size(); ++k) EXPECT_EQ(indices[k], expected.indices->index(k, 0));
+        for (const StreamView& set : expected.texture_coords) {
+            std::vector<float> uv(std::size_t{2} * expected.vertices);
             ASSERT_EQ(bendy_get_texture_coords(model_.get(), number, set.set, uv.data(), uv.size(), &error_), BENDY_OK);
             for (std::uint32_t k = 0; k < uv.size(); ++k) EXPECT_EQ(uv[k], set.number(k / 2, k % 2));
         }
-        if (pool.is_rigid()) continue;
+        if (expected.is_rigid()) continue;
         auto mesh = sized<bendy_mesh>();
         bendy_get_mesh(model_.get(), number, &mesh, nullptr);
-        ASSERT_EQ(mesh.influences, pool.bones->components);
+        ASSERT_EQ(mesh.influences, expected.bones->components);
         std::vector<std::uint32_t> bones(std::size_t{mesh.vertices} * mesh.influences);
         std::vector<float> weights(bones.size());
         ASSERT_EQ(bendy_get_influences(model_.get(), number, bones.data(), weights.data(), bones.size(), &error_),
                   BENDY_OK);
         for (std::uint32_t k = 0; k < bones.size(); ++k) {
-            EXPECT_EQ(bones[k], pool.bones->index(k / mesh.influences, k % mesh.influences));
-            EXPECT_EQ(weights[k], pool.weights->number(k / mesh.influences, k % mesh.influences));
+            EXPECT_EQ(bones[k], expected.bones->index(k / mesh.influences, k % mesh.influences));
+            EXPECT_EQ(weights[k], expected.weights->number(k / mesh.influences, k % mesh.influences));
         }
     }
 }
@@ -120,10 +120,10 @@ TEST_F(CContents, NamesAreFoundAndMissingOnesSayWhatThereIs) {
         EXPECT_EQ(bendy_find_joint(model_.get(), name.c_str(), nullptr), expected_->joint(name));
     }
     EXPECT_EQ(bendy_find_material(model_.get(), "red", nullptr), 0u);
-    EXPECT_EQ(bendy_find_cycle(model_.get(), "Run", &error_), BENDY_NONE);
+    EXPECT_EQ(bendy_find_clip(model_.get(), "Run", &error_), BENDY_NONE);
     EXPECT_EQ(error_.status, BENDY_NOT_FOUND);
     EXPECT_STREQ(error_.code, "NOT_FOUND");
-    EXPECT_STREQ(error_.message, "there is no cycle \"Run\"; there is: \"run\"");
+    EXPECT_STREQ(error_.message, "there is no clip \"Run\"; there is: \"run\"");
 }
 
 TEST(CVersion, IsTheProjects) {

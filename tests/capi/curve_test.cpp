@@ -1,7 +1,7 @@
 // Named curves through the C API.
 #include "capi/open_handles.h"
 
-#include "runtime/cycle_model.h"
+#include "runtime/clip_model.h"
 
 #include <bendy/format/curve.h>
 
@@ -31,7 +31,7 @@ Buffer file_with_curves() {
     colour.components = 3;
     colour.values = colours;
     Node clip =
-        cycle_node({"clip", 0.0f, 1.0f, false, {{TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0}}}});
+        clip_node({"clip", 0.0f, 1.0f, false, {{TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0}}}});
     clip.children.push_back(make_leaf(FourCC("CURV"), write_curve(glow)));
     clip.children.push_back(make_leaf(FourCC("CURV"), write_curve(colour)));
     ModelSpec spec;
@@ -52,7 +52,7 @@ TEST(CCurve, CountsFindsAndTells) {
     EXPECT_EQ(bendy_find_curve(model.get(), 0, "extras/colour", &error), 1u);
     EXPECT_EQ(bendy_find_curve(model.get(), 0, "none", &error), BENDY_NONE);
     EXPECT_EQ(error.status, BENDY_NOT_FOUND);
-    EXPECT_STREQ(error.message, "the cycle has no curve \"none\", by name or by path");
+    EXPECT_STREQ(error.message, "the clip has no curve \"none\", by name or by path");
     auto curve = sized<bendy_curve>();
     ASSERT_EQ(bendy_get_curve(model.get(), 0, 1, &curve, nullptr), BENDY_OK);
     EXPECT_EQ(curve.components, 3u);

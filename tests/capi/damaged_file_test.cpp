@@ -19,9 +19,9 @@ std::size_t read_all(const bendy_model* model) {
         auto joint = sized<bendy_joint>();
         add_name(bendy_get_joint(model, k, &joint, nullptr), joint);
     }
-    for (std::uint32_t k = 0; k < bendy_cycle_count(model); ++k) {
-        auto cycle = sized<bendy_cycle>();
-        add_name(bendy_get_cycle(model, k, &cycle, nullptr), cycle);
+    for (std::uint32_t k = 0; k < bendy_clip_count(model); ++k) {
+        auto clip = sized<bendy_clip>();
+        add_name(bendy_get_clip(model, k, &clip, nullptr), clip);
         for (std::uint32_t c = 0; c < bendy_curve_count(model, k); ++c) {
             auto curve = sized<bendy_curve>();
             add_name(bendy_get_curve(model, k, c, &curve, nullptr), curve);
@@ -34,9 +34,9 @@ std::size_t read_all(const bendy_model* model) {
         auto chain = sized<bendy_chain>();
         add_name(bendy_get_chain(model, k, &chain, nullptr), chain);
     }
-    for (std::uint32_t k = 0; k < bendy_target_count(model); ++k) {
-        auto target = sized<bendy_target>();
-        add_name(bendy_get_target(model, k, &target, nullptr), target);
+    for (std::uint32_t k = 0; k < bendy_morph_target_count(model); ++k) {
+        auto target = sized<bendy_morph_target>();
+        add_name(bendy_get_morph_target(model, k, &target, nullptr), target);
     }
     for (std::uint32_t k = 0; k < bendy_material_count(model); ++k) {
         auto material = sized<bendy_material>();
@@ -73,8 +73,8 @@ void pose_all(const ModelHandle& model) {
     out.position_stride = out.normal_stride = out.tangent_stride = 40;
     for (const float share : {1.0f, 0.0f}) {
         ASSERT_EQ(bendy_lod_set_share(lod.get(), share, nullptr), BENDY_OK);
-        for (std::uint32_t cycle = 0; cycle < bendy_cycle_count(model.get()); ++cycle)
-            ASSERT_EQ(bendy_sample(pose.get(), cycle, 0.6f, nullptr), BENDY_OK);
+        for (std::uint32_t clip = 0; clip < bendy_clip_count(model.get()); ++clip)
+            ASSERT_EQ(bendy_sample(pose.get(), clip, 0.6f, nullptr), BENDY_OK);
         const std::array<float, 3> target{0.3f, 0.9f, 0.2f};
         for (std::uint32_t chain = 0; chain < bendy_chain_count(model.get()); ++chain)
             bendy_reach(pose.get(), chain, target.data(), nullptr, nullptr, nullptr, nullptr);

@@ -39,24 +39,24 @@ S sized() {
     return out;
 }
 
-/// One pool on a joint that is moved by (1, 2, 3), and a joint below it, moved by (0, 1, 0).
+/// One mesh on a joint that is moved by (1, 2, 3), and a joint below it, moved by (0, 1, 0).
 inline Buffer two_joint_file() {
     ModelSpec spec;
     JointSpec root;
     root.rest = moved(1, 2, 3);
     root.name = "root";
-    root.polygons = {polygons(0, 0, 3)};
+    root.submeshes = {submesh(0, 0, 3)};
     JointSpec tip;
     tip.parent = 0;
     tip.rest = moved(0, 1, 0);
     tip.name = "tip";
     spec.joints = {root, tip};
-    PoolSpec pool;
-    pool.joint = 0;
-    pool.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    pool.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-    pool.indices = {0, 1, 2};
-    spec.pools = {pool};
+    MeshSpec mesh;
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    mesh.indices = {0, 1, 2};
+    spec.meshes = {mesh};
     return build_file(spec);
 }
 

@@ -75,7 +75,7 @@ TEST(CPose, SampledBlendedConstrainedAndReachingIsTheSameAsInCpp) {
     for (const float seconds : {0.1f, 0.7f}) {
         Pose cpp(*expected);
         Pose cpp_rest(*expected);
-        EXPECT_TRUE(sample(cpp, &expected->cycles()[0], seconds));
+        EXPECT_TRUE(sample(cpp, &expected->clips()[0], seconds));
         EXPECT_TRUE(blend(cpp, cpp_rest, 0.25f));
         constrain(cpp);
         ReachOptions cpp_options;
@@ -191,7 +191,7 @@ TEST(CPose, DualQuaternionsAreAMethodOfSkinning) {
     const PoseHandle pose = new_pose(model);
     ASSERT_EQ(bendy_sample(pose.get(), 0, 0.8f, nullptr), BENDY_OK);
     Pose cpp(*expected);
-    ASSERT_TRUE(sample(cpp, &expected->cycles()[0], 0.8f));
+    ASSERT_TRUE(sample(cpp, &expected->clips()[0], 0.8f));
     std::vector<glm::vec3> wanted(expected->vertex_count());
     ASSERT_TRUE(skin(cpp, {.method = SkinningMethod::dual_quaternion, .out = {.positions = wanted}}));
     std::vector<glm::vec3> made(wanted.size());
@@ -216,7 +216,7 @@ TEST(CPose, BoneMatricesAreThePalette) {
     const PoseHandle pose = new_pose(model);
     bendy_sample(pose.get(), 0, 0.8f, nullptr);
     Pose cpp(*expected);
-    EXPECT_TRUE(sample(cpp, &expected->cycles()[0], 0.8f));
+    EXPECT_TRUE(sample(cpp, &expected->clips()[0], 0.8f));
     const auto palette = cpp.palette(0);
     std::vector<float> matrices(palette.size() * 16);
     ASSERT_EQ(bendy_bone_matrices(pose.get(), 0, matrices.data(), palette.size(), nullptr), BENDY_OK);
@@ -248,9 +248,9 @@ TEST(CPose, LevelOfDetailIsTheSameAsInCpp) {
     const std::uint32_t* indices = bendy_lod_indices(lod.get(), 0, &count, nullptr);
     ASSERT_EQ(count, cpp.indices(0).size());
     EXPECT_TRUE(std::equal(indices, indices + count, cpp.indices(0).begin()));
-    auto draw = sized<bendy_draw>();
-    ASSERT_EQ(bendy_lod_draw(lod.get(), 0, &draw, nullptr), BENDY_OK);
-    EXPECT_EQ(draw.count, cpp.draws()[0].count);
+    auto submesh = sized<bendy_submesh>();
+    ASSERT_EQ(bendy_lod_submesh(lod.get(), 0, &submesh, nullptr), BENDY_OK);
+    EXPECT_EQ(submesh.count, cpp.submeshes()[0].count);
     const auto positions = skin_all(pose.get(), model.get(), lod.get());
     const std::uint32_t alive = bendy_lod_vertices(lod.get(), 0);
     EXPECT_EQ(alive, cpp.vertices(0));

@@ -29,23 +29,23 @@ class Bench(Case):
         path = self.shared / "all.bendy"
         self.done("convert", "--quiet", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path)
         report, stages = self.stages(path)
-        self.assertEqual((report["joints"], report["targets"], report["cycle"]), (65, 2, "Idle"))
+        self.assertEqual((report["joints"], report["targets"], report["clip"]), (65, 2, "Idle"))
         self.assertEqual(list(stages), [
             "open, sums checked", "open, sums not checked", "open to the first pose", "sample, next frame",
             "sample, random time", "blend two poses", "local to model", "local to model and palettes",
-            "skin positions", "skin positions, normals", "a whole frame", "inbetween, all targets", "reach",
+            "skin positions", "skin positions, normals", "a whole frame", "morph, all targets", "reach",
             "switch the level of detail"])
         self.assertEqual(stages["sample, next frame"]["items"], 65)
         self.assertEqual(stages["skin positions"]["items"], report["vertices"])
         self.assertEqual(stages["reach"]["items"], 4)
-        self.assertLess(stages["inbetween, all targets"]["items"], report["vertices"])
+        self.assertLess(stages["morph, all targets"]["items"], report["vertices"])
 
     def test_steps_that_a_file_has_not_are_left_out(self):
         path = self.shared / "lone.bendy"
         self.done("convert", "--quiet", SOURCE / "examples" / "tentacle.glb", "-o", path)
         _, stages = self.stages(path, "--clip", "Wave")
         self.assertIn("sample, next frame", stages)
-        self.assertNotIn("inbetween, all targets", stages)
+        self.assertNotIn("morph, all targets", stages)
         self.assertNotIn("switch the level of detail", stages)
 
     def test_kernels_stand_side_by_side_on_one_page(self):

@@ -75,21 +75,21 @@ class Diff(Case):
         self.assertEqual(self.differ(self.convert(), self.edited(change)),
                          ['! HEAD/OBJE/CYCL/NAME "Idle": text: "Idle" -> "Wave\\x0a"'])
 
-    def test_one_cycle_more_is_one_difference(self):
+    def test_one_clip_more_is_one_difference(self):
         def change(root):
-            cycles = [chunk for chunk in root.find("HEAD/OBJE").children if chunk.letters == "CYCL"]
-            new = Chunk("CYCL", children=[Chunk("NAME", b"New"), cycles[0].children[1]])
-            new.children += [chunk for chunk in cycles[0].children if chunk.letters in ("TRAK", "TIME", "KEYV")]
+            clips = [chunk for chunk in root.find("HEAD/OBJE").children if chunk.letters == "CYCL"]
+            new = Chunk("CYCL", children=[Chunk("NAME", b"New"), clips[0].children[1]])
+            new.children += [chunk for chunk in clips[0].children if chunk.letters in ("TRAK", "TIME", "KEYV")]
             objects = root.find("HEAD/OBJE").children
-            objects.insert(objects.index(cycles[0]), new)
+            objects.insert(objects.index(clips[0]), new)
             version = root.find("HEAD/VERS")
             count, = struct.unpack_from("<I", version.payload, 32)
             version.payload = version.payload[:32] + struct.pack("<I", count + 1) + version.payload[36:]
         path = self.edited(change)
         self.assertEqual(self.differ(self.convert(), path),
-                         ["! HEAD/VERS: cycles: 2 -> 3", '+ HEAD/OBJE/CYCL "New": only in B'])
+                         ["! HEAD/VERS: clips: 2 -> 3", '+ HEAD/OBJE/CYCL "New": only in B'])
         self.assertEqual(self.differ(path, self.convert()),
-                         ["! HEAD/VERS: cycles: 3 -> 2", '- HEAD/OBJE/CYCL "New": only in A'])
+                         ["! HEAD/VERS: clips: 3 -> 2", '- HEAD/OBJE/CYCL "New": only in A'])
 
     def test_another_order_is_said(self):
         def change(root):
@@ -146,15 +146,15 @@ class Diff(Case):
             return Chunk("TEXC", record + data)
         def change(as_floats):
             def change(root):
-                pool = root.find("HEAD/OBJE/VECT")
+                mesh = root.find("HEAD/OBJE/VECT")
                 count = 2 * struct.unpack_from("<I", root.find("HEAD/OBJE/VECT/VINF").payload)[0]
                 whole = [(7 * place) % 65536 for place in range(count)]
-                pool.children = [chunk for chunk in pool.children if chunk.letters != "TEXC"]
+                mesh.children = [chunk for chunk in mesh.children if chunk.letters != "TEXC"]
                 if as_floats:
                     part = coords(5, count, struct.pack(f"<{count}f", *((n + 0.25) / 65535 for n in whole)))
                 else:
                     part = coords(2, count, struct.pack(f"<{count}H", *whole))
-                pool.children.append(part)
+                mesh.children.append(part)
             return change
         base = self.edited(change(True), name="base.bendy")
         path = self.edited(change(False))
@@ -204,14 +204,14 @@ class Diff(Case):
             "kind": "value", "pathInA": "HEAD/OBJE/SKIN/PIVO/REST", "pathInB": "HEAD/OBJE/SKIN/PIVO/REST",
             "name": "Mannequin", "part": "translation", "a": [0.0, 0.0, 0.0], "b": [0.125, 0.0, 0.0]}])
 
-    def twins(self):
+    def exact_and_compact(self):
         """The mannequin exactly and compactly, and the worst error in millimetres that the converter has printed."""
         exact = self.convert()
         text = self.done("convert", SOURCE / "examples/mannequin.glb", "--compact", "-o", "compact.bendy").decode()
         return exact, self.folder / "compact.bendy", text
 
-    def test_a_compact_file_is_its_exact_twin_within_the_printed_bound(self):
-        exact, compact, text = self.twins()
+    def test_a_compact_file_is_the_exact_one_within_the_printed_bound(self):
+        exact, compact, text = self.exact_and_compact()
         bound, worst = re.search(r"error +at most (\S+ mm); worst met (\S+) mm", text).groups()
         self.differ(exact, compact)
         for pair in ((exact, compact), (compact, exact)):

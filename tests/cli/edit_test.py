@@ -79,7 +79,7 @@ class EditCase(Case):
         self.done("pose", path, *arguments, "-o", "pose.json", env=PLAIN)
         return json.loads((self.folder / "pose.json").read_text())
 
-    def cycles(self, path):
+    def clips(self, path):
         root = Chunk.read(path.read_bytes())
         objects = [chunk for chunk in root.children if chunk.letters == "OBJE"]
         return [child.children[0].payload.decode() for child in objects[0].children if child.letters == "CYCL"]
@@ -98,10 +98,10 @@ class Strip(EditCase):
         "materials": ({"MATE"}, {"POLY", "JNTS"}),
         "meshes": ({"VECT", "POLY", "LODD"}, {"JNTS", "TRAK", "TIME", "KEYV"}),
         "targets": ({"TARG"}, {"TRAK", "TIME", "KEYV"}),
-        "cycles": ({"CYCL"}, set()),
+        "clips": ({"CYCL"}, set()),
         "markers": ({"MARK"}, set()),
         "chains": ({"IKCH", "PULL"}, set()),
-        "limits": ({"LIMT"}, set()),
+        "constraints": ({"LIMT"}, set()),
         "lod": ({"LODD"}, set()),
         "extras": ({"EXTR", "MORE"}, set()),
         "extensions": ({"EXTN"}, set()),
@@ -127,16 +127,16 @@ class Strip(EditCase):
             source = self.made(name, form)
             clip = ["--clip", "Walk", "--time", "0.3"]
             expected = self.pose(source, *clip)
-            for part in ("textures", "materials", "chains", "limits", "lod", "extras"):
+            for part in ("textures", "materials", "chains", "constraints", "lod", "extras"):
                 found = self.pose(self.edit(source, "--strip", part), *clip)
                 self.assertEqual(found["joints"], expected["joints"], part)
                 self.assertEqual(found["meshes"], expected["meshes"], part)
 
     def test_one_by_name(self):
         source = self.made("mannequin")
-        self.assertEqual(self.cycles(self.edit(source, "--strip", "cycle:Idle")), ["Walk"])
-        self.assertEqual(self.cycles(self.edit(source, "--strip", "cycle:W*")), ["Idle"])
-        self.assertEqual(self.cycles(self.edit(source, "--strip", "cycle:#1")), ["Idle"])
+        self.assertEqual(self.clips(self.edit(source, "--strip", "clip:Idle")), ["Walk"])
+        self.assertEqual(self.clips(self.edit(source, "--strip", "clip:W*")), ["Idle"])
+        self.assertEqual(self.clips(self.edit(source, "--strip", "clip:#1")), ["Idle"])
         meshes = self.pose(self.edit(source, "--strip", "mesh:Head"))["meshes"]
         self.assertEqual([mesh["name"] for mesh in meshes], ["Body"])
         expected = self.pose(source, "--clip", "Walk", "--time", "0.3")
@@ -161,12 +161,12 @@ class Strip(EditCase):
 
     def test_mistakes_are_explained(self):
         source = self.made("mannequin")
-        self.assertIn('there is no cycle "Wlak"; did you mean "Walk"?',
-                      self.failed("edit", source, "-o", "x.bendy", "--strip", "cycle:Wlak"))
+        self.assertIn('there is no clip "Wlak"; did you mean "Walk"?',
+                      self.failed("edit", source, "-o", "x.bendy", "--strip", "clip:Wlak"))
         self.assertIn('there is no joint "LeftArm"; did you mean "mixamorig:LeftArm"?',
                       self.failed("edit", source, "-o", "x.bendy", "--extract", "LeftArm"))
-        self.assertIn('did you mean "cycles"?', self.misused("edit", source, "-o", "x.bendy", "--strip", "cycels"))
-        self.assertIn("cycle:NAME", self.misused("edit", source, "-o", "x.bendy", "--strip", "cycle"))
+        self.assertIn('did you mean "clips"?', self.misused("edit", source, "-o", "x.bendy", "--strip", "clisp"))
+        self.assertIn("clip:NAME", self.misused("edit", source, "-o", "x.bendy", "--strip", "clip"))
         self.assertIn("takes no name", self.misused("edit", source, "-o", "x.bendy", "--strip", "lod:x"))
         self.assertIn("nothing to do", self.misused("edit", source, "-o", "x.bendy"))
         self.assertEqual(self.files(), [])
@@ -182,17 +182,17 @@ class Strip(EditCase):
     def test_a_file_may_be_edited_in_place(self):
         path = self.folder / "fox.bendy"
         path.write_bytes(self.made("tentacle").read_bytes())
-        self.done("edit", path, "--strip", "cycles", "--in-place")
+        self.done("edit", path, "--strip", "clips", "--in-place")
         self.assertEqual(self.done("validate", path), b"")
-        self.assertEqual(self.cycles(path), [])
+        self.assertEqual(self.clips(path), [])
         self.assertEqual(self.files(), ["fox.bendy"])
 
 
 class Unknown(EditCase):
     PLACES = ("HEAD", "HEAD/TEXT", "HEAD/MATE", "HEAD/OBJE", "HEAD/OBJE/SKIN", "HEAD/OBJE/SKIN/SKIN[2]/SKIN/PIVO",
               "HEAD/OBJE/VECT", "HEAD/OBJE/CYCL", "HEAD/OBJE/IKCH")
-    STEPS = (["--strip", "textures"], ["--strip", "extras"], ["--strip", "cycle:Idle"], ["--strip", "lod"],
-             ["--strip", "limits"], ["--rename-joint", "mixamorig:*=*"], ["--extract", "mixamorig:Hips"],
+    STEPS = (["--strip", "textures"], ["--strip", "extras"], ["--strip", "clip:Idle"], ["--strip", "lod"],
+             ["--strip", "constraints"], ["--rename-joint", "mixamorig:*=*"], ["--extract", "mixamorig:Hips"],
              ["--strip", "meshes"], ["--strip", "targets"])
 
     @staticmethod
@@ -285,9 +285,9 @@ class Rename(EditCase):
 
     def test_other_kinds(self):
         source = self.made("mannequin")
-        path = self.edit(source, "--rename", "cycle:Walk=Go", "--rename", "mesh:Body=Torso", "--rename",
+        path = self.edit(source, "--rename", "clip:Walk=Go", "--rename", "mesh:Body=Torso", "--rename",
                          "chain:IK_*=Reach *")
-        self.assertEqual(self.cycles(path), ["Idle", "Go"])
+        self.assertEqual(self.clips(path), ["Idle", "Go"])
         self.assertEqual({mesh["name"] for mesh in self.pose(path)["meshes"]}, {"Torso", "Head"})
         self.assertIn(b"Reach LeftArm", path.read_bytes())
 
@@ -302,7 +302,7 @@ class Rename(EditCase):
             self.done("convert", "-q", nameless, "-o", "nameless.bendy", *FORMS[form])
             path = self.edit("nameless.bendy", "--rename-joint", "#2=Two")
             self.assertEqual([k for k, name in enumerate(self.joints(path)) if name == "Two"], [2])
-            path = self.edit("nameless.bendy", "--rename", "cycle:#0=First")
+            path = self.edit("nameless.bendy", "--rename", "clip:#0=First")
             merged = self.edit("nameless.bendy", "--merge", path, name="merged.bendy")  # by the shape of the tree
             self.assertNotIn("no joint here", self.warned)
             self.assertIn("First", self.told)
@@ -347,16 +347,16 @@ class Merge(EditCase):
         source = self.made("mannequin")
         other = self.mirrored()
         self.assertNotEqual(list(self.worlds(source)), list(self.worlds(other)))
-        bare = self.edit(source, "--strip", "cycles", name="bare.bendy")
+        bare = self.edit(source, "--strip", "clips", name="bare.bendy")
         merged = self.edit(bare, "--merge", other)
         self.assertEqual(self.warned, "")
         self.assertEqual(self.pose(merged, *self.CLIP)["joints"], self.pose(source, *self.CLIP)["joints"])
         self.assertEqual(self.pose(merged, *self.CLIP)["meshes"], self.pose(source, *self.CLIP)["meshes"])
 
-    def test_packed_cycles_stay_packed(self):
+    def test_packed_clips_stay_packed(self):
         other = self.mirrored("compact")
         source = self.made("mannequin", "compact")
-        merged = self.edit(source, "--strip", "cycles", "--merge", other)
+        merged = self.edit(source, "--strip", "clips", "--merge", other)
         self.assertEqual(self.worlds(merged, *self.CLIP), self.worlds(other, *self.CLIP))
         before = [child.letters for _, chunk in Chunk.read(other.read_bytes()).walk() if chunk.letters == "CYCL"
                   for child in chunk.children]
@@ -369,8 +369,8 @@ class Merge(EditCase):
         for form in FORMS:
             source = self.made("mannequin", form)
             merged = self.edit(source, "--merge", source, "--same-name", "number", name="merged.bendy")
-            self.assertEqual(self.cycles(merged), ["Idle", "Walk", "Idle.001", "Walk.001"])
-            back = self.edit(merged, "--strip", "cycle:*.001", name="back.bendy")
+            self.assertEqual(self.clips(merged), ["Idle", "Walk", "Idle.001", "Walk.001"])
+            back = self.edit(merged, "--strip", "clip:*.001", name="back.bendy")
             self.assertEqual(back.read_bytes(), source.read_bytes())
 
     def test_a_taken_name(self):
@@ -378,29 +378,29 @@ class Merge(EditCase):
         self.assertIn("--same-name", self.failed("edit", source, "-o", "x.bendy", "--merge", source))
         replaced = self.edit(source, "--merge", source, "--same-name", "replace")
         self.assertEqual(replaced.read_bytes(), source.read_bytes())
-        renamed = self.edit(source, "--rename", "cycle:*=Old *", "--merge", source)
-        self.assertEqual(self.cycles(renamed), ["Old Idle", "Old Walk", "Idle", "Walk"])
+        renamed = self.edit(source, "--rename", "clip:*=Old *", "--merge", source)
+        self.assertEqual(self.clips(renamed), ["Old Idle", "Old Walk", "Idle", "Walk"])
 
     def test_gltf_files_are_converted_on_the_way(self):
         source = self.made("mannequin")
-        merged = self.edit(source, "--strip", "cycles", "--merge", SOURCE / "examples" / "mannequin.glb")
+        merged = self.edit(source, "--strip", "clips", "--merge", SOURCE / "examples" / "mannequin.glb")
         self.assertEqual(merged.read_bytes(), source.read_bytes())
 
     def test_an_animation_only_file(self):
         source = self.made("mannequin")
         motion = self.edit(source, "--strip", "meshes", "--strip", "textures", "--strip", "materials", name="walk.bendy")
         self.assertLess(len(motion.read_bytes()), len(source.read_bytes()) / 3)
-        merged = self.edit(source, "--strip", "cycle:Walk", "--merge", motion, "--same-name", "number")
+        merged = self.edit(source, "--strip", "clip:Walk", "--merge", motion, "--same-name", "number")
         self.assertEqual(self.worlds(merged, *self.CLIP), self.worlds(source, *self.CLIP))
 
     def test_missing_joints_are_listed(self):
         other = self.edit(self.made("mannequin"), "--rename-joint", "mixamorig:Left*=links *", name="other.bendy")
-        self.edit(self.made("mannequin"), "--strip", "cycles", "--merge", other)
+        self.edit(self.made("mannequin"), "--strip", "clips", "--merge", other)
         self.assertIn('"links Shoulder"', self.warned)
         self.assertIn("left out", self.told)
         other = self.edit(self.made("mannequin"), "--strip", "meshes", "--rename-joint", "*=x*y", name="other.bendy")
         self.assertIn("none of them is here", self.failed("edit", self.made("mannequin"), "-o", "x.bendy", "--strip",
-                                                          "cycles", "--merge", other))
+                                                          "clips", "--merge", other))
 
     def test_another_rest_pose_is_told_and_rotations_stay(self):
         def turn(document):
@@ -414,7 +414,7 @@ class Merge(EditCase):
             other = self.mirrored(form, turn, "tentacle")
             source = self.made("tentacle", form)
             clip = ["--clip", "1", "--time", "0.37"]
-            merged = self.edit(source, "--strip", "cycles", "--merge", other)
+            merged = self.edit(source, "--strip", "clips", "--merge", other)
             self.assertIn("rest poses of 1 joint differ", self.warned)
             self.assertIn("turned by 90 degrees", self.warned)
             self.assertEqual("decoded, for another rest pose" in self.told, form == "compact")
@@ -437,7 +437,7 @@ class Merge(EditCase):
         source = self.made("mannequin")
         other = self.mirrored(change=swap)
         clip = ["--clip", "Idle", "--time", "0.4"]
-        merged = self.edit(source, "--strip", "cycles", "--merge", other)
+        merged = self.edit(source, "--strip", "clips", "--merge", other)
         # Its weights now mean the other targets: as the file says that they come from.
         expected = self.pose(other, *clip)["meshes"]
         found = {mesh["name"]: mesh["positions"] for mesh in self.pose(merged, *clip)["meshes"]}
@@ -541,12 +541,12 @@ class Differ(EditCase):
         [line] = self.lines(source, path)
         self.assertIn('joint 3: "mixamorig:Hips" -> "Pelvis"', line)
 
-    def test_one_cycle_less_is_one_difference(self):
+    def test_one_clip_less_is_one_difference(self):
         source = self.made("mannequin", "compact")
-        path = self.edit(source, "--strip", "cycle:Idle")
+        path = self.edit(source, "--strip", "clip:Idle")
         lines = self.lines(source, path)
         self.assertEqual(len(lines), 2, lines)
-        self.assertIn("cycles: 2 -> 1", lines[0])
+        self.assertIn("clips: 2 -> 1", lines[0])
         self.assertIn('CYCL "Idle": only in A', lines[1])
         report = json.loads(self.bendy("diff", source, path, "--json").stdout)
         self.assertEqual([entry["kind"] for entry in report["differences"]], ["value", "onlyInA"])
@@ -568,8 +568,8 @@ class Differ(EditCase):
         source = self.made("tentacle", "lod")
         root = Chunk.read(source.read_bytes())
         table = root.find("HEAD/OBJE/LODD")
-        pools, levels = struct.unpack_from("<II", table.payload)
-        first = 16 + 16 * pools
+        meshes, levels = struct.unpack_from("<II", table.payload)
+        first = 16 + 16 * meshes
         error = struct.unpack_from("<f", table.payload, first + 8 * (levels - 1))[0]
         table.payload = (table.payload[: first + 8 * (levels - 1)] + struct.pack("<f", 2 * error + 1)
                          + table.payload[first + 8 * (levels - 1) + 4 :])

@@ -92,7 +92,7 @@ class FileNames(unittest.TestCase):
     def test_edit_in_place_with_other_files(self):
         self.put("狐")
         self.run_in_folder("convert", "-q", "狐.glb", "-o", "狐.bendy")
-        self.run_in_folder("edit", "狐.bendy", "-o", "бег.bendy", "--rename", "cycle:*=далее *")
+        self.run_in_folder("edit", "狐.bendy", "-o", "бег.bendy", "--rename", "clip:*=далее *")
         (self.folder / "имена.json").write_text('{"*": "x *"}', encoding="utf-8")
         self.run_in_folder("edit", "狐.bendy", "-i", "--merge", "бег.bendy", "--rename-joints", "имена.json")
         self.run_in_folder("validate", "狐.bendy")

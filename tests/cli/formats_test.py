@@ -161,7 +161,7 @@ class XFiles(Case):
 
 
 class QuakeModels(Case):
-    def test_frames_become_targets_and_cycles(self):
+    def test_frames_become_targets_and_clips(self):
         md2_file(self.folder / "man.md2")
         shown = self.done("convert", "man.md2").decode()
         self.assertIn("morph targets  3: stand02, run1, run2", shown)
@@ -200,7 +200,7 @@ class QuakeModels(Case):
             self.assert_at(model, file, "run", 0.125, 41, 42, 0.25)
             self.assert_at(model, file, "run", 0.5625, 45, 40, 0.625)  # around
             self.assert_at(model, file, "run", 0.6, 40)
-            self.assert_at(model, file, "stand", 3.9375, 39, 0, 0.375)  # to the pool's own shape
+            self.assert_at(model, file, "stand", 3.9375, 39, 0, 0.375)  # to the mesh's own shape
             self.assert_at(model, file, "stand", 0.03125, 0, 1, 0.3125)
             self.assert_at(model, file, "death2", 0.4375, 188, 189, 0.375)
             self.assert_at(model, file, "death2", 0.5, 189)
@@ -243,7 +243,7 @@ class QuakeModels(Case):
                 self.assertLess((self.folder / "other.bendy").stat().st_size, len(before))
         shown = self.done("inspect", "man.bendy").decode()
         self.assertIn("59 frames of 48 places", shown)
-        self.assertIn("6 frames of pool 0 from frame 40, closed", shown)
+        self.assertIn("6 frames of mesh 0 from frame 40, closed", shown)
         self.done("inspect", "man.bendy", "--html", "page.html")
 
     def test_frames_are_edited(self):
@@ -252,9 +252,9 @@ class QuakeModels(Case):
         self.done("edit", "man.bendy", "-o", "named.bendy", "--rename", "target:run2=stride")
         self.assertIn("stride", json.dumps(json.loads(self.done("dump", "named.bendy"))))
         self.assert_at(model, "named.bendy", "run", 0.1, 41)
-        self.done("edit", "man.bendy", "-o", "fewer.bendy", "--strip", "cycle:stand")
+        self.done("edit", "man.bendy", "-o", "fewer.bendy", "--strip", "clip:stand")
         self.assert_at(model, "fewer.bendy", "run", 0.5625, 45, 40, 0.625)
-        self.done("edit", "man.bendy", "-o", "none.bendy", "--strip", "cycles")
+        self.done("edit", "man.bendy", "-o", "none.bendy", "--strip", "clips")
         self.done("edit", "none.bendy", "-o", "back.bendy", "--merge", "man.bendy")
         self.assert_at(model, "back.bendy", "stand", 3.9375, 39, 0, 0.375)
         tube_md2(self.folder / "other.md2", [f"other{k}" for k in range(60)])

@@ -164,22 +164,22 @@ class Structure(Case):
             self.assertEqual(joint["name"], name)
             for a, b in zip(joint["world"][12:15], place):
                 self.assertAlmostEqual(a, b, delta=1e-5)
-        self.assertTrue(any(text.startswith("hinge") or "Euler" in text for text in data["limits"]))
+        self.assertTrue(any(text.startswith("hinge") or "Euler" in text for text in data["constraints"]))
 
     def test_curves_pass_through_the_keys(self):
         for name in ("tentacle", "mannequin"):
             data = data_of(self.page(name))
             file = Chunk.read(self.converted(name).read_bytes())
             found = [chunk for _, chunk in file.walk() if chunk.letters == "CYCL"]
-            cycles = data["objects"][0]["cycles"]["list"]
-            self.assertEqual(len(found), len(cycles))
-            for chunk, cycle in zip(found, cycles):
+            clips = data["objects"][0]["clips"]["list"]
+            self.assertEqual(len(found), len(clips))
+            for chunk, clip in zip(found, clips):
                 leaf = {child.letters: child.payload for child in chunk.children}
                 times = struct.unpack(f"<{len(leaf['TIME']) // 4}f", leaf["TIME"])
                 values = struct.unpack(f"<{len(leaf['KEYV']) // 4}f", leaf["KEYV"])
                 records = list(struct.iter_unpack("<IBBHIIQ", leaf["TRAK"]))
-                self.assertEqual(len(records), len(cycle["tracks"]))
-                for record, track in zip(records, cycle["tracks"]):
+                self.assertEqual(len(records), len(clip["tracks"]))
+                for record, track in zip(records, clip["tracks"]):
                     target, path, interpolation, components, keys, first_time, first_value = record
                     self.assertEqual((target, path, interpolation, keys),
                                      tuple(track[key] for key in ("target", "path", "interpolation", "keys")))
@@ -190,7 +190,7 @@ class Structure(Case):
                         at = first_value + key * per_key + (components if interpolation == 2 else 0)
                         time = times[first_time + key]
                         point = next((p for t, p in points.items() if abs(t - time) < 1e-5), None)
-                        self.assertIsNotNone(point, (cycle["name"], target, time))
+                        self.assertIsNotNone(point, (clip["name"], target, time))
                         for a, b in zip(values[at : at + components], point):
                             self.assertAlmostEqual(a, b, delta=2e-5 * max(1, abs(a)))
 
@@ -304,10 +304,10 @@ class InChromium(Case):
             dom = self.shown(name, self.page(name))
             self.assertEqual(dom.count('role="treeitem"'), rows + joints)
             self.assertGreater(len(re.findall(r'<button class="cell [a-z]', dom)), 20)
-            cycle = data["objects"][0]["cycles"]["list"][0]
-            tracks = [track for track in cycle["tracks"]
-                      if (track["target"], track["path"] == 3) == (cycle["tracks"][0]["target"],
-                                                                   cycle["tracks"][0]["path"] == 3)]
+            clip = data["objects"][0]["clips"]["list"][0]
+            tracks = [track for track in clip["tracks"]
+                      if (track["target"], track["path"] == 3) == (clip["tracks"][0]["target"],
+                                                                   clip["tracks"][0]["path"] == 3)]
             # Rotations are drawn as three angles; what does not move may be said in words instead.
             drawn = len(re.findall(r'<path class="curve', dom))
             self.assertLessEqual(drawn, sum(3 if t["path"] == 1 else len(t["values"]) for t in tracks))
@@ -337,8 +337,8 @@ const search = document.querySelector('#tree input');
 search.value = 'key values';
 search.dispatchEvent(new Event('input'));
 result.found = [...document.querySelectorAll('#tree [role=treeitem] b')].filter(b => b.textContent.startsWith('KEYV')).length;
-const cycle = [...document.querySelectorAll('.cell.anim')].find(c => c.textContent.startsWith('CYCL'));
-cycle.click();
+const clip = [...document.querySelectorAll('.cell.anim')].find(c => c.textContent.startsWith('CYCL'));
+clip.click();
 result.trail = document.getElementById('trail').textContent;
 result.info = document.getElementById('mapinfo').textContent;
 key(document.getElementById('map'), 'Escape');
@@ -366,7 +366,7 @@ document.documentElement.dataset.result = JSON.stringify(result);
         self.assertEqual(result["unfolded"], min(total, 1000))
         self.assertEqual(result["folded"], 1)
         self.assertEqual(result["opened"], 1 + data["chunks"]["parent"].count(0))
-        self.assertEqual(result["found"], len(data["objects"][0]["cycles"]["list"]))
+        self.assertEqual(result["found"], len(data["objects"][0]["clips"]["list"]))
         self.assertRegex(result["trail"], r"^HEAD/OBJE/CYCL")
         self.assertRegex(result["info"], r"^HEAD/OBJE/CYCL.* bytes .*% of the file")
         self.assertEqual(result["out"], "HEAD/OBJE")

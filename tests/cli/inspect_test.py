@@ -76,7 +76,7 @@ class Inspect(Case):
         entries = {entry["offset"]: entry for entry in chunks}
         fields = lambda path: entries[root.find(path).offset]["fields"]  # noqa: E731
         version = fields("HEAD/VERS")
-        self.assertEqual((version["objects"], version["joints"], version["cycles"]), (1, 65, 2))
+        self.assertEqual((version["objects"], version["joints"], version["clips"]), (1, 65, 2))
         self.assertTrue(version["generator"].startswith("bendy "))
         self.assertEqual(fields("HEAD/OBJE/SKIN/NAME"), {"text": root.find("HEAD/OBJE/SKIN/NAME").payload.decode()})
         for path, chunk in root.walk():
@@ -152,9 +152,9 @@ class Inspect(Case):
 
     def test_joints_of_compact_files_have_their_names(self):
         self.done("convert", SOURCE / "examples/mannequin.glb", "--compact", "-q", "-o", "compact.bendy")
-        joints = [re.search(r'SKIN .*?(?=, limits|, extras|$)', line).group()
+        joints = [re.search(r'SKIN .*?(?=, constraint|, extras|$)', line).group()
                   for line in self.done("inspect", "compact.bendy").decode().splitlines() if " SKIN " in line]
-        exact = [re.search(r'SKIN .*?(?=, limits|, extras|$)', line).group()
+        exact = [re.search(r'SKIN .*?(?=, constraint|, extras|$)', line).group()
                  for line in self.done("inspect", self.convert()).decode().splitlines() if " SKIN " in line]
         self.assertEqual(joints, exact)
         self.assertTrue(any('SKIN 3  "mixamorig:Hips"  at ' in line for line in joints))
@@ -247,7 +247,7 @@ class InspectRig(Case):
         root.find(where + "/PIVO").children.append(limit(1, scope=1))
         root.find(where).children.append(Chunk("EXTN", b"{}"))
         self.assertEqual(self.line(root, where), '"pole"  at 0 1 0, 1 triangles, '
-                                                 'limits: hinge 0 to 150 deg | locked, IK only, extensions')
+                                                 'constraint: hinge 0 to 150 deg | locked, IK only, extensions')
 
     def test_a_joint_without_a_place_starts_with_what_it_has(self):
         root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())

@@ -51,7 +51,7 @@ WRITERS = {
     "convert": Writer("convert", "glb", [".bendy"], default="in.bendy"),
     "export": Writer("export", "bendy", [".glb", ".gltf", ".x"], default="in.glb"),
     "assemble": Writer("assemble", "json", [".bendy"], default="in.bendy"),
-    "edit": Writer("edit", "bendy", [".bendy"], ["--strip", "cycles"]),
+    "edit": Writer("edit", "bendy", [".bendy"], ["--strip", "clips"]),
     "dump": Writer("dump", "bendy", [".json", ".txt"]),
     "rig": Writer("rig", "bendy", [".json"]),
     "pose": Writer("pose", "bendy", [".obj", ".ply", ".json"]),
@@ -201,13 +201,13 @@ class InputAsOutput(OutputCase):
     def test_a_file_is_edited_in_place_where_that_is_said(self):
         source = self.source(WRITERS["edit"])
         before = source.read_bytes()
-        self.failed("edit", source.name, "--strip", "cycles", "-o", source.name, file=source.name)
+        self.failed("edit", source.name, "--strip", "clips", "-o", source.name, file=source.name)
         self.assertEqual(source.read_bytes(), before)
-        self.done("edit", source.name, "--strip", "cycles", "--in-place")
+        self.done("edit", source.name, "--strip", "clips", "--in-place")
         self.assertTrue(self.is_right(WRITERS["edit"], source))
-        self.assertIn("--in-place", self.misused("edit", source.name, "--strip", "cycles"))
-        self.assertIn("--in-place", self.misused("edit", source.name, "--strip", "cycles", "-i", "-o", "out.bendy"))
-        self.assertIn("--in-place", self.misused("edit", "-", "--strip", "cycles", "-i"))
+        self.assertIn("--in-place", self.misused("edit", source.name, "--strip", "clips"))
+        self.assertIn("--in-place", self.misused("edit", source.name, "--strip", "clips", "-i", "-o", "out.bendy"))
+        self.assertIn("--in-place", self.misused("edit", "-", "--strip", "clips", "-i"))
 
 
 class TwoOutputs(OutputCase):
@@ -531,7 +531,7 @@ class Suffixes(OutputCase):
         """Runs the commands that an error names."""
         commands = text.split("\n")[0].rsplit(": ", 1)[1]
         self.assertTrue(commands.startswith("bendy "), text)
-        line = commands.replace("bendy edit in.bendy ...", "bendy edit in.bendy --strip cycles")
+        line = commands.replace("bendy edit in.bendy ...", "bendy edit in.bendy --strip clips")
         script = " && ".join('"$0"' + part[len("bendy"):] for part in line.split(" && "))
         result = subprocess.run(["sh", "-c", script, BENDY], cwd=self.folder, capture_output=True, timeout=120,
                                 check=False)

@@ -57,7 +57,7 @@ class PoseCommand(Case):
         summary = self.done("convert", "--lod", SOURCE / "examples" / "mannequin.glb", "-o", path).decode()
         self.assertRegex(summary, r"levels +100 % [\d,]+, 50 % [\d,]+ \(.*, fewest [\d,]+ triangles \(.* mm off\)\n")
         self.assertEqual(self.done("validate", path), b"")
-        self.assertRegex(self.done("inspect", path).decode(), r"LODD .*pools?, .*down to .*error at most")
+        self.assertRegex(self.done("inspect", path).decode(), r"LODD .*meshes?, .*down to .*error at most")
         whole = self.pose(path, "--clip", "Walk", "--time", "0.25")
         exact = self.pose(self.convert(), "--clip", "Walk", "--time", "0.25")
 

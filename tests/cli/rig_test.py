@@ -284,7 +284,7 @@ class Markers(Case):
         self.assertNotIn("markers", json.loads(self.done("rig", "bare.bendy")))
         result = self.bendy("diff", "small.bendy", "bare.bendy", "--tolerance", "1%")
         self.assertEqual(result.returncode, 1)
-        self.assertIn(b'! cycle "Walk": markers: 2 -> 0\n', result.stdout)
+        self.assertIn(b'! clip "Walk": markers: 2 -> 0\n', result.stdout)
 
     def test_differences_are_told_one_by_one(self):
         self.marked({"Walk": self.STEPS})
@@ -297,7 +297,7 @@ class Markers(Case):
     def test_what_is_wrong_in_a_rig_file(self):
         for markers, message in (
                 ({"Walk": [{"time": 1.5, "name": "late"}]},
-                 "markers.Walk[0]: 1.5 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+                 "markers.Walk[0]: 1.5 s is outside the clip, which lasts from 0.0 s to 1.0 s"),
                 ({"Walk": {"step": "soon"}}, "markers.Walk.step: a number is due, not 'soon'"),
                 ([], "markers: it must be an object, not array")):
             line = self.failed("convert", self.convert(), "--rig", self.write(markers), "-o", "x.bendy")
@@ -305,7 +305,7 @@ class Markers(Case):
             self.assertFalse((self.folder / "x.bendy").exists())
         result = self.bendy("convert", self.convert(), "--rig", self.write({"Fly": []}), "-q", "-o", "x.bendy")
         self.assertEqual(result.returncode, 0)
-        self.assertIn(b"rig.json: markers.Fly: no cycle takes 'Fly'", result.stderr)
+        self.assertIn(b"rig.json: markers.Fly: no clip takes 'Fly'", result.stderr)
 
 
 if __name__ == "__main__":

@@ -48,16 +48,15 @@ double distance(const float* found, const nlohmann::json& wanted, std::size_t fi
 void expect_pose(const Model& model, const nlohmann::json& wanted, double tolerance) {
     Pose pose(model);
     if (!wanted.at("clip").is_null())
-        EXPECT_TRUE(
-            sample(pose, &model.cycles()[wanted.at("clip").get<std::size_t>()], wanted.at("time").get<float>()));
+        EXPECT_TRUE(sample(pose, &model.clips()[wanted.at("clip").get<std::size_t>()], wanted.at("time").get<float>()));
     const nlohmann::json& joints = wanted.at("joints");
     ASSERT_EQ(joints.size(), model.joints().size());
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
         EXPECT_LE(distance(&pose.model_space()[joint][0][0], joints[joint], 0), tolerance) << "joint " << joint;
     const nlohmann::json& meshes = wanted.at("meshes");
-    ASSERT_EQ(meshes.size(), model.pools().size());
+    ASSERT_EQ(meshes.size(), model.meshes().size());
     for (std::uint32_t number = 0; number < meshes.size(); ++number) {
-        std::vector<glm::vec3> positions(model.pools()[number].vertices);
+        std::vector<glm::vec3> positions(model.meshes()[number].vertices);
         ASSERT_EQ(meshes[number].at("vertices"), positions.size());
         ASSERT_TRUE(skin(pose, {.mesh = number, .out = {.positions = positions}}));
         for (const nlohmann::json& vertex : meshes[number].at("positions")) {

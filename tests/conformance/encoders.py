@@ -96,7 +96,7 @@ def triangles(indices):
 LISTS = ((3, 0, 0), (3, 1, 0), (3, 0, 1), (3, 1, 1), (1, 0, 2), (1, 1, 2), (3, 0, 2), (3, 1, 2))
 
 
-def cycle(payload):
+def clip(payload):
     """Codec 6's plain form of a payload with one segment and bases of 2 bytes; predictor 0 throughout."""
     frames, _, rate, joints, segment, lists, wide = struct.unpack_from('<IffHHBB', payload)
     if segment or wide:
@@ -187,7 +187,7 @@ def sums(rows, stride):
     return to_planes(bytes(out), stride)
 
 
-CODECS = {'zstd': 1, 'vertices': 2, 'vertices_zstd': 3, 'indices': 4, 'indices_zstd': 5, 'cycle': 6, 'sums': 7}
+CODECS = {'zstd': 1, 'vertices': 2, 'vertices_zstd': 3, 'indices': 4, 'indices_zstd': 5, 'clip': 6, 'sums': 7}
 
 
 def encode(name, payload, head=0, stride=0, size=None, reserved=0, most=1 << 17):
@@ -202,7 +202,7 @@ def encode(name, payload, head=0, stride=0, size=None, reserved=0, most=1 << 17)
     elif name == 'sums':
         body = zstd(sums(rest, stride))
     else:
-        body = cycle(payload)
+        body = clip(payload)
     if name.endswith('_zstd'):
         body = zstd(body)
     start = struct.pack('<QHHI', len(payload) if size is None else size, head, stride, reserved)

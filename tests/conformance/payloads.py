@@ -34,13 +34,13 @@ def read_tables():
 
 CONTAINERS, STRUCTS = read_tables()
 RECORD_OF = {'VERS': 'VersionRecord', 'BNDS': 'BoundRecord', 'SAMP': 'SamplerRecord', 'SAME': 'SameRecord',
-             'SURF': 'SurfaceRecord', 'REST': 'RestRecord', 'LIMT': 'LimitRecord', 'PULL': 'PullRecord', 'KINF': 'ChainRecord',
-             'POLY': 'PolygonRecord', 'JNTS': 'JointsRecord', 'VINF': 'PoolRecord', 'TINF': 'TargetRecord', 'CINF': 'CycleRecord',
+             'SURF': 'SurfaceRecord', 'REST': 'RestRecord', 'LIMT': 'ConstraintRecord', 'PULL': 'ChainWeightRecord', 'KINF': 'ChainRecord',
+             'POLY': 'SubmeshRecord', 'JNTS': 'JointsRecord', 'VINF': 'MeshRecord', 'TINF': 'MorphTargetRecord', 'CINF': 'ClipRecord',
              'PACK': 'PackRecord', 'PALT': 'PaletteRecord', 'LODD': 'CollapseRecord', 'IMAG': 'ImageRecord',
              'MARK': 'MarkersRecord', 'CURV': 'CurveRecord'}
 STREAMS = ('POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX')
 RECORD_OF.update(dict.fromkeys(STREAMS, 'StreamRecord'))
-ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'PoolCollapseRecord'): 16,
+ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'MeshCollapseRecord'): 16,
         ('MARK', 'MarkerRecord'): 8}  # where a table starts
 
 # What a field holds that no description sets; all others are 0. These are the pages' "none", "free" and "no change".
@@ -50,12 +50,12 @@ DEFAULTS = {
     'SurfaceRecord': {'base_colour': [1, 1, 1, 1], 'metallic': [1], 'roughness': [1], 'normal_scale': [1],
                       'occlusion_strength': [1], 'alpha_cutoff': [0.5]},
     'RestRecord': {'rotation': [0, 0, 0, 1], 'scale': [1, 1, 1]},
-    'LimitRecord': {'frame': [0, 0, 0, 1], **{'%s_%s' % (what, end): [sign * float('inf')] * 3
+    'ConstraintRecord': {'frame': [0, 0, 0, 1], **{'%s_%s' % (what, end): [sign * float('inf')] * 3
                                               for what in ('rotation', 'translation') for end, sign in (('min', -1), ('max', 1))}},
-    'PullRecord': {'weight': [1]},
+    'ChainWeightRecord': {'weight': [1]},
     'ChainRecord': {'target': [NONE], 'pole': [NONE], 'tip_rotation': [0, 0, 0, 1], 'position_weight': [1], 'influence': [1]},
-    'PolygonRecord': {'material': [NONE]},
-    'PoolRecord': {'joint': [NONE]},
+    'SubmeshRecord': {'material': [NONE]},
+    'MeshRecord': {'joint': [NONE]},
     'PackRecord': {'frames': [1], 'frame_rate': [1]},
     'PlayRecord': {'frames': [1]},
     'CurveRecord': {'keys': [1], 'components': [1], 'interpolation': [1], 'target': [NONE], 'values': [1]},

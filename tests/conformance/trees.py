@@ -96,7 +96,7 @@ def count_all(root):
     vers = next((child for child in root.children or [] if child.id == 'VERS'), None)
     if vers is None or vers.payload is None or len(vers.payload) < 48 or vers.codec:
         return
-    counts = dict.fromkeys(('objects', 'joints', 'pools', 'vertices', 'cycles', 'materials', 'textures'), 0)
+    counts = dict.fromkeys(('objects', 'joints', 'meshes', 'vertices', 'clips', 'materials', 'textures'), 0)
 
     def visit(node):
         for child in node.children or []:
@@ -104,7 +104,7 @@ def count_all(root):
                 continue
             if (node.id, child.id) in (('HEAD', 'OBJE'), ('OBJE', 'SKIN'), ('SKIN', 'SKIN'), ('OBJE', 'VECT'), ('OBJE', 'CYCL'),
                                        ('HEAD', 'MATE'), ('SKIN', 'MATE'), ('HEAD', 'TEXT')):
-                counts[{'OBJE': 'objects', 'SKIN': 'joints', 'VECT': 'pools', 'CYCL': 'cycles', 'MATE': 'materials',
+                counts[{'OBJE': 'objects', 'SKIN': 'joints', 'VECT': 'meshes', 'CYCL': 'clips', 'MATE': 'materials',
                         'TEXT': 'textures'}[child.id]] += child.levels
                 if child.id == 'VECT':
                     info = next((leaf for leaf in child.children if leaf.id == 'VINF' and leaf.payload is not None), None)

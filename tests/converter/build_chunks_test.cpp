@@ -105,7 +105,7 @@ Mesh make_body() {
     mesh.targets[0].normals = {{0.1f, 0, 0}, {0, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}};
     mesh.targets[1].name = "";
     mesh.targets[1].tangents = {{1, 2, 3}, {0, 0, 0}, {0, 0, 0}, {4, 5, 6}};
-    mesh.parts = {{Topology::triangles, 1, {0, 1, 2}}, {Topology::triangles, 0, {2, 1, 3}}};
+    mesh.submeshes = {{Topology::triangles, 1, {0, 1, 2}}, {Topology::triangles, 0, {2, 1, 3}}};
     mesh.extras = R"({"lod":0})";
     return mesh;
 }
@@ -115,26 +115,26 @@ Mesh make_hat() {
     mesh.name = "hat";
     mesh.joint = 4;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    mesh.parts = {
+    mesh.submeshes = {
         {Topology::points, kNone, {2, 0}}, {Topology::lines, kNone, {0, 1}}, {Topology::triangles, kNone, {0, 1, 2}}};
     return mesh;
 }
 
-std::vector<Cycle> make_cycles() {
-    std::vector<Cycle> cycles(3);
-    cycles[0].name = "wave";
-    cycles[0].loop = true;
-    cycles[0].extras = R"({"loop":true})";
-    cycles[0].tracks = {
+std::vector<Clip> make_clips() {
+    std::vector<Clip> clips(3);
+    clips[0].name = "wave";
+    clips[0].loop = true;
+    clips[0].extras = R"({"loop":true})";
+    clips[0].tracks = {
         make_track(TrackPath::translation, Interpolation::linear, 1, 3, {0.5f, 1.5f}, {1, 2, 3, 4, 5, 6}),
         make_track(TrackPath::rotation, Interpolation::cubic, 1, 4, {0.25f}, {1, 1, 1, 1, 0, 0, 1, 0, 2, 2, 2, 2}),
         make_track(TrackPath::scale, Interpolation::step, 2, 3, {0.5f, 1.5f}, {1, 2, 3, 4, 5, 6}),
         make_track(TrackPath::weights, Interpolation::linear, 0, 2, {0.5f, 1.75f}, {0, 1, 0.5f, -0.25f}),
     };
-    cycles[1].name = "";
-    cycles[2].name = "wave";
-    cycles[2].tracks = {make_track(TrackPath::translation, Interpolation::linear, 4, 3, {3}, {0, 0, 9})};
-    return cycles;
+    clips[1].name = "";
+    clips[2].name = "wave";
+    clips[2].tracks = {make_track(TrackPath::translation, Interpolation::linear, 4, 3, {3}, {0, 0, 9})};
+    return clips;
 }
 
 std::vector<Material> make_materials() {
@@ -166,7 +166,7 @@ Scene make_scene() {
     scene.name = "hero";
     scene.joints = make_joints();
     scene.meshes = {make_body(), make_hat()};
-    scene.cycles = make_cycles();
+    scene.clips = make_clips();
     scene.materials = make_materials();
     scene.images.resize(3);
     scene.images[0].media_type = "image/webp";
@@ -227,39 +227,39 @@ TEST(BuildChunks, JointsSurvive) {
 TEST(BuildChunks, VerticesSurvive) {
     const Scene scene = make_scene();
     const Built built(scene);
-    ASSERT_EQ(built.model.pools().size(), 2u);
-    const Pool& pool = built.model.pools()[0];
+    ASSERT_EQ(built.model.meshes().size(), 2u);
+    const bendy::Mesh& stored = built.model.meshes()[0];
     const Mesh& mesh = scene.meshes[0];
-    EXPECT_EQ(pool.name, "body");
-    EXPECT_EQ(pool.extras, mesh.extras);
-    EXPECT_EQ(pool.joint, 3u);
-    EXPECT_EQ(pool.vertices, 4u);
-    expect_numbers(pool.positions, 3, flat(mesh.positions), "positions");
-    ASSERT_TRUE(pool.normals && pool.tangents && pool.bones && pool.weights);
-    expect_numbers(*pool.normals, 3, flat(mesh.normals), "normals");
-    expect_numbers(*pool.tangents, 4, flat(mesh.tangents), "tangents");
-    ASSERT_EQ(pool.texture_coords.size(), 2u);
-    ASSERT_EQ(pool.colours.size(), 2u);
-    ASSERT_EQ(pool.attributes.size(), 2u);
+    EXPECT_EQ(stored.name, "body");
+    EXPECT_EQ(stored.extras, mesh.extras);
+    EXPECT_EQ(stored.joint, 3u);
+    EXPECT_EQ(stored.vertices, 4u);
+    expect_numbers(stored.positions, 3, flat(mesh.positions), "positions");
+    ASSERT_TRUE(stored.normals && stored.tangents && stored.bones && stored.weights);
+    expect_numbers(*stored.normals, 3, flat(mesh.normals), "normals");
+    expect_numbers(*stored.tangents, 4, flat(mesh.tangents), "tangents");
+    ASSERT_EQ(stored.texture_coords.size(), 2u);
+    ASSERT_EQ(stored.colours.size(), 2u);
+    ASSERT_EQ(stored.attributes.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(pool.texture_coords[i].set, mesh.texture_coords[i].set);
-        expect_numbers(pool.texture_coords[i], 2, mesh.texture_coords[i].values, "texture coordinates");
-        EXPECT_EQ(pool.colours[i].set, mesh.colours[i].set);
-        expect_numbers(pool.colours[i], mesh.colours[i].components, mesh.colours[i].values, "colours");
-        EXPECT_EQ(pool.attributes[i].name, mesh.attributes[i].name);
-        expect_numbers(pool.attributes[i].values, mesh.attributes[i].components, mesh.attributes[i].values,
+        EXPECT_EQ(stored.texture_coords[i].set, mesh.texture_coords[i].set);
+        expect_numbers(stored.texture_coords[i], 2, mesh.texture_coords[i].values, "texture coordinates");
+        EXPECT_EQ(stored.colours[i].set, mesh.colours[i].set);
+        expect_numbers(stored.colours[i], mesh.colours[i].components, mesh.colours[i].values, "colours");
+        EXPECT_EQ(stored.attributes[i].name, mesh.attributes[i].name);
+        expect_numbers(stored.attributes[i].values, mesh.attributes[i].components, mesh.attributes[i].values,
                        "attributes");
     }
-    expect_numbers(*pool.weights, 2, mesh.weights, "weights");
-    ASSERT_EQ(pool.bones->components, 2u);
-    for (std::uint32_t i = 0; i < mesh.bones.size(); ++i) EXPECT_EQ(pool.bones->index(i / 2, i % 2), mesh.bones[i]);
-    EXPECT_TRUE(std::equal(pool.palette.joints.begin(), pool.palette.joints.end(), mesh.palette.joints.begin(),
+    expect_numbers(*stored.weights, 2, mesh.weights, "weights");
+    ASSERT_EQ(stored.bones->components, 2u);
+    for (std::uint32_t i = 0; i < mesh.bones.size(); ++i) EXPECT_EQ(stored.bones->index(i / 2, i % 2), mesh.bones[i]);
+    EXPECT_TRUE(std::equal(stored.palette.joints.begin(), stored.palette.joints.end(), mesh.palette.joints.begin(),
                            mesh.palette.joints.end()));
-    ASSERT_EQ(pool.palette.inverse_bind().size(), 2u);
-    EXPECT_EQ(pool.palette.inverse_bind()[0], mesh.palette.inverse_bind[0]);
-    EXPECT_EQ(pool.palette.inverse_bind()[1], mesh.palette.inverse_bind[1]);
+    ASSERT_EQ(stored.palette.inverse_bind().size(), 2u);
+    EXPECT_EQ(stored.palette.inverse_bind()[0], mesh.palette.inverse_bind[0]);
+    EXPECT_EQ(stored.palette.inverse_bind()[1], mesh.palette.inverse_bind[1]);
 
-    const Pool& hat = built.model.pools()[1];
+    const bendy::Mesh& hat = built.model.meshes()[1];
     EXPECT_TRUE(hat.is_rigid());
     EXPECT_EQ(hat.name, "hat");
     EXPECT_EQ(hat.joint, 4u);
@@ -270,22 +270,22 @@ TEST(BuildChunks, VerticesSurvive) {
 TEST(BuildChunks, TargetsSurvive) {
     const Scene scene = make_scene();
     const Built built(scene);
-    const Pool& pool = built.model.pools()[0];
-    ASSERT_EQ(pool.targets.size(), 2u);
-    EXPECT_EQ(pool.targets[0].name, "smile");
-    EXPECT_EQ(pool.targets[0].rest_weight, 0.375f);
-    EXPECT_EQ(pool.targets[1].name, "");
-    EXPECT_EQ(pool.targets[1].rest_weight, 0.0f);
-    EXPECT_FALSE(pool.targets[1].positions.has_value());
+    const bendy::Mesh& stored = built.model.meshes()[0];
+    ASSERT_EQ(stored.targets.size(), 2u);
+    EXPECT_EQ(stored.targets[0].name, "smile");
+    EXPECT_EQ(stored.targets[0].rest_weight, 0.375f);
+    EXPECT_EQ(stored.targets[1].name, "");
+    EXPECT_EQ(stored.targets[1].rest_weight, 0.0f);
+    EXPECT_FALSE(stored.targets[1].positions.has_value());
     const Mesh& mesh = scene.meshes[0];
     for (std::size_t k = 0; k < 2; ++k) {
         std::vector<glm::vec3> positions(4);
         std::vector<glm::vec3> normals(4);
         std::vector<glm::vec4> tangents(4);
         const std::vector<float> weights{k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f};
-        ASSERT_TRUE(inbetween(pool, weights, {positions, normals, tangents}));
+        ASSERT_TRUE(apply_morph_targets(stored, weights, {positions, normals, tangents}));
         for (std::size_t v = 0; v < 4; ++v) {
-            const Target& target = mesh.targets[k];
+            const MorphTarget& target = mesh.targets[k];
             const auto displaced = [v](glm::vec3 source, const std::vector<glm::vec3>& by) {
                 return by.empty() ? source : source + by[v];
             };
@@ -301,7 +301,7 @@ TEST(BuildChunks, PolygonsSurviveWithTheirMaterialsAndJoints) {
     const Built built(make_scene());
     // Triangle 0 1 2: joint 2 has 1 + 0.25 + 0.1, joint 1 has 0.75 + 0.9. Triangle 2 1 3: joint 1 has 0.9 + 0.75 + 1.
     struct Expected {
-        std::uint32_t joint, pool, material;
+        std::uint32_t joint, mesh, material;
         Topology topology;
         std::vector<std::uint32_t> vertices;
     };
@@ -310,34 +310,34 @@ TEST(BuildChunks, PolygonsSurviveWithTheirMaterialsAndJoints) {
                                          {4, 1, kNone, Topology::triangles, {0, 1, 2}},
                                          {4, 1, kNone, Topology::lines, {0, 1}},
                                          {4, 1, kNone, Topology::points, {2, 0}}};
-    const auto polygons = built.model.polygons();
+    const auto polygons = built.model.joint_submeshes();
     ASSERT_EQ(polygons.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(polygons[i].joint, expected[i].joint) << i;
-        EXPECT_EQ(polygons[i].pool, expected[i].pool) << i;
+        EXPECT_EQ(polygons[i].mesh, expected[i].mesh) << i;
         EXPECT_EQ(polygons[i].material, expected[i].material) << i;
         EXPECT_EQ(polygons[i].topology, expected[i].topology) << i;
         std::vector<std::uint32_t> vertices;
-        const Pool& pool = built.model.pools()[polygons[i].pool];
+        const bendy::Mesh& mesh = built.model.meshes()[polygons[i].mesh];
         for (std::uint32_t k = 0; k < polygons[i].count; ++k)
-            vertices.push_back(pool.indices->index(polygons[i].first + k, 0));
+            vertices.push_back(mesh.indices->index(polygons[i].first + k, 0));
         EXPECT_EQ(vertices, expected[i].vertices) << i;
     }
 }
 
-TEST(BuildChunks, CyclesSurvive) {
+TEST(BuildChunks, ClipsSurvive) {
     const Scene scene = make_scene();
     const Built built(scene);
-    const auto cycles = built.model.cycles();
-    ASSERT_EQ(cycles.size(), scene.cycles.size());
-    for (std::size_t c = 0; c < cycles.size(); ++c) {
-        EXPECT_EQ(cycles[c].name, scene.cycles[c].name);
-        EXPECT_EQ(cycles[c].loop, scene.cycles[c].loop);
-        EXPECT_EQ(cycles[c].extras, scene.cycles[c].extras);
-        ASSERT_EQ(cycles[c].tracks.size(), scene.cycles[c].tracks.size());
-        for (std::size_t t = 0; t < cycles[c].tracks.size(); ++t) {
-            const TrackView& track = cycles[c].tracks[t];
-            const Track& given = scene.cycles[c].tracks[t];
+    const auto clips = built.model.clips();
+    ASSERT_EQ(clips.size(), scene.clips.size());
+    for (std::size_t c = 0; c < clips.size(); ++c) {
+        EXPECT_EQ(clips[c].name, scene.clips[c].name);
+        EXPECT_EQ(clips[c].loop, scene.clips[c].loop);
+        EXPECT_EQ(clips[c].extras, scene.clips[c].extras);
+        ASSERT_EQ(clips[c].tracks.size(), scene.clips[c].tracks.size());
+        for (std::size_t t = 0; t < clips[c].tracks.size(); ++t) {
+            const TrackView& track = clips[c].tracks[t];
+            const Track& given = scene.clips[c].tracks[t];
             EXPECT_EQ(track.path, given.path);
             EXPECT_EQ(track.interpolation, given.interpolation);
             EXPECT_EQ(track.target, given.target);
@@ -346,17 +346,17 @@ TEST(BuildChunks, CyclesSurvive) {
             EXPECT_EQ(std::vector<float>(track.values.begin(), track.values.end()), given.values);
         }
     }
-    EXPECT_EQ(cycles[0].start, 0.25f);  // the earliest key of all tracks
-    EXPECT_EQ(cycles[0].end, 1.75f);
-    EXPECT_EQ(cycles[1].start, 0.0f);
-    EXPECT_EQ(cycles[1].end, 0.0f);
-    EXPECT_EQ(cycles[2].start, 3.0f);
-    EXPECT_EQ(cycles[2].end, 3.0f);
+    EXPECT_EQ(clips[0].start, 0.25f);  // the earliest key of all tracks
+    EXPECT_EQ(clips[0].end, 1.75f);
+    EXPECT_EQ(clips[1].start, 0.0f);
+    EXPECT_EQ(clips[1].end, 0.0f);
+    EXPECT_EQ(clips[2].start, 3.0f);
+    EXPECT_EQ(clips[2].end, 3.0f);
 }
 
 TEST(BuildChunks, EqualKeysAreStoredOnce) {
     const Built built(make_scene());
-    const auto& tracks = built.model.cycles()[0].tracks;
+    const auto& tracks = built.model.clips()[0].tracks;
     EXPECT_EQ(tracks[0].times.data(), tracks[2].times.data());
     EXPECT_EQ(tracks[0].values.data(), tracks[2].values.data());
     EXPECT_NE(tracks[0].times.data(), tracks[3].times.data());
@@ -365,13 +365,13 @@ TEST(BuildChunks, EqualKeysAreStoredOnce) {
 TEST(BuildChunks, KeysKeepTheSignOfZero) {
     Scene scene;
     scene.joints.resize(2);
-    scene.cycles.resize(1);
+    scene.clips.resize(1);
     const std::vector<float> plus{0.0f, 0.0f, 0.0f};
     const std::vector<float> minus{-0.0f, 0.0f, -0.0f};
-    scene.cycles[0].tracks = {make_track(TrackPath::translation, Interpolation::linear, 0, 3, {0}, plus),
-                              make_track(TrackPath::translation, Interpolation::linear, 1, 3, {0}, minus)};
+    scene.clips[0].tracks = {make_track(TrackPath::translation, Interpolation::linear, 0, 3, {0}, plus),
+                             make_track(TrackPath::translation, Interpolation::linear, 1, 3, {0}, minus)};
     const Built built(scene);
-    const auto& tracks = built.model.cycles()[0].tracks;
+    const auto& tracks = built.model.clips()[0].tracks;
     EXPECT_EQ(std::memcmp(tracks[0].values.data(), plus.data(), sizeof(float) * 3), 0);
     EXPECT_EQ(std::memcmp(tracks[1].values.data(), minus.data(), sizeof(float) * 3), 0);
 }
@@ -476,9 +476,9 @@ TEST(BuildChunks, TheVersionCountsWhatIsThere) {
     const VersionRecord& version = *built.document.version;
     EXPECT_EQ(version.objects, 1u);
     EXPECT_EQ(version.joints, 5u);
-    EXPECT_EQ(version.pools, 2u);
+    EXPECT_EQ(version.meshes, 2u);
     EXPECT_EQ(version.vertices, 7u);
-    EXPECT_EQ(version.cycles, 3u);
+    EXPECT_EQ(version.clips, 3u);
     EXPECT_EQ(version.materials, 2u);
     EXPECT_EQ(version.textures, 3u);
     EXPECT_EQ(std::string(version.generator.begin(), version.generator.end()), "generator of exactly 32 bytes!!!");
@@ -562,10 +562,10 @@ TEST(BuildChunks, ATargetTakesTheSmallerOfTwoForms) {
         EXPECT_LE(built.bytes.size(), dense_size) << touched;
         before = built.bytes.size();
 
-        const Pool& pool = built.model.pools()[0];
-        ASSERT_EQ(pool.targets.size(), 1u);
-        EXPECT_EQ(pool.targets[0].rest_weight, 0.5f);
-        const bool is_sparse = pool.targets[0].vertices.has_value();
+        const bendy::Mesh& stored = built.model.meshes()[0];
+        ASSERT_EQ(stored.targets.size(), 1u);
+        EXPECT_EQ(stored.targets[0].rest_weight, 0.5f);
+        const bool is_sparse = stored.targets[0].vertices.has_value();
         if (touched == 1) {
             EXPECT_TRUE(is_sparse);
         }
@@ -573,11 +573,11 @@ TEST(BuildChunks, ATargetTakesTheSmallerOfTwoForms) {
             EXPECT_FALSE(is_sparse);
         }
         if (is_sparse) {
-            EXPECT_EQ(pool.targets[0].vertices->elements, touched);
+            EXPECT_EQ(stored.targets[0].vertices->elements, touched);
         }
         std::vector<glm::vec3> positions(kVertices);
         std::vector<glm::vec3> normals(kVertices);
-        ASSERT_TRUE(inbetween(pool, std::vector{1.0f}, {positions, normals, {}}));
+        ASSERT_TRUE(apply_morph_targets(stored, std::vector{1.0f}, {positions, normals, {}}));
         for (std::uint32_t v = 0; v < kVertices; ++v) {
             EXPECT_EQ(positions[v], scene.meshes[0].targets[0].positions[v]);
             EXPECT_EQ(normals[v], glm::vec3(0, 0, 1) + scene.meshes[0].targets[0].normals[v]);
@@ -587,12 +587,12 @@ TEST(BuildChunks, ATargetTakesTheSmallerOfTwoForms) {
 
 TEST(BuildChunks, SmallNumbersTakeSmallStreams) {
     const Built built(make_scene());
-    const Pool& pool = built.model.pools()[0];
-    EXPECT_EQ(pool.texture_coords[0].type, ComponentType::u8);   // 0 and 1
-    EXPECT_EQ(pool.texture_coords[1].type, ComponentType::f32);  // negative numbers
-    EXPECT_EQ(pool.bones->type, ComponentType::u8);
-    EXPECT_EQ(pool.indices->type, ComponentType::u16);
-    EXPECT_EQ(pool.attributes[0].values.type, ComponentType::f32);
+    const bendy::Mesh& stored = built.model.meshes()[0];
+    EXPECT_EQ(stored.texture_coords[0].type, ComponentType::u8);   // 0 and 1
+    EXPECT_EQ(stored.texture_coords[1].type, ComponentType::f32);  // negative numbers
+    EXPECT_EQ(stored.bones->type, ComponentType::u8);
+    EXPECT_EQ(stored.indices->type, ComponentType::u16);
+    EXPECT_EQ(stored.attributes[0].values.type, ComponentType::f32);
 }
 
 TEST(BuildChunks, ALongRopeIsNoRecursion) {

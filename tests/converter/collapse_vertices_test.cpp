@@ -62,19 +62,19 @@ Mesh sphere(std::uint32_t rings, bool seam) {
     mesh.positions.back() = {0, 1, 0};
     add(0.5f, 1.0f);
     mesh.positions.back() = {0, -1, 0};
-    Part part;
+    Submesh submesh;
     for (std::uint32_t column = 0; column < rings; ++column) {
         const std::uint32_t next = seam ? column + 1 : (column + 1) % columns;
-        part.indices.insert(part.indices.end(), {north, next, column});
+        submesh.indices.insert(submesh.indices.end(), {north, next, column});
         for (std::uint32_t row = 0; row + 2 < rings; ++row) {
             const std::uint32_t a = row * columns + column;
             const std::uint32_t b = row * columns + next;
-            part.indices.insert(part.indices.end(), {a, b, a + columns, b, b + columns, a + columns});
+            submesh.indices.insert(submesh.indices.end(), {a, b, a + columns, b, b + columns, a + columns});
         }
         const std::uint32_t last = (rings - 2) * columns;
-        part.indices.insert(part.indices.end(), {north + 1, last + column, last + next});
+        submesh.indices.insert(submesh.indices.end(), {north + 1, last + column, last + next});
     }
-    mesh.parts.push_back(part);
+    mesh.submeshes.push_back(submesh);
     if (seam) mesh.texture_coords.push_back(coords);
     return mesh;
 }
@@ -82,7 +82,7 @@ Mesh sphere(std::uint32_t rings, bool seam) {
 /// A wavy square of n by n quads.
 Mesh sheet(std::uint32_t n) {
     Mesh mesh;
-    Part part;
+    Submesh submesh;
     for (std::uint32_t y = 0; y <= n; ++y) {
         for (std::uint32_t x = 0; x <= n; ++x) {
             const float u = static_cast<float>(x) / static_cast<float>(n);
@@ -90,23 +90,23 @@ Mesh sheet(std::uint32_t n) {
             mesh.positions.emplace_back(u, v, 0.1f * std::sin(6.0f * u) * std::cos(5.0f * v));
             if (x == n || y == n) continue;
             const std::uint32_t at = y * (n + 1) + x;
-            part.indices.insert(part.indices.end(), {at, at + 1, at + n + 2, at, at + n + 2, at + n + 1});
+            submesh.indices.insert(submesh.indices.end(), {at, at + 1, at + n + 2, at, at + n + 2, at + n + 1});
         }
     }
-    mesh.parts.push_back(part);
+    mesh.submeshes.push_back(submesh);
     return mesh;
 }
 
 /// Edges by place, and in how many triangles each is.
-Edges edges_of(const Model& model, const Lod& lod, std::uint32_t pool) {
+Edges edges_of(const Model& model, const Lod& lod, std::uint32_t mesh) {
     Edges edges;
-    const auto positions = model.pools()[pool].positions.as<float>();
+    const auto positions = model.meshes()[mesh].positions.as<float>();
     const auto at = [&](std::uint32_t v) {
         return Place{positions[v * 3] + 0.0f, positions[v * 3 + 1] + 0.0f, positions[v * 3 + 2] + 0.0f};
     };
-    for (const Draw& draw : lod.draws()) {
-        if (draw.pool != pool || draw.topology != Topology::triangles) continue;
-        const auto indices = lod.indices(pool).subspan(draw.first, draw.count);
+    for (const bendy::Submesh& submesh : lod.submeshes()) {
+        if (submesh.mesh != mesh || submesh.topology != Topology::triangles) continue;
+        const auto indices = lod.indices(mesh).subspan(submesh.first, submesh.count);
         for (std::size_t k = 0; k < indices.size(); k += 3) {
             for (std::size_t side = 0; side < 3; ++side) {
                 Place a = at(indices[k + side]);
@@ -141,10 +141,10 @@ struct Built {
 /// Every triangle as places, sorted.
 std::vector<std::array<Place, 3>> triangles_of(const Mesh& mesh) {
     std::vector<std::array<Place, 3>> list;
-    for (const Part& part : mesh.parts) {
-        for (std::size_t k = 0; k + 3 <= part.indices.size(); k += 3) {
+    for (const Submesh& submesh : mesh.submeshes) {
+        for (std::size_t k = 0; k + 3 <= submesh.indices.size(); k += 3) {
             std::array<Place, 3> t{};
-            for (std::size_t c = 0; c < 3; ++c) t[c] = place_of(mesh.positions[part.indices[k + c]]);
+            for (std::size_t c = 0; c < 3; ++c) t[c] = place_of(mesh.positions[submesh.indices[k + c]]);
             list.push_back(t);
         }
     }
@@ -187,7 +187,7 @@ TEST(CollapseVertices, NoCrackOpensAtASeam) {
         if (n < 20) continue;
         std::size_t jumps = 0;
         const auto indices = lod.indices(0);
-        const StreamView& coords = built.model->pools()[0].texture_coords[0];
+        const StreamView& coords = built.model->meshes()[0].texture_coords[0];
         for (std::size_t k = 0; k < indices.size(); k += 3) {
             const float a = coords.number(indices[k], 0);
             const float b = coords.number(indices[k + 1], 0);
@@ -257,26 +257,26 @@ TEST(CollapseVertices, ReordersEveryStreamAndKeepsEveryTriangle) {
 
 TEST(CollapseVertices, MaterialsKeepTheirBorder) {
     Mesh mesh = sheet(16);
-    Part left;
-    Part right;
+    Submesh left;
+    Submesh right;
     right.material = 1;
     left.material = 0;
-    for (std::size_t k = 0; k < mesh.parts[0].indices.size(); k += 3) {
+    for (std::size_t k = 0; k < mesh.submeshes[0].indices.size(); k += 3) {
         float x = 0.0f;
-        for (std::size_t c = 0; c < 3; ++c) x += mesh.positions[mesh.parts[0].indices[k + c]].x;
-        Part& part = x < 1.5f ? left : right;
-        for (std::size_t c = 0; c < 3; ++c) part.indices.push_back(mesh.parts[0].indices[k + c]);
+        for (std::size_t c = 0; c < 3; ++c) x += mesh.positions[mesh.submeshes[0].indices[k + c]].x;
+        Submesh& submesh = x < 1.5f ? left : right;
+        for (std::size_t c = 0; c < 3; ++c) submesh.indices.push_back(mesh.submeshes[0].indices[k + c]);
     }
-    mesh.parts = {left, right};
+    mesh.submeshes = {left, right};
     const Built built(scene_of({mesh}));
     Lod lod(*built.model);
-    const auto positions = built.model->pools()[0].positions.as<float>();
+    const auto positions = built.model->meshes()[0].positions.as<float>();
     for (int step = 20; step >= 0; --step) {
         lod.set_share(static_cast<float>(step) / 20.0f);
-        for (const Draw& draw : lod.draws()) {
-            for (const std::uint32_t v : lod.indices(0).subspan(draw.first, draw.count)) {
+        for (const bendy::Submesh& submesh : lod.submeshes()) {
+            for (const std::uint32_t v : lod.indices(0).subspan(submesh.first, submesh.count)) {
                 const float x = positions[std::size_t{v} * 3];
-                EXPECT_TRUE(draw.material == 0 ? x <= 0.5f : x >= 0.5f);
+                EXPECT_TRUE(submesh.material == 0 ? x <= 0.5f : x >= 0.5f);
             }
         }
     }
@@ -287,7 +287,7 @@ TEST(CollapseVertices, TargetsArePartOfTheMetric) {
     // A flat sheet whose middle rises with the target: what is flat at rest must not be thrown away there.
     Mesh mesh = sheet(20);
     for (glm::vec3& p : mesh.positions) p.z = 0.0f;
-    Target target;
+    MorphTarget target;
     for (const glm::vec3& p : mesh.positions) {
         const float apart = glm::length(glm::vec2(p) - glm::vec2(0.25f));
         target.positions.emplace_back(0.0f, 0.0f, std::max(0.0f, 0.2f - apart));
@@ -306,40 +306,41 @@ TEST(CollapseVertices, StrangeMeshesSurvive) {
         sheet(6);  // a third triangle on an edge, a bow tie, degenerate and doubled triangles, lines, loose vertices
     const auto first = static_cast<std::uint32_t>(fins.positions.size());
     fins.positions.insert(fins.positions.end(), {{0.5f, 0.5f, 1}, {2, 2, 2}, {3, 3, 3}, {2, 3, 2}, {9, 9, 9}});
-    auto& list = fins.parts[0].indices;
+    auto& list = fins.submeshes[0].indices;
     list.insert(list.end(),
                 {8, 9, first, 0, 0, 1, 3, 3, 3, 0, first + 1, first + 2, 0, 1, 8, 8, 1, 0, first, first, first});
-    Part line;
+    Submesh line;
     line.topology = Topology::lines;
     line.indices = {24, first + 3};
-    fins.parts.push_back(line);
+    fins.submeshes.push_back(line);
     Mesh one;  // all vertices at one place
     one.positions.assign(30, glm::vec3(1.0f));
-    one.parts.emplace_back();
-    for (std::uint32_t k = 0; k < 30; ++k) one.parts[0].indices.push_back(k);
+    one.submeshes.emplace_back();
+    for (std::uint32_t k = 0; k < 30; ++k) one.submeshes[0].indices.push_back(k);
     Mesh loose;  // nothing is drawn
     loose.positions.resize(5);
     Mesh fan;  // one vertex with very many triangles
     fan.positions.emplace_back(0.0f, 0.0f, 1.0f);
-    fan.parts.emplace_back();
+    fan.submeshes.emplace_back();
     for (std::uint32_t k = 0; k < 500; ++k) {
         const float a = 2.0f * 3.14159265f * static_cast<float>(k) / 500.0f;
         fan.positions.emplace_back(std::cos(a), std::sin(a), 0.0f);
-        fan.parts[0].indices.insert(fan.parts[0].indices.end(), {0, 1 + k, 1 + (k + 1) % 500});
+        fan.submeshes[0].indices.insert(fan.submeshes[0].indices.end(), {0, 1 + k, 1 + (k + 1) % 500});
     }
     const Built built(scene_of({fins, one, loose, fan, Mesh{}}));
     Lod lod(*built.model);
     for (int step = 10; step >= 0; --step) {
         lod.set_share(static_cast<float>(step) / 10.0f);
-        for (std::uint32_t pool = 0; pool < 5; ++pool) {
-            for (const std::uint32_t v : lod.indices(pool)) ASSERT_LT(v, lod.vertices(pool));
+        for (std::uint32_t mesh = 0; mesh < 5; ++mesh) {
+            for (const std::uint32_t v : lod.indices(mesh)) ASSERT_LT(v, lod.vertices(mesh));
         }
     }
     // The line is still from the same place to the same place.
-    const Draw& draw = *std::find_if(lod.draws().begin(), lod.draws().end(),
-                                     [](const Draw& d) { return d.topology == Topology::lines; });
-    const auto positions = built.model->pools()[0].positions.as<float>();
-    EXPECT_EQ(positions[std::size_t{lod.indices(0)[draw.first + 1]} * 3], 2.0f);
+    const bendy::Submesh& submesh =
+        *std::find_if(lod.submeshes().begin(), lod.submeshes().end(),
+                      [](const bendy::Submesh& d) { return d.topology == Topology::lines; });
+    const auto positions = built.model->meshes()[0].positions.as<float>();
+    EXPECT_EQ(positions[std::size_t{lod.indices(0)[submesh.first + 1]} * 3], 2.0f);
     EXPECT_LT(lod.vertices(0), fins.positions.size());
 }
 
@@ -352,10 +353,10 @@ TEST(CollapseVertices, BordersOfTwoMeshesAtOnePlaceStay) {
     Lod lod(*built.model);
     lod.set_share(0.0f);
     std::array<std::set<Place>, 2> shared;
-    for (std::uint32_t pool = 0; pool < 2; ++pool) {
-        for (const auto& [edge, count] : edges_of(*built.model, lod, pool)) {
-            if (std::get<0>(edge.first) == 1.0f) shared[pool].insert(edge.first);
-            if (std::get<0>(edge.second) == 1.0f) shared[pool].insert(edge.second);
+    for (std::uint32_t mesh = 0; mesh < 2; ++mesh) {
+        for (const auto& [edge, count] : edges_of(*built.model, lod, mesh)) {
+            if (std::get<0>(edge.first) == 1.0f) shared[mesh].insert(edge.first);
+            if (std::get<0>(edge.second) == 1.0f) shared[mesh].insert(edge.second);
         }
     }
     EXPECT_EQ(shared[0].size(), 13u);

@@ -37,8 +37,8 @@ Buffer convert_good(const std::filesystem::path& file, const ConvertOptions& opt
 struct Example {
     const char* file;
     std::size_t joints;  ///< nodes of the scene
-    std::vector<std::string> cycles;
-    std::vector<std::string> targets;  ///< of all pools together
+    std::vector<std::string> clips;
+    std::vector<std::string> targets;  ///< of all meshes together
     std::uint64_t triangles;
     std::size_t materials;
 };
@@ -57,19 +57,19 @@ TEST_P(ConvertExample, HoldsWhatTheSourceHolds) {
     const Result<Model> model = Model::from_memory(bytes);
     ASSERT_TRUE(model.has_value());
     EXPECT_EQ(model->joints().size(), expected.joints);
-    std::vector<std::string> cycles;
-    for (const bendy::Cycle& cycle : model->cycles()) {
-        cycles.emplace_back(cycle.name);
-        EXPECT_GT(cycle.end, cycle.start);
+    std::vector<std::string> clips;
+    for (const bendy::Clip& clip : model->clips()) {
+        clips.emplace_back(clip.name);
+        EXPECT_GT(clip.end, clip.start);
     }
-    EXPECT_EQ(cycles, expected.cycles);
+    EXPECT_EQ(clips, expected.clips);
     std::vector<std::string> targets;
-    for (const Pool& pool : model->pools()) {
-        for (const TargetView& target : pool.targets) targets.emplace_back(target.name);
+    for (const bendy::Mesh& mesh : model->meshes()) {
+        for (const MorphTargetView& target : mesh.targets) targets.emplace_back(target.name);
     }
     EXPECT_EQ(targets, expected.targets);
     std::uint64_t triangles = 0;
-    for (const Draw& draw : model->draws()) triangles += draw.count / 3;
+    for (const bendy::Submesh& submesh : model->submeshes()) triangles += submesh.count / 3;
     EXPECT_EQ(triangles, expected.triangles);
     EXPECT_EQ(model->materials().size(), expected.materials);
     ASSERT_EQ(model->textures().size(), 1u);
@@ -95,7 +95,7 @@ TEST_P(ConvertExample, EveryPrefixIsRefused) {
     }
 }
 
-TEST_P(ConvertExample, MovesInEveryCycle) {
+TEST_P(ConvertExample, MovesInEveryClip) {
     const Buffer bytes = convert_good(example(GetParam().file));
     const Result<Model> model = Model::from_memory(bytes);
     ASSERT_TRUE(model.has_value());
@@ -103,16 +103,16 @@ TEST_P(ConvertExample, MovesInEveryCycle) {
     std::vector<glm::vec3> rest(model->vertex_count());
     std::vector<glm::vec3> moved(model->vertex_count());
     ASSERT_TRUE(skin(pose, {.out = {.positions = rest}}));
-    for (const bendy::Cycle& cycle : model->cycles()) {
-        ASSERT_TRUE(sample(pose, &cycle, 0.5f * (cycle.start + cycle.end)));
+    for (const bendy::Clip& clip : model->clips()) {
+        ASSERT_TRUE(sample(pose, &clip, 0.5f * (clip.start + clip.end)));
         ASSERT_TRUE(skin(pose, {.out = {.positions = moved}}));
         float farthest = 0.0f;
         for (std::size_t v = 0; v < rest.size(); ++v) {
             const glm::vec3 by = moved[v] - rest[v];
             farthest = std::max({farthest, std::abs(by.x), std::abs(by.y), std::abs(by.z)});
         }
-        EXPECT_GT(farthest, 0.01f) << cycle.name;
-        EXPECT_LT(farthest, 3.0f) << cycle.name;
+        EXPECT_GT(farthest, 0.01f) << clip.name;
+        EXPECT_LT(farthest, 3.0f) << clip.name;
     }
 }
 

@@ -61,7 +61,7 @@ TEST(Evaluate, CubicIsASplineThroughItsKeys) {
     for (double x = 0.0; x <= 2.0; x += 0.125) EXPECT_NEAR(value_at(track, x)[0], x * x * x, 1e-12);
 }
 
-/// Holds the scene against what the runtime makes of its file, in the rest pose and all over each cycle.
+/// Holds the scene against what the runtime makes of its file, in the rest pose and all over each clip.
 void compare_with_runtime(const Scene& scene, double tolerance) {
     Report report;
     const std::vector<std::byte> bytes = build_chunks(scene, "test", report);
@@ -72,7 +72,7 @@ void compare_with_runtime(const Scene& scene, double tolerance) {
     const auto compare = [&](float seconds) {
         for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
             const auto expected =
-                evaluate_vertices(scene.meshes[mesh], evaluated.target_weights[mesh], evaluated.joints);
+                evaluate_vertices(scene.meshes[mesh], evaluated.morph_weights[mesh], evaluated.joints);
             std::vector<glm::vec3> skinned(expected.size());
             ASSERT_TRUE(skin(pose, {.mesh = mesh, .out = {.positions = skinned}}));
             double worst = 0.0;
@@ -87,13 +87,13 @@ void compare_with_runtime(const Scene& scene, double tolerance) {
     pose.set_rest();
     evaluate_rest(scene, evaluated);
     compare(-1.0f);
-    for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
-        const Cycle& source = scene.cycles[cycle];
-        const float start = model->cycles()[cycle].start;
-        const float length = model->cycles()[cycle].end - start;
+    for (std::size_t clip = 0; clip < scene.clips.size(); ++clip) {
+        const Clip& source = scene.clips[clip];
+        const float start = model->clips()[clip].start;
+        const float length = model->clips()[clip].end - start;
         for (int k = -1; k <= 21; ++k) {
             const float seconds = start + length * static_cast<float>(k) / 20.0f;
-            EXPECT_TRUE(sample(pose, &model->cycles()[cycle], seconds));
+            EXPECT_TRUE(sample(pose, &model->clips()[clip], seconds));
             evaluate(scene, source, seconds, evaluated);
             compare(seconds);
         }

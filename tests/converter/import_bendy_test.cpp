@@ -62,8 +62,8 @@ TEST(ImportBendy, EveryKindOfChunkComesBack) {
     EXPECT_EQ(scene.joints[3].parent, 0u);
     EXPECT_EQ(scene.joints[3].extensions, R"({"KHR_y":[]})");
     EXPECT_EQ(scene.joints[1].rest.translation, glm::vec3(0.0f, 0.5f, 0.0f));
-    ASSERT_EQ(scene.joints[1].limits.size(), 2u);
-    EXPECT_EQ(scene.joints[1].limits[1].rotation_max[1], 0.75f);
+    ASSERT_EQ(scene.joints[1].constraints.size(), 2u);
+    EXPECT_EQ(scene.joints[1].constraints[1].rotation_max[1], 0.75f);
     ASSERT_EQ(scene.chains.size(), 2u);
     EXPECT_EQ(scene.chains[0].name, "back");
     EXPECT_EQ(scene.chains[0].record.stretch, 1.5f);
@@ -102,24 +102,24 @@ TEST(ImportBendy, EveryKindOfChunkComesBack) {
     EXPECT_EQ(fur.targets[0].rest_weight, 0.125f);
     EXPECT_EQ(fur.targets[1].positions, (std::vector<glm::vec3>{{}, {9, 0, 0}, {}, {0, 9, 0}}));
     EXPECT_TRUE(fur.targets[1].normals.empty());
-    ASSERT_EQ(fur.parts.size(), 2u);
-    EXPECT_EQ(fur.parts[0].material, 1u);
-    EXPECT_EQ(fur.parts[1].indices, (std::vector<std::uint32_t>{2, 1, 3}));
+    ASSERT_EQ(fur.submeshes.size(), 2u);
+    EXPECT_EQ(fur.submeshes[0].material, 1u);
+    EXPECT_EQ(fur.submeshes[1].indices, (std::vector<std::uint32_t>{2, 1, 3}));
 
-    ASSERT_EQ(scene.cycles.size(), 1u);
-    EXPECT_TRUE(scene.cycles[0].loop);
-    ASSERT_EQ(scene.cycles[0].tracks.size(), 5u);
-    EXPECT_EQ(scene.cycles[0].tracks[4].times, (std::vector<float>{0.5f, 0.75f, 1.0f}));  // were fixed frames
-    EXPECT_EQ(scene.cycles[0].tracks[3].values, (std::vector<float>{0, 0.5f, 1, 0.25f}));
+    ASSERT_EQ(scene.clips.size(), 1u);
+    EXPECT_TRUE(scene.clips[0].loop);
+    ASSERT_EQ(scene.clips[0].tracks.size(), 5u);
+    EXPECT_EQ(scene.clips[0].tracks[4].times, (std::vector<float>{0.5f, 0.75f, 1.0f}));  // were fixed frames
+    EXPECT_EQ(scene.clips[0].tracks[3].values, (std::vector<float>{0, 0.5f, 1, 0.25f}));
 
     const std::vector<std::string> lines = messages_of(report);
     const auto is_said = [&](const std::string& line) { return std::count(lines.begin(), lines.end(), line) == 1; };
     EXPECT_TRUE(is_said(": a joint's own material is written as the file's"));
     EXPECT_TRUE(is_said("HEAD/OBJE/CYCL: tracks of fixed frames are written as timed keys"));
-    EXPECT_TRUE(is_said("HEAD/OBJE/VECT[1]: rigid pool that several joints move is written as a skinned one"));
+    EXPECT_TRUE(is_said("HEAD/OBJE/VECT[1]: rigid mesh that several joints move is written as a skinned one"));
 }
 
-TEST(ImportBendy, ARigidPoolOfSeveralJointsIsMovedAsBefore) {
+TEST(ImportBendy, ARigidMeshOfSeveralJointsIsMovedAsBefore) {
     Report report;
     const Scene scene = import_good(test::sample_file(), report);
     const Mesh& mesh = scene.meshes[1];
@@ -169,8 +169,8 @@ TEST(ImportBendy, EmbeddedImagesThatNobodyUsesDoNotMoveTheTextures) {
 Scene marked_scene(std::size_t keys) {
     Scene scene;
     scene.joints.resize(1);
-    Cycle& cycle = scene.cycles.emplace_back();
-    Track& track = cycle.tracks.emplace_back();
+    Clip& clip = scene.clips.emplace_back();
+    Track& track = clip.tracks.emplace_back();
     track.target = 0;
     track.components = 3;
     for (std::size_t k = 0; k < keys; ++k) {
@@ -178,7 +178,7 @@ Scene marked_scene(std::size_t keys) {
         track.times.push_back(time);
         track.values.insert(track.values.end(), {std::sin(3.0f * time), time * time, 0.0f});
     }
-    cycle.markers = {{0.0f, "first"}, {0.3f, "step"}, {0.7f, "step"}, {1.0f, "last"}};
+    clip.markers = {{0.0f, "first"}, {0.3f, "step"}, {0.7f, "step"}, {1.0f, "last"}};
     return scene;
 }
 
@@ -186,9 +186,9 @@ TEST(ImportBendy, MarkersComeBackToTheByte) {
     Report report;
     const Buffer once = build_chunks(marked_scene(2), "g", report);
     const Scene scene = import_good(once, report);
-    ASSERT_EQ(scene.cycles[0].markers.size(), 4u);
-    EXPECT_EQ(scene.cycles[0].markers[2].seconds, 0.7f);
-    EXPECT_EQ(scene.cycles[0].markers[2].name, "step");
+    ASSERT_EQ(scene.clips[0].markers.size(), 4u);
+    EXPECT_EQ(scene.clips[0].markers[2].seconds, 0.7f);
+    EXPECT_EQ(scene.clips[0].markers[2].name, "step");
     EXPECT_EQ(build_chunks(scene, "g", report), once);
     EXPECT_TRUE(report.warnings().empty());
 }
@@ -206,10 +206,10 @@ TEST(ImportBendy, CompactFilesKeepMarkers) {
     const auto is_packed = [](const Chunk& chunk) { return chunk.id == FourCC("PACK"); };
     EXPECT_EQ(std::count_if(tree->chunks().begin(), tree->chunks().end(), is_packed), 1);
     const Scene scene = import_good(*compact, report);
-    ASSERT_EQ(scene.cycles[0].markers.size(), 4u);
-    EXPECT_EQ(scene.cycles[0].markers[1].seconds, 0.3f);
-    EXPECT_EQ(scene.cycles[0].markers[3].name, "last");
-    EXPECT_NEAR(scene.cycles[0].markers[3].seconds, 1.0f, 1e-6f);
+    ASSERT_EQ(scene.clips[0].markers.size(), 4u);
+    EXPECT_EQ(scene.clips[0].markers[1].seconds, 0.3f);
+    EXPECT_EQ(scene.clips[0].markers[3].name, "last");
+    EXPECT_NEAR(scene.clips[0].markers[3].seconds, 1.0f, 1e-6f);
 }
 
 TEST(ImportBendy, AClipThatIsLongerThanItsKeysStaysAsLong) {
@@ -217,12 +217,12 @@ TEST(ImportBendy, AClipThatIsLongerThanItsKeysStaysAsLong) {
     Report report;
     Buffer file = build_chunks(marked_scene(2), "g", report);
     test::Node root = test::to_node(file);
-    test::edit<CycleRecord>(test::at(root, "HEAD/OBJE/CYCL/CINF"), [](CycleRecord& cycle) { cycle.end = 2.0f; });
+    test::edit<ClipRecord>(test::at(root, "HEAD/OBJE/CYCL/CINF"), [](ClipRecord& clip) { clip.end = 2.0f; });
     test::at(root, "HEAD/OBJE/CYCL/MARK").payload = payload;
     file = test::to_file(root);
     const Scene scene = import_good(file, report);
-    ASSERT_EQ(scene.cycles[0].markers.size(), 2u);
-    EXPECT_EQ(scene.cycles[0].markers[1].name, "behind");
+    ASSERT_EQ(scene.clips[0].markers.size(), 2u);
+    EXPECT_EQ(scene.clips[0].markers[1].name, "behind");
     EXPECT_TRUE(report.warnings().empty());
     EXPECT_EQ(build_chunks(scene, "g", report), file);
 }
@@ -323,7 +323,7 @@ TEST(ImportBendy, TracksThatShareKeysWithoutEndAreRefused) {
     VersionRecord version;
     version.objects = 1;
     version.joints = kJoints;
-    version.cycles = 1;
+    version.clips = 1;
     out.leaf(FourCC("VERS"), bytes_of(version));
     out.begin(FourCC("OBJE"));
     for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
@@ -331,7 +331,7 @@ TEST(ImportBendy, TracksThatShareKeysWithoutEndAreRefused) {
         out.end();
     }
     out.begin(FourCC("CYCL"));
-    CycleRecord info;
+    ClipRecord info;
     info.end = kKeys - 1;
     out.leaf(FourCC("CINF"), bytes_of(info));
     std::vector<TrackRecord> tracks;
@@ -378,12 +378,12 @@ TEST(ImportBendy, ARigFileGoesBeforeWhatIsThere) {
     ASSERT_EQ(changed.chains.size(), 2u);
     EXPECT_EQ(changed.chains[0].name, "");
     EXPECT_EQ(changed.chains[1].record.start, 1u);
-    EXPECT_EQ(changed.joints[1].limits.size(), 2u);
-    EXPECT_EQ(changed.joints[2].limits.size(), 1u);
+    EXPECT_EQ(changed.joints[1].constraints.size(), 2u);
+    EXPECT_EQ(changed.joints[2].constraints.size(), 1u);
     const Scene replaced = converted(R"({"bendy_rig": 1, "complete": true, )" + members + "}");
     EXPECT_EQ(replaced.chains.size(), 1u);
-    EXPECT_EQ(replaced.joints[1].limits.size(), 0u);
-    EXPECT_EQ(replaced.joints[2].limits.size(), 1u);
+    EXPECT_EQ(replaced.joints[1].constraints.size(), 0u);
+    EXPECT_EQ(replaced.joints[2].constraints.size(), 1u);
 }
 
 }  // namespace

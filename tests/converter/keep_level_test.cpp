@@ -23,8 +23,8 @@ Scene strip() {
     mesh.weights = {1, 0, 1, 0, 1, 0, 1, 0, 1, 0};
     mesh.targets.push_back({"blink", 0.0f, mesh.positions, {}, {}});
     // The third one has no area from the beginning.
-    mesh.parts.push_back({Topology::triangles, kNone, {0, 1, 2, 2, 1, 3, 3, 3, 0, 2, 3, 4}});
-    mesh.parts.push_back({Topology::lines, kNone, {0, 4, 3, 4}});
+    mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2, 2, 1, 3, 3, 3, 0, 2, 3, 4}});
+    mesh.submeshes.push_back({Topology::lines, kNone, {0, 4, 3, 4}});
     mesh.collapse = {0, 1, 2, 1, 3};
     mesh.joined = {0, 0, 0, 0, 0};
     mesh.base = 3;
@@ -47,8 +47,8 @@ TEST(KeepLevel, TheOthersCollapseAndTrianglesWithoutAreaGo) {
     EXPECT_EQ(mesh.bones, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
     EXPECT_EQ(mesh.weights.size(), 6u);
     EXPECT_EQ(mesh.targets[0].positions.size(), 3u);
-    EXPECT_EQ(mesh.parts[0].indices, (std::vector<std::uint32_t>{0, 1, 2, 1, 1, 0}));
-    EXPECT_EQ(mesh.parts[1].indices, (std::vector<std::uint32_t>{0, 1, 1, 1}));
+    EXPECT_EQ(mesh.submeshes[0].indices, (std::vector<std::uint32_t>{0, 1, 2, 1, 1, 0}));
+    EXPECT_EQ(mesh.submeshes[1].indices, (std::vector<std::uint32_t>{0, 1, 1, 1}));
     EXPECT_TRUE(mesh.collapse.empty());
     EXPECT_TRUE(mesh.joined.empty());
     EXPECT_EQ(mesh.base, 0u);
@@ -59,7 +59,7 @@ TEST(KeepLevel, TheOthersCollapseAndTrianglesWithoutAreaGo) {
 TEST(KeepLevel, FullDetailIsAllOfItWithoutTheSequence) {
     Scene scene = strip();
     keep_level(scene, std::array{5u, 5u});
-    EXPECT_EQ(scene.meshes[0].parts[0].indices, strip().meshes[0].parts[0].indices);
+    EXPECT_EQ(scene.meshes[0].submeshes[0].indices, strip().meshes[0].submeshes[0].indices);
     EXPECT_TRUE(scene.meshes[0].collapse.empty());
 }
 

@@ -20,32 +20,32 @@ MeasuredError measure_slowly(const Scene& exact, const Scene& decoded) {
     MeasuredError worst;
     EvaluatedPose here;
     EvaluatedPose there;
-    const auto measure = [&](std::uint32_t cycle, double seconds) {
+    const auto measure = [&](std::uint32_t clip, double seconds) {
         for (std::uint32_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
-            const auto a = evaluate_vertices(exact.meshes[mesh], here.target_weights[mesh], here.joints);
-            const auto b = evaluate_vertices(decoded.meshes[mesh], there.target_weights[mesh], there.joints);
+            const auto a = evaluate_vertices(exact.meshes[mesh], here.morph_weights[mesh], here.joints);
+            const auto b = evaluate_vertices(decoded.meshes[mesh], there.morph_weights[mesh], there.joints);
             for (std::uint32_t vertex = 0; vertex < a.size(); ++vertex) {
                 const double error = glm::distance(a[vertex], b[vertex]);
-                if (error > worst.metres) worst = {error, mesh, vertex, kNone, cycle, seconds};
+                if (error > worst.metres) worst = {error, mesh, vertex, kNone, clip, seconds};
             }
         }
     };
     evaluate_rest(exact, here);
     evaluate_rest(decoded, there);
     measure(kNone, 0.0);
-    for (std::uint32_t cycle = 0; cycle < exact.cycles.size(); ++cycle) {
+    for (std::uint32_t clip = 0; clip < exact.clips.size(); ++clip) {
         std::set<double> times;
         for (const Scene* scene : {&exact, &decoded}) {
-            for (const Track& track : scene->cycles[cycle].tracks) times.insert(track.times.begin(), track.times.end());
+            for (const Track& track : scene->clips[clip].tracks) times.insert(track.times.begin(), track.times.end());
         }
         if (times.empty()) continue;
         const double start = *times.begin();
         const double end = *times.rbegin();
         for (double k = 1.0; start + k / 240.0 < end; k += 1.0) times.insert(start + k / 240.0);
         for (const double seconds : times) {
-            evaluate(exact, exact.cycles[cycle], seconds, here);
-            evaluate(decoded, decoded.cycles[cycle], seconds, there);
-            measure(cycle, seconds);
+            evaluate(exact, exact.clips[clip], seconds, here);
+            evaluate(decoded, decoded.clips[clip], seconds, there);
+            measure(clip, seconds);
         }
     }
     return worst;
@@ -77,22 +77,22 @@ TEST(MeasureError, OneVertexMovedIsFound) {
     EXPECT_EQ(error.metres, 0.25);
     EXPECT_EQ(error.mesh, 0u);
     EXPECT_EQ(error.vertex, 2u);
-    EXPECT_EQ(error.cycle, kNone);
+    EXPECT_EQ(error.clip, kNone);
     EXPECT_EQ(error.joint, kNone);
 }
 
 TEST(MeasureError, AVertexIsFoundAtItsTime) {
     // Only half way between its two keys, which both scenes have alike, does the decoded one scale the mesh.
     Scene exact = still_scene();
-    exact.cycles.resize(2);
-    exact.cycles[1].tracks = {{TrackPath::scale, Interpolation::linear, 0, 3, {1, 3}, {1, 1, 1, 1, 1, 1}}};
+    exact.clips.resize(2);
+    exact.clips[1].tracks = {{TrackPath::scale, Interpolation::linear, 0, 3, {1, 3}, {1, 1, 1, 1, 1, 1}}};
     Scene decoded = exact;
-    decoded.cycles[1].tracks = {
+    decoded.clips[1].tracks = {
         {TrackPath::scale, Interpolation::linear, 0, 3, {1, 2, 3}, {1, 1, 1, 1, 1.5f, 1, 1, 1, 1}}};
     const MeasuredError error = measure_error(exact, decoded);
     EXPECT_EQ(error.metres, 1.0);  // half of 2
     EXPECT_EQ(error.vertex, 2u);
-    EXPECT_EQ(error.cycle, 1u);
+    EXPECT_EQ(error.clip, 1u);
     EXPECT_EQ(error.seconds, 2.0);
 }
 
@@ -100,8 +100,8 @@ TEST(MeasureError, TargetsCountByTheirWeights) {
     Scene exact = still_scene();
     exact.meshes[0].targets.resize(1);
     exact.meshes[0].targets[0].positions = {{}, {1, 0, 0}, {}};
-    exact.cycles.resize(1);
-    exact.cycles[0].tracks = {{TrackPath::weights, Interpolation::linear, 0, 1, {0, 1}, {0, 0.5f}}};
+    exact.clips.resize(1);
+    exact.clips[0].tracks = {{TrackPath::weights, Interpolation::linear, 0, 1, {0, 1}, {0, 0.5f}}};
     Scene decoded = exact;
     decoded.meshes[0].targets[0].positions[1].y = 0.5f;
     const MeasuredError error = measure_error(exact, decoded);
@@ -140,7 +140,7 @@ TEST(MeasureError, ScenesThatCannotBeComparedAreInfinitelyWrong) {
     decoded.joints.pop_back();
     EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
     decoded = exact;
-    decoded.cycles.resize(1);
+    decoded.clips.resize(1);
     EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
     decoded = exact;
     decoded.meshes[0].positions[0].x = std::numeric_limits<float>::quiet_NaN();
@@ -155,7 +155,7 @@ Scene coarsened(const Scene& exact, std::uint32_t seed, float positions, float w
     Scene scene = exact;
     for (Mesh& mesh : scene.meshes) {
         for (glm::vec3& position : mesh.positions) position += numbers.vector(positions);
-        for (Target& target : mesh.targets) {
+        for (MorphTarget& target : mesh.targets) {
             for (glm::vec3& position : target.positions) position += numbers.vector(positions);
         }
         for (std::size_t vertex = 0; vertex < mesh.weights.size(); vertex += mesh.influences + 0u) {
@@ -164,8 +164,8 @@ Scene coarsened(const Scene& exact, std::uint32_t seed, float positions, float w
             mesh.weights[vertex + 2] += moved;
         }
     }
-    for (Cycle& cycle : scene.cycles) {
-        for (Track& track : cycle.tracks) {
+    for (Clip& clip : scene.clips) {
+        for (Track& track : clip.tracks) {
             for (float& value : track.values) value += numbers.between(-keys, keys);
         }
     }
@@ -181,7 +181,7 @@ TEST(MeasureError, TheBoundsPassOverNoWorstVertex) {
         const MeasuredError error = measure_error(exact, decoded);
         EXPECT_NEAR(error.metres, expected.metres, 1e-12 + 1e-9 * expected.metres) << seed;
         EXPECT_EQ(error.mesh, expected.mesh) << seed;
-        EXPECT_EQ(error.cycle, expected.cycle) << seed;
+        EXPECT_EQ(error.clip, expected.clip) << seed;
     }
 }
 
@@ -196,8 +196,8 @@ TEST(MeasureError, ProgressEndsAtOne) {
 
 TEST(MeasureError, AnEndlessCycleEnds) {
     Scene scene = still_scene();
-    scene.cycles.resize(1);
-    scene.cycles[0].tracks = {{TrackPath::translation, Interpolation::linear, 0, 3, {0, 1e30f}, {0, 0, 0, 1, 1, 1}}};
+    scene.clips.resize(1);
+    scene.clips[0].tracks = {{TrackPath::translation, Interpolation::linear, 0, 3, {0, 1e30f}, {0, 0, 0, 1, 1, 1}}};
     EXPECT_EQ(measure_error(scene, scene).metres, 0.0);
 }
 

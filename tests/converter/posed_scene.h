@@ -58,7 +58,7 @@ inline Track random_track(Numbers& numbers, TrackPath path, Interpolation interp
     return track;
 }
 
-/// Joints in a few branches with shear, a skinned mesh with two targets, a rigid one, two cycles with every path and
+/// Joints in a few branches with shear, a skinned mesh with two targets, a rigid one, two clips with every path and
 /// interpolation.
 inline Scene random_scene(std::uint32_t seed) {
     Numbers numbers(seed);
@@ -92,31 +92,31 @@ inline Scene random_scene(std::uint32_t seed) {
     }
     skin.targets.resize(2);
     skin.targets[0].rest_weight = 0.25f;
-    for (Target& target : skin.targets) {
+    for (MorphTarget& target : skin.targets) {
         target.positions.resize(kVertices, glm::vec3(0.0f));
         for (std::uint32_t k = 0; k < kVertices / 3; ++k)
             target.positions[numbers.below(kVertices)] = numbers.vector(0.2f);
     }
-    skin.parts = {{Topology::triangles, kNone, {0, 1, 2, 3, 4, 5}}};
+    skin.submeshes = {{Topology::triangles, kNone, {0, 1, 2, 3, 4, 5}}};
     scene.meshes.push_back(skin);
     Mesh hat;
     hat.joint = 7;
     hat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    hat.parts = {{Topology::triangles, kNone, {0, 1, 2}}};
+    hat.submeshes = {{Topology::triangles, kNone, {0, 1, 2}}};
     scene.meshes.push_back(hat);
     for (unsigned number = 0; number < 2; ++number) {
-        Cycle cycle;
+        Clip clip;
         for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
             for (const TrackPath path : {TrackPath::translation, TrackPath::rotation, TrackPath::scale}) {
                 if (numbers.below(3) == 0) continue;
                 const auto interpolation = static_cast<Interpolation>(numbers.below(3));
-                cycle.tracks.push_back(random_track(numbers, path, interpolation, joint));
+                clip.tracks.push_back(random_track(numbers, path, interpolation, joint));
             }
         }
         Track weights{TrackPath::weights,    Interpolation::linear,    0, 2,
                       {0.125f, 0.5f, 0.75f}, {0, 0, 1, 0.5f, 0, 0.25f}};
-        if (number == 0) cycle.tracks.push_back(weights);
-        scene.cycles.push_back(cycle);
+        if (number == 0) clip.tracks.push_back(weights);
+        scene.clips.push_back(clip);
     }
     return scene;
 }

@@ -21,10 +21,10 @@ Mesh numbered_mesh() {
     mesh.palette.joints.resize(10);
     mesh.palette.inverse_bind.resize(10, glm::mat4(1.0f));
     std::mt19937 random(3);
-    Target target;
+    MorphTarget target;
     Stream coords;
     coords.components = 2;
-    Part part;
+    Submesh submesh;
     for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) {
         const auto number = static_cast<float>(vertex);
         mesh.positions.emplace_back(number);
@@ -36,12 +36,12 @@ Mesh numbered_mesh() {
         const float half = vertex % 3 == 0 ? 0.0f : 0.5f;
         mesh.bones.insert(mesh.bones.end(), {first, second, 9});
         mesh.weights.insert(mesh.weights.end(), {1.0f - half, half, 0.0f});
-        part.indices.push_back(static_cast<std::uint32_t>(random() % kVertices));
+        submesh.indices.push_back(static_cast<std::uint32_t>(random() % kVertices));
     }
-    part.indices.resize(kVertices / 3 * 3);
+    submesh.indices.resize(kVertices / 3 * 3);
     mesh.targets.push_back(target);
     mesh.texture_coords.push_back(coords);
-    mesh.parts.push_back(part);
+    mesh.submeshes.push_back(submesh);
     return mesh;
 }
 
@@ -84,9 +84,9 @@ TEST(SortByBones, StreamsTargetsAndIndicesStayTogether) {
         }
     }
     EXPECT_EQ(met.size(), kVertices);
-    ASSERT_EQ(mesh.parts[0].indices.size(), before.parts[0].indices.size());
-    for (std::size_t k = 0; k < mesh.parts[0].indices.size(); ++k)
-        EXPECT_EQ(mesh.positions[mesh.parts[0].indices[k]], before.positions[before.parts[0].indices[k]]);
+    ASSERT_EQ(mesh.submeshes[0].indices.size(), before.submeshes[0].indices.size());
+    for (std::size_t k = 0; k < mesh.submeshes[0].indices.size(); ++k)
+        EXPECT_EQ(mesh.positions[mesh.submeshes[0].indices[k]], before.positions[before.submeshes[0].indices[k]]);
 }
 
 TEST(SortByBones, WhatFollowsTheSameBonesLiesTogetherInItsOrder) {

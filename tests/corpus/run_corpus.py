@@ -155,8 +155,8 @@ def main():
     if options.only:
         entries = [entry for entry in entries if entry["id"] == options.only]
     run = make_runner(os.path.abspath(options.bendy))
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        outcomes = list(pool.map(lambda entry: try_file(run, corpus, entry, not options.no_poses), entries))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
+        outcomes = list(workers.map(lambda entry: try_file(run, corpus, entry, not options.no_poses), entries))
 
     failed = [outcome for outcome in outcomes if outcome.faults]
     for outcome in failed:

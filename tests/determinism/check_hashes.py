@@ -66,8 +66,8 @@ def run_all(bendy, corpus, jobs, plain):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         cases = [case for case in (cases_of_corpus(corpus) if corpus else cases_of_ours(folder)) if not (plain and case[2])]
-        with ThreadPoolExecutor(jobs) as pool:
-            hashes = pool.map(lambda case: hash_of(bendy, case[1][1], case[1][2], folder / f"{case[0]}.bendy"),
+        with ThreadPoolExecutor(jobs) as workers:
+            hashes = workers.map(lambda case: hash_of(bendy, case[1][1], case[1][2], folder / f"{case[0]}.bendy"),
                               enumerate(cases))
             lines = {}
             for (source, path, options), digest in zip(cases, hashes):

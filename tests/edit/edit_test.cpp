@@ -1,5 +1,5 @@
 #include <bendy/edit/extract.h>
-#include <bendy/edit/merge_cycles.h>
+#include <bendy/edit/merge_clips.h>
 #include <bendy/edit/names.h>
 #include <bendy/edit/rename.h>
 #include <bendy/edit/strip.h>
@@ -77,35 +77,35 @@ TEST(Strip, TextureNumbersInExtensionsAreMended) {
 TEST(Strip, LocalMaterialsGoWithTheOthers) {
     Node file = test::to_node(stripped(test::sample_file(), Part::materials));
     EXPECT_THROW(at(file, "HEAD/OBJE/SKIN/MATE"), std::out_of_range);
-    PolygonRecord record;
+    SubmeshRecord record;
     copy_at(at(file, "HEAD/OBJE/SKIN/POLY").payload, 0, record);
     EXPECT_EQ(record.material, kNone);
 }
 
 TEST(Strip, ChainsAreNumberedAnew) {
     Node file = test::to_node(stripped(test::sample_file(), Part::chains, "back"));
-    PullRecord pull;
-    copy_at(at(file, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL").payload, 0, pull);
-    EXPECT_EQ(pull.chain, 0u);  // was 1
+    ChainWeightRecord chain_weight;
+    copy_at(at(file, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL").payload, 0, chain_weight);
+    EXPECT_EQ(chain_weight.chain, 0u);  // was 1
     EXPECT_THROW(at(file, "HEAD/OBJE/SKIN/PIVO/PULL"), std::out_of_range);
 }
 
-TEST(Strip, APoolTakesItsTracksAndLevelsAlong) {
+TEST(Strip, AMeshTakesItsTracksAndLevelsAlong) {
     Node file = test::to_node(stripped(test::sample_file(), Part::meshes, "fur"));
     EXPECT_THROW(at(file, "HEAD/OBJE/LODD"), std::out_of_range);
     const Loaded loaded(file);
     const ObjectView& object = loaded.document.objects.front();
-    ASSERT_EQ(object.pools.size(), 1u);
-    EXPECT_EQ(object.cycles.front().tracks.size(), 4u);  // of 5: not the weights
-    for (const PolygonView& polygons : object.skeleton.polygons) EXPECT_EQ(polygons.pool, 0u);
+    ASSERT_EQ(object.meshes.size(), 1u);
+    EXPECT_EQ(object.clips.front().tracks.size(), 4u);  // of 5: not the weights
+    for (const SubmeshView& submesh : object.skeleton.submeshes) EXPECT_EQ(submesh.mesh, 0u);
 }
 
 TEST(Strip, TracksThatStayKeepTheirKeys) {
     const Loaded before(test::sample_file());
     const Loaded after(stripped(test::sample_file(), Part::targets));
-    const auto& tracks = before.document.objects.front().cycles.front().tracks;
+    const auto& tracks = before.document.objects.front().clips.front().tracks;
     std::size_t next = 0;
-    for (const TrackView& track : after.document.objects.front().cycles.front().tracks) {
+    for (const TrackView& track : after.document.objects.front().clips.front().tracks) {
         while (tracks[next].path == TrackPath::weights) ++next;
         EXPECT_TRUE(std::equal(track.times.begin(), track.times.end(), tracks[next].times.begin()));
         EXPECT_TRUE(std::equal(track.values.begin(), track.values.end(), tracks[next].values.begin()));
@@ -140,7 +140,7 @@ TEST(Strip, CurvesAreRenumberedOrGoWithTheirTargets) {
     const auto edited = strip(with_texture_curves({0, 1, 2}), {Part::textures, "#1"}, log);
     ASSERT_TRUE(edited) << edited.error().message;
     const Loaded loaded(*edited);
-    const auto& curves = loaded.document.objects.front().cycles.front().curves;
+    const auto& curves = loaded.document.objects.front().clips.front().curves;
     ASSERT_EQ(curves.size(), 2u);
     EXPECT_EQ(curves[0].name, "curve 0");
     EXPECT_EQ(curves[0].target, 0u);
@@ -152,32 +152,32 @@ TEST(Strip, CurvesAreRenumberedOrGoWithTheirTargets) {
 
 TEST(Strip, AClipWithoutTracksStaysForItsCurves) {
     Node root = test::to_node(with_texture_curves({0}));
-    Node& cycle = at(root, "HEAD/OBJE/CYCL");
-    std::erase_if(cycle.children, [](const Node& leaf) {
+    Node& clip = at(root, "HEAD/OBJE/CYCL");
+    std::erase_if(clip.children, [](const Node& leaf) {
         return leaf.id == FourCC("TRAK") || leaf.id == FourCC("TIME") || leaf.id == FourCC("KEYV");
     });
-    test::edit<CycleRecord>(at(root, "HEAD/OBJE/CYCL/CINF"), [](CycleRecord& info) { info.frame_rate = 0.0f; });
+    test::edit<ClipRecord>(at(root, "HEAD/OBJE/CYCL/CINF"), [](ClipRecord& info) { info.frame_rate = 0.0f; });
     const Loaded loaded(stripped(test::to_file(root), Part::meshes));
-    EXPECT_EQ(loaded.document.objects.front().cycles.front().curves.size(), 1u);
+    EXPECT_EQ(loaded.document.objects.front().clips.front().curves.size(), 1u);
 }
 
-TEST(MergeCycles, TakesCurvesAlong) {
+TEST(MergeClips, TakesCurvesAlong) {
     Log log;
-    const auto merged = merge_cycles(test::sample_file(), with_texture_curves({0, 1}), SameName::number, log);
+    const auto merged = merge_clips(test::sample_file(), with_texture_curves({0, 1}), SameName::number, log);
     ASSERT_TRUE(merged) << merged.error().message;
     const Loaded loaded(*merged);
-    const auto& cycles = loaded.document.objects.front().cycles;
-    ASSERT_EQ(cycles.size(), 2u);
-    EXPECT_TRUE(cycles[0].curves.empty());
-    ASSERT_EQ(cycles[1].curves.size(), 1u);  // the other texture has no name, so nobody knows which it is here
-    EXPECT_EQ(cycles[1].curves[0].name, "curve 0");
-    EXPECT_EQ(loaded.document.textures.at(cycles[1].curves[0].target).name, "skin");
+    const auto& clips = loaded.document.objects.front().clips;
+    ASSERT_EQ(clips.size(), 2u);
+    EXPECT_TRUE(clips[0].curves.empty());
+    ASSERT_EQ(clips[1].curves.size(), 1u);  // the other texture has no name, so nobody knows which it is here
+    EXPECT_EQ(clips[1].curves[0].name, "curve 0");
+    EXPECT_EQ(loaded.document.textures.at(clips[1].curves[0].target).name, "skin");
     EXPECT_NE(std::find(log.warnings.begin(), log.warnings.end(),
                         "CURV \"curve 1\" is left out: there is no texture of that name here"),
               log.warnings.end());
 }
 
-/// The sample with markers in its cycle.
+/// The sample with markers in its clip.
 Buffer marked() {
     Node root = test::sample();
     at(root, "HEAD/OBJE/CYCL")
@@ -185,23 +185,23 @@ Buffer marked() {
     return test::to_file(root);
 }
 
-std::string markers_of(const Loaded& loaded, std::size_t cycle) {
+std::string markers_of(const Loaded& loaded, std::size_t clip) {
     std::string text;
-    for (const Marker& marker : loaded.document.objects.front().cycles.at(cycle).markers)
+    for (const Marker& marker : loaded.document.objects.front().clips.at(clip).markers)
         text += std::string(marker.name) + '@' + std::to_string(marker.seconds) + ' ';
     return text;
 }
 
-TEST(Markers, StayWithTheirCycle) {
+TEST(Markers, StayWithTheirClip) {
     const std::string all = "step@0.500000 hit@1.000000 ";
     ASSERT_EQ(markers_of(Loaded(marked()), 0), all);
     EXPECT_EQ(markers_of(Loaded(stripped(marked(), Part::meshes)), 0), all);
-    EXPECT_TRUE(Loaded(stripped(marked(), Part::cycles)).document.objects.front().cycles.empty());
+    EXPECT_TRUE(Loaded(stripped(marked(), Part::clips)).document.objects.front().clips.empty());
     Log log;
     const Edited part = extract(marked(), "spine", log);
     ASSERT_TRUE(part) << part.error().message;
     EXPECT_EQ(markers_of(Loaded(*part), 0), all);
-    const Edited merged = merge_cycles(test::sample_file(), marked(), SameName::number, log);
+    const Edited merged = merge_clips(test::sample_file(), marked(), SameName::number, log);
     ASSERT_TRUE(merged) << merged.error().message;
     EXPECT_EQ(markers_of(Loaded(*merged), 0), "");
     EXPECT_EQ(markers_of(Loaded(*merged), 1), all);
@@ -247,8 +247,8 @@ void edit_in_every_way(const Buffer& file, const Buffer& good) {
     look(strip(file, {Part::meshes, "#0"}, log));
     look(rename(file, {Named::joint, {{"*", "x*"}}}, log));
     look(extract(file, "#1", log));
-    look(merge_cycles(file, good, SameName::number, log));
-    look(merge_cycles(good, file, SameName::number, log));
+    look(merge_clips(file, good, SameName::number, log));
+    look(merge_clips(good, file, SameName::number, log));
 }
 
 TEST(Hostile, FilesWithOneByteWrongAndRightSums) {

@@ -152,8 +152,8 @@ def main():
     shutil.rmtree(work / "files", ignore_errors=True)
     (work / "files").mkdir()
     bendy = os.path.abspath(options.bendy)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        assets = list(pool.map(lambda name: Asset(bendy, *sources[name], work / "files" / name), sources))
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        assets = list(workers.map(lambda name: Asset(bendy, *sources[name], work / "files" / name), sources))
     exported = [asset for asset in assets if asset.glb]
     ask_witnesses(exported, work)
     frames, worst = compare_poses(exported, options.corpus.resolve(), work) if options.corpus else (0, 0.0)

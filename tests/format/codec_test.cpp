@@ -148,8 +148,8 @@ TEST(Codec, WhatItDoesNotKnowIsRefused) {
         EXPECT_FALSE(encode_payload(static_cast<Codec>(codec), payload, 0, 0));
     }
     EXPECT_FALSE(encode_payload(Codec::zstd, payload, 1, 0));
-    EXPECT_FALSE(encode_payload(Codec::cycle, payload, 1, 0));
-    EXPECT_FALSE(encode_payload(Codec::cycle, payload, 0, 1));
+    EXPECT_FALSE(encode_payload(Codec::clip, payload, 1, 0));
+    EXPECT_FALSE(encode_payload(Codec::clip, payload, 0, 1));
 }
 
 TEST(Codec, DamageIsFoundOrHarmless) {

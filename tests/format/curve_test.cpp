@@ -1,5 +1,5 @@
+#include <bendy/format/clip.h>
 #include <bendy/format/curve.h>
-#include <bendy/format/cycle.h>
 #include <bendy/format/leaf_parts.h>
 
 #include "edit_file.h"
@@ -80,7 +80,7 @@ Lines in_curve(std::initializer_list<const char*> codes) {
 TEST(Curves, ComeBackAsTheyWereWritten) {
     const Loaded loaded(to_file(with_curves({payload_of(plain_curve()), payload_of(packed_curve())})));
     ASSERT_EQ(loaded.lines(), Lines{std::string("CURVE_REPEATED ") + kCurve + "[1]"});
-    const auto& curves = loaded.document.objects.at(0).cycles.at(0).curves;
+    const auto& curves = loaded.document.objects.at(0).clips.at(0).curves;
     ASSERT_EQ(curves.size(), 2u);
     for (const CurveView& curve : curves) {
         EXPECT_EQ(curve.name, "glow");
@@ -130,7 +130,7 @@ TEST(Curves, MayBeCubicWithoutTargetAndName) {
     curve.values = values;
     const Loaded loaded(to_file(with_curves({payload_of(curve)})));
     ASSERT_EQ(loaded.lines(), Lines{});
-    const CurveView& read = loaded.document.objects.at(0).cycles.at(0).curves.at(0);
+    const CurveView& read = loaded.document.objects.at(0).clips.at(0).curves.at(0);
     EXPECT_EQ(read.kind, CurveTarget::nothing);
     EXPECT_EQ(read.target, kNone);
     EXPECT_EQ(read.name, "");
@@ -177,7 +177,7 @@ TEST(Curves, RefuseWhatIsNotThere) {
     EXPECT_EQ(faults_with([](CurveRecord& record) { record.target = 999; }), in_curve({"JOINT_RANGE"}));
     EXPECT_EQ(faults_with([](CurveRecord& record) { record.kind = 2, record.target = 999; }),
               in_curve({"MATERIAL_RANGE"}));
-    EXPECT_EQ(faults_with([](CurveRecord& record) { record.kind = 3, record.target = 999; }), in_curve({"POOL_RANGE"}));
+    EXPECT_EQ(faults_with([](CurveRecord& record) { record.kind = 3, record.target = 999; }), in_curve({"MESH_RANGE"}));
     EXPECT_EQ(faults_with([](CurveRecord& record) { record.kind = 4, record.target = kNone; }),
               in_curve({"TEXTURE_RANGE"}));
     EXPECT_EQ(faults_with([](CurveRecord& record) { record.kind = 0; }), in_curve({"INDEX_RANGE"}));
@@ -206,7 +206,7 @@ TEST(Curves, WantGoodNumbers) {
     times[1] = 0.5f;
     EXPECT_EQ(with(&CurveView::times, std::span<const float>(times)), in_curve({"CURVE_ORDER"}));
     times[0] = 0.25f;
-    EXPECT_EQ(with(&CurveView::times, std::span<const float>(times)), Lines{"CYCLE_LENGTH HEAD/OBJE/CYCL/CINF"});
+    EXPECT_EQ(with(&CurveView::times, std::span<const float>(times)), Lines{"CLIP_LENGTH HEAD/OBJE/CYCL/CINF"});
     CurveView curve = plain_curve();
     curve.name = "\xff";
     EXPECT_EQ(faults_with(payload_of(curve)), in_curve({"NOT_UTF8"}));

@@ -3,7 +3,7 @@
 #include <bendy/format/validate.h>
 
 #include "edit_file.h"
-#include "sweep/allocations.h"
+#include "mutation/allocations.h"
 
 #include <gtest/gtest.h>
 
@@ -65,11 +65,11 @@ double read_everything(const ChunkTree& tree, const Document& document) {
             EXPECT_TRUE(parent == kNone || parent < joint);
         }
         for (const JointView& joint : joints) look_at(joint.extensions);
-        for (const LimitView& limit : object.skeleton.limits) {
-            sum += joints[limit.joint].rest.scale[0];
-            EXPECT_LT(limit.record.model, kLimitModels);
-            EXPECT_LT(limit.record.euler_order, kEulerOrders);
-            EXPECT_LT(limit.record.scope, kLimitScopes);
+        for (const ConstraintView& constraint : object.skeleton.constraints) {
+            sum += joints[constraint.joint].rest.scale[0];
+            EXPECT_LT(constraint.record.model, kConstraintModels);
+            EXPECT_LT(constraint.record.euler_order, kEulerOrders);
+            EXPECT_LT(constraint.record.scope, kConstraintScopes);
         }
         for (const ChainView& chain : object.chains) {
             look_at(chain.name);
@@ -80,51 +80,51 @@ double read_everything(const ChunkTree& tree, const Document& document) {
             std::uint32_t link = chain.record.effector;
             while (link != chain.record.start) link = joints[link].parent;  // ends at start, never past a root
         }
-        for (const PullView& pull : object.skeleton.pulls) {
-            const ChainRecord& chain = object.chains[pull.chain].record;
+        for (const ChainWeightView& chain_weight : object.skeleton.chain_weights) {
+            const ChainRecord& chain = object.chains[chain_weight.chain].record;
             std::uint32_t link = chain.effector;
-            while (link != pull.joint && link != chain.start) link = joints[link].parent;
-            EXPECT_EQ(link, pull.joint);
+            while (link != chain_weight.joint && link != chain.start) link = joints[link].parent;
+            EXPECT_EQ(link, chain_weight.joint);
         }
-        for (const PoolView& pool : object.pools) {
-            if (pool.joint != kNone) sum += joints[pool.joint].rest.scale[0];
-            sum += sum_of(pool.positions) + sum_of(pool.normals) + sum_of(pool.tangents) + sum_of(pool.weights);
-            for (const StreamView& stream : pool.texture_coords) sum += sum_of(stream);
-            for (const StreamView& stream : pool.colours) sum += sum_of(stream);
-            for (const AttributeView& attribute : pool.attributes) sum += sum_of(attribute.values);
-            for (std::uint32_t vertex = 0; pool.bones && vertex < pool.vertices; ++vertex) {
-                for (std::uint32_t k = 0; k < pool.bones->components; ++k) {
-                    const std::uint32_t bone = pool.bones->index(vertex, k);
-                    sum += joints[pool.palette.joints[bone]].rest.scale[1] +
-                           pool.palette.inverse_bind()[bone][3][1] * pool.weights->number(vertex, k);
+        for (const MeshView& mesh : object.meshes) {
+            if (mesh.joint != kNone) sum += joints[mesh.joint].rest.scale[0];
+            sum += sum_of(mesh.positions) + sum_of(mesh.normals) + sum_of(mesh.tangents) + sum_of(mesh.weights);
+            for (const StreamView& stream : mesh.texture_coords) sum += sum_of(stream);
+            for (const StreamView& stream : mesh.colours) sum += sum_of(stream);
+            for (const AttributeView& attribute : mesh.attributes) sum += sum_of(attribute.values);
+            for (std::uint32_t vertex = 0; mesh.bones && vertex < mesh.vertices; ++vertex) {
+                for (std::uint32_t k = 0; k < mesh.bones->components; ++k) {
+                    const std::uint32_t bone = mesh.bones->index(vertex, k);
+                    sum += joints[mesh.palette.joints[bone]].rest.scale[1] +
+                           mesh.palette.inverse_bind()[bone][3][1] * mesh.weights->number(vertex, k);
                 }
             }
-            for (const TargetView& target : pool.targets) {
-                const std::uint32_t touched = target.vertices ? target.vertices->elements : pool.vertices;
+            for (const MorphTargetView& target : mesh.targets) {
+                const std::uint32_t touched = target.vertices ? target.vertices->elements : mesh.vertices;
                 for (std::uint32_t entry = 0; entry < touched; ++entry) {
                     const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
-                    sum += pool.positions.number(vertex, 0);
+                    sum += mesh.positions.number(vertex, 0);
                     for (const auto& stream : {target.positions, target.normals, target.tangents})
                         sum += stream ? stream->number(entry, 2) : 0.0f;
                 }
             }
         }
-        for (const PolygonView& polygons : object.skeleton.polygons) {
-            const PoolView& pool = object.pools[polygons.pool];
-            sum += joints[polygons.joint].rest.scale[2];
-            if (polygons.material != kNone) look_at(document.materials[polygons.material].name);
-            for (std::uint32_t k = 0; k < polygons.count; ++k)
-                sum += pool.positions.number(pool.indices->index(polygons.first + k, 0), 2);
+        for (const SubmeshView& submesh : object.skeleton.submeshes) {
+            const MeshView& mesh = object.meshes[submesh.mesh];
+            sum += joints[submesh.joint].rest.scale[2];
+            if (submesh.material != kNone) look_at(document.materials[submesh.material].name);
+            for (std::uint32_t k = 0; k < submesh.count; ++k)
+                sum += mesh.positions.number(mesh.indices->index(submesh.first + k, 0), 2);
         }
-        for (const CycleView& cycle : object.cycles) {
-            look_at(cycle.name);
-            for (const TrackView& track : cycle.tracks) {
+        for (const ClipView& clip : object.clips) {
+            look_at(clip.name);
+            for (const TrackView& track : clip.tracks) {
                 const std::uint32_t values =
                     track.keys * track.components * (track.interpolation == Interpolation::cubic ? 3 : 1);
                 EXPECT_EQ(track.values.size(), values);
                 EXPECT_TRUE(track.times.empty() || track.times.size() == track.keys);
                 if (track.path == TrackPath::weights) {
-                    EXPECT_EQ(object.pools[track.target].targets.size(), track.components);
+                    EXPECT_EQ(object.meshes[track.target].targets.size(), track.components);
                 } else {
                     sum += joints[track.target].rest.scale[0];
                 }

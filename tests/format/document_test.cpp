@@ -30,8 +30,8 @@ TEST(Document, GivesTheWholeFile) {
     EXPECT_EQ(object.name, "fox");
     EXPECT_EQ(object.extras, "{\"a\":1}");
     EXPECT_EQ(object.skeleton.joints.size(), 4u);
-    EXPECT_EQ(object.pools.size(), 2u);
-    EXPECT_EQ(object.cycles.size(), 1u);
+    EXPECT_EQ(object.meshes.size(), 2u);
+    EXPECT_EQ(object.clips.size(), 1u);
 }
 
 TEST(Document, TakesAFileWithNothingButItsVersion) {
@@ -49,7 +49,7 @@ TEST(Document, ReadsSiblingsInAnyOrder) {
     reverse(at(root, "HEAD/OBJE/VECT[1]"));
     reverse(at(root, "HEAD/OBJE/VECT/USER"));
     reverse(at(root, "HEAD/OBJE/SKIN/SKIN[1]"));
-    // The object's cycle and pools before its joints; HEAD's object before its materials and textures.
+    // The object's clip and meshes before its joints; HEAD's object before its materials and textures.
     Node& object = at(root, "HEAD/OBJE");
     std::stable_partition(object.children.begin(), object.children.end(),
                           [](const Node& node) { return node.id == FourCC("CYCL"); });
@@ -59,17 +59,17 @@ TEST(Document, ReadsSiblingsInAnyOrder) {
                           [](const Node& node) { return node.id == FourCC("OBJE"); });
     EXPECT_EQ(faults_in(root), Lines{});
     const Loaded loaded(root);
-    EXPECT_EQ(loaded.document.objects.at(0).cycles.at(0).tracks.size(), 5u);
+    EXPECT_EQ(loaded.document.objects.at(0).clips.at(0).tracks.size(), 5u);
     EXPECT_EQ(loaded.document.materials.at(0).name, "red");
     EXPECT_EQ(loaded.document.textures.at(0).images.at(0).uri, "skin.png");
 }
 
 TEST(Document, TurnsLocalMaterialNumbersIntoItsOwn) {
     const Loaded sample(sample_file());
-    const auto& polygons = sample.document.objects.at(0).skeleton.polygons;
-    EXPECT_EQ(polygons[0].material, 1u);  // the local one, after the global one
-    EXPECT_EQ(polygons[1].material, kNone);
-    EXPECT_EQ(polygons[3].material, 0u);
+    const auto& submeshes = sample.document.objects.at(0).skeleton.submeshes;
+    EXPECT_EQ(submeshes[0].material, 1u);  // the local one, after the global one
+    EXPECT_EQ(submeshes[1].material, kNone);
+    EXPECT_EQ(submeshes[3].material, 0u);
 }
 
 TEST(Document, KeepsLocalMaterialsOfSeveralObjectsApart) {
@@ -77,38 +77,37 @@ TEST(Document, KeepsLocalMaterialsOfSeveralObjectsApart) {
     Node second = at(root, "HEAD/OBJE");
     Node& spine = at(second, "OBJE/SKIN/SKIN");
     spine.children.insert(spine.children.begin(), at(second, "OBJE/SKIN/MATE"));
-    edit<PolygonRecord>(child(spine, "POLY"), [](auto& polygons) { polygons.material = kLocalMaterial; });
+    edit<SubmeshRecord>(child(spine, "POLY"), [](auto& submesh) { submesh.material = kLocalMaterial; });
     root.children.push_back(second);
     edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) {
         version = sample_version();
-        version.objects = 2, version.joints = 8, version.pools = 4, version.vertices = 20, version.cycles = 2,
+        version.objects = 2, version.joints = 8, version.meshes = 4, version.vertices = 20, version.clips = 2,
         version.materials = 4;
     });
     EXPECT_EQ(faults_in(root), Lines{});
     const Loaded loaded(root);
-    EXPECT_EQ(loaded.document.objects.at(0).skeleton.polygons[0].material, 1u);
-    EXPECT_EQ(loaded.document.objects.at(1).skeleton.polygons[0].material, 2u);
-    EXPECT_EQ(loaded.document.objects.at(1).skeleton.polygons[1].material, 3u);
+    EXPECT_EQ(loaded.document.objects.at(0).skeleton.submeshes[0].material, 1u);
+    EXPECT_EQ(loaded.document.objects.at(1).skeleton.submeshes[0].material, 2u);
+    EXPECT_EQ(loaded.document.objects.at(1).skeleton.submeshes[1].material, 3u);
 }
 
 template <class Change>
-Lines faults_with_polygons(const char* path, Change change) {
+Lines faults_with_submesh(const char* path, Change change) {
     Node root = sample();
-    edit<PolygonRecord>(at(root, path), change);
+    edit<SubmeshRecord>(at(root, path), change);
     return faults_in(root);
 }
 
 TEST(Document, RefusesMaterialsThatAreNotThere) {
     const char* const hip = "HEAD/OBJE/SKIN/POLY";
     const Lines bad{"MATERIAL_RANGE HEAD/OBJE/SKIN/POLY"};
-    EXPECT_EQ(faults_with_polygons(hip, [](auto& polygons) { polygons.material = 0; }), Lines{});
+    EXPECT_EQ(faults_with_submesh(hip, [](auto& submesh) { submesh.material = 0; }), Lines{});
     for (const std::uint32_t material : {1u, 2u, 0x7fff'ffffu, kLocalMaterial | 1u, kNone - 1}) {
-        EXPECT_EQ(faults_with_polygons(hip, [=](auto& polygons) { polygons.material = material; }), bad) << material;
+        EXPECT_EQ(faults_with_submesh(hip, [=](auto& submesh) { submesh.material = material; }), bad) << material;
     }
     // The spine has no local materials; the last joint's are the end of the table.
-    EXPECT_EQ(
-        faults_with_polygons("HEAD/OBJE/SKIN/SKIN/POLY", [](auto& polygons) { polygons.material = kLocalMaterial; }),
-        Lines{"MATERIAL_RANGE HEAD/OBJE/SKIN/SKIN/POLY"});
+    EXPECT_EQ(faults_with_submesh("HEAD/OBJE/SKIN/SKIN/POLY", [](auto& submesh) { submesh.material = kLocalMaterial; }),
+              Lines{"MATERIAL_RANGE HEAD/OBJE/SKIN/SKIN/POLY"});
     Node root = sample();
     Node& tail = at(root, "HEAD/OBJE/SKIN/SKIN[1]");
     Node polygons = at(root, "HEAD/OBJE/SKIN/POLY");
@@ -116,10 +115,10 @@ TEST(Document, RefusesMaterialsThatAreNotThere) {
     EXPECT_EQ(Loaded(root).lines(), Lines{"MATERIAL_RANGE HEAD/OBJE/SKIN/SKIN[1]/POLY"});
 }
 
-TEST(Document, RefusesPoolsThatAreNotThere) {
-    for (const std::uint32_t pool : {2u, 0x8000'0000u, kNone}) {
-        EXPECT_EQ(faults_with_polygons("HEAD/OBJE/SKIN/POLY", [=](auto& polygons) { polygons.pool = pool; }),
-                  Lines{"POOL_RANGE HEAD/OBJE/SKIN/POLY"});
+TEST(Document, RefusesMeshesThatAreNotThere) {
+    for (const std::uint32_t mesh : {2u, 0x8000'0000u, kNone}) {
+        EXPECT_EQ(faults_with_submesh("HEAD/OBJE/SKIN/POLY", [=](auto& submesh) { submesh.mesh = mesh; }),
+                  Lines{"MESH_RANGE HEAD/OBJE/SKIN/POLY"});
     }
 }
 
@@ -127,11 +126,11 @@ TEST(Document, RefusesPolygonsPastTheIndices) {
     const char* const hip = "HEAD/OBJE/SKIN/POLY";
     const Lines bad{"INDEX_RANGE HEAD/OBJE/SKIN/POLY"};
     const auto faults = [&](std::uint32_t first, std::uint32_t count) {
-        return faults_with_polygons(hip, [=](auto& polygons) { polygons.first = first, polygons.count = count; });
+        return faults_with_submesh(hip, [=](auto& submesh) { submesh.first = first, submesh.count = count; });
     };
     EXPECT_EQ(faults(0, 3), Lines{});
     EXPECT_EQ(faults(6, 0), Lines{});
-    EXPECT_EQ(faults(0, 6), Lines{"POLYGON_OVERLAP HEAD/OBJE/SKIN/SKIN/POLY"});  // inside them, at any rate
+    EXPECT_EQ(faults(0, 6), Lines{"SUBMESH_OVERLAP HEAD/OBJE/SKIN/SKIN/POLY"});  // inside them, at any rate
     EXPECT_EQ(faults(4, 3), bad);
     EXPECT_EQ(faults(7, 0), bad);
     EXPECT_EQ(faults(0, 9), bad);
@@ -139,13 +138,13 @@ TEST(Document, RefusesPolygonsPastTheIndices) {
     EXPECT_EQ(faults(1, 0xffff'ffffu), bad);  // whose sum wraps to 0 in 32 bits
 }
 
-TEST(Document, RefusesPolygonsOfAPoolWithoutIndices) {
+TEST(Document, RefusesPolygonsOfAMeshWithoutIndices) {
     Node root = sample();
     remove(at(root, "HEAD/OBJE/VECT"), "INDX");
     EXPECT_EQ(faults_in(root), (Lines{"INDEX_RANGE HEAD/OBJE/SKIN/POLY", "INDEX_RANGE HEAD/OBJE/SKIN/SKIN/POLY"}));
 }
 
-TEST(Document, RefusesAVertexOfARigidPoolThatTwoJointsMove) {
+TEST(Document, RefusesAVertexOfARigidMeshThatTwoJointsMove) {
     Node root = sample();
     Node& indices = at(root, "HEAD/OBJE/VECT[1]/INDX");
     set(indices, sizeof(StreamRecord) + 5 * sizeof(std::uint32_t),
@@ -156,34 +155,33 @@ TEST(Document, RefusesAVertexOfARigidPoolThatTwoJointsMove) {
     EXPECT_EQ(faults_in(root), Lines{});
 }
 
-TEST(Document, LetsJointsShareTheVerticesOfASkinnedPool) {
+TEST(Document, LetsJointsShareTheVerticesOfASkinnedMesh) {
     // The two triangles of the sample have an edge in common.
     const Loaded sample(sample_file());
-    const PoolView& pool = sample.document.objects.at(0).pools.at(0);
-    EXPECT_EQ(pool.indices->index(1, 0), pool.indices->index(4, 0));
+    const MeshView& mesh = sample.document.objects.at(0).meshes.at(0);
+    EXPECT_EQ(mesh.indices->index(1, 0), mesh.indices->index(4, 0));
     EXPECT_EQ(sample.lines(), Lines{});
 }
 
 TEST(Document, RefusesPolygonsThatOverlap) {
     const char* const spine = "HEAD/OBJE/SKIN/SKIN/POLY";
     const auto faults = [&](std::uint32_t first, std::uint32_t count) {
-        return faults_with_polygons(spine, [=](auto& polygons) { polygons.first = first, polygons.count = count; });
+        return faults_with_submesh(spine, [=](auto& submesh) { submesh.first = first, submesh.count = count; });
     };
     EXPECT_EQ(faults(3, 3), Lines{});
     EXPECT_EQ(faults(1, 0), Lines{});
-    EXPECT_EQ(faults(2, 3), Lines{"POLYGON_OVERLAP HEAD/OBJE/SKIN/SKIN/POLY"});
+    EXPECT_EQ(faults(2, 3), Lines{"SUBMESH_OVERLAP HEAD/OBJE/SKIN/SKIN/POLY"});
     EXPECT_EQ(faults(0, 3).size(), 1u);
     EXPECT_EQ(faults(0, 6).size(), 1u);
-    // In another pool the same numbers are other indices.
-    EXPECT_EQ(
-        faults_with_polygons(spine, [](auto& polygons) { polygons.pool = 1, polygons.first = 5, polygons.count = 0; }),
-        Lines{});
+    // In another mesh the same numbers are other indices.
+    EXPECT_EQ(faults_with_submesh(spine, [](auto& submesh) { submesh.mesh = 1, submesh.first = 5, submesh.count = 0; }),
+              Lines{});
 }
 
 TEST(Document, HoldsEveryCountOfTheVersionAgainstTheFile) {
     for (const std::size_t offset :
-         {offsetof(VersionRecord, objects), offsetof(VersionRecord, joints), offsetof(VersionRecord, pools),
-          offsetof(VersionRecord, vertices), offsetof(VersionRecord, cycles), offsetof(VersionRecord, materials),
+         {offsetof(VersionRecord, objects), offsetof(VersionRecord, joints), offsetof(VersionRecord, meshes),
+          offsetof(VersionRecord, vertices), offsetof(VersionRecord, clips), offsetof(VersionRecord, materials),
           offsetof(VersionRecord, textures)}) {
         for (const std::uint32_t change : {1u, ~0u}) {
             Node root = sample();

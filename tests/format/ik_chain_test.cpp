@@ -29,8 +29,8 @@ Node make_chain(std::uint32_t start, std::uint32_t effector) {
     return make_container(FourCC("IKCH"), {make_leaf(FourCC("KINF"), bytes_of(record))});
 }
 
-Node make_pull(std::uint32_t chain, float weight = 1.0f) {
-    return make_leaf(FourCC("PULL"), bytes_of(PullRecord{chain, weight}));
+Node make_chain_weight(std::uint32_t chain, float weight = 1.0f) {
+    return make_leaf(FourCC("PULL"), bytes_of(ChainWeightRecord{chain, weight}));
 }
 
 /// The faults of the sample with its first chain changed.
@@ -69,13 +69,13 @@ TEST(Chain, AreReadWithTheirWeights) {
     EXPECT_EQ(object.chains[1].name, "");
     EXPECT_EQ(object.chains[1].record.pole, 0u);
 
-    const auto& pulls = object.skeleton.pulls;
-    ASSERT_EQ(pulls.size(), 2u);
-    EXPECT_EQ(pulls[0].joint, 0u);
-    EXPECT_EQ(pulls[0].chain, 0u);
-    EXPECT_EQ(pulls[0].weight, 0.5f);
-    EXPECT_EQ(pulls[1].joint, 3u);
-    EXPECT_EQ(pulls[1].chain, 1u);
+    const auto& chain_weights = object.skeleton.chain_weights;
+    ASSERT_EQ(chain_weights.size(), 2u);
+    EXPECT_EQ(chain_weights[0].joint, 0u);
+    EXPECT_EQ(chain_weights[0].chain, 0u);
+    EXPECT_EQ(chain_weights[0].weight, 0.5f);
+    EXPECT_EQ(chain_weights[1].joint, 3u);
+    EXPECT_EQ(chain_weights[1].chain, 1u);
 }
 
 TEST(Chain, StartsAtTheEffectorOrAboveIt) {
@@ -165,7 +165,7 @@ TEST(Chain, WithoutARecordIsMissingThatAndNothingElse) {
     EXPECT_EQ(faults_in(root), Lines{"RECORD_TOO_SHORT " + kBack});
     root = sample();
     remove(at(root, "HEAD/OBJE/SKIN/PIVO"), "REST");  // a fault elsewhere hides no weight
-    edit<PullRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"), [](auto& pull) { pull.chain = 9; });
+    edit<ChainWeightRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"), [](auto& chain_weight) { chain_weight.chain = 9; });
     EXPECT_EQ(faults_in(root), (Lines{"CHUNK_MISSING HEAD/OBJE/SKIN/PIVO", "CHAIN_RANGE HEAD/OBJE/SKIN/PIVO/PULL"}));
 }
 
@@ -176,17 +176,17 @@ TEST(Chain, TakesWeightsOfItsLinksOnly) {
         at(root, "HEAD/OBJE").children.push_back(make_chain(1, 1));
         for (const char* pivot : {"HEAD/OBJE/SKIN/PIVO", "HEAD/OBJE/SKIN/SKIN[1]/PIVO"})
             remove(at(root, pivot), "PULL");
-        at(root, joint + "/PIVO").children.push_back(make_pull(chain));
+        at(root, joint + "/PIVO").children.push_back(make_chain_weight(chain));
         return faults_in(root);
     };
     const std::string hip = "HEAD/OBJE/SKIN";
     for (const std::string& link : {hip, hip + "/SKIN", hip + "/SKIN/SKIN"})
         EXPECT_EQ(faults(link, 0), Lines{}) << link;
-    EXPECT_EQ(faults(hip + "/SKIN[1]", 0), Lines{"PULL_PATH HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL"});
+    EXPECT_EQ(faults(hip + "/SKIN[1]", 0), Lines{"CHAIN_WEIGHT_PATH HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL"});
     EXPECT_EQ(faults(hip + "/SKIN", 2), Lines{});
-    EXPECT_EQ(faults(hip, 2), Lines{"PULL_PATH HEAD/OBJE/SKIN/PIVO/PULL"});  // above the start
+    EXPECT_EQ(faults(hip, 2), Lines{"CHAIN_WEIGHT_PATH HEAD/OBJE/SKIN/PIVO/PULL"});  // above the start
     EXPECT_EQ(faults(hip + "/SKIN/SKIN", 2),
-              Lines{"PULL_PATH HEAD/OBJE/SKIN/SKIN/SKIN/PIVO/PULL"});  // below the effector
+              Lines{"CHAIN_WEIGHT_PATH HEAD/OBJE/SKIN/SKIN/SKIN/PIVO/PULL"});  // below the effector
     for (const std::uint32_t chain : {3u, kNone})
         EXPECT_EQ(faults(hip, chain), Lines{"CHAIN_RANGE HEAD/OBJE/SKIN/PIVO/PULL"});
 }
@@ -195,23 +195,25 @@ TEST(Chain, TakesOneWeightOfAJoint) {
     Node root = sample();
     auto& children = at(root, "HEAD/OBJE/SKIN/PIVO").children;
     at(root, "HEAD/OBJE").children.push_back(make_chain(0, 3));
-    children.push_back(make_pull(2));
+    children.push_back(make_chain_weight(2));
     EXPECT_EQ(faults_in(root), Lines{});
-    children.push_back(make_pull(0));
-    children.push_back(make_pull(2));
-    EXPECT_EQ(faults_in(root),
-              (Lines{"PULL_REPEATED HEAD/OBJE/SKIN/PIVO/PULL[2]", "PULL_REPEATED HEAD/OBJE/SKIN/PIVO/PULL[3]"}));
+    children.push_back(make_chain_weight(0));
+    children.push_back(make_chain_weight(2));
+    EXPECT_EQ(faults_in(root), (Lines{"CHAIN_WEIGHT_REPEATED HEAD/OBJE/SKIN/PIVO/PULL[2]",
+                                      "CHAIN_WEIGHT_REPEATED HEAD/OBJE/SKIN/PIVO/PULL[3]"}));
 }
 
 TEST(Chain, WantsWeightsBetweenNothingAndAll) {
     for (const float good : {0.0f, -0.0f, 1.0f}) {
         Node root = sample();
-        edit<PullRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"), [=](auto& pull) { pull.weight = good; });
+        edit<ChainWeightRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"),
+                                [=](auto& chain_weight) { chain_weight.weight = good; });
         EXPECT_EQ(faults_in(root), Lines{});
     }
     for (const float bad : {-0.001f, 1.001f, kNaN, kInf, -kInf}) {
         Node root = sample();
-        edit<PullRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"), [=](auto& pull) { pull.weight = bad; });
+        edit<ChainWeightRecord>(at(root, "HEAD/OBJE/SKIN/PIVO/PULL"),
+                                [=](auto& chain_weight) { chain_weight.weight = bad; });
         EXPECT_EQ(faults_in(root), Lines{"FRACTION_RANGE HEAD/OBJE/SKIN/PIVO/PULL"});
     }
 }
@@ -239,7 +241,8 @@ TEST(Chain, IsNumberedInItsOwnObject) {
     // Two objects alike: what the second's weights mean are its own chains.
     root = sample();
     root.children.push_back(at(root, "HEAD/OBJE"));
-    edit<PullRecord>(at(root, "HEAD/OBJE[1]/SKIN/PIVO/PULL"), [](auto& pull) { pull.chain = 2; });
+    edit<ChainWeightRecord>(at(root, "HEAD/OBJE[1]/SKIN/PIVO/PULL"),
+                            [](auto& chain_weight) { chain_weight.chain = 2; });
     const Loaded loaded(root);
     EXPECT_EQ(loaded.lines(), Lines{"CHAIN_RANGE HEAD/OBJE[1]/SKIN/PIVO/PULL"});
 }
@@ -258,7 +261,7 @@ Buffer rope_with_chains(std::uint32_t joints, std::uint32_t chains, std::uint32_
         writer.begin(FourCC("PIVO"));
         writer.leaf(FourCC("REST"), bytes_of(RestRecord{}));
         for (std::uint32_t chain = 0; joint < weighted && chain < chains; ++chain)
-            writer.leaf(FourCC("PULL"), bytes_of(PullRecord{chain, 0.5f}));
+            writer.leaf(FourCC("PULL"), bytes_of(ChainWeightRecord{chain, 0.5f}));
         writer.end();
     }
     for (std::uint32_t joint = 0; joint < joints; ++joint) writer.end();

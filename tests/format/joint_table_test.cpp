@@ -28,7 +28,7 @@ Node with_table(std::uint32_t joints = 4, std::uint32_t ranges = 0, std::string_
     }
     JointsRecord record;
     record.joints = joints;
-    record.polygons = ranges;
+    record.submeshes = ranges;
     Node table = make_leaf(FourCC("JNTS"), bytes_of(record));
     for (std::uint32_t joint = 0; joint < joints; ++joint) {
         RestRecord rest;
@@ -38,7 +38,7 @@ Node with_table(std::uint32_t joints = 4, std::uint32_t ranges = 0, std::string_
         const Bytes bytes = bytes_of(rest);
         table.payload.insert(table.payload.end(), bytes.begin(), bytes.end());
     }
-    table.payload.resize(table.payload.size() + ranges * sizeof(JointPolygons));
+    table.payload.resize(table.payload.size() + ranges * sizeof(JointSubmesh));
     object.children.push_back(table);
     object.children.push_back(make_leaf(FourCC("JNAM"), as_byte_span(names)));
     return root;
@@ -85,15 +85,15 @@ TEST(JointTable, IsHeldAgainstTheSkeleton) {
     at(root, "HEAD/OBJE/JNTS").payload.pop_back();
     EXPECT_EQ(faults_in(root)[0], "RECORD_SIZE HEAD/OBJE/JNTS");
     root = with_table();
-    set(at(root, "HEAD/OBJE/JNTS"), offsetof(JointsRecord, polygons), 0xffffffffu);
+    set(at(root, "HEAD/OBJE/JNTS"), offsetof(JointsRecord, submeshes), 0xffffffffu);
     EXPECT_EQ(faults_in(root)[0], "RECORD_SIZE HEAD/OBJE/JNTS");
     root = with_table(4, 1);
     const std::size_t range = sizeof(JointsRecord) + 4 * sizeof(RestRecord);
     set(at(root, "HEAD/OBJE/JNTS"), range, 4u);
     EXPECT_EQ(faults_in(root)[0], "JOINT_RANGE HEAD/OBJE/JNTS");
     set(at(root, "HEAD/OBJE/JNTS"), range, 1u);
-    set(at(root, "HEAD/OBJE/JNTS"), range + 4, 2u);  // pool
-    EXPECT_EQ(faults_in(root)[0], "POOL_RANGE HEAD/OBJE/JNTS");
+    set(at(root, "HEAD/OBJE/JNTS"), range + 4, 2u);  // mesh
+    EXPECT_EQ(faults_in(root)[0], "MESH_RANGE HEAD/OBJE/JNTS");
 }
 
 TEST(JointTable, AsManyNamesAsJoints) {
@@ -115,7 +115,7 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     const Loaded loaded(root);
     EXPECT_EQ(loaded.lines(), Lines{});
     const ObjectView& object = loaded.document.objects[0];
-    const PaletteView& view = object.pools[0].palette;
+    const PaletteView& view = object.meshes[0].palette;
     ASSERT_EQ(view.inverse_bind().size(), view.joints.size());
     std::vector<RestRecord> rests;
     std::vector<std::uint32_t> parents;
@@ -134,7 +134,7 @@ TEST(JointTable, InverseBindMatricesFollowFromTheRestPose) {
     EXPECT_EQ(faults_in(root)[0], "ENUM_RANGE HEAD/OBJE/VECT/PALT");
 }
 
-TEST(JointTable, EveryPoolOfAnObjectMayDeriveItsMatrices) {
+TEST(JointTable, EveryMeshOfAnObjectMayDeriveItsMatrices) {
     Node root = sample();
     Node& palette = at(root, "HEAD/OBJE/VECT/PALT");
     const std::size_t matrices = sizeof(PaletteRecord) + 16;
@@ -145,10 +145,10 @@ TEST(JointTable, EveryPoolOfAnObjectMayDeriveItsMatrices) {
     object.children.push_back(Node(child(object, "VECT")));
     const Loaded loaded(root);
     EXPECT_EQ(loaded.lines(), Lines{});
-    const auto& pools = loaded.document.objects[0].pools;
-    ASSERT_EQ(pools.size(), 3u);
-    const auto first = pools[0].palette.inverse_bind();
-    const auto last = pools[2].palette.inverse_bind();
+    const auto& meshes = loaded.document.objects[0].meshes;
+    ASSERT_EQ(meshes.size(), 3u);
+    const auto first = meshes[0].palette.inverse_bind();
+    const auto last = meshes[2].palette.inverse_bind();
     ASSERT_FALSE(first.empty());
     EXPECT_TRUE(std::equal(first.begin(), first.end(), last.begin(), last.end()));
 }

@@ -55,7 +55,7 @@ TEST(Skeleton, TakesSeveralRoots) {
 TEST(Skeleton, GivesPolygonsToTheJointThatHoldsThem) {
     const Loaded sample(sample_file());
     struct Expected {
-        std::uint32_t joint, pool, first, count;
+        std::uint32_t joint, mesh, first, count;
         Topology topology;
     };
     const std::vector<Expected> expected{{0, 0, 0, 3, Topology::triangles},
@@ -63,14 +63,14 @@ TEST(Skeleton, GivesPolygonsToTheJointThatHoldsThem) {
                                          {1, 1, 5, 1, Topology::points},
                                          {2, 1, 0, 3, Topology::triangles},
                                          {2, 1, 3, 2, Topology::lines}};
-    const auto& polygons = sample.document.objects.at(0).skeleton.polygons;
-    ASSERT_EQ(polygons.size(), expected.size());
+    const auto& submeshes = sample.document.objects.at(0).skeleton.submeshes;
+    ASSERT_EQ(submeshes.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_EQ(polygons[i].joint, expected[i].joint) << i;
-        EXPECT_EQ(polygons[i].pool, expected[i].pool) << i;
-        EXPECT_EQ(polygons[i].first, expected[i].first) << i;
-        EXPECT_EQ(polygons[i].count, expected[i].count) << i;
-        EXPECT_EQ(polygons[i].topology, expected[i].topology) << i;
+        EXPECT_EQ(submeshes[i].joint, expected[i].joint) << i;
+        EXPECT_EQ(submeshes[i].mesh, expected[i].mesh) << i;
+        EXPECT_EQ(submeshes[i].first, expected[i].first) << i;
+        EXPECT_EQ(submeshes[i].count, expected[i].count) << i;
+        EXPECT_EQ(submeshes[i].topology, expected[i].topology) << i;
     }
 }
 
@@ -82,7 +82,7 @@ TEST(Skeleton, GivesPolygonsAfterAChildToTheParent) {
     hip.children.push_back(polygons);  // behind the two joints in it
     EXPECT_EQ(faults_in(root), Lines{});
     const Loaded loaded(root);
-    EXPECT_EQ(loaded.document.objects.at(0).skeleton.polygons.back().joint, 0u);
+    EXPECT_EQ(loaded.document.objects.at(0).skeleton.submeshes.back().joint, 0u);
 }
 
 TEST(Skeleton, KeepsLocalMaterialsByJoint) {
@@ -91,8 +91,8 @@ TEST(Skeleton, KeepsLocalMaterialsByJoint) {
     const Node material = at(root, "HEAD/OBJE/SKIN/MATE");
     spine.children.insert(spine.children.begin(), {material, material});
     edit<VersionRecord>(at(root, "HEAD/VERS"), [](auto& version) { version.materials = 4; });
-    edit<PolygonRecord>(at(root, "HEAD/OBJE/SKIN/SKIN/POLY"),
-                        [](auto& polygons) { polygons.material = kLocalMaterial | 1u; });
+    edit<SubmeshRecord>(at(root, "HEAD/OBJE/SKIN/SKIN/POLY"),
+                        [](auto& submesh) { submesh.material = kLocalMaterial | 1u; });
     EXPECT_EQ(faults_in(root), Lines{});
     const Loaded loaded(root);
     const SkeletonView& skeleton = loaded.document.objects.at(0).skeleton;
@@ -119,14 +119,14 @@ TEST(Skeleton, IgnoresJointsThatStandElsewhere) {
 
 TEST(Skeleton, RefusesATopologyItDoesNotKnow) {
     Node root = sample();
-    edit<PolygonRecord>(at(root, "HEAD/OBJE/SKIN/POLY"), [](auto& polygons) { polygons.topology = kTopologies; });
+    edit<SubmeshRecord>(at(root, "HEAD/OBJE/SKIN/POLY"), [](auto& submesh) { submesh.topology = kTopologies; });
     EXPECT_EQ(faults_in(root), Lines{"ENUM_RANGE HEAD/OBJE/SKIN/POLY"});
 }
 
 TEST(Skeleton, WantsWholePolygons) {
     const auto faults = [](const char* path, std::uint32_t count) {
         Node root = sample();
-        edit<PolygonRecord>(at(root, path), [=](auto& polygons) { polygons.count = count; });
+        edit<SubmeshRecord>(at(root, path), [=](auto& submesh) { submesh.count = count; });
         return faults_in(root);
     };
     const std::string triangles = "HEAD/OBJE/SKIN/POLY";
@@ -141,7 +141,7 @@ TEST(Skeleton, WantsWholePolygons) {
 TEST(Skeleton, RefusesReservedBytesOfPolygons) {
     for (std::size_t byte = 0; byte < 3; ++byte) {
         Node root = sample();
-        edit<PolygonRecord>(at(root, "HEAD/OBJE/SKIN/POLY"), [=](auto& polygons) { polygons.reserved[byte] = 1; });
+        edit<SubmeshRecord>(at(root, "HEAD/OBJE/SKIN/POLY"), [=](auto& submesh) { submesh.reserved[byte] = 1; });
         EXPECT_EQ(faults_in(root), Lines{"RESERVED_FIELD HEAD/OBJE/SKIN/POLY"});
     }
 }

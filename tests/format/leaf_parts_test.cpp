@@ -112,9 +112,9 @@ TEST(LeafParts, SayWhatNumbersReferTo) {
     EXPECT_EQ(tracks.find("interpolation")->value_name(2), "cubic");
     EXPECT_EQ(tracks.find("interpolation")->value_name(3), "");
     EXPECT_EQ(tracks.find("keys")->value_name(0), "");
-    const RecordLayout& range = *find_layout("JointPolygons");
+    const RecordLayout& range = *find_layout("JointSubmesh");
     EXPECT_EQ(range.find("joint")->reference.entity, Entity::joint);
-    EXPECT_EQ(range.find("pool")->offset, 4u);
+    EXPECT_EQ(range.find("mesh")->offset, 4u);
     EXPECT_TRUE(range.find("material")->reference.is_optional);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 const std::string kPath = "HEAD/OBJE/LODD";
 
-/// What is said of the sample with this LODD; pool 0 has 4 vertices, pool 1 has 6.
+/// What is said of the sample with this LODD; mesh 0 has 4 vertices, mesh 1 has 6.
 Lines faults_with(const Buffer& payload) {
     Node root = sample();
     at(root, kPath).payload = payload;
@@ -24,9 +24,9 @@ Lines faults_with(const std::function<void(CollapseRecord&)>& change) {
     edit<CollapseRecord>(at(root, kPath), change);
     return faults_in(root);
 }
-Lines faults_with_pool(const std::function<void(PoolCollapseRecord&)>& change) {
+Lines faults_with_mesh(const std::function<void(MeshCollapseRecord&)>& change) {
     Node root = sample();
-    edit<PoolCollapseRecord>(at(root, kPath), change, sizeof(CollapseRecord));
+    edit<MeshCollapseRecord>(at(root, kPath), change, sizeof(CollapseRecord));
     return faults_in(root);
 }
 Lines said(const std::string& code) {
@@ -38,13 +38,13 @@ TEST(Lod, ReadsTheSample) {
     ASSERT_EQ(loaded.lines(), Lines{});
     const auto& collapse = loaded.document.objects[0].collapse;
     ASSERT_TRUE(collapse.has_value());
-    ASSERT_EQ(collapse->pools.size(), 1u);
-    const PoolCollapseView& pool = collapse->pools[0];
-    EXPECT_EQ(pool.pool, 0u);
-    EXPECT_EQ(pool.base, 3u);
-    EXPECT_EQ(pool.vertices, 4u);
-    EXPECT_EQ(pool.target(3), 1u);
-    EXPECT_FALSE(pool.is_joined(3));
+    ASSERT_EQ(collapse->meshes.size(), 1u);
+    const MeshCollapseView& mesh = collapse->meshes[0];
+    EXPECT_EQ(mesh.mesh, 0u);
+    EXPECT_EQ(mesh.base, 3u);
+    EXPECT_EQ(mesh.vertices, 4u);
+    EXPECT_EQ(mesh.target(3), 1u);
+    EXPECT_FALSE(mesh.is_joined(3));
     ASSERT_EQ(collapse->levels, 2u);
     EXPECT_EQ(collapse->error(0), 0.0f);
     EXPECT_EQ(collapse->alive(0, 0), 4u);
@@ -59,12 +59,12 @@ TEST(Lod, ReadsWideTargetsBitsAndNoLevels) {
     ASSERT_EQ(loaded.lines(), Lines{});
     const CollapseView& collapse = *loaded.document.objects[0].collapse;
     EXPECT_EQ(collapse.levels, 0u);
-    const PoolCollapseView& pool = collapse.pools[0];
+    const MeshCollapseView& mesh = collapse.meshes[0];
     const std::vector<std::uint32_t> targets{0, 0, 2, 1, 4};
     const std::vector<bool> joined{false, false, true, false, true};
     for (std::uint32_t k = 0; k < 5; ++k) {
-        EXPECT_EQ(pool.target(1 + k), targets[k]);
-        EXPECT_EQ(pool.is_joined(1 + k), joined[k]);
+        EXPECT_EQ(mesh.target(1 + k), targets[k]);
+        EXPECT_EQ(mesh.is_joined(1 + k), joined[k]);
     }
 }
 
@@ -85,70 +85,70 @@ TEST(Lod, RefusesTargetsThatAreNotBelowTheirVertex) {
     EXPECT_EQ(faults_with(collapse_payload<std::uint16_t>(0, 1, {0, 1, 2})), Lines{});
 }
 
-TEST(Lod, RefusesPoolsThatAreNotThereOrRepeated) {
-    EXPECT_EQ(faults_with(collapse_payload<std::uint16_t>(2, 3, {1})), said("POOL_RANGE"));
-    EXPECT_EQ(faults_with(collapse_payload<std::uint16_t>(kNone, 3, {1})), said("POOL_RANGE"));
+TEST(Lod, RefusesMeshesThatAreNotThereOrRepeated) {
+    EXPECT_EQ(faults_with(collapse_payload<std::uint16_t>(2, 3, {1})), said("MESH_RANGE"));
+    EXPECT_EQ(faults_with(collapse_payload<std::uint16_t>(kNone, 3, {1})), said("MESH_RANGE"));
     for (const std::uint32_t second : {0u, 1u}) {
         CollapseRecord record;
-        record.pools = 2;
-        std::vector<PoolCollapseRecord> pools(2);
-        pools[0].pool = 1;
-        pools[0].base = 6;
-        pools[1].pool = second;
-        pools[1].base = second == 1 ? 6 : 4;
-        pools[0].target_type = pools[1].target_type = 2;
+        record.meshes = 2;
+        std::vector<MeshCollapseRecord> meshes(2);
+        meshes[0].mesh = 1;
+        meshes[0].base = 6;
+        meshes[1].mesh = second;
+        meshes[1].base = second == 1 ? 6 : 4;
+        meshes[0].target_type = meshes[1].target_type = 2;
         Buffer payload;
         append_padded(payload, std::vector{record});
-        append_padded(payload, pools);
-        EXPECT_EQ(faults_with(payload), said("COLLAPSE_POOL")) << second;
+        append_padded(payload, meshes);
+        EXPECT_EQ(faults_with(payload), said("COLLAPSE_MESH")) << second;
     }
 }
 
-TEST(Lod, TakesSeveralPoolsOfWhichNothingCollapses) {
+TEST(Lod, TakesSeveralMeshesOfWhichNothingCollapses) {
     CollapseRecord record;
-    record.pools = 2;
-    std::vector<PoolCollapseRecord> pools(2);
-    pools[0].base = 4;
-    pools[1].pool = 1;
-    pools[1].base = 6;
-    pools[0].target_type = pools[1].target_type = 2;
+    record.meshes = 2;
+    std::vector<MeshCollapseRecord> meshes(2);
+    meshes[0].base = 4;
+    meshes[1].mesh = 1;
+    meshes[1].base = 6;
+    meshes[0].target_type = meshes[1].target_type = 2;
     Node root = sample();
     Buffer& payload = at(root, kPath).payload;
     payload.clear();
     append_padded(payload, std::vector{record});
-    append_padded(payload, pools);
+    append_padded(payload, meshes);
     const Loaded loaded(root);
     EXPECT_EQ(loaded.lines(), Lines{});
     const auto& collapse = loaded.document.objects[0].collapse;
     ASSERT_TRUE(collapse.has_value());
-    ASSERT_EQ(collapse->pools.size(), 2u);
-    EXPECT_EQ(collapse->pools[1].pool, 1u);
-    EXPECT_TRUE(collapse->pools[1].targets.empty());
+    ASSERT_EQ(collapse->meshes.size(), 2u);
+    EXPECT_EQ(collapse->meshes[1].mesh, 1u);
+    EXPECT_TRUE(collapse->meshes[1].targets.empty());
 }
 
 TEST(Lod, RefusesFieldsOutOfRange) {
-    EXPECT_EQ(faults_with_pool([](auto& pool) { pool.base = 5; }), said("INDEX_RANGE"));
+    EXPECT_EQ(faults_with_mesh([](auto& mesh) { mesh.base = 5; }), said("INDEX_RANGE"));
     for (const int type : {0, 1, 3, 5, 6, 255}) {
-        EXPECT_EQ(faults_with_pool([=](auto& pool) { pool.target_type = static_cast<std::uint8_t>(type); }),
+        EXPECT_EQ(faults_with_mesh([=](auto& mesh) { mesh.target_type = static_cast<std::uint8_t>(type); }),
                   said("STREAM_TYPE"))
             << type;
     }
     for (std::size_t k = 0; k < 7; ++k)
-        EXPECT_EQ(faults_with_pool([=](auto& pool) { pool.reserved[k] = 1; }), said("RESERVED_FIELD"));
+        EXPECT_EQ(faults_with_mesh([=](auto& mesh) { mesh.reserved[k] = 1; }), said("RESERVED_FIELD"));
     for (std::size_t k = 0; k < 2; ++k)
         EXPECT_EQ(faults_with([=](CollapseRecord& record) { record.reserved[k] = 1; }), said("RESERVED_FIELD"));
 }
 
 TEST(Lod, RefusesCountsThatDoNotGoWithTheSize) {
-    for (const std::uint32_t pools : {0u, 2u, 4u, 5u, 6u, 0x1000'0000u, 0xffff'ffffu}) {
-        const Lines lines = faults_with([=](CollapseRecord& record) { record.pools = pools; });
-        EXPECT_FALSE(lines.empty()) << pools;
+    for (const std::uint32_t meshes : {0u, 2u, 4u, 5u, 6u, 0x1000'0000u, 0xffff'ffffu}) {
+        const Lines lines = faults_with([=](CollapseRecord& record) { record.meshes = meshes; });
+        EXPECT_FALSE(lines.empty()) << meshes;
     }
     for (const std::uint32_t levels : {0u, 3u, 4u, 8u, 9u, 0x2000'0000u, 0xffff'ffffu}) {
         const Lines lines = faults_with([=](CollapseRecord& record) { record.levels = levels; });
         EXPECT_FALSE(lines.empty()) << levels;
     }
-    EXPECT_EQ(faults_with_pool([](auto& pool) { pool.base = 4; }), said("RECORD_SIZE"));
+    EXPECT_EQ(faults_with_mesh([](auto& mesh) { mesh.base = 4; }), said("RECORD_SIZE"));
     const Buffer good = collapse_payload<std::uint16_t>(0, 3, {1}, {{0.0f, 4}, {0.5f, 3}});
     ASSERT_EQ(faults_with(good), Lines{});
     for (std::size_t size = 0; size < good.size(); ++size)

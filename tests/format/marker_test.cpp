@@ -1,4 +1,4 @@
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 
 #include "edit_file.h"
 
@@ -16,7 +16,7 @@ using namespace test;
 
 const std::string kMark = "HEAD/OBJE/CYCL/MARK";
 
-/// The sample, whose cycle lasts from 0.5 s to 1 s, with this payload.
+/// The sample, whose clip lasts from 0.5 s to 1 s, with this payload.
 Node marked(const Buffer& payload, std::uint16_t flags = 0) {
     Node root = sample();
     at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), payload, flags));
@@ -34,7 +34,7 @@ Lines in_mark(std::initializer_list<const char*> codes) {
 }
 
 std::vector<Marker> markers_of(const Loaded& loaded) {
-    return loaded.document.objects.at(0).cycles.at(0).markers;
+    return loaded.document.objects.at(0).clips.at(0).markers;
 }
 
 TEST(Markers, GiveTimesAndNames) {
@@ -103,7 +103,7 @@ TEST(Markers, RefuseReservedBytes) {
     EXPECT_EQ(faults_with(payload), in_mark({"RESERVED_FIELD"}));
 }
 
-TEST(Markers, WantTimesToAscendInsideTheCycle) {
+TEST(Markers, WantTimesToAscendInsideTheClip) {
     EXPECT_EQ(faults_with(markers_payload({{0.75f, 0}, {0.7499f, 0}}, "")), in_mark({"MARKER_ORDER"}));
     EXPECT_EQ(faults_with(markers_payload({{0.4999f, 0}}, "")), in_mark({"MARKER_OUTSIDE"}));
     EXPECT_EQ(faults_with(markers_payload({{1.0001f, 0}}, "")), in_mark({"MARKER_OUTSIDE"}));

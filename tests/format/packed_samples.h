@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include <cstddef>
 #include <cstdint>

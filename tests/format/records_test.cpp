@@ -155,8 +155,8 @@ TEST(Records, HaveTheDocumentedDefaults) {
     EXPECT_EQ(RestRecord{}.shear, (std::array<float, 3>{0, 0, 0}));
     EXPECT_EQ(SurfaceRecord{}.alpha_cutoff, 0.5f);
     EXPECT_EQ(TextureUseRecord{}.texture, kNone);
-    EXPECT_EQ(PolygonRecord{}.material, kNone);
-    EXPECT_EQ(PoolRecord{}.joint, kNone);
+    EXPECT_EQ(SubmeshRecord{}.material, kNone);
+    EXPECT_EQ(MeshRecord{}.joint, kNone);
     EXPECT_EQ(as_text(bytes_of(VersionRecord{}.signature)), "BENDY\r\n\x1a");
 }
 

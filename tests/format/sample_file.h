@@ -24,16 +24,16 @@
 //      TEXT[2]   the image of TEXT[1]
 //      MATE      global material
 //      OBJE
-//       SKIN     joint 0 "hip", a local MATE, POLY: triangle of pool 0, PULL: 0.5 in chain 0
-//        SKIN    joint 1 "spine", POLY: triangle of pool 0, POLY[1]: point of pool 1, LIMT: a hinge for every pose,
+//       SKIN     joint 0 "hip", a local MATE, POLY: triangle of mesh 0, PULL: 0.5 in chain 0
+//        SKIN    joint 1 "spine", POLY: triangle of mesh 0, POLY[1]: point of mesh 1, LIMT: a hinge for every pose,
 //                LIMT[1]: swing and twist for IK
-//         SKIN   joint 2 "head", POLY: triangle of pool 1 in the global material, POLY[1]: line of pool 1
+//         SKIN   joint 2 "head", POLY: triangle of mesh 1 in the global material, POLY[1]: line of mesh 1
 //        SKIN[1] joint 3 "tail", with a node's extensions, PULL: 0.25 in chain 1
 //       IKCH     chain 0 "back": from hip to head, to be reached: tail
 //       IKCH[1]  chain 1: tail alone
-//       VECT     pool 0: skinned by joints 0 and 1, four vertices, a dense and a sparse target
-//       VECT[1]  pool 1: rigid, six vertices
-//       LODD     pool 0: vertex 3 collapses to vertex 1; two levels
+//       VECT     mesh 0: skinned by joints 0 and 1, four vertices, a dense and a sparse target
+//       VECT[1]  mesh 1: rigid, six vertices
+//       LODD     mesh 0: vertex 3 collapses to vertex 1; two levels
 //       CYCL     translation linear, rotation cubic, scale step, weights linear, rotation in fixed frames
 //      EXTN
 //      EXTR
@@ -102,47 +102,48 @@ inline Buffer markers_payload(const std::vector<MarkerRecord>& markers, std::str
 }
 
 inline void begin_joint(ChunkWriter& writer, std::string_view name, float up,
-                        const std::vector<LimitRecord>& limits = {}, const std::vector<PullRecord>& pulls = {}) {
+                        const std::vector<ConstraintRecord>& constraints = {},
+                        const std::vector<ChainWeightRecord>& pulls = {}) {
     writer.begin(FourCC("SKIN"));
     writer.text_leaf(FourCC("NAME"), name);
     writer.begin(FourCC("PIVO"));
     RestRecord rest;
     rest.translation = {0.0f, up, 0.0f};
     writer.leaf(FourCC("REST"), bytes_of(rest));
-    for (const LimitRecord& limit : limits) writer.leaf(FourCC("LIMT"), bytes_of(limit));
-    for (const PullRecord& pull : pulls) writer.leaf(FourCC("PULL"), bytes_of(pull));
+    for (const ConstraintRecord& constraint : constraints) writer.leaf(FourCC("LIMT"), bytes_of(constraint));
+    for (const ChainWeightRecord& chain_weight : pulls) writer.leaf(FourCC("PULL"), bytes_of(chain_weight));
     writer.end();
 }
 
 /// From 0 to 2 radians about X.
-inline LimitRecord hinge() {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
-    limit.rotation_min[0] = 0.0f;
-    limit.rotation_max[0] = 2.0f;
-    limit.soft_zone = 0.125f;
-    limit.preferred = {0.25f, 0.0f, 0.0f};
-    return limit;
+inline ConstraintRecord hinge() {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
+    constraint.rotation_min[0] = 0.0f;
+    constraint.rotation_max[0] = 2.0f;
+    constraint.soft_zone = 0.125f;
+    constraint.preferred = {0.25f, 0.0f, 0.0f};
+    return constraint;
 }
 
-inline LimitRecord swing_and_twist() {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::swing_twist_ellipse);
-    limit.scope = static_cast<std::uint8_t>(LimitScope::ik_only);
-    limit.flags = kProposed;
-    limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};
-    limit.rotation_min = {-0.5f, -0.25f, 0.0f};
-    limit.rotation_max = {0.5f, 0.75f, 1.0f};
-    limit.translation_min = {0.0f, -0.125f, 0.0f};
-    limit.translation_max = {0.0f, 0.125f, LimitRecord::kFree};
-    limit.stiffness = {0.0f, 0.5f, 1.0f};
-    return limit;
+inline ConstraintRecord swing_and_twist() {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_ellipse);
+    constraint.scope = static_cast<std::uint8_t>(ConstraintScope::ik_only);
+    constraint.flags = kProposed;
+    constraint.frame = {0.5f, 0.5f, 0.5f, 0.5f};
+    constraint.rotation_min = {-0.5f, -0.25f, 0.0f};
+    constraint.rotation_max = {0.5f, 0.75f, 1.0f};
+    constraint.translation_min = {0.0f, -0.125f, 0.0f};
+    constraint.translation_max = {0.0f, 0.125f, ConstraintRecord::kFree};
+    constraint.stiffness = {0.0f, 0.5f, 1.0f};
+    return constraint;
 }
 
-inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t material, Topology topology,
-                         std::uint32_t first, std::uint32_t count) {
-    PolygonRecord record;
-    record.pool = pool;
+inline void put_submesh(ChunkWriter& writer, std::uint32_t mesh, std::uint32_t material, Topology topology,
+                        std::uint32_t first, std::uint32_t count) {
+    SubmeshRecord record;
+    record.mesh = mesh;
     record.material = material;
     record.topology = static_cast<std::uint8_t>(topology);
     record.first = first;
@@ -153,7 +154,7 @@ inline void put_polygons(ChunkWriter& writer, std::uint32_t pool, std::uint32_t 
 inline void put_skeleton(ChunkWriter& writer) {
     begin_joint(writer, "hip", 1.0f, {}, {{0, 0.5f}});
     writer.text_leaf(FourCC("EXTR"), R"({"mass":3})");
-    put_polygons(writer, 0, kLocalMaterial | 0u, Topology::triangles, 0, 3);
+    put_submesh(writer, 0, kLocalMaterial | 0u, Topology::triangles, 0, 3);
     writer.begin(FourCC("MATE"));
     SurfaceRecord local;
     local.metallic = 0.25f;
@@ -161,12 +162,12 @@ inline void put_skeleton(ChunkWriter& writer) {
     writer.end();
 
     begin_joint(writer, "spine", 0.5f, {hinge(), swing_and_twist()});
-    put_polygons(writer, 0, kNone, Topology::triangles, 3, 3);
-    put_polygons(writer, 1, kNone, Topology::points, 5, 1);
+    put_submesh(writer, 0, kNone, Topology::triangles, 3, 3);
+    put_submesh(writer, 1, kNone, Topology::points, 5, 1);
 
     begin_joint(writer, "head", 0.25f);
-    put_polygons(writer, 1, 0, Topology::triangles, 0, 3);
-    put_polygons(writer, 1, 0, Topology::lines, 3, 2);
+    put_submesh(writer, 1, 0, Topology::triangles, 0, 3);
+    put_submesh(writer, 1, 0, Topology::lines, 3, 2);
     writer.end();  // head
     writer.end();  // spine
     begin_joint(writer, "tail \xc3\xa9", -0.25f, {}, {{1, 0.25f}});
@@ -209,11 +210,11 @@ inline void put_chains(ChunkWriter& writer) {
     writer.end();
 }
 
-inline void put_skinned_pool(ChunkWriter& writer) {
+inline void put_skinned_mesh(ChunkWriter& writer) {
     writer.begin(FourCC("VECT"));
     writer.text_leaf(FourCC("NAME"), "fur");
     writer.text_leaf(FourCC("EXTR"), "{}");
-    PoolRecord info;
+    MeshRecord info;
     info.vertices = 4;
     writer.leaf(FourCC("VINF"), bytes_of(info));
     writer.leaf(FourCC("POSI"), stream_payload<float>(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}));
@@ -230,7 +231,7 @@ inline void put_skinned_pool(ChunkWriter& writer) {
     writer.leaf(FourCC("VALS"), stream_payload<std::int16_t>(1, {-32768, 0, 1, 32767}));
     writer.end();
 
-    TargetRecord target;
+    MorphTargetRecord target;
     target.rest_weight = 0.125f;
     writer.begin(FourCC("TARG"));  // dense
     writer.text_leaf(FourCC("NAME"), "smile");
@@ -239,7 +240,7 @@ inline void put_skinned_pool(ChunkWriter& writer) {
     writer.leaf(FourCC("NORM"), stream_payload<float>(3, {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}));
     writer.end();
     writer.begin(FourCC("TARG"));  // sparse
-    writer.leaf(FourCC("TINF"), bytes_of(TargetRecord{}));
+    writer.leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{}));
     writer.leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, {1, 3}));
     writer.leaf(FourCC("POSI"), stream_payload<float>(3, {9, 0, 0, 0, 9, 0}));
     writer.leaf(FourCC("TANG"), stream_payload<float>(3, {0, 0, 9, 0, 0, 8}));
@@ -248,9 +249,9 @@ inline void put_skinned_pool(ChunkWriter& writer) {
     writer.end();
 }
 
-inline void put_rigid_pool(ChunkWriter& writer) {
+inline void put_rigid_mesh(ChunkWriter& writer) {
     writer.begin(FourCC("VECT"));
-    PoolRecord info;
+    MeshRecord info;
     info.vertices = 6;
     info.joint = 2;
     writer.leaf(FourCC("VINF"), bytes_of(info));
@@ -267,16 +268,16 @@ void append_padded(Buffer& payload, const std::vector<T>& numbers) {
     payload.resize(padded(payload.size()));
 }
 
-/// LODD of one pool: levels as {error, alive}.
+/// LODD of one mesh: levels as {error, alive}.
 template <class Target>
-Buffer collapse_payload(std::uint32_t pool, std::uint32_t base, const std::vector<Target>& targets,
+Buffer collapse_payload(std::uint32_t mesh, std::uint32_t base, const std::vector<Target>& targets,
                         const std::vector<std::pair<float, std::uint32_t>>& levels = {},
                         const std::vector<std::uint8_t>& joined = {}) {
     CollapseRecord record;
-    record.pools = 1;
+    record.meshes = 1;
     record.levels = static_cast<std::uint32_t>(levels.size());
-    PoolCollapseRecord part;
-    part.pool = pool;
+    MeshCollapseRecord part;
+    part.mesh = mesh;
     part.base = base;
     part.target_type = static_cast<std::uint8_t>(component_type_of<Target>());
     Buffer payload;
@@ -304,11 +305,11 @@ inline TrackRecord track(std::uint32_t target, TrackPath path, Interpolation int
     return record;
 }
 
-inline void put_cycle(ChunkWriter& writer) {
+inline void put_clip(ChunkWriter& writer) {
     writer.begin(FourCC("CYCL"));
     writer.text_leaf(FourCC("NAME"), "run");
     writer.text_leaf(FourCC("EXTR"), "[]");
-    CycleRecord info;
+    ClipRecord info;
     info.start = 0.5f;
     info.end = 1.0f;
     info.frame_rate = 4.0f;
@@ -364,9 +365,9 @@ inline VersionRecord sample_version() {
     VersionRecord version;
     version.objects = 1;
     version.joints = 4;
-    version.pools = 2;
+    version.meshes = 2;
     version.vertices = 10;
-    version.cycles = 1;
+    version.clips = 1;
     version.materials = 2;
     version.textures = 3;
     std::memcpy(version.generator.data(), "sample", 6);
@@ -395,10 +396,10 @@ inline Buffer sample_file() {
     writer.text_leaf(FourCC("EXTR"), "{\"a\":1}");
     put_skeleton(writer);
     put_chains(writer);
-    put_skinned_pool(writer);
-    put_rigid_pool(writer);
+    put_skinned_mesh(writer);
+    put_rigid_mesh(writer);
     writer.leaf(FourCC("LODD"), collapse_payload<std::uint16_t>(0, 3, {1}, {{0.0f, 4}, {0.5f, 3}}));
-    put_cycle(writer);
+    put_clip(writer);
     writer.end();
     writer.text_leaf(FourCC("EXTN"), "{\"KHR_z\":{}}");
     writer.text_leaf(FourCC("EXTR"), "{\"file\":true}");

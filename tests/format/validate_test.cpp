@@ -61,14 +61,14 @@ constexpr std::uint64_t kFlagsField = 14;
 constexpr std::size_t kNumbers = sizeof(StreamRecord);
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Markers in the sample's cycle, which lasts from 0.5 s to 1 s; their names are "stop".
+/// Markers in the sample's clip, which lasts from 0.5 s to 1 s; their names are "stop".
 Provocation marked(ErrorCode code, const std::vector<MarkerRecord>& markers) {
     return edited(code, "HEAD/OBJE/CYCL/MARK", [markers](Node& root) {
         at(root, "HEAD/OBJE/CYCL").children.push_back(make_leaf(FourCC("MARK"), markers_payload(markers, "stop")));
     });
 }
 
-/// A curve of two keys in the sample's cycle.
+/// A curve of two keys in the sample's clip.
 Provocation curved(ErrorCode code, std::array<float, 2> times, std::uint8_t components, int copies = 1) {
     const std::string path = "HEAD/OBJE/CYCL/CURV";
     return edited(code, copies == 1 ? path : path + "[1]", [=](Node& root) {
@@ -169,10 +169,10 @@ const std::vector<Provocation> kProvocations{
            [](Node& root) { set(at(root, "HEAD/OBJE/SKIN/NAME"), 0, std::uint8_t{0xff}); }),
     record<SamplerRecord>(ErrorCode::kEnumRange, "HEAD/TEXT/SAMP", [](auto& sampler) { sampler.wrap_s = kWraps; }),
     number(ErrorCode::kNotFinite, "HEAD/OBJE/VECT/POSI", kNumbers, kNaN),
-    record<PoolRecord>(ErrorCode::kJointRange, "HEAD/OBJE/VECT[1]/VINF", [](auto& pool) { pool.joint = 4; }),
-    record<PolygonRecord>(ErrorCode::kPoolRange, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.pool = 2; }),
-    record<PolygonRecord>(ErrorCode::kMaterialRange, "HEAD/OBJE/SKIN/POLY",
-                          [](auto& polygons) { polygons.material = 1; }),
+    record<MeshRecord>(ErrorCode::kJointRange, "HEAD/OBJE/VECT[1]/VINF", [](auto& mesh) { mesh.joint = 4; }),
+    record<SubmeshRecord>(ErrorCode::kMeshRange, "HEAD/OBJE/SKIN/POLY", [](auto& submesh) { submesh.mesh = 2; }),
+    record<SubmeshRecord>(ErrorCode::kMaterialRange, "HEAD/OBJE/SKIN/POLY",
+                          [](auto& submesh) { submesh.material = 1; }),
     record<SurfaceRecord>(ErrorCode::kTextureRange, "HEAD/MATE/SURF",
                           [](auto& surface) { surface.normal_texture.texture = 3; }),
     number(ErrorCode::kIndexRange, "HEAD/OBJE/VECT/INDX", kNumbers, std::uint16_t{4}),
@@ -191,25 +191,28 @@ const std::vector<Provocation> kProvocations{
            }),
     number(ErrorCode::kWeightSum, "HEAD/OBJE/VECT/WGHT", kNumbers, 0.5f),
     number(ErrorCode::kTargetOrder, "HEAD/OBJE/VECT/TARG[1]/INDX", kNumbers, std::uint16_t{3}),
-    record<PullRecord>(ErrorCode::kChainRange, "HEAD/OBJE/SKIN/PIVO/PULL", [](auto& pull) { pull.chain = 2; }),
+    record<ChainWeightRecord>(ErrorCode::kChainRange, "HEAD/OBJE/SKIN/PIVO/PULL",
+                              [](auto& chain_weight) { chain_weight.chain = 2; }),
     record<ChainRecord>(ErrorCode::kChainPath, "HEAD/OBJE/IKCH/KINF", [](auto& chain) { chain.start = 3; }),
-    record<PullRecord>(ErrorCode::kPullPath, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL", [](auto& pull) { pull.chain = 0; }),
+    record<ChainWeightRecord>(ErrorCode::kChainWeightPath, "HEAD/OBJE/SKIN/SKIN[1]/PIVO/PULL",
+                              [](auto& chain_weight) { chain_weight.chain = 0; }),
     edited(
-        ErrorCode::kPullRepeated, "HEAD/OBJE/SKIN/PIVO/PULL[1]",
+        ErrorCode::kChainWeightRepeated, "HEAD/OBJE/SKIN/PIVO/PULL[1]",
         [](Node& root) { at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(at(root, "HEAD/OBJE/SKIN/PIVO/PULL")); }),
-    record<PullRecord>(ErrorCode::kFractionRange, "HEAD/OBJE/SKIN/PIVO/PULL", [](auto& pull) { pull.weight = 1.5f; }),
+    record<ChainWeightRecord>(ErrorCode::kFractionRange, "HEAD/OBJE/SKIN/PIVO/PULL",
+                              [](auto& chain_weight) { chain_weight.weight = 1.5f; }),
     record<ChainRecord>(ErrorCode::kBelowZero, "HEAD/OBJE/IKCH[1]/KINF", [](auto& chain) { chain.stretch = -1.0f; }),
-    record<LimitRecord>(ErrorCode::kLimitOrder, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT",
-                        [](auto& limit) { limit.rotation_min[0] = 2.5f; }),
-    record<LimitRecord>(ErrorCode::kLimitRange, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT[1]",
-                        [](auto& limit) { limit.rotation_min[1] = 0.25f; }),
-    record<LimitRecord>(ErrorCode::kLimitRepeated, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT[1]",
-                        [](auto& limit) { limit.scope = 0; }),
-    record<LimitRecord>(ErrorCode::kRestOutside, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT",
-                        [](auto& limit) { limit.rotation_min[0] = 0.5f; }),
-    record<PolygonRecord>(ErrorCode::kPolygonCut, "HEAD/OBJE/SKIN/POLY", [](auto& polygons) { polygons.count = 2; }),
-    record<PolygonRecord>(ErrorCode::kPolygonOverlap, "HEAD/OBJE/SKIN/SKIN/POLY",
-                          [](auto& polygons) { polygons.first = 2; }),
+    record<ConstraintRecord>(ErrorCode::kLimitOrder, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT",
+                             [](auto& constraint) { constraint.rotation_min[0] = 2.5f; }),
+    record<ConstraintRecord>(ErrorCode::kLimitRange, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT[1]",
+                             [](auto& constraint) { constraint.rotation_min[1] = 0.25f; }),
+    record<ConstraintRecord>(ErrorCode::kConstraintRepeated, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT[1]",
+                             [](auto& constraint) { constraint.scope = 0; }),
+    record<ConstraintRecord>(ErrorCode::kRestOutside, "HEAD/OBJE/SKIN/SKIN/PIVO/LIMT",
+                             [](auto& constraint) { constraint.rotation_min[0] = 0.5f; }),
+    record<SubmeshRecord>(ErrorCode::kPolygonCut, "HEAD/OBJE/SKIN/POLY", [](auto& submesh) { submesh.count = 2; }),
+    record<SubmeshRecord>(ErrorCode::kSubmeshOverlap, "HEAD/OBJE/SKIN/SKIN/POLY",
+                          [](auto& submesh) { submesh.first = 2; }),
     edited(ErrorCode::kRigidShared, "HEAD/OBJE/SKIN/SKIN/POLY[1]",
            [](Node& root) { set(at(root, "HEAD/OBJE/VECT[1]/INDX"), kNumbers + 20, 0u); }),
     record<TrackRecord>(ErrorCode::kKeyRange, "HEAD/OBJE/CYCL/TRAK", [](auto& track) { track.keys = 0; }),
@@ -236,21 +239,21 @@ const std::vector<Provocation> kProvocations{
     curved(ErrorCode::kCurveShape, {0.5f, 1.0f}, 2),
     curved(ErrorCode::kCurveOrder, {0.75f, 0.75f}, 1),
     curved(ErrorCode::kCurveRepeated, {0.5f, 1.0f}, 1, 2),
-    // LODD: its record, the pool's, two levels of 8 bytes, targets.
-    edited(ErrorCode::kCollapsePool, "HEAD/OBJE/LODD",
+    // LODD: its record, the mesh's, two levels of 8 bytes, targets.
+    edited(ErrorCode::kCollapseMesh, "HEAD/OBJE/LODD",
            [](Node& root) {
                const CollapseRecord record{2, 0, {}};
-               PoolCollapseRecord pool;
-               pool.base = 4;  // all of its vertices
-               pool.target_type = static_cast<std::uint8_t>(ComponentType::u16);
+               MeshCollapseRecord mesh;
+               mesh.base = 4;  // all of its vertices
+               mesh.target_type = static_cast<std::uint8_t>(ComponentType::u16);
                Buffer& payload = at(root, "HEAD/OBJE/LODD").payload;
                payload.clear();
-               for (const Bytes bytes : {bytes_of(record), bytes_of(pool), bytes_of(pool)})
+               for (const Bytes bytes : {bytes_of(record), bytes_of(mesh), bytes_of(mesh)})
                    payload.insert(payload.end(), bytes.begin(), bytes.end());
            }),
     number(ErrorCode::kCollapseTarget, "HEAD/OBJE/LODD", 48, std::uint16_t{3}),
     number(ErrorCode::kCollapseLevel, "HEAD/OBJE/LODD", 36, std::uint32_t{5}),
-    record<CycleRecord>(ErrorCode::kCycleLength, "HEAD/OBJE/CYCL/CINF", [](auto& cycle) { cycle.end = 0.75f; }),
+    record<ClipRecord>(ErrorCode::kClipLength, "HEAD/OBJE/CYCL/CINF", [](auto& clip) { clip.end = 0.75f; }),
 };
 
 /// Codes that no change of a file's bytes can provoke here, and why.

@@ -1,9 +1,9 @@
-// Every codec, both ways, and packed cycles. Input: codec, stride (packed cycles: joints), head, a byte that is left
+// Every codec, both ways, and packed clips. Input: codec, stride (packed clips: joints), head, a byte that is left
 // out, then a payload: encoded, and plain.
 #include "check.h"
 
 #include <bendy/format/codec.h>
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -32,7 +32,7 @@ void encode(unsigned codec, Bytes payload, std::uint16_t head, std::uint16_t str
     fuzz::check(std::ranges::equal(out.bytes(), payload), "decoding gives back what was encoded");
 }
 
-/// A packed cycle, at each of its ends and between, and as integers that are written again.
+/// A packed clip, at each of its ends and between, and as integers that are written again.
 void unpack(Bytes payload, std::uint32_t joints) {
     Faults faults;
     const auto view = read_packed(payload, joints, 0, faults);
@@ -42,15 +42,15 @@ void unpack(Bytes payload, std::uint32_t joints) {
     }
     check_packed_values(*view, 0, faults);
     for (const std::uint32_t frame : {0u, view->record.frames / 2, view->record.frames - 1}) {
-        PackedWalk walk(*view, frame);
+        PackedGroupReader reader(*view, frame);
         PackedGroup group;
-        while (walk.next(group)) {
+        while (reader.next(group)) {
             for (std::uint32_t track = 0; track < group.count; ++track)
                 fuzz::check(group.joints[track] < joints, "a packed track's joint is there");
         }
     }
     (void)write_packed(packed_samples(*view));
-    if (joints <= 64) (void)unpack_cycle(*view, std::vector<RestRecord>(joints));
+    if (joints <= 64) (void)unpack_clip(*view, std::vector<RestRecord>(joints));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include <bendy/edit/extract.h>
-#include <bendy/edit/merge_cycles.h>
+#include <bendy/edit/merge_clips.h>
 #include <bendy/edit/rename.h>
 #include <bendy/edit/strip.h>
 #include <bendy/format/validate.h>
@@ -19,7 +19,7 @@ using namespace bendy;
 edit::Edited change(Bytes file, unsigned choice, edit::Log& log) {
     if (choice % 4 == 0) return edit::strip(file, {static_cast<edit::Part>(choice / 4 % 14), ""}, log);
     if (choice % 4 == 1) return edit::extract(file, "#" + std::to_string(choice / 4 % 8), log);
-    if (choice % 4 == 2) return edit::merge_cycles(file, file, static_cast<edit::SameName>(choice / 4 % 3), log);
+    if (choice % 4 == 2) return edit::merge_clips(file, file, static_cast<edit::SameName>(choice / 4 % 3), log);
     edit::Rename rename;
     rename.kind = static_cast<edit::Named>(choice / 4 % 8);
     rename.names = {{"*a*", "b*"}, {"*", "x*"}};

@@ -33,7 +33,7 @@ converter::ExportOptions a_level(Bytes bytes) {
     if (!model || model->collapse() == nullptr) return options;
     Lod lod(*model);
     lod.set_share(0.3f);
-    for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) options.vertices.push_back(lod.vertices(pool));
+    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) options.vertices.push_back(lod.vertices(mesh));
     return options;
 }
 

@@ -1,10 +1,10 @@
-// Text twins: a fault with its place, or a well-formed file that comes back from its own twin.
+// Text forms: a fault with its place, or a well-formed file that comes back from its own text form.
 #include "check.h"
 
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
-#include <bendy/twin/assemble.h>
-#include <bendy/twin/dump.h>
+#include <bendy/text_form/assemble.h>
+#include <bendy/text_form/dump.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace bendy;
-    const auto file = twin::assemble({reinterpret_cast<const char*>(data), size});
+    const auto file = text_form::assemble({reinterpret_cast<const char*>(data), size});
     if (!file) {
         fuzz::check(file.error().line >= 1 && file.error().column >= 1 && file.error().column <= size + 1 &&
                         !file.error().what.empty(),
@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_sums(*tree, faults);
     fuzz::check(faults.empty(), "its sums are right");
     decode_leaves(*tree);
-    const auto again = twin::assemble(twin::dump(*tree));
-    fuzz::check(again && *again == *file, "it comes back from its twin");
+    const auto again = text_form::assemble(text_form::dump(*tree));
+    fuzz::check(again && *again == *file, "it comes back from its text form");
     return 0;
 }

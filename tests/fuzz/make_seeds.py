@@ -5,7 +5,7 @@
 
 OUT/gltf gets glTF files: some that are made here, and those of the FOLDERs with their buffers packed into them;
 OUT/bendy bendy files: their conversions by the program BENDY, and the specification's and the tests' own; OUT/codec the
-leaves of these; OUT/rig their rig files; OUT/text their text twins; OUT/x X-files; OUT/md2 Quake II models. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
+leaves of these; OUT/rig their rig files; OUT/text their text forms; OUT/x X-files; OUT/md2 Quake II models. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
 """
 
 import argparse
@@ -27,7 +27,7 @@ from gltf_file import GltfFile, strange_file  # noqa: E402
 from md2_file import md2_file  # noqa: E402
 
 LARGEST = 48_000  # bytes
-PACKED = 8  # what fuzz_codec takes for a packed cycle: the number after the last codec's
+PACKED = 8  # what fuzz_codec takes for a packed clip: the number after the last codec's
 OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--sort-vertices"])
 
 
@@ -49,7 +49,7 @@ AnimationSet S { Animation { { B } AnimationOptions { 0; 1; }
 Frame A { Frame B { FrameTransformMatrix {1,0,0,0,0,1,0,0,0,0,1,0,0,1,0,1;;} BendyConstraint { "euler_box";"XYZ";"every_pose";0;0.1;0,0,0,1;-1,-1,-1;1,1,1;-3.402823466e38,0,0;1,1,1;0,0,0;0,0,0; } Frame C { BendyName { "c%20d"; } } } }
 BendyIkChain { "reach";"A";"C";"";"";"ccd";0;10;0;0.001;0,0,1;0;0,0,0;0,0,0,1;1;0;1;0;0;"";1;"B";0.5;; }
 AnimationSet S { Animation { {B} AnimationKey { 0; 2; 0;4;-1,0,0,0;;, 4800;4;-0.7,0.7,0,0;;; } AnimationKey {2;1;0;3;0,1,0;;;} } }
-BendyCycle { "S"; "Real name"; }
+BendyClip { "S"; "Real name"; }
 """,
 ]
 

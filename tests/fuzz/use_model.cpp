@@ -65,22 +65,25 @@ void read_all(const Model& model) {
         check(chain.start <= chain.effector && chain.effector < joints, "a chain's joints are there");
         check(chain.target == kNone || chain.target < joints, "a chain's target is there");
         check(chain.pole == kNone || chain.pole < joints, "a chain's pole is there");
-        for (const PullView& pull : model.chain_weights(chain)) check(pull.joint < joints, "a weight's joint is there");
+        for (const ChainWeightView& chain_weight : model.chain_weights(chain))
+            check(chain_weight.joint < joints, "a weight's joint is there");
     }
-    for (const Draw& draw : model.draws()) {
-        const Pool& pool = model.pools()[draw.pool];
-        check(draw.material == kNone || draw.material < model.materials().size(), "a draw's material is there");
-        for (std::uint32_t k = 0; k < draw.count; ++k)
-            check(pool.indices->index(draw.first + k, 0) < pool.vertices, "an index is in its pool");
+    for (const Submesh& submesh : model.submeshes()) {
+        const Mesh& mesh = model.meshes()[submesh.mesh];
+        check(submesh.material == kNone || submesh.material < model.materials().size(),
+              "a submesh's material is there");
+        for (std::uint32_t k = 0; k < submesh.count; ++k)
+            check(mesh.indices->index(submesh.first + k, 0) < mesh.vertices, "an index is in its mesh");
     }
-    for (const PolygonView& polygons : model.polygons()) check(polygons.joint < joints, "a polygon's joint is there");
-    for (const Pool& pool : model.pools()) {
-        look_at(pool.name);
-        look_at(pool.extras);
-        for (const StreamView& stream : pool.texture_coords) look_at(stream, pool.vertices);
-        for (const StreamView& stream : pool.colours) look_at(stream, pool.vertices);
-        for (const AttributeView& attribute : pool.attributes) look_at(attribute.values, pool.vertices);
-        for (const TargetView& target : pool.targets) look_at(target.name);
+    for (const SubmeshView& submesh : model.joint_submeshes())
+        check(submesh.joint < joints, "a polygon's joint is there");
+    for (const Mesh& mesh : model.meshes()) {
+        look_at(mesh.name);
+        look_at(mesh.extras);
+        for (const StreamView& stream : mesh.texture_coords) look_at(stream, mesh.vertices);
+        for (const StreamView& stream : mesh.colours) look_at(stream, mesh.vertices);
+        for (const AttributeView& attribute : mesh.attributes) look_at(attribute.values, mesh.vertices);
+        for (const MorphTargetView& target : mesh.targets) look_at(target.name);
     }
     read_materials(model);
 }
@@ -115,16 +118,16 @@ public:
         check(skin(pose, {.out = {positions_, normals_, tangents_}}).has_value(),
               "skinning into memory that is large enough");
         check(skin(pose, {.out = {.positions = positions_}}).has_value(), "skinning positions alone");
-        for (std::uint32_t pool = 0; pool < model_.pools().size(); ++pool) (void)pose.palette(pool);
+        for (std::uint32_t mesh = 0; mesh < model_.meshes().size(); ++mesh) (void)pose.palette(mesh);
     }
 
     void skin_levels(Pose& pose, Lod& lod) {
         for (const float share : {0.5f, 0.0f, std::numeric_limits<float>::quiet_NaN()}) {
             lod.set_share(share);
-            for (const Draw& draw : lod.draws()) {
-                const auto indices = lod.indices(draw.pool).subspan(draw.first, draw.count);
+            for (const Submesh& submesh : lod.submeshes()) {
+                const auto indices = lod.indices(submesh.mesh).subspan(submesh.first, submesh.count);
                 for (const std::uint32_t index : indices)
-                    check(index < lod.vertices(draw.pool), "what is drawn is alive");
+                    check(index < lod.vertices(submesh.mesh), "what is drawn is alive");
             }
             check(skin(pose, {.lod = &lod, .out = {positions_, normals_, tangents_}}).has_value(),
                   "skinning a level of detail");
@@ -152,26 +155,26 @@ void use_model(const Model& model, unsigned choice) {
 
     Pose other(model);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    std::size_t cycles = 0;
-    for (const Cycle& cycle : model.cycles()) {
-        if (++cycles > 16) break;
-        look_at(cycle.name);
-        for (const Marker& marker : cycle.markers) look_at(marker.name);
-        for (const Curve& curve : cycle.curves) {
+    std::size_t clips = 0;
+    for (const Clip& clip : model.clips()) {
+        if (++clips > 16) break;
+        look_at(clip.name);
+        for (const Marker& marker : clip.markers) look_at(marker.name);
+        for (const Curve& curve : clip.curves) {
             look_at(curve.name);
             look_at(curve.path);
             std::array<float, 4> value{};
-            for (const float seconds : {cycle.start, 0.3f, cycle.end, std::numeric_limits<float>::quiet_NaN()})
+            for (const float seconds : {clip.start, 0.3f, clip.end, std::numeric_limits<float>::quiet_NaN()})
                 sample_curve(curve, seconds, value);
         }
-        const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
-        for (const float seconds : {cycle.start, middle, cycle.end}) {
-            (void)sample(pose, &cycle, seconds);
+        const float middle = clip.start + 0.4f * (clip.end - clip.start);
+        for (const float seconds : {clip.start, middle, clip.end}) {
+            (void)sample(pose, &clip, seconds);
             skins.skin_all(pose);
         }
         for (const float seconds : {-1.0f, 1e30f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()})
-            (void)sample(other, &cycle, seconds);
-        (void)sample(other, &cycle, static_cast<float>(choice % 97) * 0.05f);
+            (void)sample(other, &clip, seconds);
+        (void)sample(other, &clip, static_cast<float>(choice % 97) * 0.05f);
         (void)blend(pose, other, 0.3f);
         (void)make_additive(other, pose);
         (void)add(pose, other, 0.7f, model.joints().empty() ? std::vector<float>{} : mask_below(model, 0));

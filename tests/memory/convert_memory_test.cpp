@@ -5,7 +5,7 @@
 
 #include <bendy/format/validate.h>
 
-#include "sweep/fail_each.h"
+#include "mutation/fail_each.h"
 
 #include <gtest/gtest.h>
 

@@ -50,7 +50,7 @@ class MediaType(Case):
         def kind(path, *options):
             return run("file", "-b", *options, "-m", self.packaging / "bendy.magic", path).strip()
 
-        self.assertEqual(kind(self.good), "Bendy animated character, version 0.1, 2 joints, 6 vertices, 2 cycles")
+        self.assertEqual(kind(self.good), "Bendy animated character, version 0.1, 2 joints, 6 vertices, 2 clips")
         self.assertEqual(kind(self.good, "--mime-type"), "model/x-bendy")
         self.assertEqual(kind(self.good, "--extension"), "bendy")
         for other in (self.sent_as_text, ARGUMENTS.source / "examples/tentacle.glb", ARGUMENTS.source / "LICENSE"):

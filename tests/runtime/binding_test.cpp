@@ -2,7 +2,7 @@
 
 #include <bendy/runtime/sample.h>
 
-#include "runtime/cycle_model.h"
+#include "runtime/clip_model.h"
 #include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
@@ -23,37 +23,37 @@ test::JointSpec joint(std::uint32_t parent, const std::string& name, float y) {
 test::Node target_node(const std::string& name) {
     return test::make_container(FourCC("TARG"),
                                 {test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(name))),
-                                 test::make_leaf(FourCC("TINF"), bytes_of(TargetRecord{})),
+                                 test::make_leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{})),
                                  test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, {0, 1, 0}))});
 }
 
-test::PoolSpec pool_with(const std::vector<std::string>& targets) {
-    test::PoolSpec pool;
-    pool.joint = 0;
-    pool.positions = {{0, 0, 0}};
-    for (const std::string& name : targets) pool.more.push_back(target_node(name));
-    return pool;
+test::MeshSpec mesh_with(const std::vector<std::string>& targets) {
+    test::MeshSpec mesh;
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}};
+    for (const std::string& name : targets) mesh.more.push_back(target_node(name));
+    return mesh;
 }
 
-/// hips, spine, tail, one without a name; a cycle that moves all of them, and two targets.
+/// hips, spine, tail, one without a name; a clip that moves all of them, and two targets.
 test::ModelSpec animated() {
     test::ModelSpec spec;
     spec.joints = {joint(kNone, "hips", 1), joint(0, "spine", 2), joint(0, "tail", 3), joint(0, "", 4)};
-    spec.pools = {pool_with({"smile", "frown"})};
-    test::CycleSpec cycle;
-    cycle.name = "move";
+    spec.meshes = {mesh_with({"smile", "frown"})};
+    test::ClipSpec clip;
+    clip.name = "move";
     const std::vector<float> t{0.0f, 1.0f};
-    cycle.tracks = {{TrackPath::translation, 0, 3, t, {0, 10, 0, 0, 20, 0}},
-                    {TrackPath::rotation, 1, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
-                    {TrackPath::translation, 1, 3, t, {5, 5, 5, 7, 7, 7}},
-                    {TrackPath::scale, 1, 3, t, {1, 1, 1, 3, 3, 3}},
-                    {TrackPath::rotation, 2, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
-                    {TrackPath::rotation, 3, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
-                    {TrackPath::weights, 0, 2, t, {0, 0, 0.5f, 1}}};
-    test::CycleSpec other;
+    clip.tracks = {{TrackPath::translation, 0, 3, t, {0, 10, 0, 0, 20, 0}},
+                   {TrackPath::rotation, 1, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
+                   {TrackPath::translation, 1, 3, t, {5, 5, 5, 7, 7, 7}},
+                   {TrackPath::scale, 1, 3, t, {1, 1, 1, 3, 3, 3}},
+                   {TrackPath::rotation, 2, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
+                   {TrackPath::rotation, 3, 4, t, {0, 0, 0, 1, 0, 0, 1, 0}},
+                   {TrackPath::weights, 0, 2, t, {0, 0, 0.5f, 1}}};
+    test::ClipSpec other;
     other.name = "other";
     other.tracks = {{TrackPath::rotation, 0, 4, t, {0, 0, 0, 1, 0, 1, 0, 0}}};
-    spec.more = {test::cycle_node(cycle), test::cycle_node(other)};
+    spec.more = {test::clip_node(clip), test::clip_node(other)};
     return spec;
 }
 
@@ -62,7 +62,7 @@ test::ModelSpec posed() {
     test::ModelSpec spec;
     spec.joints = {joint(kNone, "root", 0), joint(0, "hips", 0.5f), joint(1, "belly", 0.25f), joint(2, "spine", 1.5f),
                    joint(1, "", 4)};
-    spec.pools = {pool_with({"wink", "smile"})};
+    spec.meshes = {mesh_with({"wink", "smile"})};
     return spec;
 }
 
@@ -88,8 +88,8 @@ TEST(Binding, WhatIsAnimatedComesOverTheRestIsAtRest) {
     Binding binding(*from, *to);
     Pose pose(*to);
     pose.change_local()[4].translation = {9, 9, 9};
-    pose.change_target_weights()[0] = 9.0f;
-    ASSERT_TRUE(sample(pose, binding, from->cycle("move"), 1.0f));
+    pose.change_morph_weights()[0] = 9.0f;
+    ASSERT_TRUE(sample(pose, binding, from->clip("move"), 1.0f));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(0, 0, 0));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
     EXPECT_EQ(pose.local()[2].translation, glm::vec3(0, 0.25f, 0));
@@ -97,14 +97,14 @@ TEST(Binding, WhatIsAnimatedComesOverTheRestIsAtRest) {
     EXPECT_EQ(pose.local()[3].scale, glm::vec3(3, 3, 3));
     EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
     EXPECT_EQ(pose.local()[4].translation, glm::vec3(0, 4, 0));
-    EXPECT_EQ(pose.target_weights()[0], 0.0f);
-    EXPECT_EQ(pose.target_weights()[1], 0.5f);
-    // Another cycle animates less.
-    ASSERT_TRUE(sample(pose, binding, from->cycle("other"), 1.0f));
+    EXPECT_EQ(pose.morph_weights()[0], 0.0f);
+    EXPECT_EQ(pose.morph_weights()[1], 0.5f);
+    // Another clip animates less.
+    ASSERT_TRUE(sample(pose, binding, from->clip("other"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
     EXPECT_EQ(pose.local()[1].rotation.y, 1.0f);
     EXPECT_EQ(pose.local()[3].rotation.w, 1.0f);
-    EXPECT_EQ(pose.target_weights()[1], 0.0f);
+    EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
 
 TEST(Binding, LimbsMayKeepTheirLengths) {
@@ -115,14 +115,14 @@ TEST(Binding, LimbsMayKeepTheirLengths) {
     options.root_scale = 0.5f;
     Binding topmost(*from, *to, options);
     Pose pose(*to);
-    ASSERT_TRUE(sample(pose, topmost, from->cycle("move"), 1.0f));
+    ASSERT_TRUE(sample(pose, topmost, from->clip("move"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 10, 0));    // hips: nothing matched above them
     EXPECT_EQ(pose.local()[3].translation, glm::vec3(0, 1.5f, 0));  // the spine's own
     EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
     options.root = to->joint("spine");
     options.root_scale = 1.0f;
     Binding down_to_spine(*from, *to, options);
-    ASSERT_TRUE(sample(pose, down_to_spine, from->cycle("move"), 1.0f));
+    ASSERT_TRUE(sample(pose, down_to_spine, from->clip("move"), 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
     EXPECT_EQ(pose.local()[3].translation, glm::vec3(7, 7, 7));
 }
@@ -134,12 +134,12 @@ TEST(Binding, RefusesWhatIsNotItsOwn) {
     Pose pose(*to);
     Pose of_other(*from);
     pose.change_local()[1].translation.x = 7.0f;
-    EXPECT_FALSE(sample(of_other, binding, from->cycle("move"), 1.0f));
+    EXPECT_FALSE(sample(of_other, binding, from->clip("move"), 1.0f));
     EXPECT_FALSE(sample(pose, binding, nullptr, 1.0f));
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
-    const Cycle stranger;
+    const Clip stranger;
     EXPECT_FALSE(sample(pose, binding, &stranger, 1.0f));
-    EXPECT_FALSE(sample(pose, binding, from->cycle("move"), std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_FALSE(sample(pose, binding, from->clip("move"), std::numeric_limits<float>::quiet_NaN()));
 }
 
 TEST(Binding, OfDoubledNamesTheFirstCounts) {
@@ -162,8 +162,8 @@ TEST(Binding, ToTheSameSkeletonItIsSampling) {
     Pose expected(*from);
     Pose pose(*to);
     for (const float seconds : {0.0f, 0.61f, 1.2f, 9.0f}) {
-        ASSERT_TRUE(sample(expected, from->cycle("packed"), seconds));
-        ASSERT_TRUE(sample(pose, binding, from->cycle("packed"), seconds));
+        ASSERT_TRUE(sample(expected, from->clip("packed"), seconds));
+        ASSERT_TRUE(sample(pose, binding, from->clip("packed"), seconds));
         for (std::size_t k = 0; k < 20; ++k) {
             EXPECT_EQ(pose.local()[k].rotation, expected.local()[k].rotation);
             EXPECT_EQ(pose.local()[k].translation, expected.local()[k].translation);

@@ -215,20 +215,20 @@ TEST(Additive, AScaleOfNothingHasNoQuotient) {
 TEST(Blend, TargetWeightsAreMixedAndAdded) {
     const Owned model(test::sample_file());
     Pose pose(*model), other(*model);
-    ASSERT_GE(pose.target_weights().size(), 2u);
-    pose.change_target_weights()[0] = 0.5f;
-    other.change_target_weights()[0] = 1.0f;
-    other.change_target_weights()[1] = -2.0f;
+    ASSERT_GE(pose.morph_weights().size(), 2u);
+    pose.change_morph_weights()[0] = 0.5f;
+    other.change_morph_weights()[0] = 1.0f;
+    other.change_morph_weights()[1] = -2.0f;
     Pose mixed = pose;
     ASSERT_TRUE(blend(mixed, other, 0.25f));
-    EXPECT_FLOAT_EQ(mixed.target_weights()[0], 0.625f);
-    EXPECT_FLOAT_EQ(mixed.target_weights()[1], 0.75f * pose.target_weights()[1] - 0.5f);
+    EXPECT_FLOAT_EQ(mixed.morph_weights()[0], 0.625f);
+    EXPECT_FLOAT_EQ(mixed.morph_weights()[1], 0.75f * pose.morph_weights()[1] - 0.5f);
     Pose difference = other;
     ASSERT_TRUE(make_additive(difference, pose));
-    EXPECT_FLOAT_EQ(difference.target_weights()[0], 0.5f);
+    EXPECT_FLOAT_EQ(difference.morph_weights()[0], 0.5f);
     ASSERT_TRUE(add(pose, difference, 1.0f));
-    EXPECT_FLOAT_EQ(pose.target_weights()[0], 1.0f);
-    EXPECT_FLOAT_EQ(pose.target_weights()[1], -2.0f);
+    EXPECT_FLOAT_EQ(pose.morph_weights()[0], 1.0f);
+    EXPECT_FLOAT_EQ(pose.morph_weights()[1], -2.0f);
 }
 
 TEST(Blend, RefusesWhatDoesNotFit) {
@@ -252,7 +252,7 @@ TEST(Blend, RefusesWhatDoesNotFit) {
 
 TEST(Blend, WithoutJointsThereIsNothingToDo) {
     test::ModelSpec spec;
-    spec.pools = {{kNone, {{0, 0, 0}}, {}, {}, {}, {}}};
+    spec.meshes = {{kNone, {{0, 0, 0}}, {}, {}, {}, {}}};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const Pose other(*model);

@@ -21,11 +21,12 @@ double angle_of(const glm::dquat& a, const glm::dquat& b) {
     return 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
 }
 
-LimitRecord record_of(const Json& limit) {
+ConstraintRecord record_of(const Json& limit) {
     constexpr std::array<std::string_view, 6> kOrders{"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
-    LimitRecord record;
+    ConstraintRecord record;
     const bool is_box = limit.at("model") == "euler_box";
-    record.model = static_cast<std::uint8_t>(is_box ? LimitModel::euler_box : LimitModel::swing_twist_ellipse);
+    record.model =
+        static_cast<std::uint8_t>(is_box ? ConstraintModel::euler_box : ConstraintModel::swing_twist_ellipse);
     if (is_box) {
         const auto order = std::find(kOrders.begin(), kOrders.end(), limit.at("order").get<std::string>());
         record.euler_order = static_cast<std::uint8_t>(order - kOrders.begin());

@@ -56,9 +56,9 @@ TEST(Bounds, OfOneJointByHand) {
     test::ModelSpec spec;
     spec.joints.resize(1);
     spec.joints[0].rest = test::moved(0, 10, 0);
-    spec.pools.resize(1);
-    spec.pools[0].joint = 0;
-    spec.pools[0].positions = {{1, 2, 3}, {-1, 5, 3}, {0, 4, -4}};
+    spec.meshes.resize(1);
+    spec.meshes[0].joint = 0;
+    spec.meshes[0].positions = {{1, 2, 3}, {-1, 5, 3}, {0, 4, -4}};
     const Owned model(test::build_file(spec));
     const Bounds bounds(*model);
     EXPECT_EQ(bounds.joint(0).minimum, glm::vec3(-1, 2, -4));
@@ -121,18 +121,18 @@ TEST(Bounds, WeightsThatAreNotAverages) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].parent = 0;
-    test::PoolSpec pool;
+    test::MeshSpec mesh;
     std::vector<std::uint8_t> bones;
     std::vector<float> weights;
     for (const auto& [a, b] : std::vector<std::pair<float, float>>{{0.25f, 0.25f}, {1, 1}, {1.5f, -0.5f}, {0, 0}}) {
-        pool.positions.emplace_back(10, 11, 12);
+        mesh.positions.emplace_back(10, 11, 12);
         bones.insert(bones.end(), {0, 1});
         weights.insert(weights.end(), {a, b});
     }
-    pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
+    mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
                  test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, weights)),
                  test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)})};
-    spec.pools = {pool};
+    spec.meshes = {mesh};
     const Owned model(test::build_file(spec));
     const Bounds bounds(*model);
     Pose pose(*model);
@@ -161,12 +161,12 @@ TEST(Bounds, WhatIsNotFiniteIsLeftOut) {
     spec.joints.resize(2);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    spec.pools.resize(3);
-    spec.pools[0].joint = 0;
-    spec.pools[0].positions = {{1, 2, 3}, {kNan, 0, 0}, {0, kInfinity, 0}, {-1, 0, 0}};
-    spec.pools[1].joint = 1;
-    spec.pools[1].positions = {{7, 7, 7}};
-    spec.pools[2].positions = {{-2, 0, 0}};  // nothing moves it
+    spec.meshes.resize(3);
+    spec.meshes[0].joint = 0;
+    spec.meshes[0].positions = {{1, 2, 3}, {kNan, 0, 0}, {0, kInfinity, 0}, {-1, 0, 0}};
+    spec.meshes[1].joint = 1;
+    spec.meshes[1].positions = {{7, 7, 7}};
+    spec.meshes[2].positions = {{-2, 0, 0}};  // nothing moves it
     const Owned model(test::build_file(spec));
     const Bounds bounds(*model);
     Pose pose(*model);

@@ -43,13 +43,13 @@ private:
 struct JointSpec {
     std::uint32_t parent = kNone;
     RestRecord rest;
-    std::vector<PolygonRecord> polygons;
+    std::vector<SubmeshRecord> submeshes;
     std::string name;
-    std::vector<LimitRecord> limits{};
-    std::vector<PullRecord> pulls{};
+    std::vector<ConstraintRecord> constraints{};
+    std::vector<ChainWeightRecord> chain_weights{};
 };
 
-struct PoolSpec {
+struct MeshSpec {
     std::uint32_t joint = kNone;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -60,7 +60,7 @@ struct PoolSpec {
 
 struct ModelSpec {
     std::vector<JointSpec> joints;  ///< pre-order
-    std::vector<PoolSpec> pools;
+    std::vector<MeshSpec> meshes;
     std::vector<ChainRecord> chains{};  ///< named by their numbers
     std::vector<Node> more{};           ///< LODD, CYCL
 };
@@ -82,10 +82,10 @@ inline Node palette_leaf(const std::vector<std::uint32_t>& joints, const std::ve
     return make_leaf(FourCC("PALT"), payload);
 }
 
-inline PolygonRecord polygons(std::uint32_t pool, std::uint32_t first, std::uint32_t count,
-                              std::uint32_t material = kNone, Topology topology = Topology::triangles) {
-    PolygonRecord record;
-    record.pool = pool;
+inline SubmeshRecord submesh(std::uint32_t mesh, std::uint32_t first, std::uint32_t count,
+                             std::uint32_t material = kNone, Topology topology = Topology::triangles) {
+    SubmeshRecord record;
+    record.mesh = mesh;
     record.material = material;
     record.topology = static_cast<std::uint8_t>(topology);
     record.first = first;
@@ -93,18 +93,18 @@ inline PolygonRecord polygons(std::uint32_t pool, std::uint32_t first, std::uint
     return record;
 }
 
-inline Node pool_node(const PoolSpec& pool) {
+inline Node mesh_node(const MeshSpec& mesh) {
     Node node = make_container(FourCC("VECT"));
-    const PoolRecord info{static_cast<std::uint32_t>(pool.positions.size()), pool.joint};
+    const MeshRecord info{static_cast<std::uint32_t>(mesh.positions.size()), mesh.joint};
     node.children.push_back(make_leaf(FourCC("VINF"), bytes_of(info)));
     const bool has_own =
-        std::any_of(pool.more.begin(), pool.more.end(), [](const Node& more) { return more.id == FourCC("POSI"); });
-    if (!pool.positions.empty() && !has_own) node.children.push_back(vector_stream(FourCC("POSI"), pool.positions));
-    if (!pool.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), pool.normals));
-    if (!pool.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), pool.tangents));
-    if (!pool.indices.empty())
-        node.children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, pool.indices)));
-    node.children.insert(node.children.end(), pool.more.begin(), pool.more.end());
+        std::any_of(mesh.more.begin(), mesh.more.end(), [](const Node& more) { return more.id == FourCC("POSI"); });
+    if (!mesh.positions.empty() && !has_own) node.children.push_back(vector_stream(FourCC("POSI"), mesh.positions));
+    if (!mesh.normals.empty()) node.children.push_back(vector_stream(FourCC("NORM"), mesh.normals));
+    if (!mesh.tangents.empty()) node.children.push_back(vector_stream(FourCC("TANG"), mesh.tangents));
+    if (!mesh.indices.empty())
+        node.children.push_back(make_leaf(FourCC("INDX"), stream_payload<std::uint32_t>(1, mesh.indices)));
+    node.children.insert(node.children.end(), mesh.more.begin(), mesh.more.end());
     return node;
 }
 
@@ -114,8 +114,8 @@ inline Buffer build_file(const ModelSpec& spec) {
     VersionRecord version;
     version.objects = 1;
     version.joints = static_cast<std::uint32_t>(spec.joints.size());
-    version.pools = static_cast<std::uint32_t>(spec.pools.size());
-    for (const PoolSpec& pool : spec.pools) version.vertices += pool.positions.size();
+    version.meshes = static_cast<std::uint32_t>(spec.meshes.size());
+    for (const MeshSpec& mesh : spec.meshes) version.vertices += mesh.positions.size();
     writer.leaf(FourCC("VERS"), bytes_of(version));
     writer.begin(FourCC("OBJE"));
     std::vector<std::uint32_t> open;
@@ -127,10 +127,11 @@ inline Buffer build_file(const ModelSpec& spec) {
         if (!joint.name.empty()) writer.text_leaf(FourCC("NAME"), joint.name);
         writer.begin(FourCC("PIVO"));
         writer.leaf(FourCC("REST"), bytes_of(joint.rest));
-        for (const LimitRecord& limit : joint.limits) writer.leaf(FourCC("LIMT"), bytes_of(limit));
-        for (const PullRecord& pull : joint.pulls) writer.leaf(FourCC("PULL"), bytes_of(pull));
+        for (const ConstraintRecord& constraint : joint.constraints) writer.leaf(FourCC("LIMT"), bytes_of(constraint));
+        for (const ChainWeightRecord& chain_weight : joint.chain_weights)
+            writer.leaf(FourCC("PULL"), bytes_of(chain_weight));
         writer.end();
-        for (const PolygonRecord& range : joint.polygons) writer.leaf(FourCC("POLY"), bytes_of(range));
+        for (const SubmeshRecord& range : joint.submeshes) writer.leaf(FourCC("POLY"), bytes_of(range));
     }
     for (; !open.empty(); open.pop_back()) writer.end();
     for (std::size_t chain = 0; chain < spec.chains.size(); ++chain) {
@@ -139,7 +140,7 @@ inline Buffer build_file(const ModelSpec& spec) {
         writer.leaf(FourCC("KINF"), bytes_of(spec.chains[chain]));
         writer.end();
     }
-    for (const PoolSpec& pool : spec.pools) put(writer, pool_node(pool));
+    for (const MeshSpec& mesh : spec.meshes) put(writer, mesh_node(mesh));
     for (const Node& node : spec.more) put(writer, node);
     writer.end();
     writer.end();

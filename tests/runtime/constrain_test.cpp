@@ -44,23 +44,23 @@ double outside(double angle, double low, double high) {
 }
 
 /// About how far outside, in radians; 0 inside.
-double illegality(const LimitRecord& limit, const glm::dquat& R) {
-    const auto& low = limit.rotation_min;
-    const auto& high = limit.rotation_max;
+double illegality(const ConstraintRecord& constraint, const glm::dquat& R) {
+    const auto& low = constraint.rotation_min;
+    const auto& high = constraint.rotation_max;
     const double angle = angle_of(R, glm::dquat(1, 0, 0, 0));
-    switch (static_cast<LimitModel>(limit.model)) {
-        case LimitModel::free:
+    switch (static_cast<ConstraintModel>(constraint.model)) {
+        case ConstraintModel::free:
             return 0.0;
-        case LimitModel::locked:
+        case ConstraintModel::locked:
             return angle;
-        case LimitModel::hinge:
+        case ConstraintModel::hinge:
             return std::max({std::abs(R.y), std::abs(R.z), outside(2.0 * std::atan2(R.x, R.w), low[0], high[0])});
-        case LimitModel::largest_angle:
+        case ConstraintModel::largest_angle:
             return std::max(0.0, angle - high[0]);
-        case LimitModel::euler_box: {
+        case ConstraintModel::euler_box: {
             constexpr std::array<std::array<int, 3>, 6> kOrders{
                 {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-            const std::array<int, 3> order = kOrders[limit.euler_order];
+            const std::array<int, 3> order = kOrders[constraint.euler_order];
             const int i = order[0], j = order[1], k = order[2];
             const double sign = (j - i + 3) % 3 == 1 ? 1.0 : -1.0;
             const glm::dmat3 m = glm::mat3_cast(R);  // m[column][row]; R = K J I
@@ -86,7 +86,7 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
     const auto side = [&](std::size_t axis, double s) { return s < 0.0 ? -double{low[axis]} : double{high[axis]}; };
     const double limit_y = std::min(side(1, swing.y), kPi);
     const double limit_z = std::min(side(2, swing.z), kPi);
-    if (static_cast<LimitModel>(limit.model) == LimitModel::swing_twist_pyramid) {
+    if (static_cast<ConstraintModel>(constraint.model) == ConstraintModel::swing_twist_pyramid) {
         const double off_y = std::abs(2.0 * std::atan2(swing.y, swing.w)) - limit_y;
         const double off_z = std::abs(2.0 * std::atan2(swing.z, swing.w)) - limit_z;
         return std::max({off_twist, off_y, off_z, 0.0});
@@ -103,50 +103,50 @@ double illegality(const LimitRecord& limit, const glm::dquat& R) {
 
 struct Case {
     std::string name;
-    LimitRecord limit;
+    ConstraintRecord constraint;
 };
 
-LimitRecord make_limit(LimitModel model, std::array<double, 3> low, std::array<double, 3> high,
-                       EulerOrder order = EulerOrder::xyz) {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(model);
-    limit.euler_order = static_cast<std::uint8_t>(order);
+ConstraintRecord make_constraint_record(ConstraintModel model, std::array<double, 3> low, std::array<double, 3> high,
+                                        EulerOrder order = EulerOrder::xyz) {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(model);
+    constraint.euler_order = static_cast<std::uint8_t>(order);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        limit.rotation_min[axis] = static_cast<float>(low[axis] * kPi / 180.0);
-        limit.rotation_max[axis] = static_cast<float>(high[axis] * kPi / 180.0);
+        constraint.rotation_min[axis] = static_cast<float>(low[axis] * kPi / 180.0);
+        constraint.rotation_max[axis] = static_cast<float>(high[axis] * kPi / 180.0);
     }
-    return limit;
+    return constraint;
 }
 
 std::vector<Case> all_cases() {
-    using enum LimitModel;
+    using enum ConstraintModel;
     return {
-        {"Free", make_limit(free, {0, 0, 0}, {0, 0, 0})},
-        {"Locked", make_limit(locked, {0, 0, 0}, {0, 0, 0})},
-        {"Knee", make_limit(hinge, {0, 0, 0}, {150, 0, 0})},
-        {"HingeAcrossPi", make_limit(hinge, {120, 0, 0}, {250, 0, 0})},
-        {"Cone", make_limit(swing_twist_ellipse, {-30, -40, -40}, {30, 40, 40})},
-        {"Shoulder", make_limit(swing_twist_ellipse, {-70, -100, -35}, {90, 60, 130})},
-        {"WideEllipse", make_limit(swing_twist_ellipse, {-170, -179, -20}, {175, 180, 20})},
-        {"OneSided", make_limit(swing_twist_ellipse, {0, 0, -45}, {0, 90, 0})},
-        {"FreeTwist", make_limit(swing_twist_ellipse, {-400, -25, -50}, {400, 25, 50})},
-        {"Band", make_limit(swing_twist_ellipse, {-30, -25, -kInf}, {30, 40, kInf})},
-        {"HalfBand", make_limit(swing_twist_ellipse, {-kInf, -kInf, -20}, {kInf, 60, 70})},
-        {"Pyramid", make_limit(swing_twist_pyramid, {-20, -30, -60}, {45, 50, 20})},
-        {"WidePyramid", make_limit(swing_twist_pyramid, {-100, -180, -90}, {10, 180, 120})},
-        {"FlatPyramid", make_limit(swing_twist_pyramid, {-10, 0, -70}, {10, 0, 70})},
-        {"Box", make_limit(euler_box, {-40, -30, -20}, {40, 30, 60})},
-        {"BoxZyx", make_limit(euler_box, {-100, -20, -45}, {10, 70, 45}, EulerOrder::zyx)},
-        {"BoxYxz", make_limit(euler_box, {-25, -35, -20}, {30, 35, 20}, EulerOrder::yxz)},
-        {"BoxOneAxis", make_limit(euler_box, {0, 0, 0}, {80, 0, 0}, EulerOrder::yzx)},
-        {"BoxFreeAxis", make_limit(euler_box, {-1000, -10, -10}, {1000, 10, 10}, EulerOrder::xzy)},
-        {"BoxWide", make_limit(euler_box, {-170, -100, -170}, {170, 100, 120}, EulerOrder::zxy)},
-        {"LargestAngle", make_limit(largest_angle, {0, 0, 0}, {60, 0, 0})},
+        {"Free", make_constraint_record(free, {0, 0, 0}, {0, 0, 0})},
+        {"Locked", make_constraint_record(locked, {0, 0, 0}, {0, 0, 0})},
+        {"Knee", make_constraint_record(hinge, {0, 0, 0}, {150, 0, 0})},
+        {"HingeAcrossPi", make_constraint_record(hinge, {120, 0, 0}, {250, 0, 0})},
+        {"Cone", make_constraint_record(swing_twist_ellipse, {-30, -40, -40}, {30, 40, 40})},
+        {"Shoulder", make_constraint_record(swing_twist_ellipse, {-70, -100, -35}, {90, 60, 130})},
+        {"WideEllipse", make_constraint_record(swing_twist_ellipse, {-170, -179, -20}, {175, 180, 20})},
+        {"OneSided", make_constraint_record(swing_twist_ellipse, {0, 0, -45}, {0, 90, 0})},
+        {"FreeTwist", make_constraint_record(swing_twist_ellipse, {-400, -25, -50}, {400, 25, 50})},
+        {"Band", make_constraint_record(swing_twist_ellipse, {-30, -25, -kInf}, {30, 40, kInf})},
+        {"HalfBand", make_constraint_record(swing_twist_ellipse, {-kInf, -kInf, -20}, {kInf, 60, 70})},
+        {"Pyramid", make_constraint_record(swing_twist_pyramid, {-20, -30, -60}, {45, 50, 20})},
+        {"WidePyramid", make_constraint_record(swing_twist_pyramid, {-100, -180, -90}, {10, 180, 120})},
+        {"FlatPyramid", make_constraint_record(swing_twist_pyramid, {-10, 0, -70}, {10, 0, 70})},
+        {"Box", make_constraint_record(euler_box, {-40, -30, -20}, {40, 30, 60})},
+        {"BoxZyx", make_constraint_record(euler_box, {-100, -20, -45}, {10, 70, 45}, EulerOrder::zyx)},
+        {"BoxYxz", make_constraint_record(euler_box, {-25, -35, -20}, {30, 35, 20}, EulerOrder::yxz)},
+        {"BoxOneAxis", make_constraint_record(euler_box, {0, 0, 0}, {80, 0, 0}, EulerOrder::yzx)},
+        {"BoxFreeAxis", make_constraint_record(euler_box, {-1000, -10, -10}, {1000, 10, 10}, EulerOrder::xzy)},
+        {"BoxWide", make_constraint_record(euler_box, {-170, -100, -170}, {170, 100, 120}, EulerOrder::zxy)},
+        {"LargestAngle", make_constraint_record(largest_angle, {0, 0, 0}, {60, 0, 0})},
     };
 }
 
-Constraint prepared(const LimitRecord& limit) {
-    return make_constraint({0, 0, limit});
+Constraint prepared(const ConstraintRecord& constraint) {
+    return make_constraint({0, 0, constraint});
 }
 
 glm::dquat random_rotation(std::mt19937& random) {
@@ -161,10 +161,10 @@ glm::dquat small_rotation(std::mt19937& random, double size) {
 }
 
 /// How many of the model's rotations fall to each of its cases.
-int rotations_of(const LimitRecord& limit) {
+int rotations_of(const ConstraintRecord& constraint) {
     const std::vector<Case> cases = all_cases();
-    const auto same =
-        std::count_if(cases.begin(), cases.end(), [&](const Case& c) { return c.limit.model == limit.model; });
+    const auto same = std::count_if(cases.begin(), cases.end(),
+                                    [&](const Case& c) { return c.constraint.model == constraint.model; });
     return kRotations / static_cast<int>(same) + 1;
 }
 
@@ -175,7 +175,7 @@ glm::dquat some_rotation(std::mt19937& random, int i) {
 
 class ConstrainCase : public testing::TestWithParam<Case> {
 protected:
-    [[nodiscard]] const LimitRecord& limit() const { return GetParam().limit; }
+    [[nodiscard]] const ConstraintRecord& record() const { return GetParam().constraint; }
 
     [[nodiscard]] glm::dquat quickly_clamped(const Constraint& c, const glm::dquat& R) const {
         return quick_legal_rotation(c.model, c.euler_order, c.shape, R);
@@ -190,17 +190,17 @@ protected:
 };
 
 TEST_P(ConstrainCase, RandomRotationsComeInsideStayThereAndWhatIsInsideStaysAsItIs) {
-    const Constraint constraint = prepared(limit());
-    const int count = rotations_of(limit());
+    const Constraint constraint = prepared(record());
+    const int count = rotations_of(record());
     std::mt19937 random(7);
     int inside = 0;
     for (int i = 0; i < count; ++i) {
         const glm::dquat R = some_rotation(random, i);
         const glm::dquat legal = clamp_rotation(constraint, R);
         ASSERT_NEAR(glm::length(legal), 1.0, 1e-12);
-        ASSERT_LE(illegality(limit(), legal), 2e-7) << i;
+        ASSERT_LE(illegality(record(), legal), 2e-7) << i;
         ASSERT_EQ(clamp_rotation(constraint, legal), legal) << i;
-        if (illegality(limit(), R) <= 1e-12) {
+        if (illegality(record(), R) <= 1e-12) {
             ++inside;
             ASSERT_EQ(legal, R) << i;
         }
@@ -210,17 +210,17 @@ TEST_P(ConstrainCase, RandomRotationsComeInsideStayThereAndWhatIsInsideStaysAsIt
 
 // What solvers clamp with.
 TEST_P(ConstrainCase, TheQuickClampComesInsideAndStaysThereAndWhatIsInsideStaysAsItIs) {
-    const Constraint constraint = prepared(limit());
-    const int count = rotations_of(limit());
+    const Constraint constraint = prepared(record());
+    const int count = rotations_of(record());
     std::mt19937 random(13);
     int inside = 0;
     for (int i = 0; i < count; ++i) {
         const glm::dquat R = some_rotation(random, i);
         const glm::dquat legal = quickly_clamped(constraint, R);
         ASSERT_NEAR(glm::length(legal), 1.0, 1e-12);
-        ASSERT_LE(illegality(limit(), legal), 2e-7) << i;
+        ASSERT_LE(illegality(record(), legal), 2e-7) << i;
         ASSERT_LE(angle_of(quickly_clamped(constraint, legal), legal), 1e-9) << i;
-        if (illegality(limit(), R) <= 1e-12) {
+        if (illegality(record(), R) <= 1e-12) {
             ++inside;
             ASSERT_LE(angle_of(legal, R), 1e-12) << i;
         }
@@ -233,7 +233,7 @@ TEST_P(ConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
                                                       "BoxWide"};  // wider than half a turn
     if (std::find(kHollow.begin(), kHollow.end(), GetParam().name) != kHollow.end()) GTEST_SKIP();
     constexpr double kStep = 1e-5;  // radians
-    const Constraint constraint = prepared(limit());
+    const Constraint constraint = prepared(record());
     std::mt19937 random(17);
     double largest = 0.0;
     for (int i = 0; i < 2000; ++i) {
@@ -247,7 +247,7 @@ TEST_P(ConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
 }
 
 TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
-    const Constraint constraint = prepared(limit());
+    const Constraint constraint = prepared(record());
     std::mt19937 random(11);
     // Legal rotations all over the range: the brought-back forms of random ones.
     std::vector<glm::dquat> legal;
@@ -289,27 +289,27 @@ glm::dquat turn(double angle, const glm::dvec3& axis) {
 }
 
 TEST(Constrain, NothingJumpsAtPi) {
-    using enum LimitModel;
+    using enum ConstraintModel;
     const auto about_x = [](double angle) { return turn(angle, {1, 0, 0}); };
     // Through pi, there and back, inside the range and beyond its ends, but not as far as where the other end is
     // nearer.
     const auto there_and_back = [&](double angle) { return about_x(kPi + 1.8 * std::sin(angle)); };
-    const Constraint hinged = prepared(make_limit(hinge, {120, 0, 0}, {250, 0, 0}));
+    const Constraint hinged = prepared(make_constraint_record(hinge, {120, 0, 0}, {250, 0, 0}));
     EXPECT_LE(largest_step(hinged, there_and_back), 1.81);
-    const Constraint free_hinge = prepared(make_limit(hinge, {-180, 0, 0}, {180, 0, 0}));
+    const Constraint free_hinge = prepared(make_constraint_record(hinge, {-180, 0, 0}, {180, 0, 0}));
     EXPECT_LE(largest_step(free_hinge, about_x), 1.01);
     for (const double swing : {0.0, 0.5, 0.9, 1.4}) {  // inside and outside
         const glm::dquat bent = turn(swing, {0, 0.6, 0.8});
         const auto twisted = [&](double angle) { return bent * about_x(angle); };
         const auto twisted_back = [&](double angle) { return bent * there_and_back(angle); };
-        for (const LimitModel model : {swing_twist_ellipse, swing_twist_pyramid}) {
-            const Constraint free_twist = prepared(make_limit(model, {-200, -50, -40}, {200, 35, 60}));
+        for (const ConstraintModel model : {swing_twist_ellipse, swing_twist_pyramid}) {
+            const Constraint free_twist = prepared(make_constraint_record(model, {-200, -50, -40}, {200, 35, 60}));
             EXPECT_LE(largest_step(free_twist, twisted), 1.6) << swing;
-            const Constraint across = prepared(make_limit(model, {100, -50, -40}, {260, 35, 60}));
+            const Constraint across = prepared(make_constraint_record(model, {100, -50, -40}, {260, 35, 60}));
             EXPECT_LE(largest_step(across, twisted_back), 2.5) << swing;
         }
     }
-    const Constraint box = prepared(make_limit(euler_box, {100, -40, -30}, {260, 40, 30}));
+    const Constraint box = prepared(make_constraint_record(euler_box, {100, -40, -30}, {260, 40, 30}));
     EXPECT_LE(largest_step(box, there_and_back), 1.81);
 }
 

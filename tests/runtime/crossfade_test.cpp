@@ -3,7 +3,7 @@
 #include <bendy/runtime/sample.h>
 
 #include "runtime/build_model.h"
-#include "runtime/cycle_model.h"
+#include "runtime/clip_model.h"
 
 #include <glm/vec3.hpp>
 
@@ -18,17 +18,17 @@ namespace {
 
 using test::Owned;
 
-/// One joint; the cycles "0", "1", ... hold it still at x = 1, 10, 100, ...
-test::ModelSpec still_cycles(int count) {
+/// One joint; the clips "0", "1", ... hold it still at x = 1, 10, 100, ...
+test::ModelSpec still_clips(int count) {
     test::ModelSpec spec;
     spec.joints.resize(1);
     float x = 1.0f;
     for (int k = 0; k < count; ++k, x *= 10.0f) {
-        test::CycleSpec cycle;
-        cycle.name = std::to_string(k);
-        cycle.end = 8.0f;
-        cycle.tracks.push_back({TrackPath::translation, 0, 3, {0.0f}, {x, 0.0f, 0.0f}});
-        spec.more.push_back(test::cycle_node(cycle));
+        test::ClipSpec clip;
+        clip.name = std::to_string(k);
+        clip.end = 8.0f;
+        clip.tracks.push_back({TrackPath::translation, 0, 3, {0.0f}, {x, 0.0f, 0.0f}});
+        spec.more.push_back(test::clip_node(clip));
     }
     return spec;
 }
@@ -69,22 +69,22 @@ TEST(Fade, EasingIsHeldToItsEnds) {
 }
 
 TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
-    const Owned model(test::build_file(still_cycles(3)));
+    const Owned model(test::build_file(still_clips(3)));
     Pose pose(*model);
     Pose scratch(*model);
     Crossfade fade;
     EXPECT_FALSE(sample(pose, fade, scratch));
     EXPECT_EQ(fade.playback(), nullptr);
-    fade.play(*model->cycle("0"), 1.0f);
+    fade.play(*model->clip("0"), 1.0f);
     ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 1.0f);
 
-    fade.play(*model->cycle("1"), 1.0f, Easing::linear);
+    fade.play(*model->clip("1"), 1.0f, Easing::linear);
     fade.advance(0.25);
     ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);
 
-    fade.play(*model->cycle("2"), 0.5f, Easing::linear);
+    fade.play(*model->clip("2"), 0.5f, Easing::linear);
     ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);  // nothing jumps
     fade.advance(0.25);
@@ -96,11 +96,11 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
     EXPECT_FLOAT_EQ(fade.playing()[1].share, 0.25f);
     EXPECT_FLOAT_EQ(fade.playing()[2].share, 0.5f);
     EXPECT_FLOAT_EQ(fade.playing()[0].playback.seconds(), 0.5f);
-    EXPECT_EQ(fade.playing()[2].walk.first.to, 0.25);
+    EXPECT_EQ(fade.playing()[2].played.first.to, 0.25);
 
     fade.advance(0.25);  // the newest covers all
     ASSERT_EQ(fade.playing().size(), 1u);
-    EXPECT_EQ(fade.playing()[0].cycle, model->cycle("2"));
+    EXPECT_EQ(fade.playing()[0].clip, model->clip("2"));
     EXPECT_EQ(fade.playing()[0].share, 1.0f);
     ASSERT_TRUE(sample(pose, fade, scratch));
     EXPECT_EQ(pose.local()[0].translation.x, 100.0f);
@@ -110,34 +110,34 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
 }
 
 TEST(Crossfade, SharesAddUpAndTheOldestMakesRoom) {
-    const Owned model(test::build_file(still_cycles(6)));
+    const Owned model(test::build_file(still_clips(6)));
     Pose pose(*model);
     Pose scratch(*model);
     Crossfade fade;
     for (int k = 0; k < 6; ++k) {
-        fade.play(*model->cycle(std::to_string(k)), 1.0f);
+        fade.play(*model->clip(std::to_string(k)), 1.0f);
         fade.advance(0.1);
         double all = 0.0;
         double x = 0.0;
         for (const Playing& playing : fade.playing()) {
             all += playing.share;
-            x += playing.share * std::pow(10.0, std::stod(std::string(playing.cycle->name)));
+            x += playing.share * std::pow(10.0, std::stod(std::string(playing.clip->name)));
         }
         EXPECT_NEAR(all, 1.0, 1e-6);
         ASSERT_TRUE(sample(pose, fade, scratch));
         EXPECT_NEAR(pose.local()[0].translation.x, x, 1e-5 * x);
     }
     ASSERT_EQ(fade.playing().size(), Crossfade::kMost);
-    EXPECT_EQ(fade.playing().front().cycle->name, "2");
+    EXPECT_EQ(fade.playing().front().clip->name, "2");
 }
 
 TEST(Crossfade, PosesOfOtherModelsAreRefused) {
-    const Owned model(test::build_file(still_cycles(1)));
-    const Owned other(test::build_file(still_cycles(1)));
+    const Owned model(test::build_file(still_clips(1)));
+    const Owned other(test::build_file(still_clips(1)));
     Pose pose(*model);
     Pose scratch(*other);
     Crossfade fade;
-    fade.play(*model->cycle("0"), 0.0f);
+    fade.play(*model->clip("0"), 0.0f);
     EXPECT_FALSE(sample(pose, fade, scratch));
     EXPECT_EQ(pose.local()[0].translation.x, 0.0f);
 }

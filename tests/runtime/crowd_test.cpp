@@ -25,7 +25,7 @@ public:
         palettes_.resize(count * Crowd(model).palette_size());
         for (std::size_t k = 0; k < count; ++k) {
             CrowdMember& member = members_[k];
-            if (k % 5 != 4) member.cycle = model.cycle("run");
+            if (k % 5 != 4) member.clip = model.clip("run");
             member.seconds = 0.45f + 0.01f * static_cast<float>(k);
             if (k % 3 == 2) member.lod = lod;
             const std::span<float> own = std::span(vertices_).subspan(k * each, each);
@@ -54,7 +54,7 @@ private:
     std::vector<CrowdMember> members_;
 };
 
-/// A thread pool as a caller might have: each thread takes the next `grain` members until there are none.
+/// A thread mesh as a caller might have: each thread takes the next `grain` members until there are none.
 void play_on_threads(Crowd& crowd, std::span<const CrowdMember> members, std::size_t grain) {
     std::atomic<std::size_t> next{0};
     std::atomic<bool> is_good{true};
@@ -84,7 +84,7 @@ TEST(Crowd, AMemberComesOutAsACharacterAlone) {
     for (std::size_t k = 0; k < kMembers; ++k) {
         const CrowdMember& member = players.members()[k];
         Pose pose(*model);
-        (void)sample(pose, member.cycle, member.seconds);
+        (void)sample(pose, member.clip, member.seconds);
         std::vector<float> alone(model->vertex_count() * kFloats, -7.0f);
         const std::span<float> own(alone);
         const VertexBuffer out{{own, kFloats}, {own.subspan(3), kFloats}, {own.subspan(6), kFloats}};
@@ -122,21 +122,21 @@ TEST(Crowd, PalettesPlaceVerticesAsSkinningDoes) {
     std::vector<PaletteMatrix> palette(crowd.palette_size());
     std::vector<glm::vec3> positions(model->vertex_count());
     CrowdMember member;
-    member.cycle = model->cycle("run");
+    member.clip = model->clip("run");
     member.seconds = 0.8f;
     member.palette = palette;
     ASSERT_TRUE(crowd.play({&member, 1}, 1));
     Pose pose(*model);
-    (void)sample(pose, member.cycle, member.seconds);
+    (void)sample(pose, member.clip, member.seconds);
     std::size_t entries = 0;
-    for (std::uint32_t number = 0; number < model->pools().size(); ++number) {
-        const Pool& pool = model->pools()[number];
+    for (std::uint32_t number = 0; number < model->meshes().size(); ++number) {
+        const Mesh& mesh = model->meshes()[number];
         EXPECT_EQ(crowd.first_entry(number), entries);
-        const std::size_t count = pool.is_rigid() ? 1 : pool.palette.joints.size();
+        const std::size_t count = mesh.is_rigid() ? 1 : mesh.palette.joints.size();
         for (std::size_t entry = 0; entry < count; ++entry) {
             const glm::mat4 expected =
-                pool.is_rigid() ? pose.model_space()[model->rigid_mover(number, 0)]
-                                : pose.model_space()[pool.palette.joints[entry]] * pool.palette.inverse_bind()[entry];
+                mesh.is_rigid() ? pose.model_space()[model->rigid_mover(number, 0)]
+                                : pose.model_space()[mesh.palette.joints[entry]] * mesh.palette.inverse_bind()[entry];
             for (int row = 0; row < 3; ++row) {
                 for (int column = 0; column < 4; ++column)
                     EXPECT_NEAR(palette[entries + entry].rows[row][column], expected[column][row], 1e-6);
@@ -156,7 +156,7 @@ TEST(Crowd, TheCallerMayPose) {
     member.seconds = 0.7f;
     member.out.positions = {{&positions.front().x, positions.size() * 3}, 3};
     const auto lift = [&](const CrowdMember& of, Pose& pose) {
-        EXPECT_TRUE(sample(pose, model->cycle("run"), of.seconds));
+        EXPECT_TRUE(sample(pose, model->clip("run"), of.seconds));
         pose.change_local()[0].translation.y += 2.0f;
     };
     ASSERT_TRUE(crowd.play({&member, 1}, 0, lift));

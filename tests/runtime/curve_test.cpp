@@ -3,8 +3,8 @@
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/sample.h>
 
-#include "runtime/cycle_model.h"
-#include "sweep/allocations.h"
+#include "mutation/allocations.h"
+#include "runtime/clip_model.h"
 
 #include <gtest/gtest.h>
 
@@ -190,7 +190,7 @@ Curve named(std::string_view name, std::string_view path, CurveTarget kind = Cur
 }
 
 TEST(FindCurve, ByNameThenByPathOrByProperty) {
-    Cycle clip;
+    Clip clip;
     clip.curves = {named("", "alphaCutoff", CurveTarget::material, 0),
                    named("", "alphaCutoff", CurveTarget::material, 1), named("alphaCutoff", "x"), named("Blink", "y")};
     EXPECT_EQ(find_curve(clip, "Blink"), &clip.curves[3]);
@@ -208,7 +208,7 @@ TEST(FindCurve, OfAFile) {
     curve.keys = 2;
     curve.times = times;
     curve.values = values;
-    test::Node clip = test::cycle_node(
+    test::Node clip = test::clip_node(
         {"clip", 0.0f, 1.0f, false, {{TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0}}}});
     clip.children.push_back(test::make_leaf(FourCC("CURV"), write_curve(curve)));
     test::ModelSpec spec;
@@ -217,7 +217,7 @@ TEST(FindCurve, OfAFile) {
     spec.joints = {joint};
     spec.more = {clip};
     const test::Owned model(test::build_file(spec));
-    const Curve* found = find_curve(model->cycles()[0], "Glow");
+    const Curve* found = find_curve(model->clips()[0], "Glow");
     ASSERT_NE(found, nullptr);
     float value = 0.0f;
     EXPECT_TRUE(sample_curve(*found, 0.25, {&value, 1}));

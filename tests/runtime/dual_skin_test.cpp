@@ -77,7 +77,7 @@ struct Tube {
     explicit Tube(float length) {
         spec.joints.resize(2);
         spec.joints[1] = {0, test::moved(0, length, 0), {}, ""};
-        test::PoolSpec pool;
+        test::MeshSpec mesh;
         std::vector<std::uint8_t> bones;
         std::vector<float> weights;
         for (std::size_t ring = 0; ring < kRings; ++ring) {
@@ -85,19 +85,19 @@ struct Tube {
             for (std::size_t side = 0; side < kSides; ++side) {
                 const double angle = 2.0 * M_PI * static_cast<double>(side) / kSides;
                 const glm::vec3 out(std::cos(angle), 0.0, std::sin(angle));
-                pool.positions.push_back(out + glm::vec3(0, share * length, 0));
-                pool.normals.push_back(out);
-                pool.tangents.emplace_back(0, 1, 0, side % 2 == 0 ? 1 : -1);
+                mesh.positions.push_back(out + glm::vec3(0, share * length, 0));
+                mesh.normals.push_back(out);
+                mesh.tangents.emplace_back(0, 1, 0, side % 2 == 0 ? 1 : -1);
                 bones.insert(bones.end(), {0, 1});
                 weights.insert(weights.end(), {1.0f - share, share});
             }
         }
         glm::mat4 down(1.0f);
         down[3] = {0, -length, 0, 1};
-        pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
+        mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
                      test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, weights)),
                      test::palette_leaf({0, 1}, {glm::mat4(1.0f), down})};
-        spec.pools = {pool};
+        spec.meshes = {mesh};
     }
     test::ModelSpec spec;
 };
@@ -139,7 +139,7 @@ TEST(DualSkin, WhereAllJointsMoveAlikeItIsLinear) {
             trunk.rotation = glm::normalize(glm::quat(limb.number(), limb.number(), limb.number(), limb.number()));
             trunk.translation = 5.0f * glm::vec3(limb.number(), limb.number(), limb.number());
             if (round % 2 == 1) trunk.scale = glm::vec3(round % 4 == 1 ? 2.5f : -0.3f);  // all alike, mirrored too
-            for (float& weight : pose.change_target_weights()) weight = limb.number();
+            for (float& weight : pose.change_morph_weights()) weight = limb.number();
             expect_same(dual(*model, pose), linear(*model, pose), 4e-6);
         }
     }
@@ -152,7 +152,7 @@ TEST(DualSkin, AVertexOfOneJointGoesWhereLinearTakesIt) {
     for (int round = 0; round < 60; ++round) {
         test::ModelSpec spec;
         spec.joints.resize(3);
-        test::PoolSpec pool;
+        test::MeshSpec mesh;
         std::vector<std::uint8_t> bones;
         std::vector<glm::mat4> binds;
         for (std::uint32_t joint = 0; joint < 3; ++joint) {
@@ -164,16 +164,16 @@ TEST(DualSkin, AVertexOfOneJointGoesWhereLinearTakesIt) {
             spec.joints[joint].rest = test::scaled(number(random), number(random), round % 5 == 0 ? 0.0f : 1.0f);
             spec.joints[joint].rest.shear = {number(random), 0.0f, number(random)};
             for (int k = 0; k < 4; ++k) {
-                pool.positions.emplace_back(number(random), number(random), number(random));
-                pool.normals.push_back(glm::normalize(glm::vec3(number(random), number(random), 0.5f)));
-                pool.tangents.emplace_back(glm::normalize(glm::vec3(0.5f, number(random), number(random))), 1.0f);
+                mesh.positions.emplace_back(number(random), number(random), number(random));
+                mesh.normals.push_back(glm::normalize(glm::vec3(number(random), number(random), 0.5f)));
+                mesh.tangents.emplace_back(glm::normalize(glm::vec3(0.5f, number(random), number(random))), 1.0f);
                 bones.push_back(static_cast<std::uint8_t>(joint));
             }
         }
-        pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(1, bones)),
+        mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(1, bones)),
                      test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(1, std::vector<float>(12, 1.0f))),
                      test::palette_leaf({0, 1, 2}, binds)};
-        spec.pools = {pool};
+        spec.meshes = {mesh};
         const Owned model(test::build_file(spec));
         Pose pose(*model);
         const Skinned is = dual(*model, pose);
@@ -262,12 +262,12 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
             binds.emplace_back(bind);
             entries.push_back(joint);
         }
-        test::PoolSpec pool;
+        test::MeshSpec mesh;
         std::vector<std::uint8_t> bones;
         std::vector<float> weights;
         for (int v = 0; v < 30; ++v) {
-            pool.positions.emplace_back(number(random), number(random), number(random));
-            pool.normals.push_back(glm::normalize(glm::vec3(number(random), number(random), number(random))));
+            mesh.positions.emplace_back(number(random), number(random), number(random));
+            mesh.normals.push_back(glm::normalize(glm::vec3(number(random), number(random), number(random))));
             std::array<double, kJoints> share{};
             double sum = 0.0;
             for (double& part : share) sum += part = random() % 3 == 0 ? 0.0 : 0.1 + std::abs(number(random));
@@ -276,10 +276,10 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
                 weights.push_back(static_cast<float>(sum > 0.0 ? share.at(k) / sum : (k == 0 ? 1.0 : 0.0)));
             }
         }
-        pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(kJoints, bones)),
+        mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(kJoints, bones)),
                      test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(kJoints, weights)),
                      test::palette_leaf(entries, binds)};
-        spec.pools = {pool};
+        spec.meshes = {mesh};
         const Owned model(test::build_file(spec));
         Pose pose(*model);
         for (JointTransform& local : pose.change_local()) {
@@ -312,10 +312,10 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
             }
             if (is_close) continue;
             const Dual blended = unit(sum);
-            const glm::dvec3 at_normal = transform(blended, glm::dvec3(pool.normals[v]));
+            const glm::dvec3 at_normal = transform(blended, glm::dvec3(mesh.normals[v]));
             const glm::dvec3 at_origin = transform(blended, glm::dvec3(0.0));
             for (const Skinned& is : by_kernel) {
-                expect_near(is.positions[v], transform(blended, glm::dvec3(pool.positions[v])), 1e-5);
+                expect_near(is.positions[v], transform(blended, glm::dvec3(mesh.positions[v])), 1e-5);
                 expect_near(is.normals[v], at_normal - at_origin, 1e-5);
             }
         }
@@ -343,34 +343,34 @@ TEST(DualSkin, AScaledJointScalesAboutItself) {
     }
 }
 
-TEST(DualSkin, PoolsThatShareAPaletteAreAsEachAlone) {
-    // Twice the same palette, a rigid pool between them, then the other way round, and the first one again.
+TEST(DualSkin, MeshesThatShareAPaletteAreAsEachAlone) {
+    // Twice the same palette, a rigid mesh between them, then the other way round, and the first one again.
     Tube tube(4.0f);
-    test::PoolSpec other = tube.spec.pools[0];
+    test::MeshSpec other = tube.spec.meshes[0];
     glm::mat4 down(1.0f);
     down[3] = {0, -4, 0, 1};
     other.more.back() = test::palette_leaf({1, 0}, {down, glm::mat4(1.0f)});
-    test::PoolSpec rigid;
+    test::MeshSpec rigid;
     rigid.positions = {{1, 2, 3}};
     rigid.normals = {{0, 0, 1}};
     rigid.tangents = {{1, 0, 0, 1}};
-    tube.spec.pools = {tube.spec.pools[0], rigid, tube.spec.pools[0], other, tube.spec.pools[0]};
+    tube.spec.meshes = {tube.spec.meshes[0], rigid, tube.spec.meshes[0], other, tube.spec.meshes[0]};
     const Owned model(test::build_file(tube.spec));
     Pose pose(*model);
     for (const float turn : {0.3f, -0.8f}) {
         pose.change_local()[1].rotation = glm::quat(std::sqrt(1.0f - turn * turn), 0, turn, 0);
         Skinned all(model->vertex_count());
         EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = all.all()}));
-        for (std::uint32_t pool = 0; pool < 5; ++pool) {
-            Skinned alone(model->pools()[pool].vertices);
-            EXPECT_TRUE(skin(pose, {.mesh = pool, .method = SkinningMethod::dual_quaternion, .out = alone.all()}));
+        for (std::uint32_t mesh = 0; mesh < 5; ++mesh) {
+            Skinned alone(model->meshes()[mesh].vertices);
+            EXPECT_TRUE(skin(pose, {.mesh = mesh, .method = SkinningMethod::dual_quaternion, .out = alone.all()}));
             for (std::size_t v = 0; v < alone.positions.size(); ++v)
-                EXPECT_EQ(all.positions[model->first_vertex(pool) + v], alone.positions[v]) << pool;
+                EXPECT_EQ(all.positions[model->first_vertex(mesh) + v], alone.positions[v]) << mesh;
         }
     }
 }
 
-TEST(DualSkin, LevelsOfDetailAndRigidPoolsAsLinear) {
+TEST(DualSkin, LevelsOfDetailAndRigidMeshesAsLinear) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     pose.change_local()[1].rotation = glm::normalize(glm::quat(1, 0, 0, 0.4f));
@@ -386,11 +386,11 @@ TEST(DualSkin, LevelsOfDetailAndRigidPoolsAsLinear) {
     std::vector<glm::vec3> some(model->vertex_count(), kUntouched);
     ASSERT_TRUE(skin(pose, {.lod = &lod, .method = SkinningMethod::dual_quaternion, .out = {.positions = some}}));
     std::size_t left = 0;
-    for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) {
-        for (std::uint32_t v = 0; v < model->pools()[pool].vertices; ++v) {
-            const std::uint64_t at = model->first_vertex(pool) + v;
-            EXPECT_EQ(some[at], v < lod.vertices(pool) ? all.positions[at] : kUntouched);
-            left += v < lod.vertices(pool) ? 0 : 1;
+    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) {
+        for (std::uint32_t v = 0; v < model->meshes()[mesh].vertices; ++v) {
+            const std::uint64_t at = model->first_vertex(mesh) + v;
+            EXPECT_EQ(some[at], v < lod.vertices(mesh) ? all.positions[at] : kUntouched);
+            left += v < lod.vertices(mesh) ? 0 : 1;
         }
     }
     EXPECT_GT(left, 0u);

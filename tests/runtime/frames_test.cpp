@@ -1,7 +1,7 @@
 #include <bendy/runtime/blend.h>
 #include <bendy/runtime/bounds.h>
-#include <bendy/runtime/inbetween.h>
 #include <bendy/runtime/kernels.h>
+#include <bendy/runtime/morph_targets.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
@@ -13,15 +13,15 @@
 #include <utility>
 #include <vector>
 
-// Frames and the clips that play them, of spec/examples/every_chunk.bendy: pool 1 is a triangle (0 0 0, 1 0 0, 1 1 0)
+// Frames and the clips that play them, of spec/examples/every_chunk.bendy: mesh 1 is a triangle (0 0 0, 1 0 0, 1 1 0)
 // whose normals are 0 0 1. In frame 1 its last two vertices are at 1 0.5 0, in frame 2 at 1 1.5 0 and the first at 0
-// 0.5 0; in both the last two have the normal 0 1 0. `flap` plays the pool, frame 1 and frame 2, 2 a second, closed.
+// 0.5 0; in both the last two have the normal 0 1 0. `flap` plays the mesh, frame 1 and frame 2, 2 a second, closed.
 namespace bendy {
 namespace {
 
 using Places = std::vector<glm::vec3>;
 
-constexpr std::uint32_t kPool = 1;
+constexpr std::uint32_t kMesh = 1;
 const Places kRest{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
 const Places kUp{{0, 0, 0}, {1, 0.5f, 0}, {1, 0.5f, 0}};
 const Places kHigh{{0, 0.5f, 0}, {1, 1.5f, 0}, {1, 1.5f, 0}};
@@ -34,31 +34,31 @@ protected:
         auto opened = Model::open(BENDY_SOURCE_DIR "/spec/examples/every_chunk.bendy");
         ASSERT_TRUE(opened) << static_cast<int>(opened.error().code);
         model_ = std::make_unique<Model>(std::move(*opened));
-        flap_ = model_->cycle("flap");
+        flap_ = model_->clip("flap");
         ASSERT_NE(flap_, nullptr);
     }
-    [[nodiscard]] const Pool& pool() const { return model_->pools()[kPool]; }
+    [[nodiscard]] const Mesh& mesh() const { return model_->meshes()[kMesh]; }
 
-    /// Weights of the pool's two frames.
+    /// Weights of the mesh's two frames.
     std::vector<float> weights_at(float seconds) {
         Pose pose(*model_);
         EXPECT_TRUE(sample(pose, flap_, seconds));
-        const auto weights = pose.target_weights().subspan(model_->first_target(kPool), 2);
+        const auto weights = pose.morph_weights().subspan(model_->first_morph_target(kMesh), 2);
         return {weights.begin(), weights.end()};
     }
 
     std::unique_ptr<Model> model_;
-    const Cycle* flap_ = nullptr;
+    const Clip* flap_ = nullptr;
 };
 
 TEST_F(Frames, AreTargetsWithNames) {
-    ASSERT_EQ(pool().targets.size(), 2u);
-    EXPECT_EQ(pool().frames(), 3u);
-    EXPECT_EQ(pool().targets[0].name, "up");
-    EXPECT_EQ(pool().targets[1].name, "high");
-    EXPECT_EQ(pool().targets[0].rest_weight, 0.0f);
-    EXPECT_EQ(pool().targets[0].touched(pool().vertices), 3u);
-    EXPECT_EQ(pool().targets[1].displacement(*pool().targets[1].positions, pool().positions, 2), glm::vec3(0, 0.5f, 0));
+    ASSERT_EQ(mesh().targets.size(), 2u);
+    EXPECT_EQ(mesh().frames(), 3u);
+    EXPECT_EQ(mesh().targets[0].name, "up");
+    EXPECT_EQ(mesh().targets[1].name, "high");
+    EXPECT_EQ(mesh().targets[0].rest_weight, 0.0f);
+    EXPECT_EQ(mesh().targets[0].touched(mesh().vertices), 3u);
+    EXPECT_EQ(mesh().targets[1].displacement(*mesh().targets[1].positions, mesh().positions, 2), glm::vec3(0, 0.5f, 0));
     ASSERT_EQ(flap_->plays.size(), 1u);
     EXPECT_TRUE(flap_->plays[0].closed);
 }
@@ -78,7 +78,7 @@ TEST_F(Frames, TwoShareTheWeightAndTheLastGoesOnToTheFirst) {
 }
 
 TEST_F(Frames, OpenOnesAreHeldAtTheLast) {
-    const PlayView open{kPool, 1, 2, false};
+    const PlayView open{kMesh, 1, 2, false};
     const auto at = [&](float seconds) {
         const FrameMix mix = mix_frames(open, *flap_, seconds);
         return std::vector<double>{static_cast<double>(mix.left), static_cast<double>(mix.right), mix.fraction};
@@ -87,25 +87,25 @@ TEST_F(Frames, OpenOnesAreHeldAtTheLast) {
     EXPECT_EQ(at(0.25f), (std::vector<double>{1, 2, 0.5}));
     EXPECT_EQ(at(0.5f), (std::vector<double>{2, 2, 0}));
     EXPECT_EQ(at(1.5f), (std::vector<double>{2, 2, 0}));
-    const PlayView one{kPool, 2, 1, true};
+    const PlayView one{kMesh, 2, 1, true};
     EXPECT_EQ(mix_frames(one, *flap_, 0.25f).left, 2u);
     EXPECT_EQ(mix_frames(one, *flap_, 0.25f).right, 2u);
 }
 
 TEST_F(Frames, AShapeWithAllTheWeightIsTheFilesToTheBit) {
     Places positions(3), normals(3);
-    ASSERT_TRUE(inbetween(pool(), std::vector<float>{0, 0}, {positions, normals, {}}));
+    ASSERT_TRUE(apply_morph_targets(mesh(), std::vector<float>{0, 0}, {positions, normals, {}}));
     EXPECT_EQ(positions, kRest);
     EXPECT_EQ(normals, kForward);
-    ASSERT_TRUE(inbetween(pool(), std::vector<float>{1, 0}, {positions, normals, {}}));
+    ASSERT_TRUE(apply_morph_targets(mesh(), std::vector<float>{1, 0}, {positions, normals, {}}));
     EXPECT_EQ(positions, kUp);
     EXPECT_EQ(normals, kTurned);
-    ASSERT_TRUE(inbetween(pool(), std::vector<float>{0, 1}, {positions, normals, {}}));
+    ASSERT_TRUE(apply_morph_targets(mesh(), std::vector<float>{0, 1}, {positions, normals, {}}));
     EXPECT_EQ(positions, kHigh);
-    ASSERT_TRUE(inbetween(pool(), std::vector<float>{0.25f, 0}, {positions, normals, {}}));
-    EXPECT_EQ(positions[1], glm::vec3(1, 0.125f, 0)) << "the pool's own shape has the rest";
+    ASSERT_TRUE(apply_morph_targets(mesh(), std::vector<float>{0.25f, 0}, {positions, normals, {}}));
+    EXPECT_EQ(positions[1], glm::vec3(1, 0.125f, 0)) << "the mesh's own shape has the rest";
     EXPECT_EQ(normals[1], glm::vec3(0, 0.25f, 0.75f));
-    ASSERT_TRUE(inbetween(pool(), std::vector<float>{0.5f, 0.5f}, 2, {positions, normals, {}}));
+    ASSERT_TRUE(apply_morph_targets(mesh(), std::vector<float>{0.5f, 0.5f}, 2, {positions, normals, {}}));
     EXPECT_EQ(positions[0], glm::vec3(0, 0.25f, 0)) << "and only so many vertices as are wanted";
 }
 
@@ -116,7 +116,7 @@ TEST_F(Frames, EveryKernelSkinsThem) {
     for (const Kernel kernel : kernels()) {
         ASSERT_TRUE(set_kernel(kernel));
         Places positions(3), normals(3);
-        ASSERT_TRUE(skin(pose, {.mesh = kPool, .out = {.positions = positions, .normals = normals}}));
+        ASSERT_TRUE(skin(pose, {.mesh = kMesh, .out = {.positions = positions, .normals = normals}}));
         EXPECT_EQ(positions, kUp) << kernel_name(kernel);
         EXPECT_EQ(normals, kTurned) << kernel_name(kernel);
     }
@@ -128,10 +128,10 @@ TEST_F(Frames, PlaybackGoesRound) {
     playback.advance(1.25);  // frame 2 and half of the way to the first
     Pose pose(*model_);
     ASSERT_TRUE(sample(pose, flap_, playback.seconds()));
-    EXPECT_EQ(pose.target_weights()[model_->first_target(kPool) + 1], 0.5f);
+    EXPECT_EQ(pose.morph_weights()[model_->first_morph_target(kMesh) + 1], 0.5f);
     playback.advance(0.5);
     ASSERT_TRUE(sample(pose, flap_, playback.seconds()));
-    EXPECT_EQ(pose.target_weights()[model_->first_target(kPool)], 0.5f) << "1.75 s are 0.25 s";
+    EXPECT_EQ(pose.morph_weights()[model_->first_morph_target(kMesh)], 0.5f) << "1.75 s are 0.25 s";
 }
 
 TEST_F(Frames, BlendAndHaveBounds) {
@@ -141,7 +141,7 @@ TEST_F(Frames, BlendAndHaveBounds) {
     ASSERT_TRUE(sample(b, flap_, 1.0f));
     ASSERT_TRUE(blend(a, b, 0.5f));
     Places positions(3);
-    ASSERT_TRUE(skin(a, {.mesh = kPool, .out = {.positions = positions}}));
+    ASSERT_TRUE(skin(a, {.mesh = kMesh, .out = {.positions = positions}}));
     EXPECT_EQ(positions[1], glm::vec3(1, 1, 0));
     const Bounds bounds(*model_);
     const Box box = bounds.of(a);

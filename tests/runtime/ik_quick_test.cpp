@@ -35,8 +35,8 @@ void set_rotation(RestRecord& rest, const glm::quat& q) {
     rest.rotation = {q.x, q.y, q.z, q.w};
 }
 
-LimitRecord limit(Dice& dice, LimitModel model) {
-    LimitRecord record;
+ConstraintRecord random_constraint(Dice& dice, ConstraintModel model) {
+    ConstraintRecord record;
     record.model = static_cast<std::uint8_t>(model);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         record.rotation_min.at(axis) = dice.number(-2.5f, -0.3f);
@@ -60,10 +60,11 @@ test::ModelSpec arm(Dice& dice, bool is_limited) {
             const float scale = dice.one_in(2) ? 1.0f : dice.number(0.5f, 2.0f);
             own.rest.scale = {scale, scale, scale};
         }
-        constexpr std::array kModels{LimitModel::swing_twist_ellipse, LimitModel::swing_twist_pyramid,
-                                     LimitModel::euler_box, LimitModel::largest_angle};
-        if (is_limited && joint == 1) own.limits = {limit(dice, kModels[spec.joints.size() + dice.one_in(2)])};
-        if (is_limited && joint == 2) own.limits = {limit(dice, LimitModel::hinge)};
+        constexpr std::array kModels{ConstraintModel::swing_twist_ellipse, ConstraintModel::swing_twist_pyramid,
+                                     ConstraintModel::euler_box, ConstraintModel::largest_angle};
+        if (is_limited && joint == 1)
+            own.constraints = {random_constraint(dice, kModels[spec.joints.size() + dice.one_in(2)])};
+        if (is_limited && joint == 2) own.constraints = {random_constraint(dice, ConstraintModel::hinge)};
         spec.joints.push_back(own);
     }
     ChainRecord chain;
@@ -185,9 +186,9 @@ TEST(IkQuick, WhatAsksForMoreGoesTheLongWay) {
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].pole_angle = kNaN; }));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.joints[2].rest.scale = {1.0f, 2.0f, 1.0f}; }));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) {
-        PullRecord pull;
-        pull.weight = 0.5f;
-        spec.joints[2].pulls = {pull};
+        ChainWeightRecord chain_weight;
+        chain_weight.weight = 0.5f;
+        spec.joints[2].chain_weights = {chain_weight};
     }));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.joints[0].rest.scale = {0.0f, 1.0f, 1.0f}; }));
 }

@@ -30,21 +30,21 @@ float radians(double degrees) {
     return static_cast<float>(degrees * M_PI / 180.0);
 }
 
-LimitRecord ellipse(double twist, double swing) {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::swing_twist_ellipse);
-    limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};  // the twist is about the joint's Y
-    limit.rotation_min = {radians(-twist), radians(-swing), radians(-swing)};
-    limit.rotation_max = {radians(twist), radians(swing), radians(swing)};
-    return limit;
+ConstraintRecord ellipse(double twist, double swing) {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_ellipse);
+    constraint.frame = {0.5f, 0.5f, 0.5f, 0.5f};  // the twist is about the joint's Y
+    constraint.rotation_min = {radians(-twist), radians(-swing), radians(-swing)};
+    constraint.rotation_max = {radians(twist), radians(swing), radians(swing)};
+    return constraint;
 }
 
-LimitRecord hinge(double low, double high) {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
-    limit.rotation_min[0] = radians(low);
-    limit.rotation_max[0] = radians(high);
-    return limit;
+ConstraintRecord hinge(double low, double high) {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
+    constraint.rotation_min[0] = radians(low);
+    constraint.rotation_max[0] = radians(high);
+    return constraint;
 }
 
 /// A rope up the Y axis, one joint more than bones; bent by `bend` degrees to either side in turn; one chain over it
@@ -81,7 +81,7 @@ double worst_violation(const Model& model, const Pose& pose) {
         const Constraint* constraint = model.ik_constraint(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
-            to_limit_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
+            to_constraint_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
         worst = std::max(worst, violation(*constraint, R));
     }
     return worst;
@@ -100,7 +100,7 @@ void pose_at_random(const Model& model, const Chain& chain, double share, Pose& 
         const Constraint* constraint = model.ik_constraint(joint);
         local[joint].rotation = constraint == nullptr
                                     ? glm::quat(glm::dquat(rest) * R)
-                                    : from_limit_space(*constraint, rest, clamp_rotation(*constraint, R));
+                                    : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
         local[joint].rotation = glm::slerp(rest, local[joint].rotation, static_cast<float>(share));
     }
 }
@@ -261,8 +261,8 @@ TEST(Ik, AimNeverSaysThatItReached) {
             test::ModelSpec spec = rope(3);
             spec.chains[0].solver = static_cast<std::uint8_t>(Solver::aim);
             spec.chains[0].start = start;
-            if (is_limited) spec.joints[3].limits = {ellipse(30, 50)};
-            if (is_limited) spec.joints[2].limits = {ellipse(30, 50)};
+            if (is_limited) spec.joints[3].constraints = {ellipse(30, 50)};
+            if (is_limited) spec.joints[2].constraints = {ellipse(30, 50)};
             const Owned model(build_file(spec));
             std::mt19937 random(9);
             std::uniform_real_distribution<float> uniform(-9.0f, 9.0f);
@@ -315,11 +315,11 @@ TEST(Ik, ATipOffsetIsWhatReaches) {
 
 TEST(Ik, ConstraintsHoldWhateverTheTarget) {
     test::ModelSpec spec = rope(5);
-    spec.joints[0].limits = {ellipse(30, 70)};
-    spec.joints[1].limits = {hinge(-5, 140)};
-    spec.joints[2].limits = {ellipse(10, 25)};
-    spec.joints[3].limits = {hinge(-30, 90)};
-    spec.joints[4].limits = {ellipse(0, 45)};
+    spec.joints[0].constraints = {ellipse(30, 70)};
+    spec.joints[1].constraints = {hinge(-5, 140)};
+    spec.joints[2].constraints = {ellipse(10, 25)};
+    spec.joints[3].constraints = {hinge(-30, 90)};
+    spec.joints[4].constraints = {ellipse(0, 45)};
     const Owned model(build_file(spec));
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(-5.5f, 5.5f);
@@ -338,7 +338,7 @@ TEST(Ik, ConstraintsHoldWhateverTheTarget) {
 
 TEST(Ik, AnIllegalPoseIsMadeLegalAndCanBeIgnored) {
     test::ModelSpec spec = rope(2);
-    spec.joints[1].limits = {hinge(0, 10)};
+    spec.joints[1].constraints = {hinge(0, 10)};
     const Owned model(build_file(spec));
     Pose pose(*model);
     const glm::vec3 near(0.0f, 0.5f, 0.0f);  // asks for a strong bend
@@ -354,8 +354,8 @@ TEST(Ik, AnIllegalPoseIsMadeLegalAndCanBeIgnored) {
 
 TEST(Ik, ScopeDecidesWhatTheSolverObeys) {
     test::ModelSpec spec = rope(2);
-    spec.joints[1].limits = {hinge(0, 10)};
-    spec.joints[1].limits[0].scope = static_cast<std::uint8_t>(LimitScope::all_but_ik);
+    spec.joints[1].constraints = {hinge(0, 10)};
+    spec.joints[1].constraints[0].scope = static_cast<std::uint8_t>(ConstraintScope::all_but_ik);
     const Owned model(build_file(spec));
     EXPECT_EQ(model->ik_constraint(1), nullptr);
     ASSERT_NE(model->constraint(1), nullptr);
@@ -363,7 +363,7 @@ TEST(Ik, ScopeDecidesWhatTheSolverObeys) {
     EXPECT_EQ(reach(pose, model->chain("0"), glm::vec3(0.0f, 0.5f, 0.0f))->status, ReachStatus::reached);
     constrain(pose);
     const Constraint& constraint = *model->constraint(1);
-    const glm::dquat R = to_limit_space(constraint, model->joints()[1].rest.rotation, pose.local()[1].rotation);
+    const glm::dquat R = to_constraint_space(constraint, model->joints()[1].rest.rotation, pose.local()[1].rotation);
     EXPECT_LE(violation(constraint, R), 1e-5);
     const glm::quat once = pose.local()[1].rotation;
     constrain(pose);
@@ -371,19 +371,19 @@ TEST(Ik, ScopeDecidesWhatTheSolverObeys) {
 }
 
 TEST(Ik, WhatIsMeantForOnePurposeGoesBeforeInAnyOrder) {
-    for (const LimitScope own : {LimitScope::ik_only, LimitScope::all_but_ik}) {
+    for (const ConstraintScope own : {ConstraintScope::ik_only, ConstraintScope::all_but_ik}) {
         for (const bool own_first : {true, false}) {
             test::ModelSpec spec = rope(2);
-            spec.joints[1].limits = {hinge(0, 10), hinge(0, 20)};
-            spec.joints[1].limits[own_first ? 0 : 1].scope = static_cast<std::uint8_t>(own);
+            spec.joints[1].constraints = {hinge(0, 10), hinge(0, 20)};
+            spec.joints[1].constraints[own_first ? 0 : 1].scope = static_cast<std::uint8_t>(own);
             const Owned model(build_file(spec));
             EXPECT_EQ(model->constraint(0), nullptr);
             EXPECT_EQ(model->ik_constraint(0), nullptr);
-            const bool in_ik = own == LimitScope::ik_only;
+            const bool in_ik = own == ConstraintScope::ik_only;
             ASSERT_NE(model->constraint(1), nullptr);
             ASSERT_NE(model->ik_constraint(1), nullptr);
-            EXPECT_EQ(model->constraint(1)->scope, in_ik ? LimitScope::every_pose : own) << own_first;
-            EXPECT_EQ(model->ik_constraint(1)->scope, in_ik ? own : LimitScope::every_pose) << own_first;
+            EXPECT_EQ(model->constraint(1)->scope, in_ik ? ConstraintScope::every_pose : own) << own_first;
+            EXPECT_EQ(model->ik_constraint(1)->scope, in_ik ? own : ConstraintScope::every_pose) << own_first;
         }
     }
 }
@@ -391,7 +391,7 @@ TEST(Ik, WhatIsMeantForOnePurposeGoesBeforeInAnyOrder) {
 TEST(Ik, WeightsAndStiffnessSpareJoints) {
     for (const Solver solver : {Solver::pull, Solver::ccd, Solver::fabrik, Solver::least_squares}) {
         test::ModelSpec spec = rope(3);
-        spec.joints[1].pulls = {{0, 0.0f}};
+        spec.joints[1].chain_weights = {{0, 0.0f}};
         const Owned model(build_file(spec));
         Pose pose(*model);
         ReachOptions options;
@@ -403,9 +403,9 @@ TEST(Ik, WeightsAndStiffnessSpareJoints) {
         EXPECT_GT(std::abs(glm::dot(pose.local()[1].rotation, model->joints()[1].rest.rotation)), 1.0f - 1e-6f);
 
         spec = rope(3);
-        LimitRecord stiff;
+        ConstraintRecord stiff;
         stiff.stiffness = {0.0f, 1.0f, 1.0f};  // free about X only
-        spec.joints[0].limits = {stiff};
+        spec.joints[0].constraints = {stiff};
         const Owned planar(build_file(spec));
         Pose other(*planar);
         EXPECT_TRUE(reach(other, planar->chain("0"), glm::vec3(0.5f, 2.0f, 0.5f), options));
@@ -518,7 +518,7 @@ TEST(Ik, UnevenlyScaledChainsReachAsOthersDo) {
     for (std::size_t joint = 0; joint < 4; ++joint) {
         const auto n = static_cast<float>(joint);
         spec.joints[joint].rest.scale = {1.0f + 0.05f * n, 0.9f, 1.2f - 0.1f * n};
-        if (joint > 0) spec.joints[joint].limits = {ellipse(20, 60)};
+        if (joint > 0) spec.joints[joint].constraints = {ellipse(20, 60)};
     }
     const Owned model(build_file(spec));
     const Chain& chain = model->chains()[0];
@@ -673,21 +673,21 @@ TEST(Ik, NothingExplodes) {
     expect_calm(some, 3.0f);
     test::ModelSpec locked = rope(4);
     for (test::JointSpec& joint : locked.joints) {
-        LimitRecord limit;
-        limit.model = static_cast<std::uint8_t>(LimitModel::locked);
-        joint.limits = {limit};
+        ConstraintRecord constraint;
+        constraint.model = static_cast<std::uint8_t>(ConstraintModel::locked);
+        joint.constraints = {constraint};
     }
     expect_calm(locked, 4.0f);
     test::ModelSpec limited = rope(20);
-    for (test::JointSpec& joint : limited.joints) joint.limits = {ellipse(5, 10)};
+    for (test::JointSpec& joint : limited.joints) joint.constraints = {ellipse(5, 10)};
     expect_calm(limited, 20.0f);
 }
 
 TEST(Ik, AStraightChainBendsTheWayItPrefers) {
     test::ModelSpec spec = rope(2, 0.0);
-    LimitRecord knee;
+    ConstraintRecord knee;
     knee.preferred = {0.0f, 0.0f, radians(-20)};
-    spec.joints[1].limits = {knee};
+    spec.joints[1].constraints = {knee};
     const Owned model(build_file(spec));
     Pose pose(*model);
     EXPECT_EQ(reach(pose, model->chain("0"), glm::vec3(0.0f, 1.2f, 0.0f))->status, ReachStatus::reached);
@@ -696,9 +696,9 @@ TEST(Ik, AStraightChainBendsTheWayItPrefers) {
 
 TEST(Ik, SoftZoneSlowsTheApproachToALimit) {
     test::ModelSpec hard = rope(2);
-    hard.joints[1].limits = {hinge(-20, 60)};
+    hard.joints[1].constraints = {hinge(-20, 60)};
     test::ModelSpec soft = hard;
-    soft.joints[1].limits[0].soft_zone = radians(35);
+    soft.joints[1].constraints[0].soft_zone = radians(35);
     const Owned hard_model(build_file(hard));
     const Owned soft_model(build_file(soft));
     Pose a(*hard_model);
@@ -717,21 +717,22 @@ TEST(Ik, SoftZoneSlowsTheApproachToALimit) {
 
 /// A constraint as the same joint of the mirrored chain has it, in X. Its frame may be laid in four ways, by which of
 /// its axes are turned round; `way` says which.
-LimitRecord mirrored(const LimitRecord& limit, std::uint32_t way) {
+ConstraintRecord mirrored(const ConstraintRecord& constraint, std::uint32_t way) {
     constexpr std::array<std::array<float, 3>, 4> kSigns{{{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, -1}}};
     const std::array<float, 3>& sign = kSigns.at(way % 4);
-    const glm::mat3 axes = glm::mat3_cast(glm::quat(limit.frame[3], limit.frame[0], limit.frame[1], limit.frame[2]));
+    const glm::mat3 axes =
+        glm::mat3_cast(glm::quat(constraint.frame[3], constraint.frame[0], constraint.frame[1], constraint.frame[2]));
     const glm::mat3 mirror(glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1));
     const glm::mat3 signs(glm::vec3(sign[0], 0, 0), glm::vec3(0, sign[1], 0), glm::vec3(0, 0, sign[2]));
     const glm::quat frame = glm::quat_cast(mirror * axes * signs);
-    LimitRecord other = limit;
+    ConstraintRecord other = constraint;
     other.frame = {frame.x, frame.y, frame.z, frame.w};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         // What was about +X by an angle is, mirrored, about -X by that angle the other way round.
         if (sign.at(axis) > 0.0f) {
-            other.rotation_min.at(axis) = -limit.rotation_max.at(axis);
-            other.rotation_max.at(axis) = -limit.rotation_min.at(axis);
-            other.preferred.at(axis) = -limit.preferred.at(axis);
+            other.rotation_min.at(axis) = -constraint.rotation_max.at(axis);
+            other.rotation_max.at(axis) = -constraint.rotation_min.at(axis);
+            other.preferred.at(axis) = -constraint.preferred.at(axis);
         }
     }
     return other;
@@ -750,7 +751,7 @@ test::ModelSpec both_sides(const test::ModelSpec& limb, std::uint32_t way) {
                 own.rest.translation[0] *= -1.0f;
                 own.rest.rotation[1] *= -1.0f;
                 own.rest.rotation[2] *= -1.0f;
-                for (LimitRecord& limit : own.limits) limit = mirrored(limit, way + joint);
+                for (ConstraintRecord& constraint : own.constraints) constraint = mirrored(constraint, way + joint);
             }
             spec.joints.push_back(own);
         }
@@ -764,15 +765,15 @@ test::ModelSpec both_sides(const test::ModelSpec& limb, std::uint32_t way) {
     return spec;
 }
 
-LimitRecord limit_of(LimitModel model, std::array<double, 3> low, std::array<double, 3> high) {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(model);
-    limit.frame = {0.5f, 0.5f, 0.5f, 0.5f};
+ConstraintRecord constraint_record_of(ConstraintModel model, std::array<double, 3> low, std::array<double, 3> high) {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(model);
+    constraint.frame = {0.5f, 0.5f, 0.5f, 0.5f};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        limit.rotation_min.at(axis) = radians(low.at(axis));
-        limit.rotation_max.at(axis) = radians(high.at(axis));
+        constraint.rotation_min.at(axis) = radians(low.at(axis));
+        constraint.rotation_max.at(axis) = radians(high.at(axis));
     }
-    return limit;
+    return constraint;
 }
 
 /// Limbs as characters have them, constrained: an arm with and without a pole, straight and bent at rest, a leg with a
@@ -784,37 +785,45 @@ std::vector<test::ModelSpec> limbs() {
             test::ModelSpec arm = rope(2, bend);
             arm.joints[0].rest.translation = {0.3f, 1.0f, 0.1f};
             arm.joints[0].rest.rotation = test::turned(-90, 2).rotation;
-            arm.joints[0].limits = {limit_of(LimitModel::swing_twist_ellipse, {-90, -45, -60}, {90, 110, 90})};
-            arm.joints[1].limits = {hinge(-5, 150)};
+            arm.joints[0].constraints = {
+                constraint_record_of(ConstraintModel::swing_twist_ellipse, {-90, -45, -60}, {90, 110, 90})};
+            arm.joints[1].constraints = {hinge(-5, 150)};
             if (has_pole) arm.chains[0].pole_vector = {0.0f, 0.0f, -1.0f};
             all.push_back(arm);
-            arm.joints[1].limits = {limit_of(LimitModel::swing_twist_ellipse, {-90, 0, 0}, {90, 0, 150})};
+            arm.joints[1].constraints = {
+                constraint_record_of(ConstraintModel::swing_twist_ellipse, {-90, 0, 0}, {90, 0, 150})};
             all.push_back(arm);
-            arm.joints[0].limits = {hinge(-60, 100)};
-            arm.joints[1].limits = {limit_of(LimitModel::euler_box, {-20, -30, -40}, {120, 40, 30})};
+            arm.joints[0].constraints = {hinge(-60, 100)};
+            arm.joints[1].constraints = {
+                constraint_record_of(ConstraintModel::euler_box, {-20, -30, -40}, {120, 40, 30})};
             all.push_back(arm);
         }
     }
     // An elbow that hardly moves sideways, and is bent at rest as it may not be: as proposed from a character's clips.
     test::ModelSpec thin = rope(2);
     thin.joints[0].rest.rotation = test::turned(-90, 2).rotation;
-    thin.joints[0].limits = {limit_of(LimitModel::swing_twist_ellipse, {-90, -135, -138}, {70, 90, 92})};
-    thin.joints[1].limits = {limit_of(LimitModel::swing_twist_ellipse, {-80, -11, -0.2}, {80, 10, 149.8})};
+    thin.joints[0].constraints = {
+        constraint_record_of(ConstraintModel::swing_twist_ellipse, {-90, -135, -138}, {70, 90, 92})};
+    thin.joints[1].constraints = {
+        constraint_record_of(ConstraintModel::swing_twist_ellipse, {-80, -11, -0.2}, {80, 10, 149.8})};
     thin.chains[0].pole_vector = {0.0f, 0.0f, -1.0f};
     all.push_back(thin);
     test::ModelSpec tentacle = rope(9, 4.0, 0.2f);
     for (std::size_t joint = 0; joint < 9; ++joint) {
-        LimitRecord limit = limit_of(LimitModel::swing_twist_ellipse, {-8, -17 - 2.0 * static_cast<double>(joint), -17},
-                                     {8, 17 + 2.0 * static_cast<double>(joint), 30});
-        limit.stiffness = {0.8f, 0.2f, 0.2f};
-        tentacle.joints[joint].limits = {limit};
+        ConstraintRecord constraint = constraint_record_of(ConstraintModel::swing_twist_ellipse,
+                                                           {-8, -17 - 2.0 * static_cast<double>(joint), -17},
+                                                           {8, 17 + 2.0 * static_cast<double>(joint), 30});
+        constraint.stiffness = {0.8f, 0.2f, 0.2f};
+        tentacle.joints[joint].constraints = {constraint};
     }
     all.push_back(tentacle);
     test::ModelSpec mixed = rope(5, 5.0, 0.3f);
-    mixed.joints[0].limits = {limit_of(LimitModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60})};
-    mixed.joints[1].limits = {hinge(-10, 140)};
-    mixed.joints[2].limits = {limit_of(LimitModel::euler_box, {-30, -40, -40}, {30, 40, 60})};
-    mixed.joints[3].limits = {limit_of(LimitModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 50})};
+    mixed.joints[0].constraints = {
+        constraint_record_of(ConstraintModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60})};
+    mixed.joints[1].constraints = {hinge(-10, 140)};
+    mixed.joints[2].constraints = {constraint_record_of(ConstraintModel::euler_box, {-30, -40, -40}, {30, 40, 60})};
+    mixed.joints[3].constraints = {
+        constraint_record_of(ConstraintModel::swing_twist_pyramid, {-20, -35, -35}, {20, 35, 50})};
     all.push_back(mixed);
     return all;
 }
@@ -854,8 +863,9 @@ TEST(Ik, WhereAnySolverArrivesInsideTheConstraintsEveryOneDoes) {
 
 TEST(Ik, TheElbowLeavesThePoleNoFartherThanTheShoulderDemands) {
     test::ModelSpec limb = rope(2);
-    limb.joints[0].limits = {limit_of(LimitModel::swing_twist_ellipse, {-40, -60, -60}, {40, 60, 60})};
-    limb.joints[1].limits = {hinge(-5, 150)};
+    limb.joints[0].constraints = {
+        constraint_record_of(ConstraintModel::swing_twist_ellipse, {-40, -60, -60}, {40, 60, 60})};
+    limb.joints[1].constraints = {hinge(-5, 150)};
     limb.chains[0].pole_vector = {1.0f, 0.0f, 0.0f};
     const Owned model(build_file(limb));
     const Chain& chain = model->chains()[0];
@@ -879,7 +889,8 @@ TEST(Ik, TheElbowLeavesThePoleNoFartherThanTheShoulderDemands) {
         ++forbidden;
         const glm::dquat nearer = glm::angleAxis(std::copysign(double{radians(0.1)}, left), axis);
         const glm::quat turned = glm::quat(nearer * glm::dquat(pose.local()[0].rotation));
-        EXPECT_GT(violation(shoulder, to_limit_space(shoulder, model->joints()[0].rest.rotation, turned)), 1e-5) << i;
+        EXPECT_GT(violation(shoulder, to_constraint_space(shoulder, model->joints()[0].rest.rotation, turned)), 1e-5)
+            << i;
     }
     EXPECT_GT(forbidden, 50);
 }

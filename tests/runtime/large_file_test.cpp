@@ -52,7 +52,7 @@ bool write_behind_hole(Bytes good, const std::filesystem::path& path) {
 
 std::vector<glm::vec3> pose_in_run(const Model& model) {
     Pose pose(model);
-    EXPECT_TRUE(sample(pose, model.cycle("run"), 0.6f));
+    EXPECT_TRUE(sample(pose, model.clip("run"), 0.6f));
     std::vector<glm::vec3> positions(model.vertex_count());
     EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
     return positions;

@@ -33,14 +33,14 @@ public:
         places_.emplace_back(vec(spec.joints[0].rest.translation));
         turns_.emplace_back(1.0, 0.0, 0.0, 0.0);
         for (std::uint32_t limb = 0; limb < 4; ++limb) add_limb(limb);
-        PoolSpec thing;
+        MeshSpec thing;
         thing.joint = kBones;  // the first limb's last
         for (int k = 0; k < 8; ++k) thing.positions.emplace_back(0.1f * number(), 0.5f * number(), 0.1f * number());
         thing.more = {target(8, {}, 0.2f)};
-        spec.pools.push_back(thing);
-        PoolSpec still;
+        spec.meshes.push_back(thing);
+        MeshSpec still;
         for (int k = 0; k < kStill; ++k) still.positions.emplace_back(number(), 0.0f, number());
-        spec.pools.push_back(still);
+        spec.meshes.push_back(still);
     }
 
     float number() { return std::uniform_real_distribution<float>(-1.0f, 1.0f)(random_); }
@@ -55,7 +55,7 @@ public:
             if (is_scaled) local.translation += 0.2f * glm::vec3(number(), number(), number());
         }
         if (!has_targets) return;
-        for (float& weight : pose.change_target_weights()) weight = 1.5f * number();
+        for (float& weight : pose.change_morph_weights()) weight = 1.5f * number();
     }
 
     ModelSpec spec;
@@ -64,7 +64,7 @@ private:
     static glm::vec3 vec(const std::array<float, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
     Node target(std::uint32_t vertices, const std::vector<std::uint16_t>& touched, float size) {
-        TargetRecord info;
+        MorphTargetRecord info;
         info.rest_weight = 0.0f;
         std::vector<float> shifts;
         const std::size_t count = touched.empty() ? vertices : touched.size();
@@ -87,12 +87,12 @@ private:
             places_.push_back(places_[parent] + turns_[parent] * glm::dvec3(vec(rest.translation)));
             turns_.push_back(turns_[parent] * glm::dquat(turn));
         }
-        spec.pools.push_back(cylinder(first, limb));
+        spec.meshes.push_back(cylinder(first, limb));
     }
 
     /// About the bones where they rest, in model space.
-    PoolSpec cylinder(std::uint32_t first, std::uint32_t limb) {
-        PoolSpec pool;
+    MeshSpec cylinder(std::uint32_t first, std::uint32_t limb) {
+        MeshSpec mesh;
         std::vector<std::uint8_t> bones;
         std::vector<float> weights;
         for (std::uint32_t ring = 0; ring < kRings; ++ring) {
@@ -102,7 +102,7 @@ private:
             for (std::uint32_t side = 0; side < kSides; ++side) {
                 const double angle = 2.0 * M_PI * side / kSides;
                 const glm::dvec3 local(kRadius * std::cos(angle), part * kBone, kRadius * std::sin(angle));
-                pool.positions.emplace_back(places_[first + bone] + turns_[first + bone] * local);
+                mesh.positions.emplace_back(places_[first + bone] + turns_[first + bone] * local);
                 const float next = bone + 1 < kBones ? std::max(0.0f, part - 0.5f) : 0.0f;
                 const float before = bone > 0 ? std::max(0.0f, 0.5f - part) : 0.0f;
                 bones.insert(bones.end(), {static_cast<std::uint8_t>(bone),
@@ -119,11 +119,11 @@ private:
             place[3] = glm::dvec4(places_[first + bone], 1.0);
             binds.emplace_back(glm::inverse(place));
         }
-        pool.more = {make_leaf(FourCC("BONE"), stream_payload<std::uint8_t>(3, bones)), weight_leaf(weights, limb),
+        mesh.more = {make_leaf(FourCC("BONE"), stream_payload<std::uint8_t>(3, bones)), weight_leaf(weights, limb),
                      palette_leaf(joints, binds)};
-        if (limb % 2 == 0) pool.more.push_back(target(kRings * kSides, {}, 0.05f));
-        if (limb == 2) pool.more.push_back(target(kRings * kSides, {3, 50, 51, 120, 239}, 0.3f));
-        return pool;
+        if (limb % 2 == 0) mesh.more.push_back(target(kRings * kSides, {}, 0.05f));
+        if (limb == 2) mesh.more.push_back(target(kRings * kSides, {3, 50, 51, 120, 239}, 0.3f));
+        return mesh;
     }
 
     static Node weight_leaf(const std::vector<float>& weights, std::uint32_t limb) {

@@ -181,11 +181,11 @@ TEST(LocalToModel, LargeTranslationsCancelInThePaletteWithAllKernels) {
     spec.joints[1].rest = test::turned(30, 2);
     glm::mat4 bind(1.0f);
     bind[3] = glm::vec4(-1e6f, 0.0f, 2e6f, 1.0f);
-    spec.pools.resize(1);
-    spec.pools[0].positions = {{0.125f, 0.25f, 0.5f}};
-    spec.pools[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, {0, 1})),
-                          test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, {1.0f, 0.0f})),
-                          test::palette_leaf({0, 1}, {bind, bind})};
+    spec.meshes.resize(1);
+    spec.meshes[0].positions = {{0.125f, 0.25f, 0.5f}};
+    spec.meshes[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, {0, 1})),
+                           test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, {1.0f, 0.0f})),
+                           test::palette_leaf({0, 1}, {bind, bind})};
     const Owned model(test::build_file(spec));
     const Kernel before = kernel();
     for (const Kernel each : kernels()) {
@@ -203,17 +203,17 @@ TEST(LocalToModel, BonesThatAreNotFiniteDoNotHarmVerticesWithoutThem) {
     spec.joints.resize(2);
     glm::mat4 bad(1.0f);
     bad[1][1] = std::numeric_limits<float>::infinity();
-    spec.pools.resize(1);
+    spec.meshes.resize(1);
     std::vector<std::uint8_t> bones;
     std::vector<float> weights;
     for (int v = 0; v < 21; ++v) {
-        spec.pools[0].positions.emplace_back(1, 2, v);
+        spec.meshes[0].positions.emplace_back(1, 2, v);
         bones.insert(bones.end(), {0, 1});
         weights.insert(weights.end(), {1.0f, 0.0f});
     }
-    spec.pools[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
-                          test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, weights)),
-                          test::palette_leaf({0, 1}, {glm::mat4(1.0f), bad})};
+    spec.meshes[0].more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(2, bones)),
+                           test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(2, weights)),
+                           test::palette_leaf({0, 1}, {glm::mat4(1.0f), bad})};
     const Owned model(test::build_file(spec));
     const Kernel before = kernel();
     for (const Kernel each : kernels()) {
@@ -221,7 +221,7 @@ TEST(LocalToModel, BonesThatAreNotFiniteDoNotHarmVerticesWithoutThem) {
         Pose pose(*model);
         std::vector<glm::vec3> positions(21);
         ASSERT_TRUE(skin(pose, {.out = {positions, {}, {}}}));
-        EXPECT_EQ(positions, spec.pools[0].positions) << kernel_name(each);
+        EXPECT_EQ(positions, spec.meshes[0].positions) << kernel_name(each);
     }
     EXPECT_TRUE(set_kernel(before));
 }

@@ -17,15 +17,15 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-JointSpec plain_joint(std::vector<PolygonRecord> polygons) {
+JointSpec plain_joint(std::vector<SubmeshRecord> submeshes) {
     JointSpec joint;
-    joint.polygons = std::move(polygons);
+    joint.submeshes = std::move(submeshes);
     return joint;
 }
 
-/// A pool of random triangles with a random sequence; not pretty, but everything that may come.
-struct RandomPool {
-    RandomPool(std::uint32_t seed, std::uint32_t all, std::uint32_t kept, std::uint32_t triangles)
+/// A mesh of random triangles with a random sequence; not pretty, but everything that may come.
+struct RandomMesh {
+    RandomMesh(std::uint32_t seed, std::uint32_t all, std::uint32_t kept, std::uint32_t triangles)
         : base(kept), vertices(all) {
         std::mt19937 random(seed);
         const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
@@ -33,12 +33,12 @@ struct RandomPool {
         for (std::uint32_t k = 0; k < triangles * 3; ++k) indices.push_back(below(vertices));
     }
 
-    [[nodiscard]] PoolSpec spec() const {
-        PoolSpec pool;
-        pool.joint = 0;
-        for (std::uint32_t v = 0; v < vertices; ++v) pool.positions.emplace_back(v, 2 * v, 3 * v);
-        pool.indices = indices;
-        return pool;
+    [[nodiscard]] MeshSpec spec() const {
+        MeshSpec mesh;
+        mesh.joint = 0;
+        for (std::uint32_t v = 0; v < vertices; ++v) mesh.positions.emplace_back(v, 2 * v, 3 * v);
+        mesh.indices = indices;
+        return mesh;
     }
     /// Where a vertex goes, one step after another.
     [[nodiscard]] std::uint32_t at(std::uint32_t vertex, std::uint32_t alive) const {
@@ -60,9 +60,9 @@ struct RandomPool {
     std::vector<std::uint32_t> targets, indices;
 };
 
-std::vector<Triangle> drawn(const Lod& lod, const Draw& draw) {
+std::vector<Triangle> drawn(const Lod& lod, const Submesh& submesh) {
     std::vector<Triangle> list;
-    const auto indices = lod.indices(draw.pool).subspan(draw.first, draw.count);
+    const auto indices = lod.indices(submesh.mesh).subspan(submesh.first, submesh.count);
     for (std::size_t k = 0; k + 3 <= indices.size(); k += 3)
         list.push_back({indices[k], indices[k + 1], indices[k + 2]});
     return list;
@@ -70,13 +70,13 @@ std::vector<Triangle> drawn(const Lod& lod, const Draw& draw) {
 
 TEST(Lod, EveryLevelIsWhatAPlainWalkGives) {
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
-        const RandomPool pool(seed, 60, 4 + seed, 90);
+        const RandomMesh mesh(seed, 60, 4 + seed, 90);
         const Owned model(
-            build_file({{plain_joint({polygons(0, 0, 120), polygons(0, 123, 147)})},
-                        {pool.spec()},
+            build_file({{plain_joint({submesh(0, 0, 120), submesh(0, 123, 147)})},
+                        {mesh.spec()},
                         {},
                         {make_leaf(FourCC("LODD"), collapse_payload<std::uint16_t>(
-                                                       0, pool.base, {pool.targets.begin(), pool.targets.end()}))}}));
+                                                       0, mesh.base, {mesh.targets.begin(), mesh.targets.end()}))}}));
         Lod lod(*model);
         std::set<std::uint32_t> seen;
         for (int step = 200; step >= 0; --step) {
@@ -84,32 +84,32 @@ TEST(Lod, EveryLevelIsWhatAPlainWalkGives) {
             lod.set_share(share);
             const std::uint32_t alive = lod.vertices(0);
             seen.insert(alive);
-            ASSERT_EQ(lod.draws().size(), 2u);
-            EXPECT_EQ(drawn(lod, lod.draws()[0]), pool.expected(0, 120, alive));
-            EXPECT_EQ(drawn(lod, lod.draws()[1]), pool.expected(123, 147, alive));
-            EXPECT_EQ(lod.triangles(), lod.draws()[0].count / 3 + lod.draws()[1].count / 3);
+            ASSERT_EQ(lod.submeshes().size(), 2u);
+            EXPECT_EQ(drawn(lod, lod.submeshes()[0]), mesh.expected(0, 120, alive));
+            EXPECT_EQ(drawn(lod, lod.submeshes()[1]), mesh.expected(123, 147, alive));
+            EXPECT_EQ(lod.triangles(), lod.submeshes()[0].count / 3 + lod.submeshes()[1].count / 3);
             for (const std::uint32_t index : lod.indices(0)) ASSERT_LT(index, alive);
             EXPECT_EQ(lod.indices(0).size(), lod.triangles() * 3);
-            if (alive > pool.base) {
+            if (alive > mesh.base) {
                 EXPECT_LE(lod.triangles(), static_cast<std::uint64_t>(share * 89.0f + 0.001f));
             }
         }
         EXPECT_TRUE(seen.contains(60));
-        EXPECT_TRUE(seen.contains(pool.base));
+        EXPECT_TRUE(seen.contains(mesh.base));
         EXPECT_GT(seen.size(), 12u);
     }
 }
 
 /// A square of two triangles and a spare vertex, on which 3 and 4 collapse.
 ModelSpec square(std::vector<std::uint16_t> targets, std::vector<std::uint8_t> joined = {}) {
-    PoolSpec pool;
-    pool.joint = 0;
-    pool.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 0.5f, 0}};
-    pool.indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 1, 2};
+    MeshSpec mesh;
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 0.5f, 0}};
+    mesh.indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 1, 2};
     const auto base = static_cast<std::uint32_t>(5 - targets.size());
-    return {{plain_joint({polygons(0, 0, 12), polygons(0, 12, 2, kNone, Topology::lines),
-                          polygons(0, 14, 1, kNone, Topology::points)})},
-            {pool},
+    return {{plain_joint({submesh(0, 0, 12), submesh(0, 12, 2, kNone, Topology::lines),
+                          submesh(0, 14, 1, kNone, Topology::points)})},
+            {mesh},
             {},
             {make_leaf(FourCC("LODD"), collapse_payload<std::uint16_t>(0, base, targets, {}, joined))}};
 }
@@ -120,10 +120,10 @@ TEST(Lod, TheSpecificationsExample) {
     EXPECT_EQ(lod.triangles(), 4u);
     lod.set_share(0.5f);
     EXPECT_EQ(lod.vertices(0), 4u);
-    EXPECT_EQ(drawn(lod, lod.draws()[0]), (std::vector<Triangle>{{2, 3, 1}, {3, 0, 1}}));
+    EXPECT_EQ(drawn(lod, lod.submeshes()[0]), (std::vector<Triangle>{{2, 3, 1}, {3, 0, 1}}));
     lod.set_share(0.3f);
     EXPECT_EQ(lod.vertices(0), 3u);
-    EXPECT_EQ(drawn(lod, lod.draws()[0]), (std::vector<Triangle>{{2, 0, 1}}));
+    EXPECT_EQ(drawn(lod, lod.submeshes()[0]), (std::vector<Triangle>{{2, 0, 1}}));
 }
 
 TEST(Lod, LinesAndPointsStayAndAreNotCounted) {
@@ -131,11 +131,11 @@ TEST(Lod, LinesAndPointsStayAndAreNotCounted) {
     Lod lod(*model);
     for (const float share : {1.0f, 0.5f, 0.0f}) {
         lod.set_share(share);
-        ASSERT_EQ(lod.draws().size(), 3u);
-        const auto line = lod.indices(0).subspan(lod.draws()[1].first, lod.draws()[1].count);
+        ASSERT_EQ(lod.submeshes().size(), 3u);
+        const auto line = lod.indices(0).subspan(lod.submeshes()[1].first, lod.submeshes()[1].count);
         EXPECT_EQ(std::vector<std::uint32_t>(line.begin(), line.end()), (std::vector<std::uint32_t>{0, 1}));
-        EXPECT_EQ(lod.draws()[2].count, 1u);
-        EXPECT_EQ(lod.indices(0)[lod.draws()[2].first], 2u);
+        EXPECT_EQ(lod.submeshes()[2].count, 1u);
+        EXPECT_EQ(lod.indices(0)[lod.submeshes()[2].first], 2u);
     }
     EXPECT_EQ(lod.triangles(), 1u);
 }
@@ -178,27 +178,27 @@ TEST(Lod, AModelWithoutASequenceHasOneLevel) {
     EXPECT_EQ(lod.error(), 0.0f);
 }
 
-TEST(Lod, TheTableSpreadsDetailOverPools) {
-    const RandomPool first(1, 40, 4, 100);
-    const RandomPool second(2, 40, 4, 100);
+TEST(Lod, TheTableSpreadsDetailOverMeshes) {
+    const RandomMesh first(1, 40, 4, 100);
+    const RandomMesh second(2, 40, 4, 100);
     CollapseRecord record;
-    record.pools = 2;
+    record.meshes = 2;
     record.levels = 3;
-    std::vector<PoolCollapseRecord> pools(2);
-    for (std::uint32_t k = 0; k < 2; ++k) pools[k] = {k, 4, 2, {}};
+    std::vector<MeshCollapseRecord> meshes(2);
+    for (std::uint32_t k = 0; k < 2; ++k) meshes[k] = {k, 4, 2, {}};
     struct Row {
         float error;
         std::uint32_t alive[2];
     };
     Buffer payload;
     append_padded(payload, std::vector{record});
-    append_padded(payload, pools);
+    append_padded(payload, meshes);
     append_padded(payload, std::vector<Row>{{0.0f, {40, 40}}, {0.25f, {4, 40}}, {0.5f, {4, 4}}});
-    for (const RandomPool* pool : {&first, &second}) {
-        append_padded(payload, std::vector<std::uint16_t>(pool->targets.begin(), pool->targets.end()));
+    for (const RandomMesh* mesh : {&first, &second}) {
+        append_padded(payload, std::vector<std::uint16_t>(mesh->targets.begin(), mesh->targets.end()));
         append_padded(payload, std::vector<std::uint8_t>(5, 0));
     }
-    const Owned model(build_file({{plain_joint({polygons(0, 0, 300), polygons(1, 0, 300)})},
+    const Owned model(build_file({{plain_joint({submesh(0, 0, 300), submesh(1, 0, 300)})},
                                   {first.spec(), second.spec()},
                                   {},
                                   {make_leaf(FourCC("LODD"), payload)}}));
@@ -214,15 +214,15 @@ TEST(Lod, TheTableSpreadsDetailOverPools) {
 
 TEST(Lod, LongChainsOfTargetsTakeNoLonger) {
     constexpr std::uint32_t kVertices = 200'000;
-    PoolSpec pool;
-    pool.joint = 0;
-    pool.positions.resize(kVertices);
+    MeshSpec mesh;
+    mesh.joint = 0;
+    mesh.positions.resize(kVertices);
     std::vector<std::uint32_t> targets;
     for (std::uint32_t v = 1; v < kVertices; ++v) targets.push_back(v - 1);
     for (std::uint32_t k = 0; k < kVertices; ++k)
-        pool.indices.insert(pool.indices.end(), {kVertices - 1, kVertices / 2, k % 7});
-    const Owned model(build_file({{plain_joint({polygons(0, 0, kVertices * 3)})},
-                                  {pool},
+        mesh.indices.insert(mesh.indices.end(), {kVertices - 1, kVertices / 2, k % 7});
+    const Owned model(build_file({{plain_joint({submesh(0, 0, kVertices * 3)})},
+                                  {mesh},
                                   {},
                                   {make_leaf(FourCC("LODD"), collapse_payload<std::uint32_t>(0, 1, targets))}}));
     Lod lod(*model);
@@ -237,10 +237,10 @@ TEST(Lod, SkinsOnlyTheLivingVertices) {
     spec.joints[0].rest = moved(10, 0, 0);
     const std::vector<glm::vec3> up(5, glm::vec3(0, 0, 1));
     Node target =
-        make_container(FourCC("TARG"), {make_leaf(FourCC("TINF"), bytes_of(TargetRecord{0.5f})),
+        make_container(FourCC("TARG"), {make_leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{0.5f})),
                                         make_leaf(FourCC("INDX"), stream_payload<std::uint16_t>(1, {1, 2, 4})),
                                         vector_stream(FourCC("POSI"), std::vector<glm::vec3>(3, {0, 0, 2}))});
-    spec.pools[0].more = {target};
+    spec.meshes[0].more = {target};
     const Owned model(build_file(spec));
     Pose pose(*model);
     std::vector<glm::vec3> all(5);

@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<Marker> kSteps{{1.0f, "s"}, {1.5f, "a"}, {2.0f, "b"}, {2.0f, "c"}, {3.0f, "e"}};
 
-std::string met_by(const Walk& walk, const std::vector<Marker>& markers = kSteps) {
+std::string met_by(const PlayedInterval& played, const std::vector<Marker>& markers = kSteps) {
     std::string met;
-    visit_markers(markers, walk, [&](const Marker& marker) { met += marker.name; });
-    EXPECT_EQ(count_markers(markers, walk), met.size());
+    visit_markers(markers, played, [&](const Marker& marker) { met += marker.name; });
+    EXPECT_EQ(count_markers(markers, played), met.size());
     std::array<const Marker*, 64> collected{};
-    const std::size_t count = collect_markers(markers, walk, collected);
+    const std::size_t count = collect_markers(markers, played, collected);
     std::string again;
     for (std::size_t k = 0; k < count; ++k) again += collected.at(k)->name;
     EXPECT_EQ(again, met.substr(0, collected.size()));
@@ -104,18 +104,18 @@ TEST(Markers, StepsOfAnySizeMeetWhatLiesOnTheUnrolledLine) {
 }
 
 TEST(Markers, VisitsEndWhenTheyAreTold) {
-    const Walk walk = Playback(1.0f, 3.0f, LoopMode::repeat).advance(1e15);
-    EXPECT_EQ(count_markers(kSteps, walk), 5 * std::uint64_t{500'000'000'000'000});
+    const PlayedInterval played = Playback(1.0f, 3.0f, LoopMode::repeat).advance(1e15);
+    EXPECT_EQ(count_markers(kSteps, played), 5 * std::uint64_t{500'000'000'000'000});
     int left = 7;
-    visit_markers(kSteps, walk, [&](const Marker&) { return --left > 0; });
+    visit_markers(kSteps, played, [&](const Marker&) { return --left > 0; });
     EXPECT_EQ(left, 0);
     std::array<const Marker*, 3> few{};
-    EXPECT_EQ(collect_markers(kSteps, walk, few), 3u);
+    EXPECT_EQ(collect_markers(kSteps, played, few), 3u);
     EXPECT_EQ(few[2]->name, "b");
-    EXPECT_EQ(collect_markers(kSteps, walk, {}), 0u);
+    EXPECT_EQ(collect_markers(kSteps, played, {}), 0u);
     // None in reach: however many passes, there is nothing to wait for.
     int met = 0;
-    visit_markers(std::vector<Marker>{{9.0f, "z"}}, walk, [&](const Marker&) { ++met; });
+    visit_markers(std::vector<Marker>{{9.0f, "z"}}, played, [&](const Marker&) { ++met; });
     EXPECT_EQ(met, 0);
 }
 

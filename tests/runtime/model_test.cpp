@@ -43,10 +43,10 @@ TEST(Model, HoldsTheSample) {
         EXPECT_EQ(model->joints()[i].rest.rotation.w, 1.0f);
     }
     EXPECT_EQ(model->joints()[0].extras, R"({"mass":3})");
-    EXPECT_EQ(model->pools().size(), 2u);
-    EXPECT_EQ(model->cycles().size(), 1u);
+    EXPECT_EQ(model->meshes().size(), 2u);
+    EXPECT_EQ(model->clips().size(), 1u);
     EXPECT_EQ(model->textures().size(), 3u);
-    EXPECT_EQ(model->polygons().size(), 5u);
+    EXPECT_EQ(model->joint_submeshes().size(), 5u);
     EXPECT_EQ(model->largest_palette(), 2u);
 }
 
@@ -64,14 +64,14 @@ TEST(Model, RestTransformsComeWithRotationAndShear) {
     EXPECT_EQ(model->joints()[0].shear, glm::vec3(1, 2, 3));
 }
 
-TEST(Model, VerticesAndTargetsAreNumberedPoolAfterPool) {
+TEST(Model, VerticesAndTargetsAreNumberedMeshAfterMesh) {
     const Owned model(test::sample_file());
     EXPECT_EQ(model->vertex_count(), 10u);
     EXPECT_EQ(model->first_vertex(0), 0u);
     EXPECT_EQ(model->first_vertex(1), 4u);
-    EXPECT_EQ(model->target_count(), 2u);
-    EXPECT_EQ(model->first_target(0), 0u);
-    EXPECT_EQ(model->first_target(1), 2u);
+    EXPECT_EQ(model->morph_target_count(), 2u);
+    EXPECT_EQ(model->first_morph_target(0), 0u);
+    EXPECT_EQ(model->first_morph_target(1), 2u);
 }
 
 TEST(Model, FindsByNameTheFirstOfEqualNames) {
@@ -81,10 +81,10 @@ TEST(Model, FindsByNameTheFirstOfEqualNames) {
     test::at(file, "HEAD/OBJE/SKIN/SKIN[1]/NAME") =
         test::at(file, "HEAD/OBJE/SKIN/SKIN/NAME");  // the tail is "spine", too
     const Owned model(test::to_file(file));
-    ASSERT_EQ(model->cycles().size(), 2u);
-    EXPECT_EQ(model->cycle("run"), model->cycles().data());
-    EXPECT_EQ(model->cycle("Run"), nullptr);
-    EXPECT_EQ(model->cycle(""), nullptr);
+    ASSERT_EQ(model->clips().size(), 2u);
+    EXPECT_EQ(model->clip("run"), model->clips().data());
+    EXPECT_EQ(model->clip("Run"), nullptr);
+    EXPECT_EQ(model->clip(""), nullptr);
     EXPECT_EQ(model->joint("spine"), 1u);
     EXPECT_EQ(model->joint("head"), 2u);
     EXPECT_EQ(model->joint("nobody"), kNone);
@@ -92,13 +92,13 @@ TEST(Model, FindsByNameTheFirstOfEqualNames) {
     EXPECT_EQ(model->chain("front"), nullptr);
 }
 
-TEST(Model, HoldsItsCyclesMarkers) {
+TEST(Model, HoldsItsClipsMarkers) {
     test::Node file = test::sample();
     test::at(file, "HEAD/OBJE/CYCL")
         .children.push_back(
             test::make_leaf(FourCC("MARK"), test::markers_payload({{0.5f, 4}, {0.5f, 4}, {1.0f, 7}}, "stephit")));
     const Owned model(test::to_file(file));
-    const std::span<const Marker> markers = model->cycle("run")->markers;
+    const std::span<const Marker> markers = model->clip("run")->markers;
     ASSERT_EQ(markers.size(), 3u);
     EXPECT_EQ(markers[0].name, "step");
     EXPECT_EQ(markers[1].name, "");
@@ -114,7 +114,7 @@ TEST(Model, DrawsMeanTheMaterialsOfTheWholeFile) {
     EXPECT_EQ(model->materials()[0].name, "red");
     EXPECT_EQ(model->materials()[1].surface.metallic, 0.25f);
     struct Expected {
-        std::uint32_t pool, material;
+        std::uint32_t mesh, material;
         Topology topology;
         std::uint32_t first, count;
     };
@@ -123,52 +123,52 @@ TEST(Model, DrawsMeanTheMaterialsOfTheWholeFile) {
                                          {1, 0, Topology::triangles, 0, 3},
                                          {1, 0, Topology::lines, 3, 2},
                                          {1, kNone, Topology::points, 5, 1}};
-    ASSERT_EQ(model->draws().size(), expected.size());
+    ASSERT_EQ(model->submeshes().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        const Draw& draw = model->draws()[i];
-        EXPECT_EQ(draw.pool, expected[i].pool) << i;
-        EXPECT_EQ(draw.material, expected[i].material) << i;
-        EXPECT_EQ(draw.topology, expected[i].topology) << i;
-        EXPECT_EQ(draw.first, expected[i].first) << i;
-        EXPECT_EQ(draw.count, expected[i].count) << i;
+        const Submesh& submesh = model->submeshes()[i];
+        EXPECT_EQ(submesh.mesh, expected[i].mesh) << i;
+        EXPECT_EQ(submesh.material, expected[i].material) << i;
+        EXPECT_EQ(submesh.topology, expected[i].topology) << i;
+        EXPECT_EQ(submesh.first, expected[i].first) << i;
+        EXPECT_EQ(submesh.count, expected[i].count) << i;
     }
 }
 
-TEST(Model, OneDrawAMaterialWhateverJointsThePolygonsBelongTo) {
+TEST(Model, OneSubmeshAMaterialWhateverJointsThePolygonsBelongTo) {
     test::Node file = test::sample();
     test::Node& hip = test::at(file, "HEAD/OBJE/SKIN");
     test::Node& spine = test::at(file, "HEAD/OBJE/SKIN/SKIN");
-    test::edit<PolygonRecord>(test::child(hip, "POLY"), [](PolygonRecord& record) { record.material = 0; });
-    test::edit<PolygonRecord>(test::child(spine, "POLY"), [](PolygonRecord& record) { record.material = 0; });
+    test::edit<SubmeshRecord>(test::child(hip, "POLY"), [](SubmeshRecord& record) { record.material = 0; });
+    test::edit<SubmeshRecord>(test::child(spine, "POLY"), [](SubmeshRecord& record) { record.material = 0; });
     const Owned model(test::to_file(file));
-    ASSERT_EQ(model->draws().size(), 4u);
-    EXPECT_EQ(model->draws()[0].first, 0u);
-    EXPECT_EQ(model->draws()[0].count, 6u);
-    EXPECT_EQ(model->draws()[0].material, 0u);
-    ASSERT_EQ(model->polygons().size(), 5u);  // the joints keep their own
-    EXPECT_EQ(model->polygons()[0].count, 3u);
+    ASSERT_EQ(model->submeshes().size(), 4u);
+    EXPECT_EQ(model->submeshes()[0].first, 0u);
+    EXPECT_EQ(model->submeshes()[0].count, 6u);
+    EXPECT_EQ(model->submeshes()[0].material, 0u);
+    ASSERT_EQ(model->joint_submeshes().size(), 5u);  // the joints keep their own
+    EXPECT_EQ(model->joint_submeshes()[0].count, 3u);
 }
 
 TEST(Model, DrawsJoinAcrossJointsInAnyOrderButNotAcrossGaps) {
     test::ModelSpec spec;
     // Joint 0 has the last range, joint 2 the first; entries 9 to 11 belong to nobody.
-    spec.joints = {{kNone, {}, {test::polygons(0, 6, 3), test::polygons(0, 12, 3)}, ""},
-                   {0, {}, {test::polygons(0, 3, 3)}, ""},
-                   {0, {}, {test::polygons(0, 0, 3), test::polygons(1, 0, 3)}, ""}};
-    spec.pools.resize(2);
-    for (test::PoolSpec& pool : spec.pools) {
-        pool.joint = 0;
-        pool.positions.resize(15);
+    spec.joints = {{kNone, {}, {test::submesh(0, 6, 3), test::submesh(0, 12, 3)}, ""},
+                   {0, {}, {test::submesh(0, 3, 3)}, ""},
+                   {0, {}, {test::submesh(0, 0, 3), test::submesh(1, 0, 3)}, ""}};
+    spec.meshes.resize(2);
+    for (test::MeshSpec& mesh : spec.meshes) {
+        mesh.joint = 0;
+        mesh.positions.resize(15);
     }
-    for (std::uint32_t i = 0; i < 15; ++i) spec.pools[0].indices.push_back(i);
-    spec.pools[1].indices = {0, 1, 2};
+    for (std::uint32_t i = 0; i < 15; ++i) spec.meshes[0].indices.push_back(i);
+    spec.meshes[1].indices = {0, 1, 2};
     const Owned model(test::build_file(spec));
-    ASSERT_EQ(model->draws().size(), 3u);
-    EXPECT_EQ(model->draws()[0].count, 9u);
-    EXPECT_EQ(model->draws()[1].first, 12u);
-    EXPECT_EQ(model->draws()[1].count, 3u);
-    EXPECT_EQ(model->draws()[2].pool, 1u);
-    EXPECT_EQ(model->draws()[2].count, 3u);
+    ASSERT_EQ(model->submeshes().size(), 3u);
+    EXPECT_EQ(model->submeshes()[0].count, 9u);
+    EXPECT_EQ(model->submeshes()[1].first, 12u);
+    EXPECT_EQ(model->submeshes()[1].count, 3u);
+    EXPECT_EQ(model->submeshes()[2].mesh, 1u);
+    EXPECT_EQ(model->submeshes()[2].count, 3u);
 }
 
 // --- moves
@@ -178,15 +178,15 @@ TEST(Model, MovesKeepEveryViewValid) {
     Result<Model> opened = Model::from_memory(bytes);
     ASSERT_TRUE(opened.has_value());
     const Joint* joints = opened->joints().data();
-    const Cycle* run = opened->cycle("run");
-    const Pool* pools = opened->pools().data();
-    const Draw* draws = opened->draws().data();
+    const Clip* run = opened->clip("run");
+    const Mesh* meshes = opened->meshes().data();
+    const Submesh* submeshes = opened->submeshes().data();
     Model model = *std::move(opened);
     Model other = std::move(model);
     EXPECT_EQ(other.joints().data(), joints);
-    EXPECT_EQ(other.cycle("run"), run);
-    EXPECT_EQ(other.pools().data(), pools);
-    EXPECT_EQ(other.draws().data(), draws);
+    EXPECT_EQ(other.clip("run"), run);
+    EXPECT_EQ(other.meshes().data(), meshes);
+    EXPECT_EQ(other.submeshes().data(), submeshes);
     EXPECT_EQ(joints[1].name, "spine");
     EXPECT_EQ(run->tracks.size(), 5u);
 
@@ -305,7 +305,7 @@ TEST(Model, WithoutSumsWhatIsWrongIsStillRefused) {
 TEST(Model, OneOfSeveralObjects) {
     test::Node file = test::sample();
     test::Node second = test::at(file, "HEAD/OBJE");
-    test::remove(second, "VECT");  // pool 0 with all that means it
+    test::remove(second, "VECT");  // mesh 0 with all that means it
     test::remove(second, "CYCL");
     test::child(second, "NAME") = test::make_leaf(FourCC("NAME"), as_byte_span("wolf"));
     test::remove(test::child(second, "SKIN"), "POLY");
@@ -314,7 +314,7 @@ TEST(Model, OneOfSeveralObjects) {
                               &test::child(test::child(test::child(second, "SKIN"), "SKIN"), "SKIN")}) {
         for (test::Node& node : joint->children) {
             if (node.id == FourCC("POLY"))
-                test::edit<PolygonRecord>(node, [](PolygonRecord& record) { record.pool = 0; });
+                test::edit<SubmeshRecord>(node, [](SubmeshRecord& record) { record.mesh = 0; });
         }
     }
     file.children.push_back(second);
@@ -324,9 +324,9 @@ TEST(Model, OneOfSeveralObjects) {
     options.object = 1;
     const Owned wolf(bytes, options);
     EXPECT_EQ(wolf->name(), "wolf");
-    EXPECT_EQ(wolf->pools().size(), 1u);
+    EXPECT_EQ(wolf->meshes().size(), 1u);
     EXPECT_EQ(wolf->vertex_count(), 6u);
-    EXPECT_TRUE(wolf->cycles().empty());
+    EXPECT_TRUE(wolf->clips().empty());
     EXPECT_EQ(wolf->materials().size(), 3u);  // HEAD's, and a local one of either object
     for (const std::uint32_t object : {2u, 3u, kNone}) {
         options.object = object;
@@ -344,7 +344,7 @@ TEST(Model, AFileWithoutObjectsIsNoModel) {
 
 // --- what moves rigid vertices
 
-TEST(Model, RigidMoversAreThePoolsJointOrThatOfThePolygons) {
+TEST(Model, RigidMoversAreTheMeshesJointOrThatOfThePolygons) {
     const Owned model(test::sample_file());
     for (std::uint32_t vertex = 0; vertex < 5; ++vertex) EXPECT_EQ(model->rigid_mover(1, vertex), 2u) << vertex;
     EXPECT_EQ(model->rigid_mover(1, 5), 1u);

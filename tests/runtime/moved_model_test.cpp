@@ -45,7 +45,7 @@ Character make_character() {
                    {},
                    make_socket(model, "head"),
                    std::vector<glm::vec3>(model.vertex_count())};
-    made.fade.play(*model.cycle("run"), 0.0f);
+    made.fade.play(*model.clip("run"), 0.0f);
     return made;
 }
 
@@ -57,7 +57,7 @@ std::vector<glm::vec3> play(Character& character, double seconds) {
     const auto keep_positions = [&] { all.insert(all.end(), c.positions.begin(), c.positions.end()); };
     c.fade.advance(seconds);
     EXPECT_TRUE(sample(c.pose, c.fade, c.scratch));
-    keep(glm::vec3(c.path.take_out(c.pose).translation));
+    keep(glm::vec3(c.path.extract(c.pose).translation));
     EXPECT_TRUE(blend(c.pose, c.scratch, 0.25f));
     for (const Chain& chain : c.pose.model().chains()) EXPECT_TRUE(reach(c.pose, &chain, glm::vec3(0.1f, 1.0f, 0.2f)));
     constrain(c.pose);
@@ -71,10 +71,10 @@ std::vector<glm::vec3> play(Character& character, double seconds) {
         EXPECT_TRUE(skin(c.pose, {.lod = &c.lod, .method = method, .out = {.positions = c.positions}}));
         keep_positions();
     }
-    const Cycle* cycle = c.fade.playing().front().cycle;
-    EXPECT_TRUE(sample(c.pose, c.binding, cycle, 0.7f));
+    const Clip* clip = c.fade.playing().front().clip;
+    EXPECT_TRUE(sample(c.pose, c.binding, clip, 0.7f));
     for (const glm::mat4& joint : c.pose.model_space()) keep(glm::vec3(joint[3]));
-    const CrowdMember member{cycle, 0.8f, &c.lod, {.positions = c.positions}, {}};
+    const CrowdMember member{clip, 0.8f, &c.lod, {.positions = c.positions}, {}};
     EXPECT_TRUE(c.crowd.play({&member, 1}));
     keep_positions();
     return all;
@@ -95,7 +95,7 @@ TEST(MovedModel, PosesKeepWhatTheyNeedWhenTheModelIsGone) {
     const test::Buffer bytes = test::sample_file();
     auto model = std::make_unique<Model>(*Model::from_memory(bytes));
     Pose pose(*model);
-    const Cycle* run = model->cycle("run");
+    const Clip* run = model->clip("run");
     std::vector<glm::vec3> expected(model->vertex_count());
     ASSERT_TRUE(sample(pose, run, 0.6f));
     ASSERT_TRUE(skin(pose, {.out = {.positions = expected}}));
@@ -124,7 +124,7 @@ TEST(MovedModel, PosesOfCopiesAreOfOneModel) {
     const Lod of_other(other);
     EXPECT_TRUE(skin(pose, {.lod = &lod}));
     EXPECT_EQ(skin(pose, {.lod = &of_other}).error(), CallError::other_model);
-    EXPECT_EQ(skin(pose, {.mesh = static_cast<std::uint32_t>(model.pools().size())}).error(), CallError::out_of_range);
+    EXPECT_EQ(skin(pose, {.mesh = static_cast<std::uint32_t>(model.meshes().size())}).error(), CallError::out_of_range);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <bendy/runtime.h>
 
+#include "mutation/allocations.h"
 #include "runtime/build_model.h"
 #include "runtime/packed_model.h"
-#include "sweep/allocations.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
     std::vector<glm::vec3> normals(model->vertex_count());
     std::vector<glm::vec4> tangents(model->vertex_count());
     const Vertices vertices{positions, normals, tangents};
-    const Cycle* run = model->cycle("run");
+    const Clip* run = model->clip("run");
 
     Lod lod(*model);
 
@@ -39,11 +39,11 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         (void)pose.model_space();
         is_good = skin(pose, {.out = vertices}) && is_good;
         is_good = skin(pose, {.mesh = 0, .out = vertices}) && is_good;
-        is_good = inbetween(model->pools()[0], pose.target_weights(), vertices) && is_good;
+        is_good = apply_morph_targets(model->meshes()[0], pose.morph_weights(), vertices) && is_good;
         lod.set_share(0.05f * static_cast<float>(frame));
         is_good = skin(pose, {.lod = &lod, .out = vertices}) && is_good;
         pose.change_local()[0].translation.x += 1.0f;
-        pose.change_target_weights()[0] = 0.5f;
+        pose.change_morph_weights()[0] = 0.5f;
         is_good = skin(pose, {.out = vertices}) && is_good;
         pose.set_rest();
         is_good = !sample(pose, nullptr, 0.0f) && is_good;
@@ -57,7 +57,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
             is_good = reach(pose, model->chains().data(), target, options) && is_good;
         }
         reach_all(pose);
-        is_good = model->joint("head") == 2 && model->cycle("run") == run && is_good;
+        is_good = model->joint("head") == 2 && model->clip("run") == run && is_good;
     }
     EXPECT_EQ(test::allocations().count - before, 0u);
     EXPECT_TRUE(is_good);
@@ -75,7 +75,7 @@ TEST(NoAllocation, PlayingACrowdMakesNone) {
     bool is_good = true;
     for (int frame = 0; frame < 20; ++frame) {
         for (std::size_t k = 0; k < kMembers; ++k) {
-            members[k].cycle = model->cycle("run");
+            members[k].clip = model->clip("run");
             members[k].seconds = 0.5f + 0.03f * static_cast<float>(frame);
             members[k].out.positions = {std::span(positions).subspan(k * model->vertex_count() * 3), 3};
             members[k].palette = std::span(palettes).subspan(k * crowd.palette_size());
@@ -89,8 +89,8 @@ TEST(NoAllocation, PlayingACrowdMakesNone) {
 TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
     const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
     const test::Owned skinned(test::sample_file());
-    const Cycle& cycle = *model->cycle("packed");
-    const Cycle& run = *skinned->cycle("run");
+    const Clip& clip = *model->clip("packed");
+    const Clip& run = *skinned->clip("run");
     Pose pose(*model);
     Pose scratch(*model);
     Pose skinned_pose(*skinned);
@@ -113,17 +113,17 @@ TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
     Crossfade fade;
     Crossfade skinned_fade;
     for (int frame = 0; frame < 40; ++frame) {
-        if (frame % 7 == 0) fade.play(cycle, Playback(cycle.start, cycle.end, LoopMode::repeat), 0.5f);
+        if (frame % 7 == 0) fade.play(clip, Playback(clip.start, clip.end, LoopMode::repeat), 0.5f);
         if (frame % 9 == 0) skinned_fade.play(run, 0.2f);
         fade.advance(0.05);
         skinned_fade.advance(0.3);
         for (const Playing& playing : fade.playing()) {
-            character = then(character, path.over(*playing.cycle, playing.walk));
-            visit_markers(markers, playing.walk, [&](const Marker&) { ++count; });
-            count += collect_markers(markers, playing.walk, met);
+            character = compose(character, path.over(*playing.clip, playing.played));
+            visit_markers(markers, playing.played, [&](const Marker&) { ++count; });
+            count += collect_markers(markers, playing.played, met);
         }
         is_good = sample(pose, fade, scratch) && sample(skinned_pose, skinned_fade, skinned_scratch) && is_good;
-        path.take_out(pose);
+        path.extract(pose);
         is_good = sample(skinned_pose, binding, &run, 0.7f) && is_good;
         is_good = !bounds.of(skinned_pose).is_empty() && !bounds.of(skinned_pose, 0).is_empty() && is_good;
         is_good = socket_matrix(skinned_pose, socket)[3].w == 1.0f && is_good;
@@ -140,20 +140,20 @@ TEST(NoAllocation, WhatGamesAskForEachFrameMakesNone) {
     EXPECT_GT(count, 0u);
 }
 
-TEST(NoAllocation, PlayingPackedCyclesMakesNoneInOrderOrAtRandom) {
+TEST(NoAllocation, PlayingPackedClipsMakesNoneInOrderOrAtRandom) {
     const test::Owned model(test::build_file(test::packed_spec(40, 50, 16)));
     const test::Owned other(test::build_file(test::packed_spec(40, 50, 16)));
     Pose pose(*model);
-    const Cycle* cycle = model->cycle("packed");
-    const Cycle* of_other = other->cycle("packed");
+    const Clip* clip = model->clip("packed");
+    const Clip* of_other = other->clip("packed");
     std::uint32_t random = 1;
 
     const std::uint64_t before = test::allocations().count;
     bool is_good = true;
     for (int frame = 0; frame < 200; ++frame) {
         random = random * 1664525u + 1013904223u;
-        is_good = sample(pose, cycle, 0.4f + 0.013f * static_cast<float>(frame)) && is_good;
-        is_good = sample(pose, cycle, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f) && is_good;
+        is_good = sample(pose, clip, 0.4f + 0.013f * static_cast<float>(frame)) && is_good;
+        is_good = sample(pose, clip, 0.4f + 2.5f * static_cast<float>(random >> 8) / 16777216.0f) && is_good;
         is_good = sample(pose, of_other, 0.4f + 0.013f * static_cast<float>(frame)) && is_good;
     }
     EXPECT_EQ(test::allocations().count - before, 0u);

@@ -8,7 +8,7 @@
 
 namespace bendy::test {
 
-/// A chain of joints, each a metre from its parent, with the cycle "packed": samples of make_samples.
+/// A chain of joints, each a metre from its parent, with the clip "packed": samples of make_samples.
 inline ModelSpec packed_spec(std::uint32_t joints, std::uint32_t frames, std::uint32_t segment_frames) {
     ModelSpec spec;
     for (std::uint32_t joint = 0; joint < joints; ++joint) {
@@ -16,7 +16,7 @@ inline ModelSpec packed_spec(std::uint32_t joints, std::uint32_t frames, std::ui
         made.rest.translation[1] = 1.0f;
         spec.joints.push_back(made);
     }
-    CycleRecord info;
+    ClipRecord info;
     info.start = 0.5f;
     info.end = 0.5f + static_cast<float>(frames) / 24.0f;
     const std::string name = "packed";

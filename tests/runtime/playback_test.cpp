@@ -12,11 +12,11 @@ namespace bendy {
 namespace {
 
 /// The stretches of a walk that are not empty, one after another.
-std::vector<Stretch> parts_of(const Walk& walk) {
-    std::vector<Stretch> parts;
-    if (!walk.first.is_empty()) parts.push_back(walk.first);
-    for (std::uint64_t k = 0; k < walk.passes; ++k) parts.push_back(walk.whole(k));
-    if (!walk.last.is_empty()) parts.push_back(walk.last);
+std::vector<TimeSpan> parts_of(const PlayedInterval& played) {
+    std::vector<TimeSpan> parts;
+    if (!played.first.is_empty()) parts.push_back(played.first);
+    for (std::uint64_t k = 0; k < played.passes; ++k) parts.push_back(played.whole(k));
+    if (!played.last.is_empty()) parts.push_back(played.last);
     return parts;
 }
 
@@ -25,8 +25,8 @@ struct Part {
     bool has_end;
 };
 
-void expect_parts(const Walk& walk, const std::vector<Part>& expected) {
-    const auto parts = parts_of(walk);
+void expect_parts(const PlayedInterval& played, const std::vector<Part>& expected) {
+    const auto parts = parts_of(played);
     ASSERT_EQ(parts.size(), expected.size());
     for (std::size_t k = 0; k < parts.size(); ++k) {
         EXPECT_EQ(parts[k].from, expected[k].from) << k;
@@ -129,7 +129,7 @@ TEST(Playback, WalksAddUpToTheSteps) {
             const auto parts = parts_of(clock.advance(seconds));
             double sum = 0.0;
             double at = before;
-            for (const Stretch& part : parts) {
+            for (const TimeSpan& part : parts) {
                 sum += std::abs(part.to - part.from);
                 const double jump = std::abs(part.from - at);  // nothing, or from one end to the other
                 EXPECT_TRUE(jump < 1e-12 || std::abs(jump - 1.25) < 1e-12);
@@ -147,13 +147,13 @@ TEST(Playback, WalksAddUpToTheSteps) {
 }
 
 TEST(Playback, HugeStepsAreExact) {
-    // Powers of two, so that the remainder is known: 2^70 seconds of a cycle of 3.
+    // Powers of two, so that the remainder is known: 2^70 seconds of a clip of 3.
     Playback clock(0.0f, 3.0f, LoopMode::repeat);
     clock.advance(std::ldexp(1.0, 70));
     EXPECT_EQ(clock.seconds(), 1.0f);  // 2^70 = 4^35, and 4 leaves 1
-    const Walk walk = Playback(0.0f, 3.0f, LoopMode::repeat).advance(std::ldexp(1.0, 41));
-    EXPECT_EQ(walk.passes + 1, 733'007'751'850u);  // (2^41 - 2) / 3
-    EXPECT_EQ(walk.last.to, 2.0);
+    const PlayedInterval played = Playback(0.0f, 3.0f, LoopMode::repeat).advance(std::ldexp(1.0, 41));
+    EXPECT_EQ(played.passes + 1, 733'007'751'850u);  // (2^41 - 2) / 3
+    EXPECT_EQ(played.last.to, 2.0);
     for (const LoopMode mode : {LoopMode::repeat, LoopMode::ping_pong, LoopMode::once}) {
         Playback extreme(0.25f, 1.0f, mode);
         for (const double step : {1e300, -1e300, 1e18, -1e18, 1e308, -5e-324, 5e-324}) {
@@ -194,7 +194,7 @@ TEST(Playback, WithoutLengthItStands) {
     }
 }
 
-TEST(Playback, SeeksInsideTheCycle) {
+TEST(Playback, SeeksInsideTheClip) {
     Playback clock(1.0f, 3.0f, LoopMode::repeat);
     clock.seek(2.0);
     EXPECT_EQ(clock.seconds(), 2.0f);
@@ -212,15 +212,15 @@ TEST(Playback, SeeksInsideTheCycle) {
     EXPECT_TRUE(clock.is_done());
 }
 
-TEST(Playback, ACycleSaysWhetherItLoops) {
-    Cycle cycle;
-    cycle.start = 0.5f;
-    cycle.end = 2.0f;
-    EXPECT_EQ(Playback(cycle).mode(), LoopMode::once);
-    cycle.loop = true;
-    EXPECT_EQ(Playback(cycle).mode(), LoopMode::repeat);
-    EXPECT_EQ(Playback(cycle).seconds(), 0.5f);
-    EXPECT_EQ(Playback(cycle).end(), 2.0);
+TEST(Playback, AClipSaysWhetherItLoops) {
+    Clip clip;
+    clip.start = 0.5f;
+    clip.end = 2.0f;
+    EXPECT_EQ(Playback(clip).mode(), LoopMode::once);
+    clip.loop = true;
+    EXPECT_EQ(Playback(clip).mode(), LoopMode::repeat);
+    EXPECT_EQ(Playback(clip).seconds(), 0.5f);
+    EXPECT_EQ(Playback(clip).end(), 2.0);
 }
 
 }  // namespace

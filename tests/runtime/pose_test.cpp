@@ -33,7 +33,7 @@ TEST(Pose, StartsAtRestWithItsMatrices) {
     EXPECT_FALSE(PoseState::of(pose).is_stale);
     ASSERT_EQ(pose.model_space().size(), 4u);
     EXPECT_EQ(glm::vec3(pose.model_space()[2][3]), glm::vec3(0, 1.75f, 0));
-    EXPECT_EQ(std::vector<float>(pose.target_weights().begin(), pose.target_weights().end()),
+    EXPECT_EQ(std::vector<float>(pose.morph_weights().begin(), pose.morph_weights().end()),
               (std::vector{0.125f, 0.0f}));
 }
 
@@ -41,20 +41,20 @@ TEST(Pose, GoesBackToRest) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {2, 2, 2}};
-    std::ranges::fill(pose.change_target_weights(), 3.0f);
+    std::ranges::fill(pose.change_morph_weights(), 3.0f);
     (void)pose.model_space();
     pose.set_rest();
     expect_rest(pose);
     EXPECT_TRUE(PoseState::of(pose).is_stale);
-    EXPECT_EQ(pose.target_weights()[0], 0.125f);
-    EXPECT_EQ(pose.target_weights()[1], 0.0f);
+    EXPECT_EQ(pose.morph_weights()[0], 0.125f);
+    EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
 
 TEST(Pose, IsStaleWhenAskedForItsJointsToWrite) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     static_cast<void>(pose.local());
-    static_cast<void>(pose.change_target_weights());  // no matrix follows from these
+    static_cast<void>(pose.change_morph_weights());  // no matrix follows from these
     EXPECT_FALSE(PoseState::of(pose).is_stale);
     static_cast<void>(pose.change_local());
     EXPECT_TRUE(PoseState::of(pose).is_stale);
@@ -73,7 +73,7 @@ TEST(Pose, HasRoomForNothing) {
     const Owned model(test::build_file({}));
     Pose pose(*model);
     EXPECT_TRUE(pose.local().empty());
-    EXPECT_TRUE(pose.target_weights().empty());
+    EXPECT_TRUE(pose.morph_weights().empty());
     EXPECT_TRUE(pose.model_space().empty());
 }
 
@@ -86,20 +86,20 @@ TEST(Pose, CopiesAreTheirOwn) {
     EXPECT_EQ(glm::vec3(copy.model_space()[0][3]), glm::vec3(9, 9, 9));
 }
 
-TEST(Pose, PalettesAreThoseOfTheirPoolsInThePoseAsItIs) {
+TEST(Pose, PalettesAreThoseOfTheirMeshesInThePoseAsItIs) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     for (const float seconds : {0.6f, 0.9f}) {
-        ASSERT_TRUE(sample(pose, model->cycle("run"), seconds));
+        ASSERT_TRUE(sample(pose, model->clip("run"), seconds));
         std::uint32_t entries = 0;
         for (const std::uint32_t number : {0u, 1u, 0u}) {
-            const Pool& pool = model->pools()[number];
+            const Mesh& mesh = model->meshes()[number];
             const std::span<const PaletteMatrix> palette = pose.palette(number);
             EXPECT_FALSE(PoseState::of(pose).is_stale);
-            ASSERT_EQ(palette.size(), pool.palette.joints.size());
+            ASSERT_EQ(palette.size(), mesh.palette.joints.size());
             for (std::size_t entry = 0; entry < palette.size(); ++entry, ++entries) {
-                const glm::dmat4 expected = glm::dmat4(pose.model_space()[pool.palette.joints[entry]]) *
-                                            glm::dmat4(pool.palette.inverse_bind()[entry]);
+                const glm::dmat4 expected = glm::dmat4(pose.model_space()[mesh.palette.joints[entry]]) *
+                                            glm::dmat4(mesh.palette.inverse_bind()[entry]);
                 for (int row = 0; row < 3; ++row) {
                     for (int column = 0; column < 4; ++column)
                         EXPECT_NEAR(palette[entry].rows[row][column], expected[column][row], 1e-5);

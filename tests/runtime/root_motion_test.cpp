@@ -2,7 +2,7 @@
 
 #include <bendy/runtime/sample.h>
 
-#include "runtime/cycle_model.h"
+#include "runtime/clip_model.h"
 #include "runtime/packed_model.h"
 
 #include <glm/mat3x3.hpp>
@@ -49,11 +49,11 @@ void expect_near(const RootMotion& is, const glm::dmat4& expected, double tolera
 /// The root of a walk round a circle: keys of the position and yaw of hips at height 1, at rest at (0, 1, 0).
 struct Walker {
     explicit Walker(double radius, double angle, int keys = 33, float start = 0.0f, float end = 2.0f) {
-        test::CycleSpec cycle;
-        cycle.name = "walk";
-        cycle.start = start;
-        cycle.end = end;
-        cycle.loop = true;
+        test::ClipSpec clip;
+        clip.name = "walk";
+        clip.start = start;
+        clip.end = end;
+        clip.loop = true;
         test::TrackSpec place{TrackPath::translation, 0, 3, {}, {}};
         test::TrackSpec turn{TrackPath::rotation, 0, 4, {}, {}};
         for (int k = 0; k < keys; ++k) {
@@ -69,28 +69,28 @@ struct Walker {
             for (const double c : {0.0, std::sin(0.5 * at), 0.0, std::cos(0.5 * at)})
                 turn.values.push_back(static_cast<float>(c));
         }
-        cycle.tracks = {place, turn};
+        clip.tracks = {place, turn};
         spec.joints.resize(2);
         spec.joints[0] = {kNone, test::moved(0, 1, 0), {}, "hips"};
         spec.joints[1] = {0, test::moved(0, 0.5f, 0), {}, "spine"};
-        spec.more.push_back(test::cycle_node(cycle));
+        spec.more.push_back(test::clip_node(clip));
     }
 
     test::ModelSpec spec;
 };
 
 TEST(RootMotion, StraightAheadIsWhatIsWalked) {
-    test::CycleSpec cycle;
-    cycle.name = "ahead";
-    cycle.start = 1.0f;
-    cycle.end = 3.0f;
-    cycle.tracks = {{TrackPath::translation, 0, 3, {1.0f, 3.0f}, {5, 1, 0, 5, 2, 4}}};
+    test::ClipSpec clip;
+    clip.name = "ahead";
+    clip.start = 1.0f;
+    clip.end = 3.0f;
+    clip.tracks = {{TrackPath::translation, 0, 3, {1.0f, 3.0f}, {5, 1, 0, 5, 2, 4}}};
     test::ModelSpec spec;
     spec.joints.resize(1);
     spec.joints[0] = {kNone, test::moved(0, 1, 0), {}, "hips"};
-    spec.more = {test::cycle_node(cycle)};
+    spec.more = {test::clip_node(clip)};
     const Owned model(test::build_file(spec));
-    const Cycle& walked = *model->cycle("ahead");
+    const Clip& walked = *model->clip("ahead");
     const RootPath path(*model, 0);
     expect_near(path.between(walked, 1.5, 2.5), shift(0, 0, 2), 1e-6);
     expect_near(path.between(walked, 2.5, 1.5), shift(0, 0, -2), 1e-6);
@@ -112,51 +112,51 @@ TEST(RootMotion, StraightAheadIsWhatIsWalked) {
 }
 
 TEST(RootMotion, ACircleIsTheSameInAnyStepsAndOverLoops) {
-    // A quarter turn in each cycle of 2 seconds, on a circle of 3 metres.
+    // A quarter turn in each clip of 2 seconds, on a circle of 3 metres.
     const Owned model(test::build_file(Walker(3.0, kTurn / 4.0).spec));
-    const Cycle& cycle = *model->cycle("walk");
+    const Clip& clip = *model->clip("walk");
     const RootPath path(*model, 0);
     const auto on_circle = [&](double angle) { return shift(3.0, 0, 0) * yaw(angle) * shift(-3.0, 0, 0); };
-    expect_near(path.between(cycle, 0.0, 2.0), on_circle(kTurn / 4.0), 1e-6);
+    expect_near(path.between(clip, 0.0, 2.0), on_circle(kTurn / 4.0), 1e-6);
     // Keys are a 128th of a turn apart and the chords between them within 1.2 mm of the circle.
-    expect_near(path.between(cycle, 0.0, 0.777), on_circle(kTurn / 8.0 * 0.777), 2e-3);
-    Playback clock(cycle);
-    expect_near(path.over(cycle, clock.advance(2.0 * 7.0)), on_circle(kTurn * 7.0 / 4.0), 1e-5);
+    expect_near(path.between(clip, 0.0, 0.777), on_circle(kTurn / 8.0 * 0.777), 2e-3);
+    Playback clock(clip);
+    expect_near(path.over(clip, clock.advance(2.0 * 7.0)), on_circle(kTurn * 7.0 / 4.0), 1e-5);
 
     // Whatever the steps, forth and back: the character is where one step would have taken it.
     std::mt19937 random(4);
     std::uniform_real_distribution<double> step(-3.0, 5.0);
-    Playback small(cycle);
+    Playback small(clip);
     RootMotion character;
     double walked = 0.0;
     for (int k = 0; k < 3'000; ++k) {
         const double seconds = step(random);
         walked += seconds;
-        character = then(character, path.over(cycle, small.advance(seconds)));
+        character = compose(character, path.over(clip, small.advance(seconds)));
     }
-    Playback large(cycle);
-    expect_near(character, path.over(cycle, large.advance(walked)).matrix(), 1e-3);
+    Playback large(clip);
+    expect_near(character, path.over(clip, large.advance(walked)).matrix(), 1e-3);
     EXPECT_GT(std::abs(small.passes()), 1'000);
 }
 
 TEST(RootMotion, WholeTurnsOverManyLoopsComeBack) {
-    // Each cycle is an eighth of a turn in place and a step of one metre ahead: after 8, where it began.
-    test::CycleSpec spec_cycle;
-    spec_cycle.name = "eighth";
+    // Each clip is an eighth of a turn in place and a step of one metre ahead: after 8, where it began.
+    test::ClipSpec spec_clip;
+    spec_clip.name = "eighth";
     const double half = kTurn / 16.0;
-    spec_cycle.tracks = {{TrackPath::rotation,
-                          0,
-                          4,
-                          {0.0f, 1.0f},
-                          {0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))}},
-                         {TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 1}}};
+    spec_clip.tracks = {{TrackPath::rotation,
+                         0,
+                         4,
+                         {0.0f, 1.0f},
+                         {0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))}},
+                        {TrackPath::translation, 0, 3, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 1}}};
     test::ModelSpec spec;
     spec.joints.resize(1);
-    spec.more = {test::cycle_node(spec_cycle)};
+    spec.more = {test::clip_node(spec_clip)};
     const Owned model(test::build_file(spec));
-    const Cycle& cycle = *model->cycle("eighth");
+    const Clip& clip = *model->clip("eighth");
     const RootPath path(*model, 0);
-    const RootMotion one = path.between(cycle, 0.0, 1.0);
+    const RootMotion one = path.between(clip, 0.0, 1.0);
     expect_near(one, shift(0, 0, 1) * yaw(kTurn / 8.0), 1e-7);
 
     // The file's floats are not quite a unit quaternion of an eighth: how far its matrix turns is known in doubles.
@@ -172,32 +172,32 @@ TEST(RootMotion, WholeTurnsOverManyLoopsComeBack) {
     };
     RootMotion step_by_step;
     Playback clock(0.0f, 1.0f, LoopMode::repeat);
-    for (int k = 0; k < kLoops * 4; ++k) step_by_step = then(step_by_step, path.over(cycle, clock.advance(0.25)));
+    for (int k = 0; k < kLoops * 4; ++k) step_by_step = compose(step_by_step, path.over(clip, clock.advance(0.25)));
     EXPECT_EQ(clock.passes(), kLoops);
     expect_near(step_by_step, closed_form(kLoops), 1e-9);
     Playback at_once(0.0f, 1.0f, LoopMode::repeat);
-    expect_near(path.over(cycle, at_once.advance(kLoops)), closed_form(kLoops), 1e-9);
+    expect_near(path.over(clip, at_once.advance(kLoops)), closed_form(kLoops), 1e-9);
     at_once.seek(0.0);
-    expect_near(path.over(cycle, at_once.advance(-kLoops)), glm::inverse(closed_form(kLoops)), 1e-9);
+    expect_near(path.over(clip, at_once.advance(-kLoops)), glm::inverse(closed_form(kLoops)), 1e-9);
     // And it is where it began, but for what the floats lack, 80,000 times.
     EXPECT_LT(glm::length(step_by_step.translation), 80'000 * 1e-7);
 }
 
 /// Character times pose is the same with and without root motion, for the root and what hangs below it.
-void expect_world_is_kept(const Model& model, const Cycle& cycle, std::uint32_t root, const RootAxes& axes,
+void expect_world_is_kept(const Model& model, const Clip& clip, std::uint32_t root, const RootAxes& axes,
                           double tolerance) {
     const RootPath path(model, root, axes);
     Pose pose(model);
     Pose authored(model);
-    Playback clock(cycle.start, cycle.end, LoopMode::once);
-    ASSERT_TRUE(sample(pose, &cycle, clock.seconds()));
-    RootMotion character = path.take_out(pose);
+    Playback clock(clip.start, clip.end, LoopMode::once);
+    ASSERT_TRUE(sample(pose, &clip, clock.seconds()));
+    RootMotion character = path.extract(pose);
     for (int frame = 0; frame < 9; ++frame) {
-        const Walk walk = clock.advance(0.11 * (cycle.end - cycle.start));
-        ASSERT_TRUE(sample(pose, &cycle, clock.seconds()));
-        ASSERT_TRUE(sample(authored, &cycle, clock.seconds()));
-        character = then(character, path.over(cycle, walk));
-        const RootMotion taken = path.take_out(pose);
+        const PlayedInterval played = clock.advance(0.11 * (clip.end - clip.start));
+        ASSERT_TRUE(sample(pose, &clip, clock.seconds()));
+        ASSERT_TRUE(sample(authored, &clip, clock.seconds()));
+        character = compose(character, path.over(clip, played));
+        const RootMotion taken = path.extract(pose);
         expect_near(character, taken.matrix(), tolerance);
         for (std::size_t joint = root; joint < model.joints().size(); ++joint) {
             expect_near(character.matrix() * glm::dmat4(pose.model_space()[joint]),
@@ -208,23 +208,23 @@ void expect_world_is_kept(const Model& model, const Cycle& cycle, std::uint32_t 
 
 TEST(RootMotion, WhatIsTakenOutOfThePoseIsInTheCharacter) {
     const Owned model(test::build_file(Walker(3.0, 2.0).spec));
-    const Cycle& cycle = *model->cycle("walk");
+    const Clip& clip = *model->clip("walk");
     const RootPath path(*model, 0);
-    expect_world_is_kept(*model, cycle, 0, {}, 2e-6);
-    expect_world_is_kept(*model, cycle, 0, {true, true, true, RootTurn::all}, 2e-6);
-    expect_world_is_kept(*model, cycle, 0, {false, false, true, RootTurn::none}, 2e-6);
-    expect_world_is_kept(*model, cycle, 0, {false, false, false, RootTurn::yaw}, 2e-6);
-    expect_world_is_kept(*model, cycle, 1, {}, 2e-6);
+    expect_world_is_kept(*model, clip, 0, {}, 2e-6);
+    expect_world_is_kept(*model, clip, 0, {true, true, true, RootTurn::all}, 2e-6);
+    expect_world_is_kept(*model, clip, 0, {false, false, true, RootTurn::none}, 2e-6);
+    expect_world_is_kept(*model, clip, 0, {false, false, false, RootTurn::yaw}, 2e-6);
+    expect_world_is_kept(*model, clip, 1, {}, 2e-6);
 
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, &cycle, 1.3f));
+    ASSERT_TRUE(sample(pose, &clip, 1.3f));
     const float height = pose.local()[0].translation.y;
-    path.take_out(pose);
+    path.extract(pose);
     EXPECT_NEAR(pose.local()[0].translation.x, 0.0, 1e-6);
     EXPECT_NEAR(pose.local()[0].translation.y, height, 1e-6);  // bobbing stays
     EXPECT_NEAR(pose.local()[0].translation.z, 0.0, 1e-6);
     EXPECT_NEAR(std::abs(pose.local()[0].rotation.w), 1.0, 1e-6);
-    expect_near(path.take_out(pose), glm::dmat4(1.0), 1e-6);
+    expect_near(path.extract(pose), glm::dmat4(1.0), 1e-6);
 }
 
 TEST(RootMotion, JointsAboveTheRootTurnAndScaleIt) {
@@ -238,33 +238,33 @@ TEST(RootMotion, JointsAboveTheRootTurnAndScaleIt) {
     spec.joints[0] = {kNone, above, {}, "armature"};
     spec.joints[1] = {0, test::turned(90, 0), {}, "hips"};
     spec.joints[2] = {1, test::moved(0, 50, 0), {}, "spine"};
-    test::CycleSpec cycle;
-    cycle.name = "walk";
+    test::ClipSpec clip;
+    clip.name = "walk";
     const float r = std::sqrt(0.5f);
-    cycle.tracks = {{TrackPath::translation, 1, 3, {0.0f, 1.0f}, {0, 0, 100, 20, -300, 110}},
-                    {TrackPath::rotation, 1, 4, {0.0f, 1.0f}, {r, 0, 0, r, 0.5f, 0.5f, 0.5f, 0.5f}}};
-    spec.more = {test::cycle_node(cycle)};
+    clip.tracks = {{TrackPath::translation, 1, 3, {0.0f, 1.0f}, {0, 0, 100, 20, -300, 110}},
+                   {TrackPath::rotation, 1, 4, {0.0f, 1.0f}, {r, 0, 0, r, 0.5f, 0.5f, 0.5f, 0.5f}}};
+    spec.more = {test::clip_node(clip)};
     const Owned model(test::build_file(spec));
     const RootPath path(*model, 1);
     // In model space: 3 metres along +z and 0.2 along +x, from where x = 0.5 and z = -0.25; turned by a quarter about
     // y.
-    expect_near(path.at(*model->cycle("walk"), 0.0), glm::dmat4(1.0), 1e-6);
+    expect_near(path.at(*model->clip("walk"), 0.0), glm::dmat4(1.0), 1e-6);
     const glm::dmat4 expected = shift(0.7, 0, 2.75) * yaw(kTurn / 4.0) * shift(-0.5, 0, 0.25);
-    expect_near(path.at(*model->cycle("walk"), 1.0), expected, 1e-5);
-    expect_world_is_kept(*model, *model->cycle("walk"), 1, {}, 1e-5);
+    expect_near(path.at(*model->clip("walk"), 1.0), expected, 1e-5);
+    expect_world_is_kept(*model, *model->clip("walk"), 1, {}, 1e-5);
 }
 
-TEST(RootMotion, PackedCyclesMoveAsTheySample) {
+TEST(RootMotion, PackedClipsMoveAsTheySample) {
     const Owned model(test::build_file(test::packed_spec(12, 50, 16)));
-    const Cycle& cycle = *model->cycle("packed");
-    expect_world_is_kept(*model, cycle, 0, {true, true, true, RootTurn::all}, 1e-4);  // a chain of metres, in floats
+    const Clip& clip = *model->clip("packed");
+    expect_world_is_kept(*model, clip, 0, {true, true, true, RootTurn::all}, 1e-4);  // a chain of metres, in floats
     // Further down, where uneven scales stand above, it is at least what the sampled pose has.
     for (const std::uint32_t joint : {3u, 7u}) {
         const RootPath path(*model, joint);
         Pose pose(*model);
         for (const float seconds : {0.5f, 0.93f, 1.77f, 2.5f}) {
-            ASSERT_TRUE(sample(pose, &cycle, seconds));
-            expect_near(path.at(cycle, seconds), path.take_out(pose).matrix(), 1e-5);
+            ASSERT_TRUE(sample(pose, &clip, seconds));
+            expect_near(path.at(clip, seconds), path.extract(pose).matrix(), 1e-5);
         }
     }
 }
@@ -286,13 +286,13 @@ TEST(RootMotion, LeaningIsNoTurn) {
                                 std::sin(lean / 2) * std::sin(axis));
         Pose pose(*model);
         pose.change_local()[0].rotation = glm::quat(turned * leaned);
-        expect_near(path.take_out(pose), yaw(angle), 1e-6);
+        expect_near(path.extract(pose), yaw(angle), 1e-6);
         const glm::dquat left(pose.local()[0].rotation);
         EXPECT_NEAR(std::abs(glm::dot(left, leaned)), 1.0, 1e-6);
     }
     Pose pose(*model);
     pose.change_local()[0].rotation = glm::quat(0.0f, 1.0f, 0.0f, 0.0f);  // upside down: no yaw
-    expect_near(path.take_out(pose), glm::dmat4(1.0), 1e-6);
+    expect_near(path.extract(pose), glm::dmat4(1.0), 1e-6);
 }
 
 TEST(RootMotion, RepeatIsThenAgainAndAgain) {
@@ -302,7 +302,7 @@ TEST(RootMotion, RepeatIsThenAgainAndAgain) {
         expect_near(repeat(one, times), product, 1e-12);
         product *= one.matrix();
     }
-    expect_near(then(one, inverse(one)), glm::dmat4(1.0), 1e-15);
+    expect_near(compose(one, inverse(one)), glm::dmat4(1.0), 1e-15);
     expect_near(blend(one, {}, 0.0), one.matrix(), 1e-12);
     expect_near(blend(one, {}, 1.0), glm::dmat4(1.0), 1e-12);
     const RootMotion half = blend({}, {{2, 0, 4}, {0.0, 0.0, 1.0, 0.0}}, 0.5);

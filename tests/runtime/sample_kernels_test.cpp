@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-// Whole cycles with each kernel, against sample_track in double precision.
+// Whole clips with each kernel, against sample_track in double precision.
 namespace bendy {
 namespace {
 
@@ -56,7 +56,7 @@ test::ModelSpec animated(float angle) {
             }
         }
     }
-    CycleRecord info;
+    ClipRecord info;
     info.end = 1.0f;
     info.frame_rate = 4.0f;
     spec.more.push_back(test::make_container(
@@ -67,9 +67,9 @@ test::ModelSpec animated(float angle) {
     return spec;
 }
 
-void expect_track(const TrackView& track, const Cycle& cycle, float seconds, const Pose& pose, float tolerance) {
+void expect_track(const TrackView& track, const Clip& clip, float seconds, const Pose& pose, float tolerance) {
     std::vector<float> expected(track.components);
-    sample_track(track, cycle, seconds, expected);
+    sample_track(track, clip, seconds, expected);
     const JointTransform& joint = pose.local()[track.target];
     const auto& q = joint.rotation;
     const glm::vec3& vector = track.path == TrackPath::translation ? joint.translation : joint.scale;
@@ -84,8 +84,8 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
     const Kernel before = kernel();
     for (const float angle : {0.0f, 0.01f, 0.5f, 1.5f, 3.1f}) {
         const Owned model(test::build_file(animated(angle)));
-        const Cycle& cycle = model->cycles().front();
-        ASSERT_EQ(cycle.tracks.size(), 3 * kJoints - 4);
+        const Clip& clip = model->clips().front();
+        ASSERT_EQ(clip.tracks.size(), 3 * kJoints - 4);
         for (const Kernel each : kernels()) {
             ASSERT_TRUE(set_kernel(each));
             SCOPED_TRACE(kernel_name(each));
@@ -94,10 +94,10 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
             std::uniform_real_distribution<float> anywhere(-0.1f, 1.1f);
             for (int k = 0; k < 200; ++k) {
                 const float seconds = k == 0 ? 1.0f : k == 1 ? 0.0f : anywhere(random);
-                ASSERT_TRUE(sample(pose, &cycle, seconds));
+                ASSERT_TRUE(sample(pose, &clip, seconds));
                 // Numbers are at most 1: four units in its last place, and more terms for wider turns.
                 const float units = angle < 1.0f ? 4.0f : 12.0f;
-                for (const TrackView& track : cycle.tracks) expect_track(track, cycle, seconds, pose, units * 0x1p-24f);
+                for (const TrackView& track : clip.tracks) expect_track(track, clip, seconds, pose, units * 0x1p-24f);
                 EXPECT_EQ(pose.local()[3].scale, glm::vec3(1.0f));
             }
         }
@@ -108,18 +108,18 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
 TEST(SampleKernels, KeysComeOutExactly) {
     const Kernel before = kernel();
     const Owned model(test::build_file(animated(0.5f)));
-    const Cycle& cycle = model->cycles().front();
+    const Clip& clip = model->clips().front();
     for (const Kernel each : kernels()) {
         ASSERT_TRUE(set_kernel(each));
         SCOPED_TRACE(kernel_name(each));
         Pose pose(*model);
         for (const float seconds : {-1.0f, 0.0f, 0.25f, 0.5f, 1.0f, 2.0f}) {
-            ASSERT_TRUE(sample(pose, &cycle, seconds));
-            for (const TrackView& track : cycle.tracks) {
+            ASSERT_TRUE(sample(pose, &clip, seconds));
+            for (const TrackView& track : clip.tracks) {
                 const auto is_key = [&](float time) { return time == seconds; };
                 const bool is_at_key =
                     seconds <= 0.0f || seconds >= 1.0f || std::any_of(track.times.begin(), track.times.end(), is_key);
-                if (is_at_key) expect_track(track, cycle, seconds, pose, 0.0f);
+                if (is_at_key) expect_track(track, clip, seconds, pose, 0.0f);
             }
         }
     }

@@ -33,9 +33,9 @@ struct Keys {
         return {path,  interpolation, target, components, static_cast<std::uint32_t>(values.size() / per_key),
                 times, values};
     }
-    [[nodiscard]] std::vector<float> at(float seconds, const Cycle& cycle = {}) const {
+    [[nodiscard]] std::vector<float> at(float seconds, const Clip& clip = {}) const {
         std::vector<float> value(components, -77.0f);
-        sample_track(track(), cycle, seconds, value);
+        sample_track(track(), clip, seconds, value);
         return value;
     }
 };
@@ -269,32 +269,32 @@ TEST(SampleTrack, ASingleKeyIsAlwaysMeant) {
         for (const Interpolation interpolation : kKinds) {
             Keys keys = keys_of(path, components, interpolation, {2});
             keys.values.resize(keys.values.size() / 3);
-            Cycle cycle;
-            cycle.frame_rate = 30.0f;
+            Clip clip;
+            clip.frame_rate = 30.0f;
             for (const bool fixed : {false, true}) {
                 if (fixed) keys.times.clear();
                 for (const float seconds : {-kInfinity, -1.0f, 0.0f, 2.0f, 3.0f, kInfinity, kNan}) {
-                    EXPECT_EQ(keys.at(seconds, cycle), unit(components, 0)) << seconds;
+                    EXPECT_EQ(keys.at(seconds, clip), unit(components, 0)) << seconds;
                 }
             }
         }
     }
 }
 
-TEST(SampleTrack, FixedFramesStartAtTheCycle) {
-    Cycle cycle;
-    cycle.start = 0.5f;
-    cycle.end = 1.0f;
-    cycle.frame_rate = 4.0f;
+TEST(SampleTrack, FixedFramesStartAtTheClip) {
+    Clip clip;
+    clip.start = 0.5f;
+    clip.end = 1.0f;
+    clip.frame_rate = 4.0f;
     for (const auto& [path, components] : kPaths) {
         for (const Interpolation interpolation : kKinds) {
             const Keys keys = keys_of(path, components, interpolation, {});
-            EXPECT_EQ(keys.at(0.5f, cycle), unit(components, 0));
-            EXPECT_EQ(keys.at(0.75f, cycle), unit(components, 1));
-            EXPECT_EQ(keys.at(1.0f, cycle), unit(components, 2));
+            EXPECT_EQ(keys.at(0.5f, clip), unit(components, 0));
+            EXPECT_EQ(keys.at(0.75f, clip), unit(components, 1));
+            EXPECT_EQ(keys.at(1.0f, clip), unit(components, 2));
             for (const float before : {0.49f, -3e38f, -kInfinity})
-                EXPECT_EQ(keys.at(before, cycle), unit(components, 0));
-            for (const float after : {1.01f, 3e38f, kInfinity}) EXPECT_EQ(keys.at(after, cycle), unit(components, 2));
+                EXPECT_EQ(keys.at(before, clip), unit(components, 0));
+            for (const float after : {1.01f, 3e38f, kInfinity}) EXPECT_EQ(keys.at(after, clip), unit(components, 2));
         }
         std::vector<float> between(components, 0.0f);
         if (path != TrackPath::rotation) {
@@ -304,25 +304,25 @@ TEST(SampleTrack, FixedFramesStartAtTheCycle) {
             between[1] = static_cast<float>(std::sin(M_PI * 3 / 8));
             between[2] = static_cast<float>(std::sin(M_PI / 8));
         }
-        const auto value = keys_of(path, components, Interpolation::linear, {}).at(0.8125f, cycle);
+        const auto value = keys_of(path, components, Interpolation::linear, {}).at(0.8125f, clip);
         for (std::size_t c = 0; c < components; ++c) EXPECT_FLOAT_EQ(value[c], between[c]);
-        EXPECT_EQ(keys_of(path, components, Interpolation::step, {}).at(0.99f, cycle), unit(components, 1));
+        EXPECT_EQ(keys_of(path, components, Interpolation::step, {}).at(0.99f, clip), unit(components, 1));
     }
     // Tangents count per second: from 0 to 0 over 1/4 s with slope 1 at the start.
     const Keys cubic{TrackPath::weights, Interpolation::cubic, 1, {}, {9, 0, 1, 0, 0, 9}};
-    EXPECT_FLOAT_EQ(cubic.at(0.625f, cycle)[0], 0.25f * (0.5f - 2.0f * 0.25f + 0.125f));
+    EXPECT_FLOAT_EQ(cubic.at(0.625f, clip)[0], 0.25f * (0.5f - 2.0f * 0.25f + 0.125f));
 }
 
 TEST(SampleTrack, FixedFramesAreMetAtTheirTimes) {
     // The float nearest to k / 30 is not always past the frame; the value may not jump back by a frame because of that.
     Keys keys{TrackPath::weights, Interpolation::linear, 1, {}, {}};
     for (int frame = 0; frame < 300; ++frame) keys.values.push_back(static_cast<float>(frame));
-    Cycle cycle;
-    cycle.start = 1.25f;
-    cycle.end = 1.25f + 299.0f / 30.0f;
-    cycle.frame_rate = 30.0f;
+    Clip clip;
+    clip.start = 1.25f;
+    clip.end = 1.25f + 299.0f / 30.0f;
+    clip.frame_rate = 30.0f;
     for (int frame = 0; frame < 300; ++frame) {
-        EXPECT_NEAR(keys.at(static_cast<float>(1.25 + frame / 30.0), cycle)[0], frame, 3e-5) << frame;
+        EXPECT_NEAR(keys.at(static_cast<float>(1.25 + frame / 30.0), clip)[0], frame, 3e-5) << frame;
     }
 }
 
@@ -332,16 +332,16 @@ TEST(SampleTrack, NanSecondsGiveOneOfTheKeys) {
             for (const bool fixed : {false, true}) {
                 const Keys keys = keys_of(path, components, interpolation,
                                           fixed ? std::vector<float>() : std::vector<float>{0, 1, 2});
-                Cycle cycle;
-                cycle.frame_rate = 10.0f;
-                const auto value = keys.at(kNan, cycle);
+                Clip clip;
+                clip.frame_rate = 10.0f;
+                const auto value = keys.at(kNan, clip);
                 EXPECT_TRUE(value == unit(components, 0) || value == unit(components, 2));
             }
         }
     }
 }
 
-// --- whole cycles
+// --- whole clips
 
 void expect_rest(const Pose& pose, std::size_t joint) {
     const JointTransform& rest = pose.model().joints()[joint].rest;
@@ -352,23 +352,23 @@ void expect_rest(const Pose& pose, std::size_t joint) {
 
 void move_everything(Pose& pose) {
     for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {5, 5, 5}};
-    for (float& weight : pose.change_target_weights()) weight = 9.0f;
+    for (float& weight : pose.change_morph_weights()) weight = 9.0f;
 }
 
 TEST(Sample, SetsWhatItsTracksAnimate) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    const Cycle* run = model->cycle("run");
+    const Clip* run = model->clip("run");
     ASSERT_NE(run, nullptr);
 
     ASSERT_TRUE(
         sample(pose, run, 0.625f));  // half-way between the first two of three keys, a quarter of the way of two
     EXPECT_TRUE(PoseState::of(pose).is_stale);
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.5f));
-    EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));   // step
-    EXPECT_FLOAT_EQ(pose.target_weights()[0], 0.25f);    // 0 to 1
-    EXPECT_FLOAT_EQ(pose.target_weights()[1], 0.4375f);  // 0.5 to 0.25
-    const glm::quat frame = pose.local()[2].rotation;    // from the identity to a half turn round y
+    EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));  // step
+    EXPECT_FLOAT_EQ(pose.morph_weights()[0], 0.25f);    // 0 to 1
+    EXPECT_FLOAT_EQ(pose.morph_weights()[1], 0.4375f);  // 0.5 to 0.25
+    const glm::quat frame = pose.local()[2].rotation;   // from the identity to a half turn round y
     EXPECT_NEAR(frame.y, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(frame.w, std::sqrt(0.5), 1e-6);
     // Joint 1, cubic over 0.5 s: z rises as 3u^2 - 2u^3, w falls and has the tangents 6 and 7.
@@ -388,42 +388,42 @@ TEST(Sample, LeavesTheRestAtRest) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     move_everything(pose);
-    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.6f));
+    ASSERT_TRUE(sample(pose, model->clip("run"), 0.6f));
     expect_rest(pose, 3);
     EXPECT_EQ(pose.local()[0].scale, glm::vec3(1.0f));
     EXPECT_EQ(pose.local()[1].translation, model->joints()[1].rest.translation);
 
-    Cycle empty;
+    Clip empty;
     move_everything(pose);
     ASSERT_TRUE(sample(pose, &empty, 0.0f));
     for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
-    EXPECT_EQ(pose.target_weights()[0], 0.125f);
-    EXPECT_EQ(pose.target_weights()[1], 0.0f);
+    EXPECT_EQ(pose.morph_weights()[0], 0.125f);
+    EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
 
-TEST(Sample, OneCycleAfterAnotherKeepsNothingOfTheFirst) {
+TEST(Sample, OneClipAfterAnotherKeepsNothingOfTheFirst) {
     const Owned model(test::sample_file());
     const Keys keys{TrackPath::scale, Interpolation::step, 3, {0}, {4, 4, 4}, 3};
-    Cycle other;
+    Clip other;
     other.tracks = {keys.track()};
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.6f));
+    ASSERT_TRUE(sample(pose, model->clip("run"), 0.6f));
     ASSERT_TRUE(sample(pose, &other, 0.6f));
     for (std::size_t joint = 0; joint < 3; ++joint) expect_rest(pose, joint);
     EXPECT_EQ(pose.local()[3].scale, glm::vec3(4.0f));
     EXPECT_EQ(pose.local()[3].translation, model->joints()[3].rest.translation);
-    EXPECT_EQ(pose.target_weights()[0], 0.125f);
+    EXPECT_EQ(pose.morph_weights()[0], 0.125f);
 }
 
-TEST(Sample, NoCycleOrNoTimeIsTheRestPose) {
+TEST(Sample, NoClipOrNoTimeIsTheRestPose) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    for (const auto& [cycle, seconds] :
-         {std::pair{static_cast<const Cycle*>(nullptr), 0.5f}, std::pair{model->cycle("run"), kNan}}) {
+    for (const auto& [clip, seconds] :
+         {std::pair{static_cast<const Clip*>(nullptr), 0.5f}, std::pair{model->clip("run"), kNan}}) {
         move_everything(pose);
-        EXPECT_FALSE(sample(pose, cycle, seconds));
+        EXPECT_FALSE(sample(pose, clip, seconds));
         for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
-        EXPECT_EQ(pose.target_weights()[0], 0.125f);
+        EXPECT_EQ(pose.morph_weights()[0], 0.125f);
         EXPECT_TRUE(PoseState::of(pose).is_stale);
     }
 }
@@ -431,23 +431,23 @@ TEST(Sample, NoCycleOrNoTimeIsTheRestPose) {
 TEST(Sample, InfiniteTimesAreHeldAtTheEnds) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, model->cycle("run"), kInfinity));
+    ASSERT_TRUE(sample(pose, model->clip("run"), kInfinity));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(3.0f));
-    ASSERT_TRUE(sample(pose, model->cycle("run"), -kInfinity));
+    ASSERT_TRUE(sample(pose, model->clip("run"), -kInfinity));
     EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.0f));
 }
 
-/// Two pools with one and two targets.
-test::ModelSpec two_pools() {
+/// Two meshes with one and two targets.
+test::ModelSpec two_meshes() {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].parent = 0;
-    spec.pools.resize(2);
-    for (std::size_t pool = 0; pool < 2; ++pool) {
-        spec.pools[pool].positions.resize(1);
-        for (std::size_t target = 0; target <= pool; ++target) {
-            const TargetRecord record{0.25f + static_cast<float>(target)};
-            spec.pools[pool].more.push_back(
+    spec.meshes.resize(2);
+    for (std::size_t mesh = 0; mesh < 2; ++mesh) {
+        spec.meshes[mesh].positions.resize(1);
+        for (std::size_t target = 0; target <= mesh; ++target) {
+            const MorphTargetRecord record{0.25f + static_cast<float>(target)};
+            spec.meshes[mesh].more.push_back(
                 test::make_container(FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(record))}));
         }
     }
@@ -455,22 +455,22 @@ test::ModelSpec two_pools() {
 }
 
 std::vector<float> weights_of(const Pose& pose) {
-    return {pose.target_weights().begin(), pose.target_weights().end()};
+    return {pose.morph_weights().begin(), pose.morph_weights().end()};
 }
 
-TEST(Sample, WeightsGoToThePoolsOwnTargets) {
-    const Owned model(test::build_file(two_pools()));
+TEST(Sample, WeightsGoToTheMeshesOwnTargets) {
+    const Owned model(test::build_file(two_meshes()));
     const Keys keys{TrackPath::weights, Interpolation::linear, 2, {0, 1}, {1, 2, 3, 6}, 1};
-    Cycle cycle;
-    cycle.tracks = {keys.track()};
+    Clip clip;
+    clip.tracks = {keys.track()};
     Pose pose(*model);
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
-    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
+    ASSERT_TRUE(sample(pose, &clip, 0.5f));
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 2.0f, 4.0f}));
 }
 
-TEST(Sample, ACycleOfALargerModelChangesNothingOutside) {
-    const Owned model(test::build_file(two_pools()));
+TEST(Sample, AClipOfALargerModelChangesNothingOutside) {
+    const Owned model(test::build_file(two_meshes()));
     const std::vector<float> many(10, 7.0f);
     std::vector<Keys> all;
     for (const std::uint32_t joint : {2u, 3u, 100u, 0xffff'fffeu, kNone}) {
@@ -482,22 +482,22 @@ TEST(Sample, ACycleOfALargerModelChangesNothingOutside) {
     all.push_back({TrackPath::weights, Interpolation::step, 10, {0}, many, 0});
     all.push_back({TrackPath::weights, Interpolation::step, 3, {0}, {7, 7, 7}, 1});
     all.push_back({TrackPath::translation, Interpolation::step, 3, {0}, {1, 2, 3}, 1});  // this one is for us, too
-    Cycle cycle;
-    for (const Keys& keys : all) cycle.tracks.push_back(keys.track());
+    Clip clip;
+    for (const Keys& keys : all) clip.tracks.push_back(keys.track());
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
+    ASSERT_TRUE(sample(pose, &clip, 0.5f));
     expect_rest(pose, 0);
     EXPECT_EQ(pose.local()[1].translation, glm::vec3(1, 2, 3));
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
 }
 
-TEST(Sample, WeightsOfAPoolWithMoreTargetsDoNotSpillIntoTheNextPool) {
-    const Owned model(test::build_file(two_pools()));
-    const Keys keys{TrackPath::weights, Interpolation::step, 2, {0}, {7, 8}, 0};  // pool 0 has one target here
-    Cycle cycle;
-    cycle.tracks = {keys.track()};
+TEST(Sample, WeightsOfAMeshWithMoreTargetsDoNotSpillIntoTheNextMesh) {
+    const Owned model(test::build_file(two_meshes()));
+    const Keys keys{TrackPath::weights, Interpolation::step, 2, {0}, {7, 8}, 0};  // mesh 0 has one target here
+    Clip clip;
+    clip.tracks = {keys.track()};
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, &cycle, 0.5f));
+    ASSERT_TRUE(sample(pose, &clip, 0.5f));
     EXPECT_EQ(weights_of(pose)[1], 0.25f);
     EXPECT_EQ(weights_of(pose)[2], 1.25f);
 }

@@ -79,8 +79,8 @@ TEST(SkinKernels, AnyStrideAndAnySubset) {
     }
 }
 
-/// The block's lists as a pool, for make_skin_plan.
-Pool as_pool(const RandomBlock& random) {
+/// The block's lists as a mesh, for make_skin_plan.
+Mesh as_mesh(const RandomBlock& random) {
     const auto stream = [&](ComponentType type, Bytes data) {
         StreamView view;
         view.type = type;
@@ -89,11 +89,11 @@ Pool as_pool(const RandomBlock& random) {
         view.data = data;
         return view;
     };
-    Pool pool;
-    pool.vertices = static_cast<std::uint32_t>(random.block.vertices);
-    pool.bones = stream(ComponentType::u8, std::as_bytes(std::span(random.bones8)));
-    pool.weights = stream(ComponentType::f32, std::as_bytes(std::span(random.weights.memory).subspan(1)));
-    return pool;
+    Mesh mesh;
+    mesh.vertices = static_cast<std::uint32_t>(random.block.vertices);
+    mesh.bones = stream(ComponentType::u8, std::as_bytes(std::span(random.bones8)));
+    mesh.weights = stream(ComponentType::f32, std::as_bytes(std::span(random.weights.memory).subspan(1)));
+    return mesh;
 }
 
 TEST(SkinKernels, SharedBonesGiveTheSame) {
@@ -108,7 +108,7 @@ TEST(SkinKernels, SharedBonesGiveTheSame) {
                         random.bones8[at] = static_cast<std::uint8_t>(random.bones8[at] % (group % 3 == 0 ? 6 : 1));
                     random.bones16[at] = random.bones8[at];
                 }
-                const SkinPlan plan = make_skin_plan(as_pool(random));
+                const SkinPlan plan = make_skin_plan(as_mesh(random));
                 ASSERT_EQ(plan.first.size(), (vertices + 7) / 8 + 1);
                 ASSERT_EQ(plan.bones.size(), plan.weights.size());
                 EXPECT_EQ(plan.first.back(), plan.bones.size());
@@ -133,7 +133,7 @@ TEST(SkinPlan, ListsWhatAGroupFollows) {
             random.bones8[2 * v + k] = static_cast<std::uint8_t>(v < 8 ? 3 + k : v < 16 ? 2 * v + k : 7);
         }
     }
-    const SkinPlan plan = make_skin_plan(as_pool(random));
+    const SkinPlan plan = make_skin_plan(as_mesh(random));
     EXPECT_EQ(plan.first, (std::vector<std::uint32_t>{0, 1, 1, 2}));  // bone 4 alone; sixteen; 7 twice
     EXPECT_EQ(plan.bones, (std::vector<std::uint16_t>{4, 7}));
     for (std::size_t lane = 0; lane < 8; ++lane) {
@@ -141,7 +141,7 @@ TEST(SkinPlan, ListsWhatAGroupFollows) {
         EXPECT_EQ(plan.weights[1].of[lane], lane < 3 ? 1.0f : 0.0f);
     }
     EXPECT_FALSE(plan.is_complete);
-    EXPECT_TRUE(make_skin_plan(Pool{}).first.empty());
+    EXPECT_TRUE(make_skin_plan(Mesh{}).first.empty());
 }
 
 TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
@@ -209,30 +209,30 @@ test::Node boxed_leaf(FourCC id, const std::vector<T>& numbers, const std::vecto
     return test::make_leaf(id, payload);
 }
 
-/// Makes a pool's streams narrow: boxed positions and weights, directions on the octahedron.
-void narrow(test::PoolSpec& pool) {
+/// Makes a mesh's streams narrow: boxed positions and weights, directions on the octahedron.
+void narrow(test::MeshSpec& mesh) {
     std::vector<std::uint16_t> positions;
     std::vector<std::int8_t> normals;
     std::vector<std::int16_t> tangents;
-    for (std::size_t v = 0; v < pool.positions.size(); ++v) {
-        for (int c = 0; c < 3; ++c) positions.push_back(static_cast<std::uint16_t>((pool.positions[v][c] + 1) * 20000));
-        for (int c = 0; c < 2; ++c) normals.push_back(static_cast<std::int8_t>(pool.normals[v][c] * 100));
-        for (int c = 0; c < 2; ++c) tangents.push_back(static_cast<std::int16_t>(pool.tangents[v][c] * 30000));
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        for (int c = 0; c < 3; ++c) positions.push_back(static_cast<std::uint16_t>((mesh.positions[v][c] + 1) * 20000));
+        for (int c = 0; c < 2; ++c) normals.push_back(static_cast<std::int8_t>(mesh.normals[v][c] * 100));
+        for (int c = 0; c < 2; ++c) tangents.push_back(static_cast<std::int16_t>(mesh.tangents[v][c] * 30000));
         tangents.push_back(v % 2 == 0 ? 32767 : -32767);
     }
     const std::vector<std::uint8_t> weights = [&] {
         std::vector<std::uint8_t> four;
-        for (std::size_t v = 0; v < pool.positions.size(); ++v) four.insert(four.end(), {0, 64, 128, 64});
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) four.insert(four.end(), {0, 64, 128, 64});
         return four;
     }();
-    std::erase_if(pool.more, [](const test::Node& node) { return node.id == FourCC("WGHT"); });
-    pool.more.push_back(boxed_leaf<std::uint16_t>(FourCC("POSI"), positions, {{-1, 5e-5f}, {-1, 5e-5f}, {-1, 5e-5f}}));
-    pool.more.push_back(test::make_leaf(FourCC("NORM"), test::stream_payload<std::int8_t>(2, normals, true)));
-    pool.more.push_back(test::make_leaf(FourCC("TANG"), test::stream_payload<std::int16_t>(3, tangents, true)));
-    pool.more.push_back(boxed_leaf<std::uint8_t>(
+    std::erase_if(mesh.more, [](const test::Node& node) { return node.id == FourCC("WGHT"); });
+    mesh.more.push_back(boxed_leaf<std::uint16_t>(FourCC("POSI"), positions, {{-1, 5e-5f}, {-1, 5e-5f}, {-1, 5e-5f}}));
+    mesh.more.push_back(test::make_leaf(FourCC("NORM"), test::stream_payload<std::int8_t>(2, normals, true)));
+    mesh.more.push_back(test::make_leaf(FourCC("TANG"), test::stream_payload<std::int16_t>(3, tangents, true)));
+    mesh.more.push_back(boxed_leaf<std::uint8_t>(
         FourCC("WGHT"), weights, {{0.0f, 0.1f}, {0.0f, 1 / 256.0f}, {0.0f, 1 / 256.0f}, {0.0f, 1 / 256.0f}}));
-    pool.normals.clear();
-    pool.tangents.clear();
+    mesh.normals.clear();
+    mesh.tangents.clear();
 }
 
 /// 300 vertices of four bones, in a form of each stream; with targets, dense and sparse.
@@ -254,16 +254,16 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
         bind.push_back(glm::mat4(1.0f));
         bind.back()[3] = glm::vec4(vector(), 1.0f);
     }
-    spec.pools.resize(1);
-    test::PoolSpec& pool = spec.pools[0];
+    spec.meshes.resize(1);
+    test::MeshSpec& mesh = spec.meshes[0];
     std::vector<Bone> bones;
     std::vector<Weight> weights;
     std::vector<float> shifts;
     std::vector<std::uint32_t> touched;
     for (std::uint32_t v = 0; v < 300; ++v) {
-        pool.positions.push_back(vector());
-        pool.normals.push_back(glm::normalize(vector()));
-        pool.tangents.push_back(glm::vec4(glm::normalize(vector()), 1.0f));
+        mesh.positions.push_back(vector());
+        mesh.normals.push_back(glm::normalize(vector()));
+        mesh.tangents.push_back(glm::vec4(glm::normalize(vector()), 1.0f));
         for (int k = 0; k < 4; ++k) {
             bones.push_back(static_cast<Bone>(random() % 20));
             constexpr float kOne = std::is_same_v<Weight, float> ? 1.0f : std::numeric_limits<Weight>::max();
@@ -272,10 +272,10 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
         if (v % 7 == 3) touched.push_back(v);
     }
     for (std::uint32_t k = 0; k < 900; ++k) shifts.push_back(number(random));
-    pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(4, bones)),
+    mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(4, bones)),
                  weights_leaf<Weight>(4, weights), test::palette_leaf(joints, bind)};
     if (has_targets) {
-        TargetRecord rest;
+        MorphTargetRecord rest;
         rest.rest_weight = 0.5f;
         test::Node dense = test::make_container(FourCC("TARG"));
         dense.children = {test::make_leaf(FourCC("TINF"), bytes_of(rest)),
@@ -287,10 +287,10 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
                            test::make_leaf(FourCC("INDX"), test::stream_payload<std::uint32_t>(1, touched)),
                            test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, shifts)),
                            test::make_leaf(FourCC("TANG"), test::stream_payload<float>(3, shifts))};
-        pool.more.push_back(dense);
-        pool.more.push_back(sparse);
+        mesh.more.push_back(dense);
+        mesh.more.push_back(sparse);
     }
-    if (is_narrow) narrow(pool);
+    if (is_narrow) narrow(mesh);
     return test::build_file(spec);
 }
 
@@ -298,23 +298,23 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
 void expect_as_defined(const Buffer& file) {
     const test::Owned model{Buffer(file)};
     Pose pose(*model);
-    const Pool& pool = model->pools()[0];
-    std::vector<glm::vec3> base(pool.vertices), base_normals(pool.vertices);
-    std::vector<glm::vec4> base_tangents(pool.vertices);
-    ASSERT_TRUE(inbetween(pool, pose.target_weights(), {base, base_normals, base_tangents}));
+    const Mesh& mesh = model->meshes()[0];
+    std::vector<glm::vec3> base(mesh.vertices), base_normals(mesh.vertices);
+    std::vector<glm::vec4> base_tangents(mesh.vertices);
+    ASSERT_TRUE(apply_morph_targets(mesh, pose.morph_weights(), {base, base_normals, base_tangents}));
     const Kernel before = kernel();
     for (const Kernel each : kernels()) {
         ASSERT_TRUE(set_kernel(each));
-        std::vector<glm::vec3> positions(pool.vertices), normals(pool.vertices);
-        std::vector<glm::vec4> tangents(pool.vertices);
+        std::vector<glm::vec3> positions(mesh.vertices), normals(mesh.vertices);
+        std::vector<glm::vec4> tangents(mesh.vertices);
         ASSERT_TRUE(skin(pose, {.out = {positions, normals, tangents}}));
-        for (std::uint32_t v = 0; v < pool.vertices; ++v) {
+        for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
             glm::dmat4 matrix(0.0);
             for (std::uint32_t k = 0; k < 4; ++k) {
-                const std::uint32_t bone = pool.bones->index(v, k);
+                const std::uint32_t bone = mesh.bones->index(v, k);
                 matrix +=
-                    double{pool.weights->number(v, k)} * (glm::dmat4(pose.model_space()[pool.palette.joints[bone]]) *
-                                                          glm::dmat4(pool.palette.inverse_bind()[bone]));
+                    double{mesh.weights->number(v, k)} * (glm::dmat4(pose.model_space()[mesh.palette.joints[bone]]) *
+                                                          glm::dmat4(mesh.palette.inverse_bind()[bone]));
             }
             const glm::dvec4 expected = matrix * glm::dvec4(base[v], 1.0);
             const glm::dmat3 cofactors = glm::determinant(matrix) * glm::transpose(glm::inverse(glm::dmat3(matrix)));

@@ -27,9 +27,9 @@ constexpr glm::vec3 kUntouched(-77.0f);
 struct Posed {
     explicit Posed(std::size_t vertices)
         : positions(vertices, kUntouched), normals(vertices, kUntouched), tangents(vertices, glm::vec4(-77.0f)) {}
-    /// The pool in this pose.
-    Posed(const Model& model, std::uint32_t pool, Pose& pose) : Posed(model.pools()[pool].vertices) {
-        EXPECT_TRUE(skin(pose, {.mesh = pool, .out = all()}));
+    /// The mesh in this pose.
+    Posed(const Model& model, std::uint32_t mesh, Pose& pose) : Posed(model.meshes()[mesh].vertices) {
+        EXPECT_TRUE(skin(pose, {.mesh = mesh, .out = all()}));
     }
 
     [[nodiscard]] Vertices all() { return {positions, normals, tangents}; }
@@ -42,17 +42,17 @@ void expect_near(const glm::vec3& vector, const glm::dvec3& expected, double tol
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(vector[c], expected[c], tolerance) << "component " << c;
 }
 
-/// A skinned pool: each vertex has `influences` bones out of `palette`.
+/// A skinned mesh: each vertex has `influences` bones out of `palette`.
 template <class Bone, class Weight>
-test::PoolSpec skinned(const std::vector<glm::vec3>& positions, std::uint16_t influences,
+test::MeshSpec skinned(const std::vector<glm::vec3>& positions, std::uint16_t influences,
                        const std::vector<Bone>& bones, const std::vector<Weight>& weights, const test::Node& palette) {
-    test::PoolSpec pool;
-    pool.positions = positions;
-    pool.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(influences, bones)),
+    test::MeshSpec mesh;
+    mesh.positions = positions;
+    mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(influences, bones)),
                  test::make_leaf(FourCC("WGHT"),
                                  test::stream_payload<Weight>(influences, weights, !std::is_same_v<Weight, float>)),
                  palette};
-    return pool;
+    return mesh;
 }
 
 // --- by hand
@@ -62,8 +62,8 @@ TEST(Skin, AVertexFollowsItsBonesByTheirWeights) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].parent = 0;
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.25f, 0.75f},
-                                               test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
+    spec.meshes = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.25f, 0.75f},
+                                                test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     EXPECT_EQ(Posed(*model, 0, pose).positions[0], glm::vec3(1, 2, 3));
@@ -80,8 +80,8 @@ TEST(Skin, PaletteEntriesNameJointsAndBringTheirInverseBind) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1] = {0, test::moved(0, 5, 0), {}, ""};
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}, {1, 2, 3}}, 1, {0, 1}, {1, 1},
-                                               test::palette_leaf({1, 0}, {down, twice}))};
+    spec.meshes = {skinned<std::uint8_t, float>({{1, 2, 3}, {1, 2, 3}}, 1, {0, 1}, {1, 1},
+                                                test::palette_leaf({1, 0}, {down, twice}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const Posed posed(*model, 0, pose);
@@ -103,7 +103,7 @@ TEST(Skin, TheSamplesVerticesByHand) {
     EXPECT_EQ(posed.tangents[2], glm::vec4(1, 0, 0, -1));
 
     ASSERT_TRUE(
-        sample(pose, model->cycle("run"), 1.0f));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
+        sample(pose, model->clip("run"), 1.0f));  // hip to (3, 3, 3), spine turned half round z, weights 1 and 1/4
     const Posed ran(*model, 0, pose);
     expect_near(ran.positions[0], {3, 3, 4});
     // Vertex 1 at (1 + 9/4, 0, 2): joint 0 takes it to (6.25, 3, 5), joint 1 to (3 - 3.25, 3.5 + 1, 5).
@@ -128,7 +128,7 @@ TEST(Skin, LargeTranslationsCancel) {
     spec.joints.resize(2);
     spec.joints[0].rest = test::turned(40, 1);
     spec.joints[1] = {0, test::moved(kFar, kFar, kFar), {}, ""};
-    spec.pools = {
+    spec.meshes = {
         skinned<std::uint8_t, float>({{0.125f, 0.001f, -0.3f}}, 1, {0}, {1}, test::palette_leaf({1}, {back}))};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
@@ -139,18 +139,18 @@ TEST(Skin, LargeTranslationsCancel) {
                 1e-6);
 }
 
-TEST(Skin, PoolsOfOnePaletteAndOfOthersEachFollowTheirOwn) {
+TEST(Skin, MeshesOfOnePaletteAndOfOthersEachFollowTheirOwn) {
     glm::mat4 back(1.0f);
     back[3] = {-1, 0, 0, 1};
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[0].rest = test::moved(1, 0, 0);
     spec.joints[1] = {0, test::moved(0, 5, 0), {}, ""};
-    const auto pool = [&](std::uint32_t joint, const glm::mat4& bind) {
+    const auto mesh = [&](std::uint32_t joint, const glm::mat4& bind) {
         return skinned<std::uint8_t, float>({{1, 2, 3}}, 1, {0}, {1}, test::palette_leaf({joint}, {bind}));
     };
     const glm::mat4 none(1.0f);
-    spec.pools = {pool(0, none), pool(0, none), pool(1, none), pool(1, back), pool(1, back), pool(0, none)};
+    spec.meshes = {mesh(0, none), mesh(0, none), mesh(1, none), mesh(1, back), mesh(1, back), mesh(0, none)};
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const std::vector<glm::vec3> expected{{2, 2, 3}, {2, 2, 3}, {2, 7, 3}, {1, 7, 3}, {1, 7, 3}, {2, 2, 3}};
@@ -163,7 +163,7 @@ TEST(Skin, PoolsOfOnePaletteAndOfOthersEachFollowTheirOwn) {
 
 // --- against the plain formula
 
-/// Random numbers for a pool with many influences.
+/// Random numbers for a mesh with many influences.
 class ManyInfluences {
 public:
     static constexpr std::uint32_t kVertices = 40;
@@ -216,7 +216,7 @@ public:
 
     float number() { return std::uniform_real_distribution<float>(-1.0f, 1.0f)(random_); }
 
-    /// Poses the pool and holds every vertex against sum(w_i J_i B_i v).
+    /// Poses the mesh and holds every vertex against sum(w_i J_i B_i v).
     void check(const std::vector<double>& weights) const {
         const Owned model(test::build_file(spec));
         Pose pose(*model);
@@ -243,11 +243,11 @@ public:
     }
 
     template <class Bone, class Weight>
-    void add_pool(const std::vector<Weight>& weights) {
-        spec.pools = {skinned<Bone, Weight>(positions, kInfluences, std::vector<Bone>(bones.begin(), bones.end()),
-                                            weights, test::palette_leaf(joints, inverse_bind))};
-        spec.pools[0].normals = normals;
-        spec.pools[0].tangents = tangents;
+    void add_mesh(const std::vector<Weight>& weights) {
+        spec.meshes = {skinned<Bone, Weight>(positions, kInfluences, std::vector<Bone>(bones.begin(), bones.end()),
+                                             weights, test::palette_leaf(joints, inverse_bind))};
+        spec.meshes[0].normals = normals;
+        spec.meshes[0].tangents = tangents;
     }
 
     test::ModelSpec spec;
@@ -265,8 +265,8 @@ private:
 template <class Bone, class Weight>
 void check_types(std::uint32_t steps) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        ManyInfluences pool(seed);
-        const auto weights = pool.integer_weights<std::uint16_t>(steps);
+        ManyInfluences mesh(seed);
+        const auto weights = mesh.integer_weights<std::uint16_t>(steps);
         std::vector<double> exact;
         std::vector<Weight> stored;
         for (const std::uint16_t weight : weights) {
@@ -274,8 +274,8 @@ void check_types(std::uint32_t steps) {
             stored.push_back(std::is_same_v<Weight, float> ? static_cast<Weight>(exact.back())
                                                            : static_cast<Weight>(weight));
         }
-        pool.add_pool<Bone, Weight>(stored);
-        pool.check(exact);
+        mesh.add_mesh<Bone, Weight>(stored);
+        mesh.check(exact);
     }
 }
 
@@ -302,7 +302,7 @@ TEST(Skin, MoreInfluencesThanAnyoneNeeds) {
         spec.joints.push_back({kNone, test::moved(joint, 0, 0), {}, ""});
         joints[joint] = bones[joint] = joint;
     }
-    spec.pools = {
+    spec.meshes = {
         skinned<std::uint16_t, float>({{0, 1, 0}}, kBones, bones, std::vector<float>(kBones, 1.0f / kBones),
                                       test::palette_leaf(joints, std::vector<glm::mat4>(kBones, glm::mat4(1.0f))))};
     const Owned model(test::build_file(spec));
@@ -312,16 +312,16 @@ TEST(Skin, MoreInfluencesThanAnyoneNeeds) {
 
 // --- normals, tangents, mirrors, degenerate matrices
 
-/// A rigid pool of one vertex on a joint.
+/// A rigid mesh of one vertex on a joint.
 test::ModelSpec one_vertex(const RestRecord& rest, const glm::vec3& normal, const glm::vec4& tangent) {
     test::ModelSpec spec;
     spec.joints.resize(1);
     spec.joints[0].rest = rest;
-    spec.pools.resize(1);
-    spec.pools[0].joint = 0;
-    spec.pools[0].positions = {{1, 1, 1}};
-    spec.pools[0].normals = {normal};
-    spec.pools[0].tangents = {tangent};
+    spec.meshes.resize(1);
+    spec.meshes[0].joint = 0;
+    spec.meshes[0].positions = {{1, 1, 1}};
+    spec.meshes[0].normals = {normal};
+    spec.meshes[0].tangents = {tangent};
     return spec;
 }
 
@@ -419,24 +419,24 @@ TEST(Skin, WeightsThatCancelGiveNoNan) {
     test::ModelSpec spec;
     spec.joints.resize(2);
     spec.joints[1].rest = test::scaled(-1, -1, -1);
-    spec.pools = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.5f, 0.5f},
-                                               test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
-    spec.pools[0].normals = {{0, 0, 1}};
-    spec.pools[0].tangents = {{1, 0, 0, 1}};
+    spec.meshes = {skinned<std::uint8_t, float>({{1, 2, 3}}, 2, {0, 1}, {0.5f, 0.5f},
+                                                test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}))};
+    spec.meshes[0].normals = {{0, 0, 1}};
+    spec.meshes[0].tangents = {{1, 0, 0, 1}};
     const Posed posed = pose_of(spec);
     EXPECT_EQ(posed.positions[0], glm::vec3(0.0f));
     EXPECT_EQ(posed.normals[0], glm::vec3(0.0f));
     EXPECT_EQ(glm::vec3(posed.tangents[0]), glm::vec3(0.0f));
 }
 
-// --- inbetweening
+// --- morph targets
 
-TEST(Skin, InbetweensBeforeItSkins) {
+TEST(Skin, AppliesMorphTargetsBeforeItSkins) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     pose.change_local()[0].rotation = glm::quat(0, 0, 0, 1);  // half round z: x and y change signs
-    pose.change_target_weights()[0] = 0.0f;
-    pose.change_target_weights()[1] = 1.0f;
+    pose.change_morph_weights()[0] = 0.0f;
+    pose.change_morph_weights()[1] = 1.0f;
     const Posed posed(*model, 0, pose);
     expect_near(posed.positions[3], {-1, 1 - 0.5 + 1 - 10, 0});  // (1, 10, 0), wholly on joint 1
     EXPECT_EQ(posed.positions[0], glm::vec3(0, 1, 0));
@@ -444,36 +444,36 @@ TEST(Skin, InbetweensBeforeItSkins) {
     EXPECT_EQ(posed.tangents[3].w, -1.0f);
 }
 
-// --- rigid pools
+// --- rigid meshes
 
-TEST(Skin, ARigidPoolMovesWithItsJoint) {
+TEST(Skin, ARigidMeshMovesWithItsJoint) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     const Posed posed(*model, 1, pose);
     EXPECT_EQ(posed.positions[1], glm::vec3(1, 1.75f, 0));  // joint 2
     EXPECT_EQ(posed.positions[5], glm::vec3(2, 3.5f, 2));   // a point that joint 1 moves
-    EXPECT_EQ(posed.normals[0], glm::vec3(0.0f));           // the pool has none
+    EXPECT_EQ(posed.normals[0], glm::vec3(0.0f));           // the mesh has none
 }
 
-/// Three joints at x = 1, 2 and 3; a rigid pool of joint 0 with vertices of all, and one that no polygon uses.
+/// Three joints at x = 1, 2 and 3; a rigid mesh of joint 0 with vertices of all, and one that no polygon uses.
 test::ModelSpec parts() {
     test::ModelSpec spec;
     spec.joints = {
-        {kNone, test::moved(1, 0, 0), {test::polygons(0, 0, 1, kNone, Topology::points)}, ""},
-        {kNone, test::moved(2, 0, 0), {test::polygons(0, 1, 2, kNone, Topology::points)}, ""},
-        {kNone, test::moved(3, 0, 0), {test::polygons(0, 3, 0), test::polygons(0, 3, 2, kNone, Topology::lines)}, ""}};
-    spec.pools.resize(1);
-    spec.pools[0].joint = 0;
-    spec.pools[0].positions.resize(6);
-    spec.pools[0].indices = {5, 1, 1, 4, 0};
+        {kNone, test::moved(1, 0, 0), {test::submesh(0, 0, 1, kNone, Topology::points)}, ""},
+        {kNone, test::moved(2, 0, 0), {test::submesh(0, 1, 2, kNone, Topology::points)}, ""},
+        {kNone, test::moved(3, 0, 0), {test::submesh(0, 3, 0), test::submesh(0, 3, 2, kNone, Topology::lines)}, ""}};
+    spec.meshes.resize(1);
+    spec.meshes[0].joint = 0;
+    spec.meshes[0].positions.resize(6);
+    spec.meshes[0].indices = {5, 1, 1, 4, 0};
     return spec;
 }
 
-TEST(Skin, TheVerticesOfARigidPoolMoveWithTheJointsOfTheirPolygons) {
+TEST(Skin, TheVerticesOfARigidMeshMoveWithTheJointsOfTheirPolygons) {
     const Owned model(test::build_file(parts()));
     Pose pose(*model);
     const Posed posed(*model, 0, pose);
-    const std::vector<float> expected{3, 2, 1, 1, 3, 1};  // 2 and 3 are unused: the pool's own joint
+    const std::vector<float> expected{3, 2, 1, 1, 3, 1};  // 2 and 3 are unused: the mesh's own joint
     for (std::uint32_t vertex = 0; vertex < 6; ++vertex) {
         EXPECT_EQ(posed.positions[vertex], glm::vec3(expected[vertex], 0, 0)) << vertex;
         EXPECT_EQ(static_cast<float>(model->rigid_mover(0, vertex)) + 1.0f, expected[vertex]) << vertex;
@@ -482,9 +482,9 @@ TEST(Skin, TheVerticesOfARigidPoolMoveWithTheJointsOfTheirPolygons) {
 
 TEST(Skin, VerticesThatNothingMovesStay) {
     test::ModelSpec spec = parts();
-    spec.pools[0].joint = kNone;
-    spec.pools[0].positions.assign(6, {0, 5, 0});
-    spec.pools[0].normals.assign(6, {0, 1, 0});
+    spec.meshes[0].joint = kNone;
+    spec.meshes[0].positions.assign(6, {0, 5, 0});
+    spec.meshes[0].normals.assign(6, {0, 1, 0});
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     const Posed posed(*model, 0, pose);
@@ -494,25 +494,25 @@ TEST(Skin, VerticesThatNothingMovesStay) {
     EXPECT_EQ(posed.positions[5], glm::vec3(1, 5, 0));
 
     test::ModelSpec loose;  // no joint at all
-    loose.pools.resize(1);
-    loose.pools[0].positions = {{1, 2, 3}};
+    loose.meshes.resize(1);
+    loose.meshes[0].positions = {{1, 2, 3}};
     EXPECT_EQ(pose_of(loose).positions[0], glm::vec3(1, 2, 3));
 }
 
 // --- the caller's memory
 
-TEST(Skin, AllPoolsStandOneAfterAnother) {
+TEST(Skin, AllMeshesStandOneAfterAnother) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, model->cycle("run"), 0.7f));
+    ASSERT_TRUE(sample(pose, model->clip("run"), 0.7f));
     Posed all(model->vertex_count());
     ASSERT_TRUE(skin(pose, {.out = all.all()}));
-    for (std::uint32_t pool = 0; pool < model->pools().size(); ++pool) {
-        const Posed one(*model, pool, pose);
+    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) {
+        const Posed one(*model, mesh, pose);
         for (std::size_t v = 0; v < one.positions.size(); ++v) {
-            EXPECT_EQ(all.positions[model->first_vertex(pool) + v], one.positions[v]);
-            EXPECT_EQ(all.normals[model->first_vertex(pool) + v], one.normals[v]);
-            EXPECT_EQ(all.tangents[model->first_vertex(pool) + v], one.tangents[v]);
+            EXPECT_EQ(all.positions[model->first_vertex(mesh) + v], one.positions[v]);
+            EXPECT_EQ(all.normals[model->first_vertex(mesh) + v], one.normals[v]);
+            EXPECT_EQ(all.tangents[model->first_vertex(mesh) + v], one.tangents[v]);
         }
     }
 }
@@ -543,11 +543,11 @@ TEST(Skin, SpansThatAreTooShortAreRefusedAndNothingIsWritten) {
     EXPECT_FALSE(skin(pose, {.out = {cut(out.positions, one_less), out.normals, out.tangents}}));
     EXPECT_FALSE(skin(pose, {.out = {out.positions, cut(out.normals, one_less), out.tangents}}));
     EXPECT_FALSE(skin(pose, {.out = {out.positions, out.normals, cut(out.tangents, one_less)}}));
-    for (std::uint32_t pool = 0; pool < 2; ++pool) {
-        const std::size_t few = model->pools()[pool].vertices - 1;
-        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {cut(out.positions, few), out.normals, out.tangents}}));
-        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {out.positions, cut(out.normals, few), out.tangents}}));
-        EXPECT_FALSE(skin(pose, {.mesh = pool, .out = {out.positions, out.normals, cut(out.tangents, few)}}));
+    for (std::uint32_t mesh = 0; mesh < 2; ++mesh) {
+        const std::size_t few = model->meshes()[mesh].vertices - 1;
+        EXPECT_FALSE(skin(pose, {.mesh = mesh, .out = {cut(out.positions, few), out.normals, out.tangents}}));
+        EXPECT_FALSE(skin(pose, {.mesh = mesh, .out = {out.positions, cut(out.normals, few), out.tangents}}));
+        EXPECT_FALSE(skin(pose, {.mesh = mesh, .out = {out.positions, out.normals, cut(out.tangents, few)}}));
     }
     EXPECT_EQ(out.positions, std::vector<glm::vec3>(model->vertex_count(), kUntouched));
     EXPECT_EQ(out.normals, std::vector<glm::vec3>(model->vertex_count(), kUntouched));
@@ -571,9 +571,9 @@ TEST(Skin, ADeepChainSkins) {
         constexpr std::uint32_t kDeep = 10'000;
         for (std::uint32_t joint = 0; joint < kDeep; ++joint)
             spec.joints.push_back({joint == 0 ? kNone : joint - 1, test::moved(0, 0.5f, 0), {}, ""});
-        spec.pools.resize(1);
-        spec.pools[0].joint = kDeep - 1;
-        spec.pools[0].positions = {{1, 0, 0}};
+        spec.meshes.resize(1);
+        spec.meshes[0].joint = kDeep - 1;
+        spec.meshes[0].positions = {{1, 0, 0}};
         return test::build_file(spec);
     }());
     Pose pose(*model);

@@ -172,14 +172,14 @@ TEST(Unpack, ConstantsAreInThePlan) {
         EXPECT_LT(difference(played(kernel, view, 0.7f), played(unpack_plain, view, 0.7f)), 1e-7) << kernel.name;
 }
 
-TEST(Unpack, SamplePlaysCyclesOfItsModelAndOfAnother) {
+TEST(Unpack, SamplePlaysClipsOfItsModelAndOfAnother) {
     const Owned model(build_file(packed_spec(30, 50, 16)));
     const Owned other(build_file(packed_spec(30, 50, 16)));
     Pose pose(*model);
     for (float seconds = 0.4f; seconds < 2.7f; seconds += 0.0631f) {
-        ASSERT_TRUE(sample(pose, model->cycle("packed"), seconds));
+        ASSERT_TRUE(sample(pose, model->clip("packed"), seconds));
         const std::vector<JointTransform> own(pose.local().begin(), pose.local().end());
-        ASSERT_TRUE(sample(pose, other->cycle("packed"), seconds));
+        ASSERT_TRUE(sample(pose, other->clip("packed"), seconds));
         const std::vector<JointTransform> of_other(pose.local().begin(), pose.local().end());
         EXPECT_LT(difference(own, of_other), 2e-6);
     }

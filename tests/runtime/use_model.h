@@ -33,29 +33,29 @@ inline std::uint64_t read_all(const Model& model) {
         EXPECT_LE(chain.start, chain.effector);
         EXPECT_LE(chain.links, model.longest_chain());
     }
-    for (const Draw& draw : model.draws()) {
-        const Pool& pool = model.pools()[draw.pool];
-        EXPECT_TRUE(draw.material == kNone || draw.material < model.materials().size());
-        for (std::uint32_t k = 0; k < draw.count; ++k) {
-            const std::uint32_t vertex = pool.indices->index(draw.first + k, 0);
-            EXPECT_LT(vertex, pool.vertices);
+    for (const Submesh& submesh : model.submeshes()) {
+        const Mesh& mesh = model.meshes()[submesh.mesh];
+        EXPECT_TRUE(submesh.material == kNone || submesh.material < model.materials().size());
+        for (std::uint32_t k = 0; k < submesh.count; ++k) {
+            const std::uint32_t vertex = mesh.indices->index(submesh.first + k, 0);
+            EXPECT_LT(vertex, mesh.vertices);
             sum += vertex;
         }
     }
-    for (const PolygonView& polygons : model.polygons()) EXPECT_LT(polygons.joint, model.joints().size());
-    for (const Pool& pool : model.pools()) {
-        sum += touch(pool.name) + touch(pool.extras);
-        for (const auto& streams : {pool.texture_coords, pool.colours}) {
+    for (const SubmeshView& submesh : model.joint_submeshes()) EXPECT_LT(submesh.joint, model.joints().size());
+    for (const Mesh& mesh : model.meshes()) {
+        sum += touch(mesh.name) + touch(mesh.extras);
+        for (const auto& streams : {mesh.texture_coords, mesh.colours}) {
             for (const StreamView& stream : streams) {
-                for (std::uint32_t e = 0; e < pool.vertices; ++e)
+                for (std::uint32_t e = 0; e < mesh.vertices; ++e)
                     sum += stream.number(e, stream.components - 1) > 0.5f ? 1 : 0;
             }
         }
-        for (const AttributeView& attribute : pool.attributes) {
+        for (const AttributeView& attribute : mesh.attributes) {
             sum += touch(attribute.name);
-            for (std::uint32_t e = 0; e < pool.vertices; ++e) sum += attribute.values.number(e, 0) > 0.5f ? 1 : 0;
+            for (std::uint32_t e = 0; e < mesh.vertices; ++e) sum += attribute.values.number(e, 0) > 0.5f ? 1 : 0;
         }
-        for (const TargetView& target : pool.targets) sum += touch(target.name);
+        for (const MorphTargetView& target : mesh.targets) sum += touch(target.name);
     }
     for (const Material& material : model.materials()) {
         sum += touch(material.name) + touch(material.extensions) + touch(material.extras);
@@ -99,14 +99,14 @@ inline void play_all(const Model& model) {
     const auto last = static_cast<std::uint32_t>(model.joints().size()) - 1;
     const RootPath path(model, last);
     Crossfade fade;
-    for (const Cycle& cycle : model.cycles()) {
-        fade.play(cycle, 0.1f);
+    for (const Clip& clip : model.clips()) {
+        fade.play(clip, 0.1f);
         for (const double step : {0.0, 0.03, 0.4, -7.0, 1e30}) {
             fade.advance(step);
-            static_cast<void>(path.over(cycle, fade.playing().back().walk));
+            static_cast<void>(path.over(clip, fade.playing().back().played));
             (void)sample(pose, fade, scratch);
-            path.take_out(pose);
-            (void)sample(scratch, binding, &cycle, static_cast<float>(step));
+            path.extract(pose);
+            (void)sample(scratch, binding, &clip, static_cast<float>(step));
             EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {positions, normals, tangents}}));
             static_cast<void>(bounds.of(pose));
             if (!model.joints().empty()) (void)socket_matrix(pose, {last});
@@ -116,7 +116,7 @@ inline void play_all(const Model& model) {
     EXPECT_EQ(binding.joints().size(), model.joints().size());
 }
 
-/// Poses and skins the model at every cycle's ends, in its middle, and at times that make no sense.
+/// Poses and skins the model at every clip's ends, in its middle, and at times that make no sense.
 inline void pose_all(const Model& model) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Pose pose(model);
@@ -128,11 +128,11 @@ inline void pose_all(const Model& model) {
     constrain(pose);
     reach_with_all(model, pose);
     EXPECT_TRUE(skin(pose, {.out = vertices}));
-    for (const Cycle& cycle : model.cycles()) {
-        const float middle = cycle.start + 0.4f * (cycle.end - cycle.start);
-        for (const float seconds : {cycle.start, middle, cycle.end, -1.0f, 1e30f, kInfinity, -kInfinity,
+    for (const Clip& clip : model.clips()) {
+        const float middle = clip.start + 0.4f * (clip.end - clip.start);
+        for (const float seconds : {clip.start, middle, clip.end, -1.0f, 1e30f, kInfinity, -kInfinity,
                                     std::numeric_limits<float>::quiet_NaN()}) {
-            (void)sample(pose, &cycle, seconds);
+            (void)sample(pose, &clip, seconds);
             EXPECT_TRUE(skin(pose, {.out = vertices}));
         }
     }

@@ -59,7 +59,7 @@ function check_order(limit, add) {
     return good && ![...limit.rotationMin, ...limit.rotationMax, ...limit.translationMin, ...limit.translationMax].some(Number.isNaN);
 }
 
-function check_limit(file, chunk, limit) {
+function check_constraint(file, chunk, limit) {
     const ranges = [...limit.rotationMin, ...limit.rotationMax, ...limit.translationMin, ...limit.translationMax];
     let good = true;
     const add = (code) => {
@@ -88,21 +88,21 @@ function check_limit(file, chunk, limit) {
     if (good && (limit.flags & 4) === 0 && !rest_is_legal(limit)) add('REST_OUTSIDE');
 }
 
-function check_limits(file, pivot) {
+function check_constraints_of(file, pivot) {
     const scopes = new Set();
     for (const chunk of file.children(pivot, 'LIMT')) {
-        const limit = file.record(chunk, 'LimitRecord', 96);
+        const limit = file.record(chunk, 'ConstraintRecord', 96);
         if (!limit) continue;
-        check_limit(file, chunk, limit);
-        if (scopes.has(limit.scope)) file.add('LIMIT_REPEATED', chunk);
+        check_constraint(file, chunk, limit);
+        if (scopes.has(limit.scope)) file.add('CONSTRAINT_REPEATED', chunk);
         scopes.add(limit.scope);
     }
 }
 
-function check_pulls(file, joint, pivot, chains) {
+function check_chain_weights(file, joint, pivot, chains) {
     const seen = new Set();
     for (const chunk of file.children(pivot, 'PULL')) {
-        const pull = file.record(chunk, 'PullRecord', 8);
+        const pull = file.record(chunk, 'ChainWeightRecord', 8);
         if (!pull) continue;
         if (!(pull.weight >= 0 && pull.weight <= 1)) file.add('FRACTION_RANGE', chunk);
         if (chains.includes(null)) continue;  // nothing is held against what cannot be read
@@ -110,10 +110,10 @@ function check_pulls(file, joint, pivot, chains) {
             file.add('CHAIN_RANGE', chunk);
             continue;
         }
-        if (seen.has(pull.chain)) file.add('PULL_REPEATED', chunk);
+        if (seen.has(pull.chain)) file.add('CHAIN_WEIGHT_REPEATED', chunk);
         seen.add(pull.chain);
         const links = chains[pull.chain];
-        if (!links.has(joint.number)) file.add('PULL_PATH', chunk);
+        if (!links.has(joint.number)) file.add('CHAIN_WEIGHT_PATH', chunk);
     }
 }
 
@@ -151,13 +151,13 @@ function check_chain(file, chain, joints) {
     return null;
 }
 
-/** Rest transforms and polygon ranges of JNTS, or null. */
+/** Rest transforms and submeshes of JNTS, or null. */
 function check_joint_table(file, object, joints) {
     const chunk = file.child(object, 'JNTS');
     const record = file.record(chunk, 'JointsRecord', 16);
     if (!record) return null;
     if (record.reserved.some((word) => word !== 0)) file.add('RESERVED_FIELD', chunk);
-    if (file.payload(chunk).length !== 16 + 52 * record.joints + 24 * record.polygons) {
+    if (file.payload(chunk).length !== 16 + 52 * record.joints + 24 * record.submeshes) {
         file.add('RECORD_SIZE', chunk);
         return null;
     }
@@ -200,8 +200,8 @@ export function check_rig(file, object) {
             if (!has_table && !file.has(pivot, 'REST')) file.add('CHUNK_MISSING', pivot);
             const rest = file.record(chunk, 'RestRecord', 40, 52);
             if (rest) check_rest(file, chunk, rest);
-            check_limits(file, pivot);
-            check_pulls(file, joint, pivot, chains);
+            check_constraints_of(file, pivot);
+            check_chain_weights(file, joint, pivot, chains);
         }
         for (const chunk of file.children(joint.chunk, 'MATE')) check_material(file, chunk);
     }

@@ -2,7 +2,7 @@
 
 import { MeshoptDecoder } from 'meshoptimizer';
 import { ZSTDDecoder } from 'zstddec';
-import { decode_cycle } from './cycle_codec.mjs';
+import { decode_clip } from './clip_codec.mjs';
 
 const kLargestRatio = 128;
 const zstd = new ZSTDDecoder();
@@ -132,7 +132,7 @@ const decoders = {
     3: (start, body) => decode_vertices(start, body, true),
     4: (start, body) => decode_indices(start, body, false),
     5: (start, body) => decode_indices(start, body, true),
-    6: (start, body) => decode_cycle(start, body, unzstd, refuse_unless),
+    6: (start, body) => decode_clip(start, body, unzstd, refuse_unless),
     7: decode_sums,
 };
 

@@ -9,7 +9,7 @@ import { isMainThread, Worker } from 'node:worker_threads';
 import { ready } from './codecs.mjs';
 import { convert_all, files_below, unpack_cases, write_mutated } from './collect_files.mjs';
 import { compare_fields, compare_grammar } from './compare_fields.mjs';
-import { compare_twin } from './compare_twin.mjs';
+import { compare_text_form } from './compare_text_form.mjs';
 import { compile_grammar, make_reader } from './kaitai_reader.mjs';
 import { read_file } from './read_file.mjs';
 import { keys_of, read_steps, root_faults } from './steps.mjs';
@@ -64,18 +64,18 @@ function validate(files) {
 /** Fields of conforming files; two programs at a time. */
 async function compare_all_fields(comparison, files, read) {
     const jobs = [...files];
-    const has_twin = /^ +dump /m.test(spawnSync(options.bendy, ['--help'], { encoding: 'utf8' }).stdout);
+    const has_text_form = /^ +dump /m.test(spawnSync(options.bendy, ['--help'], { encoding: 'utf8' }).stdout);
     const work = async () => {
         for (let file = jobs.shift(); file; file = jobs.shift()) {
             const { stdout } = await run(options.bendy, ['inspect', '--json', '--all', file], { maxBuffer: kLargestOutput });
-            const twin = has_twin && (await run(options.bendy, ['dump', '--decode', file], { maxBuffer: kLargestOutput }));
+            const text_form = has_text_form && (await run(options.bendy, ['dump', '--decode', file], { maxBuffer: kLargestOutput }));
             const bytes = new Uint8Array(fs.readFileSync(file));
             const ours = read_file(read, bytes);
             try {
                 compare_grammar(read, bytes, ours.chunks);
                 for (const line of compare_fields(JSON.parse(stdout), ours.file, ours.chunks, comparison.counts)) comparison.fail(file, line);
-                if (!twin) continue;
-                for (const line of compare_twin(JSON.parse(twin.stdout), ours.file, ours.chunks, comparison.counts)) comparison.fail(file, line);
+                if (!text_form) continue;
+                for (const line of compare_text_form(JSON.parse(text_form.stdout), ours.file, ours.chunks, comparison.counts)) comparison.fail(file, line);
             } catch (error) {
                 comparison.fail(file, error.stack);
             }

@@ -28,7 +28,7 @@ export function make_reader(Bendy) {
         payload: (id, bytes) => new Bendy.Payload(stream(bytes), null, null, id).body,
         /** The record alone that a type of the grammar names. */
         record: (type, bytes) => new Bendy[type](stream(bytes)),
-        /** Targets and joined bits of a pool; says how many bytes they take. */
+        /** Targets and joined bits of a mesh; says how many bytes they take. */
         collapses(bytes, count, target_type) {
             const io = stream(bytes);
             const value = new Bendy.Collapses(io, null, null, count, target_type);

@@ -2,9 +2,9 @@
 
 import { decode } from './codecs.mjs';
 import { sum_of, stored_payload } from './crc32c.mjs';
-import { check_cycle } from './check_cycles.mjs';
+import { check_clip } from './check_clips.mjs';
 import { check_bound, check_counts, check_material, check_texts, check_textures, check_version } from './check_file.mjs';
-import { check_collapse, check_polygons, check_pool, check_ranges } from './check_pools.mjs';
+import { check_collapse, check_submeshes, check_mesh, check_ranges } from './check_meshes.mjs';
 import { check_rig } from './check_rig.mjs';
 import { check_tree } from './tree_rules.mjs';
 import { path_of, walk } from './walk.mjs';
@@ -12,14 +12,14 @@ import { path_of, walk } from './walk.mjs';
 /** Codes of what is held against values alone, the last step of the checks. */
 const kValueCodes = new Set(['COUNT_MISMATCH', 'NOT_FINITE', 'WEIGHT_RANGE', 'WEIGHT_SUM', 'FRACTION_RANGE', 'BELOW_ZERO',
     'LIMIT_ORDER', 'LIMIT_RANGE', 'REST_OUTSIDE', 'KEY_ORDER', 'KEY_OVERLAP', 'TRACK_REPEATED', 'ROTATION_NOT_UNIT',
-    'CYCLE_LENGTH', 'MARKER_ORDER', 'MARKER_OUTSIDE', 'CURVE_ORDER',
+    'CLIP_LENGTH', 'MARKER_ORDER', 'MARKER_OUTSIDE', 'CURVE_ORDER',
     'CURVE_REPEATED', 'COLLAPSE_TARGET', 'COLLAPSE_LEVEL']);
 
 /** A file that is being checked: its chunks, its faults, and what has been counted. */
 class CheckedFile {
     constructor(read, bytes, chunks, faults) {
         Object.assign(this, { read, bytes, chunks, faults, head: chunks[0], derived_bytes: 0 });
-        this.counts = { objects: 0, joints: 0, pools: 0, vertices: 0, cycles: 0, materials: 0, textures: 0 };
+        this.counts = { objects: 0, joints: 0, meshes: 0, vertices: 0, clips: 0, materials: 0, textures: 0 };
         this.payloads = new Map();
         this.damaged_frames = []; // offsets of leaves
     }
@@ -77,15 +77,15 @@ class CheckedFile {
 
 function check_object(file, object) {
     const rig = check_rig(file, object);
-    const pools = file.children(object, 'VECT').map((pool) => check_pool(file, pool, rig.joints.length));
-    const ranges = check_polygons(file, rig, pools);
-    check_collapse(file, object, pools);
-    const cycles = file.children(object, 'CYCL');
-    for (const cycle of cycles) check_cycle(file, cycle, rig, pools);
-    if (!file.has_fault_before_values()) check_ranges(file, ranges, pools);
+    const meshes = file.children(object, 'VECT').map((mesh) => check_mesh(file, mesh, rig.joints.length));
+    const ranges = check_submeshes(file, rig, meshes);
+    check_collapse(file, object, meshes);
+    const clips = file.children(object, 'CYCL');
+    for (const clip of clips) check_clip(file, clip, rig, meshes);
+    if (!file.has_fault_before_values()) check_ranges(file, ranges, meshes);
     file.counts.objects += 1;
-    file.counts.pools += pools.length;
-    file.counts.cycles += cycles.length;
+    file.counts.meshes += meshes.length;
+    file.counts.clips += clips.length;
 }
 
 /** { faults: [{ code, path, offset }], file, chunks }; file is null if the walk ended early. */

@@ -24,7 +24,7 @@ IMAGE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAAD
 
 
 def rope(path, joints=4, rings=4, keys=4):
-    """A skinned tube of three-sided rings, and two cycles."""
+    """A skinned tube of three-sided rings, and two clips."""
     file = GltfFile(scenes=[{"nodes": [joints, 0]}])
     file.document["nodes"] = [
         {"name": f"bone{k}", "translation": [0, 0.5 if k else 0, 0], **({"children": [k + 1]} if k + 1 < joints else {})}

@@ -2,7 +2,7 @@
 """Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
 
 Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
-flags of chunk.h, the stream rules of pool.cpp) with the tables of spec/, in both directions, those of the grammar files
+flags of chunk.h, the stream rules of mesh.cpp) with the tables of spec/, in both directions, those of the grammar files
 bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks the scripts of spec/ whether their dumps and files are what they make now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
 """
@@ -109,14 +109,14 @@ def read_constants(check):
     pattern = r'inline constexpr [\w:]+ (k\w+) = ([^;]+);'
     limits = {name: value(text) for name, text in re.findall(pattern, check.code('limits.h'))}
     tolerances = {}
-    for header in ('pool.h', 'cycle.h', 'joint.h'):
+    for header in ('mesh.h', 'clip.h', 'joint.h'):
         tolerances.update({name: value(text) for name, text in re.findall(pattern, check.code(header)) if 'Tolerance' in name})
-    return check.understood(limits, 'limits.h'), check.understood(tolerances, 'the tolerances of pool.h and cycle.h')
+    return check.understood(limits, 'limits.h'), check.understood(tolerances, 'the tolerances of mesh.h and clip.h')
 
 
 def read_stream_rules(check):
     """(parent, chunk) -> forms: (types, fewest, most, numbers)"""
-    code = ' '.join(strip_comments((check.source / 'format' / 'src' / 'pool.cpp').read_text(encoding='utf-8')).split())
+    code = ' '.join(strip_comments((check.source / 'format' / 'src' / 'mesh.cpp').read_text(encoding='utf-8')).split())
     limits, _ = read_constants(check)
     rules = {}
     for rule, body in re.findall(r'constexpr StreamForm (k\w+)\[\] = \{\s*(\{.*?\})\s*\};', code):
@@ -124,7 +124,7 @@ def read_stream_rules(check):
         for types, fewest, most, numbers in re.findall(r'\{any_of\(([^)]*)\), (\w+), (\w+), (\w+)\}', body):
             width = [str(limits[n] if n in limits else int(n, 0)) for n in (fewest, most)]
             rules[rule].append((' '.join(types.split(', ')), *width, numbers))
-    check.understood(rules, 'the StreamForm constants of pool.cpp')
+    check.understood(rules, 'the StreamForm constants of mesh.cpp')
     uses = {}
     for container, chunk, rule in re.findall(r'find\((\w+), FourCC\("(\w{4})"\), forms::(k\w+)', code):
         parent = {'chunk': 'VECT', 'block': 'FRMS', 'number': 'USER' if chunk == 'VALS' else 'TARG'}[container]
@@ -133,7 +133,7 @@ def read_stream_rules(check):
         uses['VECT', chunk] = rules[rule]
     for rule in re.findall(r'stream\(index_chunk, forms::(k\w+)', code):
         uses['TARG', 'INDX'] = rules[rule]
-    check.understood(len(uses) >= 13, 'all uses of the StreamForm constants of pool.cpp')
+    check.understood(len(uses) >= 13, 'all uses of the StreamForm constants of mesh.cpp')
     return uses
 
 
@@ -319,7 +319,7 @@ def check_leaves(check, chunks, records):
             fields = {field for _, _, _, field in records[heads[leaf]]['fields']} if leaf in heads else set()
             words = set(re.findall(r'[a-z]\w*', count.replace('rest', '') + ' ' + when + ' ' + row))
             check.same('leaf_parts.def', 'fields that %s of %s needs' % (name or 'record', leaf), words - fields, set())
-            is_type = kind in records or kind in fields or kind in (*SIZES, 'i8', 'i16', 'i32', 'JointPolygons')
+            is_type = kind in records or kind in fields or kind in (*SIZES, 'i8', 'i16', 'i32', 'JointSubmesh')
             check.same('leaf_parts.def', 'type of %s of %s is known' % (name or 'record', leaf), is_type, True)
 
 
@@ -374,7 +374,7 @@ def check_codes(check):
             check.fail('spec', 'no page but diagnostics.md says when %s comes' % key)
 
 
-def check_limits(check):
+def check_constraints_of(check):
     name = 'spec/limits.md'
     limits, tolerances = read_constants(check)
     code = {**limits, **tolerances}
@@ -538,7 +538,7 @@ def main(arguments):
     check_leaves(check, chunks, records)
     check_streams(check)
     check_codes(check)
-    check_limits(check)
+    check_constraints_of(check)
     check_flags(check)
     check_kaitai(check, chunks, records)
     check_hexpat(check, chunks, records)

@@ -36,7 +36,7 @@ void run_together(const std::function<void(std::size_t)>& work) {
 
 using Numbers = std::vector<float>;
 
-/// Everything that posing gives, at some times of the cycle.
+/// Everything that posing gives, at some times of the clip.
 Numbers pose_all(const Model& model) {
     Numbers numbers;
     Pose pose(model);
@@ -44,14 +44,14 @@ Numbers pose_all(const Model& model) {
     std::vector<glm::vec3> normals(model.vertex_count());
     std::vector<glm::vec4> tangents(model.vertex_count());
     for (int frame = 0; frame < 120; ++frame) {
-        EXPECT_TRUE(sample(pose, model.cycle("run"), 0.45f + 0.005f * static_cast<float>(frame)));
+        EXPECT_TRUE(sample(pose, model.clip("run"), 0.45f + 0.005f * static_cast<float>(frame)));
         EXPECT_TRUE(skin(pose, {.out = {positions, normals, tangents}}));
         for (std::size_t v = 0; v < positions.size(); ++v) {
             for (int c = 0; c < 3; ++c) numbers.insert(numbers.end(), {positions[v][c], normals[v][c], tangents[v][c]});
         }
         for (const glm::mat4& matrix : pose.model_space())
             numbers.insert(numbers.end(), &matrix[0][0], &matrix[0][0] + 16);
-        numbers.insert(numbers.end(), pose.target_weights().begin(), pose.target_weights().end());
+        numbers.insert(numbers.end(), pose.morph_weights().begin(), pose.morph_weights().end());
     }
     return numbers;
 }
@@ -108,7 +108,7 @@ TEST(Threads, ChooseKernelsTogether) {
             all_good = !kernel_name(kernel()).empty() && all_good;
             Pose pose(*model);  // others change the kernel in the middle of it
             std::vector<glm::vec3> positions(model->vertex_count());
-            EXPECT_TRUE(sample(pose, model->cycle("run"), 0.6f));
+            EXPECT_TRUE(sample(pose, model->clip("run"), 0.6f));
             all_good = skin(pose, {.out = {.positions = positions}}) && all_good;
         }
         is_good.at(number) = all_good;
@@ -136,8 +136,8 @@ Numbers do_the_rest(const Model& model) {
     Lod lod(model);
     std::vector<glm::vec3> positions(model.vertex_count());
     for (unsigned solver = 0; solver < kSolvers; ++solver) {
-        EXPECT_TRUE(sample(pose, model.cycles().data(), 0.7f));
-        EXPECT_TRUE(sample(other, model.cycles().data(), 0.9f));
+        EXPECT_TRUE(sample(pose, model.clips().data(), 0.7f));
+        EXPECT_TRUE(sample(other, model.clips().data(), 0.9f));
         EXPECT_TRUE(blend(pose, other, 0.25f));
         constrain(pose);
         ReachOptions options;
@@ -161,13 +161,13 @@ TEST(Threads, ReachBlendAndSimplifyTogether) {
         EXPECT_EQ(std::memcmp(numbers.data(), expected.data(), expected.size() * 4), 0);
 }
 
-TEST(Threads, PlayPackedCyclesTogether) {
+TEST(Threads, PlayPackedClipsTogether) {
     const test::Owned model(test::build_file(test::packed_spec(12, 40, 16)));
     std::vector<Numbers> found(kThreads);
     run_together([&](std::size_t number) {
         Pose pose(*model);
         for (int frame = 0; frame < 60; ++frame) {
-            EXPECT_TRUE(sample(pose, model->cycles().data(), 0.4f + 0.031f * static_cast<float>(frame * 7 % 60)));
+            EXPECT_TRUE(sample(pose, model->clips().data(), 0.4f + 0.031f * static_cast<float>(frame * 7 % 60)));
             for (const JointTransform& joint : pose.local()) found[number].push_back(joint.rotation.x);
         }
     });
@@ -184,7 +184,7 @@ TEST(Threads, PlayACrowdTogether) {
     Lod lod(*model);
     lod.set_share(0.0f);
     for (std::size_t k = 0; k < kMembers; ++k) {
-        members[k].cycle = model->cycle("run");
+        members[k].clip = model->clip("run");
         members[k].seconds = 0.75f;
         members[k].lod = k % 2 == 0 ? nullptr : &lod;
         members[k].out.positions = {std::span(positions).subspan(k * floats, floats), 3};

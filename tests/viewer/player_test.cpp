@@ -31,21 +31,21 @@ TEST_F(PlayerTest, PlaysRoundAndRound) {
 }
 
 TEST_F(PlayerTest, PosesAsTheRuntimeDoes) {
-    player.cycle = 1;
+    player.clip = 1;
     player.phase = 0.5f;
     player.update();
-    const Cycle& cycle = model->cycles()[1];
+    const Clip& clip = model->clips()[1];
     Pose expected(*model);
-    EXPECT_TRUE(sample(expected, &cycle, cycle.start + 0.5f * (cycle.end - cycle.start)));
+    EXPECT_TRUE(sample(expected, &clip, clip.start + 0.5f * (clip.end - clip.start)));
     for (std::size_t joint = 0; joint < expected.local().size(); ++joint)
         EXPECT_EQ(player.pose().local()[joint].rotation, expected.local()[joint].rotation);
 }
 
-TEST_F(PlayerTest, BlendIsOneCycleAtEachEndAndBetweenThemInTheMiddle) {
+TEST_F(PlayerTest, BlendIsOneClipAtEachEndAndBetweenThemInTheMiddle) {
     Pose a(*model);
     Pose b(*model);
-    EXPECT_TRUE(sample(a, &model->cycles()[0], 0.2f));
-    EXPECT_TRUE(sample(b, &model->cycles()[1], 0.4f));
+    EXPECT_TRUE(sample(a, &model->clips()[0], 0.2f));
+    EXPECT_TRUE(sample(b, &model->clips()[1], 0.4f));
     Pose at_a = a;
     EXPECT_TRUE(blend(at_a, b, 0.0f));
     Pose at_b = a;
@@ -68,7 +68,7 @@ TEST_F(PlayerTest, AChainThatIsOnReaches) {
     const Chain* arm = model->chain("IK_LeftArm");
     ASSERT_NE(arm, nullptr);
     player.is_playing = false;
-    player.cycle = kNone;
+    player.clip = kNone;
     player.chains[arm->number] = {true, {0.3f, 1.2f, 0.4f}};
     player.update();
     EXPECT_LT(glm::length(tip_of(*arm, player.pose()) - glm::vec3(0.3f, 1.2f, 0.4f)), 2e-3f);

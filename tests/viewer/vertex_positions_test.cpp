@@ -125,11 +125,11 @@ protected:
             bottom = std::max(bottom, vertex.y);
         }
         std::size_t bare = 0;
-        for (const Draw& draw : model.draws()) {
-            if (draw.topology != Topology::triangles) continue;
-            for (std::uint32_t k = 0; k < draw.count; ++k) {
-                const Projected& vertex = vertices[model.first_vertex(draw.pool) +
-                                                   model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+        for (const Submesh& submesh : model.submeshes()) {
+            if (submesh.topology != Topology::triangles) continue;
+            for (std::uint32_t k = 0; k < submesh.count; ++k) {
+                const Projected& vertex = vertices[model.first_vertex(submesh.mesh) +
+                                                   model.meshes()[submesh.mesh].indices->index(submesh.first + k, 0)];
                 bool found = false;
                 for (int dy = -1; dy <= 1; ++dy) {
                     for (int dx = -1; dx <= 1; ++dx)
@@ -149,12 +149,12 @@ protected:
         EXPECT_EQ(astray, 0u);
     }
 
-    static void check(const Model& model, const Cycle* cycle, float share) {
+    static void check(const Model& model, const Clip* clip, float share) {
         Pose pose(model);
-        if (cycle != nullptr) {
-            EXPECT_TRUE(sample(pose, cycle, cycle->start + share * (cycle->end - cycle->start)));
+        if (clip != nullptr) {
+            EXPECT_TRUE(sample(pose, clip, clip->start + share * (clip->end - clip->start)));
         }
-        const Box box = bounding_box(model, cycle);
+        const Box box = bounding_box(model, clip);
         Renderer renderer(model, box, {}, [](const std::string& what) { ADD_FAILURE() << what; });
         for (const CameraOptions& options : {CameraOptions{0.6f, 0.2f, 1.2f}, CameraOptions{-2.2f, -0.5f, 1.2f}}) {
             Camera camera;
@@ -168,7 +168,7 @@ protected:
         if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
         const test::ExampleModel model(file);
         check(*model, nullptr, 0.0f);
-        for (const Cycle& cycle : model->cycles()) check(*model, &cycle, 0.37f);
+        for (const Clip& clip : model->clips()) check(*model, &clip, 0.37f);
     }
 
     std::unique_ptr<OffscreenContext> context;
@@ -183,7 +183,7 @@ TEST_F(VertexPositions, MannequinWithTargetsAndARigidHead) {
 TEST_F(VertexPositions, Fox) {
     check_file(test::corpus("models/fox.glb"));
 }
-TEST_F(VertexPositions, RobotOfManyPools) {
+TEST_F(VertexPositions, RobotOfManyMeshes) {
     check_file(test::corpus("models/robot.glb"));
 }
 TEST_F(VertexPositions, EightInfluences) {
@@ -208,21 +208,21 @@ TEST_F(VertexPositions, SevenInfluencesAndTwoThousandJoints) {
     constexpr std::uint16_t kInfluences = 7;
     constexpr std::uint32_t kColumns = 40;
     test::ModelSpec spec;
-    spec.joints.push_back({kNone, {}, {test::polygons(0, 0, 6 * (kColumns - 1))}, "root"});
+    spec.joints.push_back({kNone, {}, {test::submesh(0, 0, 6 * (kColumns - 1))}, "root"});
     for (std::uint32_t k = 1; k < kJoints; ++k) {
         RestRecord rest = test::turned(k % 360, k % 3);
         rest.translation = {0.2f * std::sin(0.1f * static_cast<float>(k)), 0.001f * static_cast<float>(k), 0.1f};
         spec.joints.push_back({0, rest, {}, ""});
     }
-    test::PoolSpec pool;
-    pool.joint = 0;
+    test::MeshSpec mesh;
+    mesh.joint = 0;
     std::vector<std::uint32_t> palette;
     for (std::uint32_t k = 0; k < kJoints; ++k) palette.push_back(k);
     std::vector<std::uint16_t> bones;
     std::vector<float> weights;
     for (std::uint32_t column = 0; column < kColumns; ++column) {
         for (const float y : {0.0f, 0.1f}) {
-            pool.positions.emplace_back(0.02f * static_cast<float>(column), y, 0.0f);
+            mesh.positions.emplace_back(0.02f * static_cast<float>(column), y, 0.0f);
             for (std::uint32_t k = 0; k < kInfluences; ++k) {
                 bones.push_back(static_cast<std::uint16_t>((column * 97 + k * 281) % kJoints));
                 weights.push_back(k + 1 < kInfluences ? 0.125f : 0.25f);
@@ -230,12 +230,12 @@ TEST_F(VertexPositions, SevenInfluencesAndTwoThousandJoints) {
         }
     }
     for (std::uint32_t column = 0; column + 1 < kColumns; ++column) {
-        for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) pool.indices.push_back(2 * column + corner);
+        for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) mesh.indices.push_back(2 * column + corner);
     }
-    pool.more = {test::palette_leaf(palette, std::vector<glm::mat4>(kJoints, glm::mat4(1.0f))),
+    mesh.more = {test::palette_leaf(palette, std::vector<glm::mat4>(kJoints, glm::mat4(1.0f))),
                  test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint16_t>(kInfluences, bones)),
                  test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(kInfluences, weights))};
-    spec.pools.push_back(pool);
+    spec.meshes.push_back(mesh);
     const test::Owned model(test::build_file(spec));
 
     Pose pose(*model);

@@ -258,7 +258,7 @@ class Render(WithFolder):
         bad = self.folder / "bad.bendy"
         bad.write_bytes((self.folder / "tentacle.bendy").read_bytes()[:5000])
         self.refused(1, "bad.bendy: ", bad)
-        self.refused(1, "there is no cycle to show in several frames", self.folder / "surfaces.bendy", "--frames", "3")
+        self.refused(1, "there is no clip to show in several frames", self.folder / "surfaces.bendy", "--frames", "3")
 
     def test_an_output_that_cannot_be_written(self):
         done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "none/out.png", "--size", "9x9")
@@ -311,7 +311,7 @@ class Reach(WithFolder):
     def test_the_pose_is_that_of_pose(self):
         # The same joints as `pose` gives, drawn from the same file posed and made a rest pose would be a long way round;
         # what it says of the distance is the solver's own.
-        for options in ([], ["--ignore-limits"], ["--solver", "ccd"], ["--constrain"]):
+        for options in ([], ["--ignore-constraints"], ["--solver", "ccd"], ["--constrain"]):
             goal = ["--clip", "Walk", "--time", "0.3", "--reach", "IK_LeftArm=0.1,1.25,-0.2", *options]
             _, said = self.draw(*goal)
             posed = bendy("pose", self.folder / "mannequin.bendy", *goal)
@@ -320,7 +320,7 @@ class Reach(WithFolder):
 
     def test_each_option_changes_the_picture(self):
         pictures = [self.draw(*options)[0] for options in (
-            ["--reach", "IK_LeftArm=0.1,1.25,-0.2"], ["--reach", "IK_LeftArm=0.1,1.25,-0.2", "--ignore-limits"],
+            ["--reach", "IK_LeftArm=0.1,1.25,-0.2"], ["--reach", "IK_LeftArm=0.1,1.25,-0.2", "--ignore-constraints"],
             ["--reach", "IK_LeftArm=0.1,1.25,-0.2", "--solver", "pull"], [])]
         self.assertEqual(len(set(pictures)), 4)
 
@@ -376,7 +376,7 @@ class Reach(WithFolder):
 
     def test_wrong_requests(self):
         file = self.folder / "mannequin.bendy"
-        for options, text in ((["--solver", "ccd"], "--reach"), (["--ignore-limits"], "--reach"),
+        for options, text in ((["--solver", "ccd"], "--reach"), (["--ignore-constraints"], "--reach"),
                               (["--reach", "IK_LeftArm=1,2"], "--reach"), (["--reach", "IK_LeftArm=0,1,0,0,0,0,3"], "quaternion"),
                               (["--reach", "IK_LeftArm=0,1,0", "--solver", "magic"], "--solver")):
             self.refused(2, text, file, *options)

@@ -30,13 +30,13 @@ private:
     glm::vec3 high_{std::numeric_limits<float>::lowest()};
 };
 
-/// Vertices that something draws: pools may hold others.
+/// Vertices that something draws: meshes may hold others.
 std::vector<std::uint64_t> drawn_vertices(const Model& model) {
     std::vector<bool> is_drawn(model.vertex_count());
-    for (const Draw& draw : model.draws()) {
-        const Pool& pool = model.pools()[draw.pool];
-        for (std::uint32_t k = 0; k < draw.count; ++k)
-            is_drawn[model.first_vertex(draw.pool) + pool.indices->index(draw.first + k, 0)] = true;
+    for (const Submesh& submesh : model.submeshes()) {
+        const Mesh& mesh = model.meshes()[submesh.mesh];
+        for (std::uint32_t k = 0; k < submesh.count; ++k)
+            is_drawn[model.first_vertex(submesh.mesh) + mesh.indices->index(submesh.first + k, 0)] = true;
     }
     std::vector<std::uint64_t> list;
     for (std::uint64_t v = 0; v < is_drawn.size(); ++v) {
@@ -48,7 +48,8 @@ std::vector<std::uint64_t> drawn_vertices(const Model& model) {
 }  // namespace
 
 bool has_surface(const Model& model) {
-    return std::any_of(model.draws().begin(), model.draws().end(), [](const Draw& draw) { return draw.count != 0; });
+    return std::any_of(model.submeshes().begin(), model.submeshes().end(),
+                       [](const Submesh& submesh) { return submesh.count != 0; });
 }
 
 std::vector<bool> find_controls(const Model& model) {
@@ -61,7 +62,7 @@ std::vector<bool> find_controls(const Model& model) {
     return is_control;
 }
 
-Box bounding_box(const Model& model, const Cycle* cycle, const std::function<void(Pose&)>& adjust,
+Box bounding_box(const Model& model, const Clip* clip, const std::function<void(Pose&)>& adjust,
                  std::span<const glm::vec3> others) {
     constexpr int kTimes = 12;
     const std::vector<std::uint64_t> drawn = drawn_vertices(model);
@@ -70,10 +71,9 @@ Box bounding_box(const Model& model, const Cycle* cycle, const std::function<voi
     const std::vector<bool> is_control = find_controls(model);
     Points points;
     for (const glm::vec3& other : others) points.add(other);
-    for (int k = 0; k < (cycle == nullptr ? 1 : kTimes); ++k) {
-        if (cycle != nullptr)
-            (void)sample(pose, cycle,
-                         cycle->start + (cycle->end - cycle->start) * static_cast<float>(k) / (kTimes - 1));
+    for (int k = 0; k < (clip == nullptr ? 1 : kTimes); ++k) {
+        if (clip != nullptr)
+            (void)sample(pose, clip, clip->start + (clip->end - clip->start) * static_cast<float>(k) / (kTimes - 1));
         if (adjust) adjust(pose);
         if (drawn.empty()) {
             const auto matrices = pose.model_space();

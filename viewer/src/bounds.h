@@ -19,11 +19,11 @@ bool has_surface(const Model& model);
 /// Joints that only say where IK chains are to go, targets and poles: no part of the skeleton. One a joint.
 std::vector<bool> find_controls(const Model& model);
 
-/// A box round all that is drawn of a model over a cycle, at some of its times; null: the rest pose. Without a surface,
+/// A box round all that is drawn of a model over a clip, at some of its times; null: the rest pose. Without a surface,
 /// round the joints, controls apart.
-/// \param adjust  changes every pose after the cycle; may be empty
+/// \param adjust  changes every pose after the clip; may be empty
 /// \param others  points that the box is to hold
-Box bounding_box(const Model& model, const Cycle* cycle, const std::function<void(Pose&)>& adjust = {},
+Box bounding_box(const Model& model, const Clip* clip, const std::function<void(Pose&)>& adjust = {},
                  std::span<const glm::vec3> others = {});
 
 }  // namespace bendy::viewer

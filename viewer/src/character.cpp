@@ -16,12 +16,12 @@ Model open_model(Bytes bytes, const std::string& title) {
     return *std::move(model);
 }
 
-/// Round everything that any of the first cycles shows.
+/// Round everything that any of the first clips shows.
 Box box_of(const Model& model) {
-    constexpr std::size_t kCycles = 4;
+    constexpr std::size_t kClips = 4;
     Box box = bounding_box(model, nullptr);
-    for (std::size_t k = 0; k < std::min(kCycles, model.cycles().size()); ++k) {
-        const Box more = bounding_box(model, &model.cycles()[k]);
+    for (std::size_t k = 0; k < std::min(kClips, model.clips().size()); ++k) {
+        const Box more = bounding_box(model, &model.clips()[k]);
         box = {glm::min(box.low, more.low), glm::max(box.high, more.high)};
     }
     return box;

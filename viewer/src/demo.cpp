@@ -41,9 +41,9 @@ glm::vec3 direction_of(DemoKey key) {
     }
 }
 
-const Cycle* find_animation(const Model& model) {
-    const Cycle* wave = model.cycle("Wave");
-    return wave != nullptr || model.cycles().empty() ? wave : model.cycles().data();
+const Clip* find_animation(const Model& model) {
+    const Clip* wave = model.clip("Wave");
+    return wave != nullptr || model.clips().empty() ? wave : model.clips().data();
 }
 
 /// A chain's joints from its start to the effector.
@@ -88,7 +88,7 @@ glm::quat rotation_of(const glm::mat4& matrix) {
 Demo::Demo(const Model& model)
     : model_(&model),
       chain_(model.chains().data()),
-      cycle_(find_animation(model)),
+      clip_(find_animation(model)),
       pose_(model),
       before_(model),
       other_way_(model) {
@@ -118,28 +118,28 @@ glm::vec3 Demo::tip() {
 double Demo::violation() const {
     double worst = 0.0;
     for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
-        const Constraint* constraint = limit_of(joint);
+        const Constraint* constraint = constraint_record_of(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
-            to_limit_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local()[joint].rotation);
+            to_constraint_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local()[joint].rotation);
         worst = std::max(worst, bendy::violation(*constraint, R));
     }
     return worst;
 }
 
-const Constraint* Demo::limit_of(std::uint32_t joint) const {
+const Constraint* Demo::constraint_record_of(std::uint32_t joint) const {
     return state_.inverse && is_link_[joint] ? model_->ik_constraint(joint) : model_->constraint(joint);
 }
 
-void Demo::hold_limits() {
+void Demo::hold_constraints() {
     const auto local = pose_.change_local();
     for (std::uint32_t joint = 0; joint < local.size(); ++joint) {
-        const Constraint* constraint = limit_of(joint);
+        const Constraint* constraint = constraint_record_of(joint);
         if (constraint == nullptr) continue;
         const glm::quat& rest = model_->joints()[joint].rest.rotation;
-        const glm::dquat R = to_limit_space(*constraint, rest, local[joint].rotation);
+        const glm::dquat R = to_constraint_space(*constraint, rest, local[joint].rotation);
         const glm::dquat legal = clamp_rotation(*constraint, R);
-        if (legal != R) local[joint].rotation = from_limit_space(*constraint, rest, legal);
+        if (legal != R) local[joint].rotation = from_constraint_space(*constraint, rest, legal);
         local[joint].translation =
             clamp_translation(*constraint, model_->joints()[joint].rest, local[joint].translation);
     }
@@ -261,12 +261,12 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
         return glm::normalize(from * glm::angleAxis(share * amount * length, turn / length));
     };
     float share = 1.0f;
-    if (const Constraint* constraint = limit_of(joint)) {
+    if (const Constraint* constraint = constraint_record_of(joint)) {
         // It stops at its limits, and does not slide along them: a key that goes on being pressed leaves nothing to
         // take back.
         const auto excess = [&](float part) {
             const glm::quat& rest = model_->joints()[joint].rest.rotation;
-            return bendy::violation(*constraint, to_limit_space(*constraint, rest, turned(part)));
+            return bendy::violation(*constraint, to_constraint_space(*constraint, rest, turned(part)));
         };
         constexpr double kLegal = 1e-6;    // radians
         constexpr double kOutside = 1e-4;  // where bending the whole chain has brought it
@@ -366,15 +366,15 @@ void Demo::step(double seconds) {
     } else {
         if (state_.forward) {
             pose_by_hand();
-        } else if (cycle_ != nullptr) {
+        } else if (clip_ != nullptr) {
             if (!state_.paused) state_.time += seconds;
-            const double length = std::max(static_cast<double>(cycle_->end) - static_cast<double>(cycle_->start), 1e-3);
+            const double length = std::max(static_cast<double>(clip_->end) - static_cast<double>(clip_->start), 1e-3);
             state_.time = std::fmod(state_.time, length);
-            (void)sample(pose_, cycle_, cycle_->start + static_cast<float>(state_.time));
+            (void)sample(pose_, clip_, clip_->start + static_cast<float>(state_.time));
         }
         if (since_mode_ < kEase) (void)blend(pose_, before_, static_cast<float>(1.0 - since_mode_ / kEase));
     }
-    hold_limits();
+    hold_constraints();
 }
 
 }  // namespace bendy::viewer

@@ -45,7 +45,7 @@ struct DemoState {
     glm::vec3 target{0.0f};       ///< metres, model space
 };
 
-/// The Bendy Tentacle Demo: what the keys do, without window or drawing. Takes a model with a chain; plays its cycle
+/// The Bendy Tentacle Demo: what the keys do, without window or drawing. Takes a model with a chain; plays its clip
 /// "Wave", or else its first. The limits of the joints hold after every step.
 class Demo {
 public:
@@ -75,8 +75,8 @@ public:
     [[nodiscard]] double violation() const;
 
 private:
-    [[nodiscard]] const Constraint* limit_of(std::uint32_t joint) const;
-    void hold_limits();
+    [[nodiscard]] const Constraint* constraint_record_of(std::uint32_t joint) const;
+    void hold_constraints();
     void set_mode(bool forward, bool inverse);
     void move(const glm::vec3& direction, float amount);
     void move_target(const glm::vec3& position);
@@ -90,7 +90,7 @@ private:
 
     const Model* model_;
     const Chain* chain_;
-    const Cycle* cycle_;
+    const Clip* clip_;
     Pose pose_;
     Pose before_;  // what the mode before left, from which the new one eases away
     DemoState state_;

@@ -70,16 +70,16 @@ std::vector<bool> find_bones(const Model& model) {
         is_bone = find_controls(model);
         is_bone.flip();
     }
-    for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
-        const Pool& pool = model.pools()[number];
-        for (std::uint32_t v = 0; v < pool.vertices; ++v) {
-            if (pool.is_rigid()) {
+    for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
+        const Mesh& mesh = model.meshes()[number];
+        for (std::uint32_t v = 0; v < mesh.vertices; ++v) {
+            if (mesh.is_rigid()) {
                 const std::uint32_t joint = model.rigid_mover(number, v);
                 if (joint != kNone) is_bone[joint] = true;
                 continue;
             }
-            for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
-                if (pool.weights->number(v, k) != 0.0f) is_bone[pool.palette.joints[pool.bones->index(v, k)]] = true;
+            for (std::uint32_t k = 0; k < mesh.weights->components; ++k) {
+                if (mesh.weights->number(v, k) != 0.0f) is_bone[mesh.palette.joints[mesh.bones->index(v, k)]] = true;
             }
         }
     }
@@ -152,7 +152,7 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
         const glm::vec3 bone =
             next == kNone ? glm::conjugate(own.rotation) * own.translation : model.joints()[next].rest.translation;
         limits_.push_back(
-            make_limit_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
+            make_constraint_drawing(constraint, glm::vec3(glm::conjugate(constraint.frame) * glm::dvec3(bone))));
     }
 }
 
@@ -197,8 +197,8 @@ void Overlay::add_mark(Pose& pose, std::uint32_t joint, OverlayList& list) const
     add_axes_of(pose, joint, 0.1f * size_, 2.5f, list);
 }
 
-void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawing, Pose& pose,
-                        OverlayList& list) const {
+void Overlay::add_constraint(const Constraint& constraint, const ConstraintDrawing& drawing, Pose& pose,
+                             OverlayList& list) const {
     const Joint& joint = model_->joints()[drawing.joint];
     // The limit stands still in the parent's space: rest * C. Scales are left out, but not mirrorings.
     glm::mat3 parent(1.0f);
@@ -210,7 +210,7 @@ void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawin
     const glm::mat3 frame = parent * glm::mat3_cast(joint.rest.rotation * glm::quat(constraint.frame));
     const glm::vec3 centre = place(pose, drawing.joint);
     const float radius = std::clamp(0.45f * lengths_[drawing.joint], 0.02f * size_, 0.12f * size_);
-    const glm::dquat R = to_limit_space(constraint, joint.rest.rotation, pose.local()[drawing.joint].rotation);
+    const glm::dquat R = to_constraint_space(constraint, joint.rest.rotation, pose.local()[drawing.joint].rotation);
     const glm::vec3 pointer = centre + 1.15f * radius * (frame * glm::vec3(R * glm::dvec3(drawing.pointer)));
 
     for (const LimitFan& fan : drawing.fans) {
@@ -243,7 +243,7 @@ void Overlay::add_limit(const Constraint& constraint, const LimitDrawing& drawin
 }
 
 void Overlay::add_constraints(Pose& pose, OverlayList& list) const {
-    for (std::size_t k = 0; k < limits_.size(); ++k) add_limit(*constraints_[k], limits_[k], pose, list);
+    for (std::size_t k = 0; k < limits_.size(); ++k) add_constraint(*constraints_[k], limits_[k], pose, list);
 }
 
 void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "limit_drawing.h"
+#include "constraint_drawing.h"
 
 #include <bendy/runtime.h>
 
@@ -54,7 +54,8 @@ public:
 
 private:
     static void add_axes_of(Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list);
-    void add_limit(const Constraint& constraint, const LimitDrawing& drawing, Pose& pose, OverlayList& list) const;
+    void add_constraint(const Constraint& constraint, const ConstraintDrawing& drawing, Pose& pose,
+                        OverlayList& list) const;
 
     struct Bone {
         std::uint32_t from, to;
@@ -65,7 +66,7 @@ private:
     std::vector<std::uint32_t> ends_;  // joints where a bone ends
     std::vector<float> lengths_;       // of each joint's longest bone at rest, model space; or a share of the size
     std::vector<const Constraint*> constraints_;  // one a joint: what poses obey, or else what the solvers do
-    std::vector<LimitDrawing> limits_;            // as many
+    std::vector<ConstraintDrawing> limits_;       // as many
 };
 
 /// Where the chains' target joints are in a pose that is up to date; chains without one, that are off, or that stand in

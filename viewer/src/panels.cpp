@@ -18,18 +18,18 @@ std::string label(std::string_view name, std::size_t number) {
     return std::to_string(number) + "  " + std::string(name);
 }
 
-/// A list of cycles to choose from, with "none" at its head. True if the choice has changed.
-bool choose_cycle(const char* title, const Model& model, std::uint32_t& chosen, const char* none) {
-    const auto cycles = model.cycles();
-    const std::string shown = chosen < cycles.size() ? label(cycles[chosen].name, chosen) : none;
+/// A list of clips to choose from, with "none" at its head. True if the choice has changed.
+bool choose_clip(const char* title, const Model& model, std::uint32_t& chosen, const char* none) {
+    const auto clips = model.clips();
+    const std::string shown = chosen < clips.size() ? label(clips[chosen].name, chosen) : none;
     bool has_changed = false;
     if (!ImGui::BeginCombo(title, shown.c_str())) return false;
     if (ImGui::Selectable(none, chosen == kNone)) {
         chosen = kNone;
         has_changed = true;
     }
-    for (std::uint32_t k = 0; k < cycles.size(); ++k) {
-        if (!ImGui::Selectable(label(cycles[k].name, k).c_str(), k == chosen)) continue;
+    for (std::uint32_t k = 0; k < clips.size(); ++k) {
+        if (!ImGui::Selectable(label(clips[k].name, k).c_str(), k == chosen)) continue;
         chosen = k;
         has_changed = true;
     }
@@ -67,8 +67,8 @@ void Window::draw_player_panel() {
     ImGui::Text("%zu joints, %llu vertices, %llu triangles", character_->model->joints().size(),
                 static_cast<unsigned long long>(character_->model->vertex_count()),
                 static_cast<unsigned long long>(character_->renderer->level().triangles()));
-    choose_cycle("cycle", *character_->model, player.cycle, "rest pose");
-    choose_cycle("mixed with", *character_->model, player.other, "nothing");
+    choose_clip("clip", *character_->model, player.clip, "rest pose");
+    choose_clip("mixed with", *character_->model, player.other, "nothing");
     if (player.other != kNone) ImGui::SliderFloat("share", &player.share, 0.0f, 1.0f);
     if (ImGui::Button(player.is_playing ? "pause" : "play")) player.is_playing = !player.is_playing;
     ImGui::SameLine();
@@ -79,7 +79,7 @@ void Window::draw_player_panel() {
         player.phase = length > 0.0f ? std::min(time / length, 1.0f) : 0.0f;
     }
     ImGui::SliderFloat("speed", &player.speed, 0.0f, 3.0f);
-    ImGui::Checkbox("hold the pose to the limits", &player.obeys_limits);
+    ImGui::Checkbox("hold the pose to the limits", &player.obeys_constraints);
 }
 
 void Window::draw_chain_panel() {
@@ -99,7 +99,7 @@ void Window::draw_view_panel() {
     ImGui::SameLine();
     ImGui::Checkbox("axes", &draw_.axes);
     ImGui::SameLine();
-    ImGui::Checkbox("limits", &draw_.constraints);
+    ImGui::Checkbox("constraints", &draw_.constraints);
     ImGui::Checkbox("wireframe", &draw_.wireframe);
     ImGui::SameLine();
     ImGui::Checkbox("targets", &draw_.targets);
@@ -162,7 +162,7 @@ void Window::draw_demo_help() {
     const auto mark = [](bool is_on) { return is_on ? "on" : "off"; };
     ImGui::TextUnformatted("Bendy Tentacle Demo");
     ImGui::Text("B    bones: %s", mark(state.bones));
-    ImGui::Text("C    limits: %s", mark(draw_.constraints));
+    ImGui::Text("C    constraints: %s", mark(draw_.constraints));
     ImGui::Text("F    forward kinematics, by hand: %s", mark(state.forward));
     if (state.joint == kNone) {
         ImGui::TextUnformatted("Tab  bends: the whole tentacle");
@@ -193,7 +193,7 @@ void Window::draw_help() {
         } else {
             ImGui::TextUnformatted(
                 "left button: orbit, or drag a target; right: pan; wheel: zoom; Home: fit\n"
-                "B bones  C limits  X axes  T wireframe  R turntable\n"
+                "B bones  C constraints  X axes  T wireframe  R turntable\n"
                 "P play or pause  Left, Right: step  I all IK chains on or off\n"
                 "drop a .glb or .bendy to open it   H this help   Esc quit");
         }

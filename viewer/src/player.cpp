@@ -10,14 +10,14 @@
 namespace bendy::viewer {
 namespace {
 
-double length_of(const Cycle& cycle) {
-    return static_cast<double>(cycle.end) - static_cast<double>(cycle.start);
+double length_of(const Clip& clip) {
+    return static_cast<double>(clip.end) - static_cast<double>(clip.start);
 }
 
 }  // namespace
 
 Player::Player(const Model& model)
-    : cycle(model.cycles().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
+    : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
     update();
     for (const Chain& chain : model.chains()) {
         const bool has_target = chain.target != kNone;
@@ -26,14 +26,14 @@ Player::Player(const Model& model)
 }
 
 double Player::length() const {
-    if (cycle >= model_->cycles().size()) return 0.0;
-    const double own = length_of(model_->cycles()[cycle]);
-    if (other >= model_->cycles().size()) return own;
-    return own + (length_of(model_->cycles()[other]) - own) * static_cast<double>(share);
+    if (clip >= model_->clips().size()) return 0.0;
+    const double own = length_of(model_->clips()[clip]);
+    if (other >= model_->clips().size()) return own;
+    return own + (length_of(model_->clips()[other]) - own) * static_cast<double>(share);
 }
 
 void Player::sample_at_phase(std::uint32_t number, Pose& pose) const {
-    const Cycle& played = model_->cycles()[number];
+    const Clip& played = model_->clips()[number];
     (void)sample(pose, &played, played.start + phase * (played.end - played.start));
 }
 
@@ -47,16 +47,16 @@ void Player::step(double seconds) {
 }
 
 void Player::update() {
-    if (cycle < model_->cycles().size()) {
-        sample_at_phase(cycle, pose_);
-        if (other < model_->cycles().size()) {
+    if (clip < model_->clips().size()) {
+        sample_at_phase(clip, pose_);
+        if (other < model_->clips().size()) {
             sample_at_phase(other, mixed_in_);
             (void)blend(pose_, mixed_in_, share);
         }
     } else {
         pose_.set_rest();
     }
-    if (obeys_limits) constrain(pose_);
+    if (obeys_constraints) constrain(pose_);
     ReachOptions options;
     options.carry_target = true;
     for (const std::uint32_t number : model_->chain_order()) {

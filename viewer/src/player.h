@@ -15,7 +15,7 @@ struct ChainControl {
     glm::vec3 target{0.0f};  ///< metres, model space
 };
 
-/// Plays a model's cycles, one or two mixed, and lets chains reach; without window or drawing. The model must outlive
+/// Plays a model's clips, one or two mixed, and lets chains reach; without window or drawing. The model must outlive
 /// it.
 class Player {
 public:
@@ -26,12 +26,12 @@ public:
     void update();
 
     bool is_playing = true;
-    bool obeys_limits = false;    ///< brings the clip's pose inside the constraints
-    std::uint32_t cycle = 0;      ///< kNone: the rest pose
-    std::uint32_t other = kNone;  ///< the cycle mixed in, or kNone
-    float share = 0.5f;           ///< of the other one
+    bool obeys_constraints = false;  ///< brings the clip's pose inside the constraints
+    std::uint32_t clip = 0;          ///< kNone: the rest pose
+    std::uint32_t other = kNone;     ///< the clip mixed in, or kNone
+    float share = 0.5f;              ///< of the other one
     float speed = 1.0f;
-    float phase = 0.0f;  ///< 0 to 1 through the cycles: two that are mixed keep step
+    float phase = 0.0f;  ///< 0 to 1 through the clips: two that are mixed keep step
     std::vector<ChainControl> chains;
 
     /// Seconds from one start to the next, of what is played.

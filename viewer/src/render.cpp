@@ -20,7 +20,7 @@ namespace {
 Box box_of(const Model& model, const RenderOptions& options) {
     std::vector<glm::vec3> targets;
     for (const DrawnTarget& target : options.targets) targets.push_back(target.position);
-    return bounding_box(model, options.cycle, options.adjust, targets);
+    return bounding_box(model, options.clip, options.adjust, targets);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ const std::string& PictureMaker::context() const {
 
 Picture PictureMaker::draw(float time) {
     Parts& p = *parts_;
-    (void)sample(p.pose, p.options.cycle, time);  // null: the rest pose
+    (void)sample(p.pose, p.options.clip, time);  // null: the rest pose
     if (p.options.adjust) p.options.adjust(p.pose);
     p.frame.bind();
     const std::vector<TargetMark> marks = p.marks();

@@ -70,13 +70,13 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
     Pose pose(model);
     (void)skin(pose, {.out = {.positions = positions}});
     std::vector<glm::vec3> centres;
-    for (const Draw& draw : model.draws()) {
+    for (const Submesh& submesh : model.submeshes()) {
         glm::dvec3 sum(0.0);
-        for (std::uint32_t k = 0; k < draw.count; ++k) {
-            sum +=
-                positions[model.first_vertex(draw.pool) + model.pools()[draw.pool].indices->index(draw.first + k, 0)];
+        for (std::uint32_t k = 0; k < submesh.count; ++k) {
+            sum += positions[model.first_vertex(submesh.mesh) +
+                             model.meshes()[submesh.mesh].indices->index(submesh.first + k, 0)];
         }
-        centres.emplace_back(sum / std::max(1.0, static_cast<double>(draw.count)));
+        centres.emplace_back(sum / std::max(1.0, static_cast<double>(submesh.count)));
     }
     return centres;
 }
@@ -139,27 +139,27 @@ void Renderer::set_skin(const Program& program, const Camera& camera) const {
     glUniform1i(program["palette"], kPaletteUnit);
     glUniform1i(program["influence_list"], kInfluenceUnit);
     glUniform1i(program["displacement_list"], kDisplacementUnit);
-    glUniform1i(program["target_weights"], kWeightUnit);
+    glUniform1i(program["morph_weights"], kWeightUnit);
 }
 
-void Renderer::draw_range(const Draw& draw) const {
+void Renderer::draw_range(const Submesh& submesh) const {
     constexpr std::array<GLenum, kTopologies> kModes{GL_TRIANGLES, GL_LINES, GL_POINTS};
-    const std::size_t first = std::size_t{buffers_.first_index(draw.pool)} + draw.first;
+    const std::size_t first = std::size_t{buffers_.first_index(submesh.mesh)} + submesh.first;
     // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
     const auto* place = reinterpret_cast<const void*>(first * sizeof(GLuint));
-    glDrawElements(kModes.at(static_cast<std::size_t>(draw.topology)), static_cast<GLsizei>(draw.count),
+    glDrawElements(kModes.at(static_cast<std::size_t>(submesh.topology)), static_cast<GLsizei>(submesh.count),
                    GL_UNSIGNED_INT, place);
 }
 
-const ShownSurface& Renderer::surface_of(const Draw& draw) const {
-    return surfaces_[std::min<std::size_t>(draw.material, surfaces_.size() - 1)];
+const ShownSurface& Renderer::surface_of(const Submesh& submesh) const {
+    return surfaces_[std::min<std::size_t>(submesh.material, surfaces_.size() - 1)];
 }
 
 /// All that any draw needs, before the first: nothing is uploaded between the calls that set a draw up.
 void Renderer::load_textures(const Warn& warn) {
     bool is_beyond = false;
-    for (const Draw& draw : model_->draws()) {
-        for (const MapUse& use : maps_of(surface_of(draw).record)) {
+    for (const Submesh& submesh : model_->submeshes()) {
+        for (const MapUse& use : maps_of(surface_of(submesh).record)) {
             textures_.load(use.record->texture, use.srgb);
             is_beyond = is_beyond || (use.record->texture != kNone && use.record->coords > kLastSet);
         }
@@ -168,8 +168,8 @@ void Renderer::load_textures(const Warn& warn) {
     upload_reflectance(reflectance_.name());
 }
 
-void Renderer::set_material(const Draw& draw) const {
-    const ShownSurface& shown = surface_of(draw);
+void Renderer::set_material(const Submesh& submesh) const {
+    const ShownSurface& shown = surface_of(submesh);
     const SurfaceRecord& surface = shown.record;
     const std::array<MapUse, 5> uses = maps_of(surface);
     std::array<glm::mat3, 5> matrices{};
@@ -203,7 +203,7 @@ void Renderer::set_material(const Draw& draw) const {
     glUniform1i(surface_["double_sided"], surface.double_sided);
     glUniform1i(surface_["unlit"], surface.unlit);
     glUniform1i(surface_["has_normal_map"], is_shown[kNormal] ? 1 : 0);
-    glUniform1i(surface_["has_faces"], draw.topology == Topology::triangles ? 1 : 0);
+    glUniform1i(surface_["has_faces"], submesh.topology == Topology::triangles ? 1 : 0);
 }
 
 void Renderer::draw_surface(const Camera& camera) const {
@@ -226,15 +226,15 @@ void Renderer::draw_surface(const Camera& camera) const {
         std::size_t number;
     };
     std::vector<SeeThrough> later;
-    const auto draws = level_.draws();
-    for (std::size_t number = 0; number < draws.size(); ++number) {
-        if (is_blended(surface_of(draws[number]).record)) {
+    const auto submeshes = level_.submeshes();
+    for (std::size_t number = 0; number < submeshes.size(); ++number) {
+        if (is_blended(surface_of(submeshes[number]).record)) {
             const glm::vec3 centre = number < centres_.size() ? centres_[number] : glm::vec3(0.0f);
             later.push_back({glm::length(centre - camera.eye()), number});
             continue;
         }
-        set_material(draws[number]);
-        draw_range(draws[number]);
+        set_material(submeshes[number]);
+        draw_range(submeshes[number]);
     }
     if (later.empty()) return;
     std::stable_sort(later.begin(), later.end(),
@@ -242,10 +242,10 @@ void Renderer::draw_surface(const Camera& camera) const {
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
     for (const SeeThrough& each : later) {
-        set_material(draws[each.number]);
+        set_material(submeshes[each.number]);
         for (const WhichFaces faces : {kBackFaces, kFrontFaces}) {
             glUniform1i(surface_["which_faces"], faces);
-            draw_range(draws[each.number]);
+            draw_range(submeshes[each.number]);
         }
     }
     glDepthMask(GL_TRUE);
@@ -257,7 +257,7 @@ void Renderer::draw_wireframe(const Camera& camera) const {
     set_skin(flat_, camera);
     glUniform4fv(flat_["flat_colour"], 1, kWire.data());
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    for (const Draw& draw : level_.draws()) draw_range(draw);
+    for (const Submesh& submesh : level_.submeshes()) draw_range(submesh);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
@@ -273,7 +273,7 @@ void Renderer::draw_numbers(Pose& pose, const Camera& camera, bool behind_surfac
     set_skin(numbers_, camera);
     glUniform1i(numbers_["depth_only"], 1);
     if (behind_surface) {
-        for (const Draw& draw : level_.draws()) draw_range(draw);
+        for (const Submesh& submesh : level_.submeshes()) draw_range(submesh);
     }
     glUniform1i(numbers_["depth_only"], 0);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers_.vertices()));

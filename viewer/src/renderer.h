@@ -36,15 +36,15 @@ public:
 private:
     void draw_surface(const Camera& camera) const;
     void draw_wireframe(const Camera& camera) const;
-    void draw_range(const Draw& draw) const;
+    void draw_range(const Submesh& submesh) const;
     void load_textures(const Warn& warn);
-    void set_material(const Draw& draw) const;
+    void set_material(const Submesh& submesh) const;
     void draw_overlay(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
                       const glm::vec2& size);
     void draw_list(const std::vector<OverlayVertex>& list) const;
     void set_skin(const Program& program, const Camera& camera) const;
 
-    [[nodiscard]] const ShownSurface& surface_of(const Draw& draw) const;
+    [[nodiscard]] const ShownSurface& surface_of(const Submesh& submesh) const;
 
     const Model* model_;
     std::vector<ShownSurface> surfaces_;  // of the materials, and the default one

@@ -15,7 +15,7 @@
 namespace bendy::viewer {
 namespace {
 
-/// The palette's first matrix; the joints' follow, then the pools' bind palettes.
+/// The palette's first matrix; the joints' follow, then the meshes' bind palettes.
 constexpr std::uint32_t kIdentity = 0;
 
 struct Displacement {
@@ -26,8 +26,8 @@ struct Displacement {
 };
 static_assert(sizeof(Displacement) == 48, "three texels");
 
-std::vector<float> no_weights(const Pool& pool) {
-    std::vector<float> weights(pool.targets.size(), 0.0f);
+std::vector<float> no_weights(const Mesh& mesh) {
+    std::vector<float> weights(mesh.targets.size(), 0.0f);
     return weights;
 }
 
@@ -35,11 +35,11 @@ float number_or(const StreamView& stream, std::uint32_t vertex, std::uint32_t co
     return component < stream.components ? stream.number(vertex, component) : otherwise;
 }
 
-void fill_geometry(const Pool& pool, std::span<GpuVertex> out) {
-    std::vector<glm::vec3> positions(pool.vertices);
-    std::vector<glm::vec3> normals(pool.vertices);
-    std::vector<glm::vec4> tangents(pool.vertices);
-    (void)inbetween(pool, no_weights(pool), {positions, normals, tangents});
+void fill_geometry(const Mesh& mesh, std::span<GpuVertex> out) {
+    std::vector<glm::vec3> positions(mesh.vertices);
+    std::vector<glm::vec3> normals(mesh.vertices);
+    std::vector<glm::vec4> tangents(mesh.vertices);
+    (void)apply_morph_targets(mesh, no_weights(mesh), {positions, normals, tangents});
     for (std::size_t v = 0; v < out.size(); ++v) {
         out[v].position = positions[v];
         out[v].normal = normals[v];
@@ -47,13 +47,13 @@ void fill_geometry(const Pool& pool, std::span<GpuVertex> out) {
     }
 }
 
-void fill_coords_and_colours(const Pool& pool, std::span<GpuVertex> out) {
-    for (const StreamView& stream : pool.texture_coords) {
+void fill_coords_and_colours(const Mesh& mesh, std::span<GpuVertex> out) {
+    for (const StreamView& stream : mesh.texture_coords) {
         if (stream.set >= out.front().coords.size()) continue;
         for (std::uint32_t v = 0; v < out.size(); ++v)
             out[v].coords[stream.set] = {number_or(stream, v, 0, 0.0f), number_or(stream, v, 1, 0.0f)};
     }
-    for (const StreamView& stream : pool.colours) {
+    for (const StreamView& stream : mesh.colours) {
         if (stream.set != 0) continue;
         for (std::uint32_t v = 0; v < out.size(); ++v) {
             for (std::uint32_t c = 0; c < 4; ++c) out[v].colour[static_cast<int>(c)] = number_or(stream, v, c, 1.0f);
@@ -61,36 +61,36 @@ void fill_coords_and_colours(const Pool& pool, std::span<GpuVertex> out) {
     }
 }
 
-/// Adds what moves the pool's vertices: pairs of palette entry and weight, of any number a vertex.
+/// Adds what moves the mesh's vertices: pairs of palette entry and weight, of any number a vertex.
 void add_influences(const Model& model, std::uint32_t number, std::uint32_t first_entry, std::span<GpuVertex> out,
                     std::vector<glm::uvec2>& list) {
-    const Pool& pool = model.pools()[number];
+    const Mesh& mesh = model.meshes()[number];
     for (std::uint32_t v = 0; v < out.size(); ++v) {
         const auto first = static_cast<std::uint32_t>(list.size());
-        if (pool.is_rigid()) {
+        if (mesh.is_rigid()) {
             const std::uint32_t joint = model.rigid_mover(number, v);
             list.emplace_back(joint == kNone ? kIdentity : 1 + joint, std::bit_cast<std::uint32_t>(1.0f));
         } else {
-            for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
-                const float weight = pool.weights->number(v, k);
+            for (std::uint32_t k = 0; k < mesh.weights->components; ++k) {
+                const float weight = mesh.weights->number(v, k);
                 if (weight != 0.0f)
-                    list.emplace_back(first_entry + pool.bones->index(v, k), std::bit_cast<std::uint32_t>(weight));
+                    list.emplace_back(first_entry + mesh.bones->index(v, k), std::bit_cast<std::uint32_t>(weight));
             }
         }
         out[v].influences = {first, static_cast<std::uint32_t>(list.size()) - first};
     }
 }
 
-glm::vec3 vector_at(const TargetView& target, const std::optional<StreamView>& stream,
+glm::vec3 vector_at(const MorphTargetView& target, const std::optional<StreamView>& stream,
                     const std::optional<StreamView>& rest, std::uint32_t entry) {
     return stream && rest ? target.displacement(*stream, *rest, entry) : glm::vec3(0.0f);
 }
 
 /// Adds the targets' displacements, sorted by vertex: as many as the file has, whatever their number.
-void add_displacements(const Pool& pool, std::uint32_t first_target, std::span<GpuVertex> out,
+void add_displacements(const Mesh& mesh, std::uint32_t first_morph_target, std::span<GpuVertex> out,
                        std::vector<Displacement>& list) {
-    for (const TargetView& target : pool.targets) {
-        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry)
+    for (const MorphTargetView& target : mesh.targets) {
+        for (std::uint32_t entry = 0; entry < target.touched(mesh.vertices); ++entry)
             ++out[target.vertex(entry)].displacements.y;
     }
     auto next = static_cast<std::uint32_t>(list.size());
@@ -100,17 +100,17 @@ void add_displacements(const Pool& pool, std::uint32_t first_target, std::span<G
         vertex.displacements.y = 0;
     }
     list.resize(next);
-    for (std::uint32_t t = 0; t < pool.targets.size(); ++t) {
-        const TargetView& target = pool.targets[t];
-        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry) {
+    for (std::uint32_t t = 0; t < mesh.targets.size(); ++t) {
+        const MorphTargetView& target = mesh.targets[t];
+        for (std::uint32_t entry = 0; entry < target.touched(mesh.vertices); ++entry) {
             glm::uvec2& range = out[target.vertex(entry)].displacements;
             Displacement& displacement = list[range.x + range.y++];
-            displacement.target = static_cast<float>(first_target + t);
-            displacement.position = vector_at(target, target.positions, pool.positions, entry);
-            if (pool.normals)
-                displacement.normal = glm::vec4(vector_at(target, target.normals, pool.normals, entry), 0.0f);
-            if (pool.tangents)
-                displacement.tangent = glm::vec4(vector_at(target, target.tangents, pool.tangents, entry), 0.0f);
+            displacement.target = static_cast<float>(first_morph_target + t);
+            displacement.position = vector_at(target, target.positions, mesh.positions, entry);
+            if (mesh.normals)
+                displacement.normal = glm::vec4(vector_at(target, target.normals, mesh.normals, entry), 0.0f);
+            if (mesh.tangents)
+                displacement.tangent = glm::vec4(vector_at(target, target.tangents, mesh.tangents, entry), 0.0f);
         }
     }
 }
@@ -177,16 +177,16 @@ SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
     std::vector<glm::uvec2> influences;
     std::vector<Displacement> displacements;
     std::uint64_t entries = 1 + model.joints().size();
-    for (std::uint32_t number = 0; number < model.pools().size(); ++number) {
-        const Pool& pool = model.pools()[number];
+    for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
+        const Mesh& mesh = model.meshes()[number];
         first_palette_.push_back(static_cast<std::uint32_t>(entries));
-        entries += pool.palette.joints.size();
-        if (pool.vertices == 0) continue;
-        const auto part = std::span(vertices).subspan(model.first_vertex(number), pool.vertices);
-        fill_geometry(pool, part);
-        fill_coords_and_colours(pool, part);
+        entries += mesh.palette.joints.size();
+        if (mesh.vertices == 0) continue;
+        const auto part = std::span(vertices).subspan(model.first_vertex(number), mesh.vertices);
+        fill_geometry(mesh, part);
+        fill_coords_and_colours(mesh, part);
         add_influences(model, number, first_palette_.back(), part, influences);
-        add_displacements(pool, model.first_target(number), part, displacements);
+        add_displacements(mesh, model.first_morph_target(number), part, displacements);
     }
     rows_.resize(3 * entries);
 
@@ -203,7 +203,7 @@ void SceneBuffers::set_pose(Pose& pose) {
     put_rows(glm::mat4(1.0f), rows_.data());
     const auto joints = pose.model_space();
     for (std::size_t joint = 0; joint < joints.size(); ++joint) put_rows(joints[joint], &rows_[3 * (1 + joint)]);
-    for (std::size_t number = 0; number < model_->pools().size(); ++number) {
+    for (std::size_t number = 0; number < model_->meshes().size(); ++number) {
         glm::vec4* to = rows_.data() + std::size_t{3} * first_palette_[number];
         for (const PaletteMatrix& matrix : pose.palette(static_cast<std::uint32_t>(number))) {
             std::memcpy(to, matrix.rows, sizeof matrix.rows);
@@ -211,17 +211,17 @@ void SceneBuffers::set_pose(Pose& pose) {
         }
     }
     palette_.fill(rows_.data(), bytes_of(rows_), GL_STREAM_DRAW);
-    weight_list_.assign(pose.target_weights().begin(), pose.target_weights().end());
+    weight_list_.assign(pose.morph_weights().begin(), pose.morph_weights().end());
     weights_.fill(weight_list_.data(), bytes_of(weight_list_), GL_STREAM_DRAW);
 }
 
 void SceneBuffers::set_level(const Lod& lod) {
     std::vector<std::uint32_t> indices;
     first_index_.clear();
-    for (std::uint32_t pool = 0; pool < model_->pools().size(); ++pool) {
+    for (std::uint32_t mesh = 0; mesh < model_->meshes().size(); ++mesh) {
         first_index_.push_back(static_cast<std::uint32_t>(indices.size()));
-        const auto first = static_cast<std::uint32_t>(model_->first_vertex(pool));
-        for (const std::uint32_t index : lod.indices(pool)) indices.push_back(first + index);
+        const auto first = static_cast<std::uint32_t>(model_->first_vertex(mesh));
+        for (const std::uint32_t index : lod.indices(mesh)) indices.push_back(first + index);
     }
     glBindVertexArray(layout_.name());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());

@@ -14,7 +14,7 @@
 
 namespace bendy::viewer {
 
-/// A vertex as the graphics processor gets it; all pools, pool after pool.
+/// A vertex as the graphics processor gets it; all meshes, mesh after mesh.
 struct GpuVertex {
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f};             ///< zero where the source has none
@@ -46,14 +46,14 @@ class SceneBuffers {
 public:
     explicit SceneBuffers(const Model& model);
 
-    /// What changes from frame to frame: matrices and weights of inbetweening targets. Brings the pose up to date.
+    /// What changes from frame to frame: matrices and weights of morph targets. Brings the pose up to date.
     void set_pose(Pose& pose);
     void set_level(const Lod& lod);
     /// Binds vertices, indices, and the buffers to the texture units that texture_units.h names for them.
     void bind() const;
 
-    /// Where a pool's indices begin in the bound index buffer.
-    [[nodiscard]] std::uint32_t first_index(std::uint32_t pool) const { return first_index_[pool]; }
+    /// Where a mesh's indices begin in the bound index buffer.
+    [[nodiscard]] std::uint32_t first_index(std::uint32_t mesh) const { return first_index_[mesh]; }
     [[nodiscard]] std::uint32_t vertices() const { return static_cast<std::uint32_t>(model_->vertex_count()); }
 
 private:
@@ -65,8 +65,8 @@ private:
     BufferTexture influences_{GL_RG32UI, 8};
     BufferTexture displacements_{GL_RGBA32F, 16};
     BufferTexture weights_{GL_R32F, 4};
-    std::vector<std::uint32_t> first_index_;    // one per pool
-    std::vector<std::uint32_t> first_palette_;  // of a pool's entries, in matrices
+    std::vector<std::uint32_t> first_index_;    // one per mesh
+    std::vector<std::uint32_t> first_palette_;  // of a mesh's entries, in matrices
     std::vector<glm::vec4> rows_;               // the palette while it is made
     std::vector<float> weight_list_;
 };

@@ -15,7 +15,7 @@ layout(location = 7) in uvec2 displacements;  // first, count
 uniform samplerBuffer palette;         // three rows of each matrix
 uniform usamplerBuffer influence_list; // palette entry, bits of the weight
 uniform samplerBuffer displacement_list;  // position and target, normal, tangent
-uniform samplerBuffer target_weights;
+uniform samplerBuffer morph_weights;
 uniform mat4 view_projection;
 
 out vec3 world;
@@ -36,7 +36,7 @@ void main() {
     for (uint k = 0u; k < displacements.y; ++k) {
         int at = 3 * int(displacements.x + k);
         vec4 first = texelFetch(displacement_list, at);
-        float weight = texelFetch(target_weights, int(first.w)).x;
+        float weight = texelFetch(morph_weights, int(first.w)).x;
         if (weight == 0.0) continue;
         p += weight * first.xyz;
         n += weight * texelFetch(displacement_list, at + 1).xyz;

@@ -3,7 +3,7 @@
 // GLSL 3.30 sources.
 namespace bendy::viewer {
 
-/// Inbetweening and skinning as bendy::skin does it; everything that draws the character's vertices uses it. Takes the
+/// Morph targets and skinning as bendy::skin does it; everything that draws the character's vertices uses it. Takes the
 /// inputs of GpuVertex, the buffers of SceneBuffers, `view_projection`.
 extern const char* const kSkinShader;
 /// Metallic-roughness after glTF 2.0, appendix B, lit by a key light and a simple sky.

@@ -187,7 +187,7 @@ void Window::on_key(int key, bool is_down) {
         press_in_demo(key);
     } else {
         Player& player = *character_->player;
-        constexpr float kStep = 0.02f;  // of the cycle
+        constexpr float kStep = 0.02f;  // of the clip
         switch (key) {
             case GLFW_KEY_ESCAPE:
                 quits_ = true;

@@ -348,7 +348,7 @@ function drawBones() {
     if (!bones[n]) continue;
     const [x, y] = bones[n];
     pen.beginPath();
-    if (skeleton.joints.limits[n]) {
+    if (skeleton.joints.constraints[n]) {
       pen.fillStyle = colour('anim');
       pen.rect(x - dot, y - dot, 2 * dot, 2 * dot);
     } else {
@@ -373,7 +373,7 @@ function drawBones() {
 }
 function tellBone(n) {
   const joints = skeleton.joints;
-  $('boneinfo').textContent = n < 0 ? '' : `${jointName(n)} \u00b7 joint ${n} \u00b7 at ${shorts(joints.place[n])} m${joints.limits[n] ? ` \u00b7 ${joints.limits[n]}` : ''}`;
+  $('boneinfo').textContent = n < 0 ? '' : `${jointName(n)} \u00b7 joint ${n} \u00b7 at ${shorts(joints.place[n])} m${joints.constraints[n] ? ` \u00b7 ${joints.constraints[n]}` : ''}`;
 }
 function boneView() {
   const canvas = $('bones');
@@ -423,9 +423,9 @@ function skeletonSection(object) {
       const main = make('span', { class: 'main' }, make('span', { class: 'quiet' }, `${n} `), jointName(n));
       const turn = num(turnText(joints.r[n]));
       turn.title = `quaternion ${shorts(joints.r[n])}`;
-      return { main, all: [main, num(shorts(joints.t[n])), turn, num(scaled(joints.s[n]) ? shorts(joints.s[n]) : '1', 'slim'), make('span', { class: 'text' }, joints.limits[n])] };
+      return { main, all: [main, num(shorts(joints.t[n])), turn, num(scaled(joints.s[n]) ? shorts(joints.s[n]) : '1', 'slim'), make('span', { class: 'text' }, joints.constraints[n])] };
     },
-    text: n => `${jointName(n)} ${joints.limits[n]}`,
+    text: n => `${jointName(n)} ${joints.constraints[n]}`,
     open: () => tree.count <= 400,
     pick: n => { pickedJoint = n; tellBone(n); drawBones(); },
   });
@@ -439,7 +439,7 @@ function skeletonSection(object) {
       drawBones();
     } }, quoted(chain.name, `chain ${i}`)),
     make('div', { class: 'quiet' }, chain.text))));
-  const limited = joints.limits.filter(text => text).length;
+  const limited = joints.constraints.filter(text => text).length;
   $('bonelegend').replaceChildren(make('span', { class: 'key joint' }, make('i'), 'joint'), limited ? make('span', { class: 'key anim' }, make('i'), 'joint with constraints') : '',
     chains.total ? make('span', { class: 'key image' }, make('i'), 'chosen IK chain') : '',
     joints.total > tree.count ? `The page lists the first ${grouped(tree.count)} of ${grouped(joints.total)} joints. ` : '', 'Drag to turn, wheel to zoom.');
@@ -447,9 +447,9 @@ function skeletonSection(object) {
   drawBones();
 }
 
-// Cycles
+// Clips
 
-const pathNames = ['Translation', 'Rotation', 'Scale', 'Weights of inbetweening targets'];
+const pathNames = ['Translation', 'Rotation', 'Scale', 'Weights of morph targets'];
 const interpolations = ['step', 'linear', 'cubic'];
 /** A quaternion and its negative turn alike: takes the sign that is nearer to the one before, so that curves do not leap. */
 function unleaped(values) {
@@ -493,12 +493,12 @@ function bandsOf(values) {
   return single.length && single.length <= 4 && flattens ? single : [all];
 }
 
-function chart(cycle, track) {
+function chart(clip, track) {
   const turns = track.path === 1, degrees = turns && $('degrees').checked;
   const times = data.times[track.times], raw = turns ? unleaped(track.values) : track.values, values = degrees ? inDegrees(raw) : raw;
   const names = track.path === 3 ? values.map((_, c) => quoted((track.names || [])[c], `target ${c}`)) : ['x', 'y', 'z', 'w'];
   const bands = bandsOf(values);
-  const start = Math.min(times[0], cycle.start ?? times[0]), end = Math.max(times[times.length - 1], cycle.end ?? start, start + 1e-6);
+  const start = Math.min(times[0], clip.start ?? times[0]), end = Math.max(times[times.length - 1], clip.end ?? start, start + 1e-6);
   const info = make('span', { class: 'readout quiet' });
   const svg = draw('svg', { class: 'chart', tabindex: 0, role: 'img', 'aria-label': `${pathNames[track.path]} over time. Left and right arrow keys read values.` });
   let x = () => 0;
@@ -521,7 +521,7 @@ function chart(cycle, track) {
       if (bands.length > 1) svg.append(draw('text', { x: 8, y: scales[i]((low + high) / 2) + 4 }, names[bands[i].curves[0]]));
     });
     for (const t of ticks(start, end, 8)) svg.append(draw('line', { class: 'grid', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { x: x(t), y: h - 7, 'text-anchor': 'middle' }, `${short(t)} s`));
-    for (const [t, name] of cycle.markers) if (t !== null) svg.append(draw('line', { class: 'marker', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { class: 'marker', x: x(t) + 3, y: top + 9 }, name));
+    for (const [t, name] of clip.markers) if (t !== null) svg.append(draw('line', { class: 'marker', x1: x(t), x2: x(t), y1: top, y2: h - bottom }), draw('text', { class: 'marker', x: x(t) + 3, y: top + 9 }, name));
     bands.forEach((band, i) => band.curves.forEach(c => {
       const list = values[c], y = scales[i];
       let path = '', pen = 'M', before = 0;
@@ -564,19 +564,19 @@ function chart(cycle, track) {
   return figure;
 }
 
-function cycleSection(object) {
-  const cycles = object.cycles.list, joints = object.joints.name;
-  $('cycle').replaceChildren(...cycles.map((cycle, i) => make('option', { value: i }, quoted(cycle.name, `cycle ${i}`))));
+function clipSection(object) {
+  const clips = object.clips.list, joints = object.joints.name;
+  $('clip').replaceChildren(...clips.map((clip, i) => make('option', { value: i }, quoted(clip.name, `clip ${i}`))));
   let targets = [];
-  const keyOf = track => track.path === 3 ? `pool ${track.target}` : `joint ${track.target}`;
-  const nameOf = track => track.path === 3 ? `targets of ${quoted(track.pool, `pool ${track.target}`)}` : quoted(joints[track.target], `joint ${track.target}`);
+  const keyOf = track => track.path === 3 ? `mesh ${track.target}` : `joint ${track.target}`;
+  const nameOf = track => track.path === 3 ? `targets of ${quoted(track.mesh, `mesh ${track.target}`)}` : quoted(joints[track.target], `joint ${track.target}`);
   function charts() {
-    const cycle = cycles[$('cycle').value], group = targets[$('target').value];
-    $('charts').replaceChildren(...(group ? group.tracks.slice().sort((a, b) => a.path - b.path).map(track => chart(cycle, track)) : []));
+    const clip = clips[$('clip').value], group = targets[$('target').value];
+    $('charts').replaceChildren(...(group ? group.tracks.slice().sort((a, b) => a.path - b.path).map(track => chart(clip, track)) : []));
   }
   function choose() {
-    const cycle = cycles[$('cycle').value], groups = new Map(), kept = targets[$('target').value]?.key;
-    for (const track of cycle ? cycle.tracks : []) {
+    const clip = clips[$('clip').value], groups = new Map(), kept = targets[$('target').value]?.key;
+    for (const track of clip ? clip.tracks : []) {
       const key = keyOf(track);
       if (!groups.has(key)) groups.set(key, { key, name: nameOf(track), tracks: [] });
       groups.get(key).tracks.push(track);
@@ -584,10 +584,10 @@ function cycleSection(object) {
     targets = [...groups.values()];
     $('target').replaceChildren(...targets.map((group, i) => make('option', { value: i }, group.name)));
     $('target').value = Math.max(0, targets.findIndex(group => group.key === kept));
-    $('cycleinfo').textContent = cycle ? `${short(cycle.start)} to ${short(cycle.end)} s, ${cycle.loop ? 'repeats' : 'does not repeat'}, ${[...(cycle.total || !cycle.plays.length ? [plural(cycle.total, 'track')] : []), ...cycle.plays.map(play => `${plural(play.frames, 'frame')} of ${quoted(play.pool, 'a mesh')} from frame ${play.first}${play.closed ? ', closed' : ''}`)].join(', ')}${cycle.rate > 0 ? `, ${short(cycle.rate)} frames/s` : ''}${cycle.markers.length ? `, markers: ${cycle.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No cycles.';
+    $('clipinfo').textContent = clip ? `${short(clip.start)} to ${short(clip.end)} s, ${clip.loop ? 'repeats' : 'does not repeat'}, ${[...(clip.total || !clip.plays.length ? [plural(clip.total, 'track')] : []), ...clip.plays.map(play => `${plural(play.frames, 'frame')} of ${quoted(play.mesh, 'a mesh')} from frame ${play.first}${play.closed ? ', closed' : ''}`)].join(', ')}${clip.rate > 0 ? `, ${short(clip.rate)} frames/s` : ''}${clip.markers.length ? `, markers: ${clip.markers.map(([t, name]) => `${quoted(name, 'unnamed')} at ${short(t)} s`).join(', ')}` : ''}` : 'No clips.';
     charts();
   }
-  $('cycle').onchange = choose;
+  $('clip').onchange = choose;
   $('target').onchange = $('degrees').onchange = charts;
   choose();
   const { points, thinned, leftOut } = data.curves;
@@ -661,13 +661,13 @@ function setUp() {
     return;
   }
   listSection('warnings', data.warnings, warning => make('p', {}, `${warning.text} \u00b7 `, warning.chunk === null ? '' : goTo(warning.chunk)));
-  const objects = data.objects, hasJoints = objects.some(o => o.joints.total), hasCycles = objects.some(o => o.cycles.total);
+  const objects = data.objects, hasJoints = objects.some(o => o.joints.total), hasClips = objects.some(o => o.clips.total);
   if (hasJoints) { show('skeleton'); boneView(); }
-  if (hasCycles) show('cycles');
+  if (hasClips) show('clips');
   const choose = n => {
     for (const select of document.querySelectorAll('select.object')) select.value = n;
     if (hasJoints) skeletonSection(objects[n]);
-    if (hasCycles) cycleSection(objects[n]);
+    if (hasClips) clipSection(objects[n]);
   };
   for (const select of document.querySelectorAll('select.object')) {
     select.hidden = objects.length < 2;

@@ -115,12 +115,12 @@ std::uint64_t record_size(FourCC id) {
                                                                        {FourCC("SAME"), sizeof(SameRecord)},
                                                                        {FourCC("SURF"), sizeof(SurfaceRecord)},
                                                                        {FourCC("REST"), sizeof(RestRecord)},
-                                                                       {FourCC("LIMT"), sizeof(LimitRecord)},
-                                                                       {FourCC("PULL"), sizeof(PullRecord)},
+                                                                       {FourCC("LIMT"), sizeof(ConstraintRecord)},
+                                                                       {FourCC("PULL"), sizeof(ChainWeightRecord)},
                                                                        {FourCC("KINF"), sizeof(ChainRecord)},
-                                                                       {FourCC("VINF"), sizeof(PoolRecord)},
-                                                                       {FourCC("TINF"), sizeof(TargetRecord)},
-                                                                       {FourCC("CINF"), sizeof(CycleRecord)}}};
+                                                                       {FourCC("VINF"), sizeof(MeshRecord)},
+                                                                       {FourCC("TINF"), sizeof(MorphTargetRecord)},
+                                                                       {FourCC("CINF"), sizeof(ClipRecord)}}};
     for (const auto& [known, size] : kSizes) {
         if (known == id) return size;
     }
@@ -185,7 +185,8 @@ void import_joints(const SkeletonView& skeleton, Scene& scene) {
         joint.extensions = view.extensions;
         joint.more = view.more;
     }
-    for (const LimitView& limit : skeleton.limits) scene.joints[limit.joint].limits.push_back(limit.record);
+    for (const ConstraintView& constraint : skeleton.constraints)
+        scene.joints[constraint.joint].constraints.push_back(constraint.record);
 }
 
 void import_chains(const ObjectView& object, Scene& scene) {
@@ -195,79 +196,78 @@ void import_chains(const ObjectView& object, Scene& scene) {
         chain.record = view.record;
         chain.extras = view.extras;
     }
-    for (const PullView& pull : object.skeleton.pulls)
-        scene.chains[pull.chain].weights.push_back({pull.joint, pull.weight});
+    for (const ChainWeightView& chain_weight : object.skeleton.chain_weights)
+        scene.chains[chain_weight.chain].weights.push_back({chain_weight.joint, chain_weight.weight});
 }
 
-// --- cycles
+// --- clips
 
 /// Key k of fixed frames is at start + k / frame_rate; times stay ascending where a float cannot tell two frames apart.
-std::vector<float> frame_times(const CycleView& cycle, std::uint32_t keys) {
+std::vector<float> frame_times(const ClipView& clip, std::uint32_t keys) {
     std::vector<float> times;
     times.reserve(keys);
     for (std::uint32_t key = 0; key < keys; ++key) {
-        const auto time = static_cast<float>(cycle.start + key / double{cycle.frame_rate});
+        const auto time = static_cast<float>(clip.start + key / double{clip.frame_rate});
         const bool ascends = times.empty() || time > times.back();
         times.push_back(ascends ? time : std::nextafter(times.back(), std::numeric_limits<float>::infinity()));
     }
     return times;
 }
 
-class CycleImporter {
+class ClipImporter {
 public:
-    CycleImporter(const ChunkTree& tree, const SkeletonView& skeleton, Budget& budget, Report& report)
+    ClipImporter(const ChunkTree& tree, const SkeletonView& skeleton, Budget& budget, Report& report)
         : tree_(tree), budget_(budget), report_(report) {
         rests_.reserve(skeleton.joints.size());
         for (const JointView& joint : skeleton.joints) rests_.push_back(joint.rest);
     }
 
-    Cycle import(const CycleView& view) {
+    Clip import(const ClipView& view) {
         const std::string place = chunk_path(tree_.bytes(), tree_[view.chunk].offset);
-        Cycle cycle;
-        cycle.name = view.name;
-        cycle.loop = view.loop;
-        cycle.extras = view.extras;
-        cycle.more = view.more;
+        Clip clip;
+        clip.name = view.name;
+        clip.loop = view.loop;
+        clip.extras = view.extras;
+        clip.more = view.more;
         std::uint64_t fixed = 0;
         for (const TrackView& track : view.tracks) {
             budget_.take(track.keys + std::uint64_t{track.values.size()}, sizeof(float), place);
             fixed += track.times.empty() ? 1 : 0;
             std::vector<float> times = track.times.empty() ? frame_times(view, track.keys)
                                                            : std::vector<float>(track.times.begin(), track.times.end());
-            cycle.tracks.push_back({track.path,
-                                    track.interpolation,
-                                    track.target,
-                                    track.components,
-                                    std::move(times),
-                                    {track.values.begin(), track.values.end()}});
+            clip.tracks.push_back({track.path,
+                                   track.interpolation,
+                                   track.target,
+                                   track.components,
+                                   std::move(times),
+                                   {track.values.begin(), track.values.end()}});
         }
-        if (view.packed) unpack(view, place, cycle);
-        for (const PlayView& play : view.plays)
-            cycle.plays.push_back({play.pool, play.first, play.frames, play.closed});
+        if (view.packed) unpack(view, place, clip);
+        for (const PlayView& play : view.plays) clip.plays.push_back({play.mesh, play.first, play.frames, play.closed});
         if (!view.plays.empty()) {
-            cycle.frame_rate = view.frame_rate;
-            cycle.frame_start = view.start;
+            clip.frame_rate = view.frame_rate;
+            clip.frame_start = view.start;
         }
-        for (const CurveView& curve : view.curves) cycle.curves.push_back(import_curve(curve, place));
+        for (const CurveView& curve : view.curves) clip.curves.push_back(import_curve(curve, place));
         if (fixed != 0) report_.warn("tracks of fixed frames are written as timed keys", place, fixed);
-        if (const CycleSpan stated{view.start, view.end}; stated != span_of(cycle)) cycle.stated_span = stated;
-        import_markers(view, place, cycle);
-        return cycle;
+        if (const ClipSpan stated{view.start, view.end}; stated != span_of(clip)) clip.stated_span = stated;
+        import_markers(view, place, clip);
+        return clip;
     }
 
 private:
-    void unpack(const CycleView& view, const std::string& place, Cycle& cycle) {
+    void unpack(const ClipView& view, const std::string& place, Clip& clip) {
         const PackedView& packed = *view.packed;
         std::uint64_t tracks = 0;
         for (const PackedList& list : packed.lists) tracks += list.count;
         budget_.take(tracks * packed.record.frames, 5 * sizeof(float), place);
-        for (UnpackedTrack& track : unpack_cycle(packed, rests_)) {
+        for (UnpackedTrack& track : unpack_clip(packed, rests_)) {
             // The last frame's time is rounded: it may lie after the clip's end by as much.
             const std::size_t last = track.times.size() - 1;
             if (last == 0 || track.times[last - 1] < view.end)
                 track.times[last] = std::min(track.times[last], view.end);
-            cycle.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
-                                    std::move(track.times), std::move(track.values)});
+            clip.tracks.push_back({track.path, Interpolation::linear, track.joint, track.components,
+                                   std::move(track.times), std::move(track.values)});
         }
     }
 
@@ -287,14 +287,14 @@ private:
         return curve;
     }
 
-    void import_markers(const CycleView& view, const std::string& place, Cycle& cycle) {
+    void import_markers(const ClipView& view, const std::string& place, Clip& clip) {
         std::vector<SourceMarker> markers;
         markers.reserve(view.markers.size());
         for (const bendy::Marker& marker : view.markers) {
             budget_.take(sizeof(SourceMarker) + marker.name.size() + place.size(), 1, place);
             markers.push_back({{marker.seconds, std::string(marker.name)}, place});
         }
-        set_markers(cycle, std::move(markers), {}, WrongMarkers::left_out, report_);
+        set_markers(clip, std::move(markers), {}, WrongMarkers::left_out, report_);
     }
 
     const ChunkTree& tree_;
@@ -306,23 +306,23 @@ private:
 // --- the collapse sequence
 
 void import_collapse(const CollapseView& view, Scene& scene) {
-    for (const PoolCollapseView& pool : view.pools) {
-        Mesh& mesh = scene.meshes[pool.pool];
-        mesh.base = pool.base;
-        mesh.collapse.resize(pool.vertices);
-        mesh.joined.resize(pool.vertices);
-        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
-            const bool collapses = vertex >= pool.base;
-            mesh.collapse[vertex] = collapses ? pool.target(vertex) : vertex;
-            mesh.joined[vertex] = collapses && pool.is_joined(vertex) ? 1 : 0;
+    for (const MeshCollapseView& stored : view.meshes) {
+        Mesh& mesh = scene.meshes[stored.mesh];
+        mesh.base = stored.base;
+        mesh.collapse.resize(stored.vertices);
+        mesh.joined.resize(stored.vertices);
+        for (std::uint32_t vertex = 0; vertex < stored.vertices; ++vertex) {
+            const bool collapses = vertex >= stored.base;
+            mesh.collapse[vertex] = collapses ? stored.target(vertex) : vertex;
+            mesh.joined[vertex] = collapses && stored.is_joined(vertex) ? 1 : 0;
         }
     }
     for (std::uint32_t number = 0; number < view.levels; ++number) {
         LodLevel& level = scene.levels.emplace_back();
         level.error = view.error(number);
         for (const Mesh& mesh : scene.meshes) level.alive.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-        for (std::uint32_t place = 0; place < view.pools.size(); ++place)
-            level.alive[view.pools[place].pool] = view.alive(number, place);
+        for (std::uint32_t place = 0; place < view.meshes.size(); ++place)
+            level.alive[view.meshes[place].mesh] = view.alive(number, place);
     }
 }
 
@@ -434,10 +434,10 @@ Scene import(Bytes bytes, Report& report) {
     import_chains(object, scene);
     import_textures(*tree, document, scene, report);
     import_materials(document, scene);
-    import_pools(*tree, object, budget, scene, report);
+    import_stored_meshes(*tree, object, budget, scene, report);
     if (object.collapse) import_collapse(*object.collapse, scene);
-    CycleImporter cycles(*tree, object.skeleton, budget, report);
-    for (const CycleView& cycle : object.cycles) scene.cycles.push_back(cycles.import(cycle));
+    ClipImporter clips(*tree, object.skeleton, budget, report);
+    for (const ClipView& clip : object.clips) scene.clips.push_back(clips.import(clip));
     return scene;
 }
 

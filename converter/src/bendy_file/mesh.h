@@ -8,8 +8,9 @@
 
 namespace bendy::converter {
 
-/// Fills scene.meshes from an object's pools and its joints' polygons, one mesh a pool. The document passes
+/// Fills scene.meshes from an object's meshes and its joints' polygons, one mesh for each. The document passes
 /// check_values.
-void import_pools(const ChunkTree& tree, const ObjectView& object, Budget& budget, Scene& scene, Report& report);
+void import_stored_meshes(const ChunkTree& tree, const ObjectView& object, Budget& budget, Scene& scene,
+                          Report& report);
 
 }  // namespace bendy::converter

@@ -88,8 +88,8 @@ void collapse_vertices(Scene& scene) {
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         surfaces.push_back(make_surface(scene.meshes[mesh], shapes[mesh]));
         // One for all that are alike: else triangles between doubles would stay when they have no area any more.
-        for (Part& part : scene.meshes[mesh].parts) {
-            for (std::uint32_t& index : part.indices) index = surfaces.back().alike[index];
+        for (Submesh& submesh : scene.meshes[mesh].submeshes) {
+            for (std::uint32_t& index : submesh.indices) index = surfaces.back().alike[index];
         }
     }
     lock_shared_borders(shapes, surfaces);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostPoses = 8;
 constexpr std::size_t kMostSamples = 120;  // poses to choose from
-constexpr std::size_t kSamplesOfCycle = 12;
+constexpr std::size_t kSamplesOfClip = 12;
 constexpr int kMadeUpPoses = 3;
 constexpr std::size_t kMostTargetGroups = 6;
 constexpr std::size_t kMostShapeVertices = 6'000'000;  // shapes times vertices: what memory and time allow
@@ -27,8 +27,8 @@ bool is_finite(const glm::dvec3& v) {
 }
 
 /// As floats; what is no place stays where the file has it.
-Shape pose_mesh(const Mesh& mesh, const std::vector<double>& target_weights, const EvaluatedPose& pose) {
-    const std::vector<glm::dvec3> vertices = evaluate_vertices(mesh, target_weights, pose.joints);
+Shape pose_mesh(const Mesh& mesh, const std::vector<double>& morph_weights, const EvaluatedPose& pose) {
+    const std::vector<glm::dvec3> vertices = evaluate_vertices(mesh, morph_weights, pose.joints);
     Shape shape;
     shape.reserve(vertices.size());
     for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
@@ -38,7 +38,7 @@ Shape pose_mesh(const Mesh& mesh, const std::vector<double>& target_weights, con
     return shape;
 }
 
-/// Poses of a scene without cycles: every joint turned by some tens of degrees, the same in each run.
+/// Poses of a scene without clips: every joint turned by some tens of degrees, the same in each run.
 std::vector<EvaluatedPose> make_up_poses(const Scene& scene, const EvaluatedPose& rest) {
     constexpr float kTurn = 0.35f;  // of a quaternion whose w is 1: up to some 60 degrees
     std::vector<EvaluatedPose> poses;
@@ -59,7 +59,7 @@ std::vector<EvaluatedPose> make_up_poses(const Scene& scene, const EvaluatedPose
             joint.rest.rotation = {r.x, r.y, r.z, r.w};
         }
         evaluate_rest(turned, poses.emplace_back());
-        poses.back().target_weights = rest.target_weights;
+        poses.back().morph_weights = rest.morph_weights;
     }
     return poses;
 }
@@ -108,7 +108,7 @@ std::vector<std::vector<double>> group_targets(const Mesh& mesh, std::size_t mos
 }  // namespace
 
 std::vector<std::vector<Shape>> find_shapes(const Scene& scene) {
-    std::vector<EvaluatedPose> candidates = sample_poses(scene, kMostSamples, kSamplesOfCycle);
+    std::vector<EvaluatedPose> candidates = sample_poses(scene, kMostSamples, kSamplesOfClip);
     const EvaluatedPose rest = candidates.front();
     std::vector<EvaluatedPose> poses = choose_poses(rest, std::move(candidates));
     if (poses.empty()) poses = make_up_poses(scene, rest);
@@ -118,13 +118,13 @@ std::vector<std::vector<Shape>> find_shapes(const Scene& scene) {
         const Mesh& mesh = scene.meshes[number];
         const std::size_t most = kMostShapeVertices / std::max<std::size_t>(mesh.positions.size(), 1);
         std::vector<Shape>& list = shapes.emplace_back();
-        list.push_back(pose_mesh(mesh, rest.target_weights[number], rest));
+        list.push_back(pose_mesh(mesh, rest.morph_weights[number], rest));
         for (const std::vector<double>& weights : group_targets(mesh, kMostTargetGroups)) {
             if (list.size() < most) list.push_back(pose_mesh(mesh, weights, rest));
         }
         for (const EvaluatedPose& pose : poses) {
             if (mesh.influences != 0 && list.size() < most)
-                list.push_back(pose_mesh(mesh, pose.target_weights[number], pose));
+                list.push_back(pose_mesh(mesh, pose.morph_weights[number], pose));
         }
     }
     return shapes;

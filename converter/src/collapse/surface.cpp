@@ -73,7 +73,7 @@ class Streams {
 public:
     explicit Streams(const Mesh& mesh) : mesh_(mesh) {
         if (mesh.influences != 0) list_.emplace_back(mesh.weights.data(), mesh.influences);
-        for (const Target& target : mesh.targets) {
+        for (const MorphTarget& target : mesh.targets) {
             for (const auto* stream : {&target.positions, &target.normals, &target.tangents}) {
                 if (!stream->empty()) list_.emplace_back(&stream->front().x, 3);
             }
@@ -119,18 +119,18 @@ void find_alike(const Mesh& mesh, Surface& surface) {
     }
 }
 
-void add_part(Surface& surface, const Part& part) {
-    for (const std::uint32_t vertex : part.indices) surface.is_used[surface.alike[vertex]] = true;
-    if (part.topology != Topology::triangles) {
-        for (const std::uint32_t vertex : part.indices) surface.is_locked[surface.point_of[vertex]] = true;
+void add_submesh(Surface& surface, const Submesh& submesh) {
+    for (const std::uint32_t vertex : submesh.indices) surface.is_used[surface.alike[vertex]] = true;
+    if (submesh.topology != Topology::triangles) {
+        for (const std::uint32_t vertex : submesh.indices) surface.is_locked[surface.point_of[vertex]] = true;
         return;
     }
-    for (std::size_t at = 0; at + 3 <= part.indices.size(); at += 3) {
+    for (std::size_t at = 0; at + 3 <= submesh.indices.size(); at += 3) {
         Surface::Triangle triangle;
-        triangle.material = part.material;
+        triangle.material = submesh.material;
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle.vertices[k] = surface.alike[part.indices[at + k]];
-            triangle.points[k] = surface.point_of[part.indices[at + k]];
+            triangle.vertices[k] = surface.alike[submesh.indices[at + k]];
+            triangle.points[k] = surface.point_of[submesh.indices[at + k]];
         }
         const auto& p = triangle.points;
         if (p[0] != p[1] && p[1] != p[2] && p[2] != p[0]) surface.triangles.push_back(triangle);
@@ -171,7 +171,7 @@ Surface make_surface(const Mesh& mesh, std::span<const Shape> shapes) {
     surface.is_used.assign(mesh.positions.size(), false);
     list_vertices(surface);
     find_alike(mesh, surface);
-    for (const Part& part : mesh.parts) add_part(surface, part);
+    for (const Submesh& submesh : mesh.submeshes) add_submesh(surface, submesh);
     link_corners(surface);
     return surface;
 }

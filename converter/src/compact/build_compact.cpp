@@ -1,8 +1,8 @@
 #include "compact/build_compact.h"
 
 #include "compact/compact_geometry.h"
+#include "compact/pack_clips.h"
 #include "compact/pack_curve.h"
-#include "compact/pack_cycles.h"
 #include "evaluate.h"
 #include "frame_shapes.h"
 #include "measure_error.h"
@@ -75,7 +75,7 @@ constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk
                             KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
                             KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
                             KindOfChunk{FourCC("FRMS"), "frames"},   KindOfChunk{FourCC("NLST"), "NORM"},
-                            KindOfChunk{FourCC("CYCL"), "cycles"},   KindOfChunk{FourCC("TEXT"), "textures"},
+                            KindOfChunk{FourCC("CYCL"), "clips"},    KindOfChunk{FourCC("TEXT"), "textures"},
                             KindOfChunk{FourCC("HEAD"), "other"}};
 
 }  // namespace
@@ -110,10 +110,10 @@ std::vector<ByteCount> count_bytes(Bytes file) {
 
 namespace {
 
-// Of the bound, what positions, weights and targets may use up, and what cycles may. The two seldom meet at one point
+// Of the bound, what positions, weights and targets may use up, and what clips may. The two seldom meet at one point
 // at one time, so their sum may be above 1: the measurement decides.
 constexpr double kGeometryShare = 0.35;
-constexpr double kCycleShare = 0.9;
+constexpr double kClipShare = 0.9;
 
 /// One attempt: the bytes, and how far they are from the scene.
 struct Attempt {
@@ -158,9 +158,9 @@ std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
 
 /// What put_curves does to the curves.
 void count_curves(const Scene& scene, CompactReport& report) {
-    for (const Cycle& cycle : scene.cycles) {
-        report.curves += cycle.curves.size();
-        for (const Curve& curve : cycle.curves) {
+    for (const Clip& clip : scene.clips) {
+        report.curves += clip.curves.size();
+        for (const Curve& curve : clip.curves) {
             const std::optional<PackedCurve> packed = pack_curve(curve);
             if (!packed) continue;
             ++report.packed_curves;
@@ -173,10 +173,10 @@ void count_curves(const Scene& scene, CompactReport& report) {
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
                                      Report& report, const std::function<void(double)>& progress) {
-    constexpr int kAttempts = 6;            // the last leaves the cycles as they are
+    constexpr int kAttempts = 6;            // the last leaves the clips as they are
     constexpr double kPackingShare = 0.6;   // of an attempt
     constexpr double kAttemptShare = 0.75;  // of what is left of the work
-    constexpr double kOvershoot = 1.1;      // of what is taken off the cycles, for what is too much
+    constexpr double kOvershoot = 1.1;      // of what is taken off the clips, for what is too much
     constexpr double kLeast = 0.2;          // of their share, from one attempt to the next
     constexpr double kStep =
         0.02;  // taken off at least, twice as much at each attempt: small changes may change nothing
@@ -189,15 +189,15 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
 
     Report unheard;  // the compact file's warnings are the same
     Scene geometry_scene = exact;
-    const double geometry_share = exact.cycles.empty() ? 1.0 : kGeometryShare;
-    // About: the geometry takes as long as five seconds of cycles.
+    const double geometry_share = exact.clips.empty() ? 1.0 : kGeometryShare;
+    // About: the geometry takes as long as five seconds of clips.
     constexpr double kGeometryWork = 5.0;
     double seconds = 0.0;
-    for (const Cycle& cycle : exact.cycles) seconds += span_of(cycle).at(1.0) - span_of(cycle).at(0.0);
+    for (const Clip& clip : exact.clips) seconds += span_of(clip).at(1.0) - span_of(clip).at(0.0);
     const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
         compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
-    double cycle_share = kCycleShare;
+    double clip_share = kClipShare;
     Attempt attempt;
     double done = geometry_done;
     for (int number = 0; number < kAttempts; ++number) {
@@ -206,7 +206,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         const double packing_done = done + kPackingShare * (attempt_done - done);
         Scene scene = geometry_scene;
         if (number + 1 < kAttempts)
-            pack_cycles(scene, result.max_error * cycle_share, part_of(progress, done, packing_done));
+            pack_clips(scene, result.max_error * clip_share, part_of(progress, done, packing_done));
         BuildOptions options;
         options.compact = true;
         options.geometry = &geometry;
@@ -221,7 +221,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         }
         const double excess = attempt.error.metres / result.max_error - 1.0;
         const double less = std::max(kOvershoot * excess, kStep * (1 << number));
-        cycle_share = std::max(cycle_share - less, kLeast * cycle_share);
+        clip_share = std::max(clip_share - less, kLeast * clip_share);
     }
     if (!(attempt.error.metres <= result.max_error)) {
         report.warn("cannot be kept inside the error that was asked for: written exactly");

@@ -12,7 +12,7 @@
 namespace bendy::converter {
 
 /// Writes a scene in compact encodings, such that no point of the skin is further than the bound from where the scene
-/// has it. That is measured: on the file's bytes, read back, over the rest pose and all of every cycle (measure_error).
+/// has it. That is measured: on the file's bytes, read back, over the rest pose and all of every clip (measure_error).
 /// What was found goes to report.compact. A scene that cannot be kept inside the bound is written exactly, with a
 /// warning.
 /// \param progress  is told the part that is done, 0 to 1; may be empty

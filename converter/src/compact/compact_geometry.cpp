@@ -81,14 +81,14 @@ double stretch_of(const SkinMatrices& matrices) {
     return largest > 1e-30 && std::isfinite(largest) ? largest : 1.0;
 }
 
-/// The largest sum of target weights that rest or a cycle asks for, 1 at least.
-double target_weight_of(const Scene& scene, std::uint32_t number) {
+/// The largest sum of morph target weights that rest or a clip asks for, 1 at least.
+double morph_weight_of(const Scene& scene, std::uint32_t number) {
     const Mesh& mesh = scene.meshes[number];
     double rest = 0.0;
-    for (const Target& target : mesh.targets) rest += std::abs(target.rest_weight);
+    for (const MorphTarget& target : mesh.targets) rest += std::abs(target.rest_weight);
     double largest = std::max(1.0, rest);
-    for (const Cycle& cycle : scene.cycles) {
-        for (const Track& track : cycle.tracks) {
+    for (const Clip& clip : scene.clips) {
+        for (const Track& track : clip.tracks) {
             if (track.path != TrackPath::weights || track.target != number || track.components == 0) continue;
             for (std::size_t at = 0; at + track.components <= track.values.size(); at += track.components) {
                 double sum = 0.0;
@@ -287,7 +287,7 @@ double texels_per_unit(const Scene& scene) {
 
 /// Texture coordinates to a quarter of a texel, and to 12 bits of their range.
 std::optional<StoredStream> compact_coords(const Stream& stream, double texels) {
-    if (stream.values.empty() || narrow_fractions(stream.values).type == ComponentType::u8) return std::nullopt;
+    if (stream.values.empty() || smallest_exact_fractions(stream.values).type == ComponentType::u8) return std::nullopt;
     glm::dvec2 low(std::numeric_limits<double>::max());
     glm::dvec2 high(std::numeric_limits<double>::lowest());
     for (std::size_t at = 0; at < stream.values.size(); ++at) {
@@ -317,8 +317,8 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
         left -= derive_palette(mesh, compact, kPaletteShare * left, budget.rests, budget.poses);
         left -= compact_weights(mesh, compact, kWeightShare * left, matrices);
     }
-    const bool has_targets =
-        std::any_of(mesh.targets.begin(), mesh.targets.end(), [](const Target& t) { return !t.positions.empty(); });
+    const bool has_targets = std::any_of(mesh.targets.begin(), mesh.targets.end(),
+                                         [](const MorphTarget& t) { return !t.positions.empty(); });
     const double positions = left * (has_targets ? 0.5 : 1.0) / budget.stretch;
     const double shifts = left * 0.5 / budget.stretch / budget.targets;
     if (!mesh.positions.empty() && !is_framed)
@@ -335,7 +335,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
         take_back(compact.colours.emplace_back(quantise_colours(stream.values, stream.components)), stream.values);
     }
     constexpr double kDirectionShift = 1.0 / 256.0;  // of a unit normal's displacement
-    for (Target& target : mesh.targets) {
+    for (MorphTarget& target : mesh.targets) {
         CompactTarget& stored = compact.targets.emplace_back();
         if (target.is_frame) continue;
         stored.positions = quantise_shifts(target.positions, shifts);
@@ -363,7 +363,7 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
         Mesh& mesh = scene.meshes[number];
         CompactMesh& compact = geometry.meshes.emplace_back();
         const SkinMatrices matrices = skin_matrices(mesh, poses);
-        const Budget budget{most_error, stretch_of(matrices), target_weight_of(scene, number), rests, poses};
+        const Budget budget{most_error, stretch_of(matrices), morph_weight_of(scene, number), rests, poses};
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
         compact_mesh(mesh, compact, budget, matrices, texels);

@@ -31,8 +31,8 @@ struct CompactGeometry {
 /// Quantises all meshes of a scene, merges vertices that have become equal, and orders triangles and vertices for the
 /// codecs. The scene's numbers become what the integers decode to. A mesh's vertices keep their number and order where
 /// is_order_fixed.
-/// \param most_error  metres in model space: what positions, weights and inbetweening targets together may move a point
-///                    of the skin, at rest and in the poses of the scene's cycles; above 0
+/// \param most_error  metres in model space: what positions, weights and morph targets together may move a point
+///                    of the skin, at rest and in the poses of the scene's clips; above 0
 /// \param progress    called with 0 to 1; may be empty
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress);
 

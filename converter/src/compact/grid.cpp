@@ -56,19 +56,19 @@ std::optional<double> rate_of(const Track& track) {
     return rate;
 }
 
-/// What the tracks of a cycle are, as far as a grid is concerned.
+/// What the tracks of a clip are, as far as a grid is concerned.
 struct Tracks {
     std::vector<std::uint32_t> still;   // numbers of tracks that never change
     std::vector<std::uint32_t> moving;  // numbers of those that do, and can be packed
     const Track* densest = nullptr;     // of these
-    CycleSpan span;
+    ClipSpan span;
 };
 
-Tracks sort_tracks(const Cycle& cycle) {
+Tracks sort_tracks(const Clip& clip) {
     Tracks tracks;
-    tracks.span = span_of(cycle);
-    for (std::uint32_t number = 0; number < cycle.tracks.size(); ++number) {
-        const Track& track = cycle.tracks[number];
+    tracks.span = span_of(clip);
+    for (std::uint32_t number = 0; number < clip.tracks.size(); ++number) {
+        const Track& track = clip.tracks[number];
         if (!is_packable(track)) continue;
         if (is_constant(track)) {
             tracks.still.push_back(number);
@@ -80,7 +80,7 @@ Tracks sort_tracks(const Cycle& cycle) {
     return tracks;
 }
 
-/// One frame, or two that span the cycle: for tracks that never change.
+/// One frame, or two that span the clip: for tracks that never change.
 Grid still_grid(const Tracks& tracks) {
     const auto [start, end] = tracks.span;
     const bool lasts = end > start;
@@ -88,7 +88,7 @@ Grid still_grid(const Tracks& tracks) {
 }
 
 /// The even grid that holds most of the moving tracks, and these.
-GridTracks even_grid(const Cycle& cycle, const Tracks& tracks) {
+GridTracks even_grid(const Clip& clip, const Tracks& tracks) {
     GridTracks found;
     const std::optional<double> base = rate_of(*tracks.densest);
     if (!base) return found;
@@ -99,7 +99,7 @@ GridTracks even_grid(const Cycle& cycle, const Tracks& tracks) {
         std::vector<std::uint32_t> held;
         double last = origin;
         for (const std::uint32_t number : tracks.moving) {
-            const Track& track = cycle.tracks[number];
+            const Track& track = clip.tracks[number];
             if (!is_on_grid(track, origin, rate)) continue;
             held.push_back(number);
             last = std::max(last, double{track.times.back()});
@@ -113,12 +113,12 @@ GridTracks even_grid(const Cycle& cycle, const Tracks& tracks) {
 }
 
 /// All times at which a moving track has a key; no frames if these are many more than any one track has.
-Grid uneven_grid(const Cycle& cycle, const Tracks& tracks) {
+Grid uneven_grid(const Clip& clip, const Tracks& tracks) {
     constexpr std::size_t kMore = 2;
     Grid grid{0.0f, 0.0f, 0, {}};
     const std::vector<float>* before = nullptr;
     for (const std::uint32_t number : tracks.moving) {
-        const std::vector<float>& times = cycle.tracks[number].times;
+        const std::vector<float>& times = clip.tracks[number].times;
         if (before != nullptr && *before == times) continue;
         before = &times;
         std::vector<float> merged;
@@ -144,13 +144,13 @@ double Grid::snap() const {
     return rate != 0.0f ? kGridTolerance / rate : 0.0;
 }
 
-std::optional<GridTracks> find_grid(const Cycle& cycle) {
-    const Tracks tracks = sort_tracks(cycle);
+std::optional<GridTracks> find_grid(const Clip& clip) {
+    const Tracks tracks = sort_tracks(clip);
     GridTracks found;
     if (!tracks.moving.empty()) {
-        found = even_grid(cycle, tracks);
+        found = even_grid(clip, tracks);
         if (found.tracks.size() < tracks.moving.size()) {
-            Grid uneven = uneven_grid(cycle, tracks);
+            Grid uneven = uneven_grid(clip, tracks);
             if (uneven.frames > 1) found = {std::move(uneven), tracks.moving};
         }
     }
@@ -205,7 +205,7 @@ double error_of(const Track& track, const Local& rest, const Grid& from, const G
 
 }  // namespace
 
-std::optional<ThinGrid> thin_grid(const Scene& scene, const Cycle& cycle, const GridTracks& tracks, std::uint32_t fewer,
+std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double most) {
     const Grid& old = tracks.grid;
     const std::uint32_t frames = (old.frames - 1 + fewer / 2) / fewer + 1;
@@ -214,7 +214,7 @@ std::optional<ThinGrid> thin_grid(const Scene& scene, const Cycle& cycle, const 
     thin.grid.frames = frames;
     thin.grid.rate = static_cast<float>(double{old.rate} * (frames - 1) / (old.frames - 1));
     for (const std::uint32_t number : tracks.tracks) {
-        const Track& track = cycle.tracks[number];
+        const Track& track = clip.tracks[number];
         double reach = 0.0;
         for (const glm::dvec3& probe : probes[track.target]) reach = std::max(reach, glm::length(probe));
         const Local rest = local_of(scene.joints[track.target].rest);

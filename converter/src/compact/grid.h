@@ -32,7 +32,7 @@ struct GridTracks {
     Grid grid;
     std::vector<std::uint32_t> tracks;
 };
-std::optional<GridTracks> find_grid(const Cycle& cycle);
+std::optional<GridTracks> find_grid(const Clip& clip);
 
 /// Keys farther from a frame than this, in frames, are not on the grid.
 inline constexpr double kGridTolerance = 0.01;
@@ -47,7 +47,7 @@ struct ThinGrid {
 
 /// About one frame of `fewer`, evenly spaced: frames need not lie on keys. Nothing if the old grid is uneven, few
 /// frames would be left, or the error is more than `most` metres. \param probes  per joint, see find_probes
-std::optional<ThinGrid> thin_grid(const Scene& scene, const Cycle& cycle, const GridTracks& tracks, std::uint32_t fewer,
+std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double most);
 
 }  // namespace bendy::converter

@@ -24,7 +24,7 @@ struct Way {
 class Ways {
 public:
     explicit Ways(const LeafShape& shape) {
-        if (shape.is_packed_cycle) add(Codec::cycle, 0, 0);
+        if (shape.is_packed_clip) add(Codec::clip, 0, 0);
         if (shape.is_triangles) {
             add(Codec::indices, shape.head, shape.number);
             add(Codec::indices_zstd, shape.head, shape.number);

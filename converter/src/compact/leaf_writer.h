@@ -17,7 +17,7 @@ struct LeafShape {
     std::uint16_t row = 0;     ///< bytes of a row
     std::uint16_t number = 0;  ///< bytes of a number
     bool is_triangles = false;
-    bool is_packed_cycle = false;
+    bool is_packed_clip = false;
     bool sums = false;  ///< rows of u16 that sum to the same number
 };
 

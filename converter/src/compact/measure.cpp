@@ -63,7 +63,7 @@ template <class Visit>
 void for_each_place(const Mesh& mesh, std::size_t vertex, Visit visit) {
     const glm::dvec3 at(mesh.positions[vertex]);
     visit(at);
-    for (const Target& target : mesh.targets) {
+    for (const MorphTarget& target : mesh.targets) {
         if (target.positions.empty()) continue;
         const glm::dvec3 shift = shift_of(target, target.positions, mesh.positions, vertex);
         if (shift != glm::dvec3(0.0)) visit(at + shift);
@@ -106,8 +106,8 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
     const std::vector<Affine> rest = rest_pose(scene);
     Found found{std::vector<Extremes>(rest.size()), std::vector<bool>(rest.size())};
     for (const Mesh& mesh : scene.meshes) add_mesh(scene, mesh, rest, found);
-    for (const Cycle& cycle : scene.cycles) {
-        for (const Track& track : cycle.tracks) {
+    for (const Clip& clip : scene.clips) {
+        for (const Track& track : clip.tracks) {
             if (track.path != TrackPath::weights) found.has_shell[track.target] = true;
         }
     }
@@ -134,10 +134,10 @@ namespace {
 
 constexpr double kRate = 240.0;  // per second
 
-std::vector<float> times_of(const Cycle& cycle) {
+std::vector<float> times_of(const Clip& clip) {
     std::vector<float> times;
-    const CycleSpan span = span_of(cycle);
-    for (const Track& track : cycle.tracks) {
+    const ClipSpan span = span_of(clip);
+    for (const Track& track : clip.tracks) {
         if (track.path == TrackPath::weights) continue;
         const std::size_t before = times.size();
         times.insert(times.end(), track.times.begin(), track.times.end());
@@ -170,8 +170,8 @@ private:
     void decode(std::uint32_t frame) {
         frame_ = frame;
         groups_.clear();
-        PackedWalk walk(packed_, frame);
-        for (PackedGroup group; walk.next(group);) groups_.push_back(group);
+        PackedGroupReader reader(packed_, frame);
+        for (PackedGroup group; reader.next(group);) groups_.push_back(group);
     }
 
     void set_joint(const PackedGroup& group, std::uint32_t t, double u, Local& local) const {
@@ -203,7 +203,7 @@ private:
 
 }  // namespace
 
-WorstError measure_packed(const Scene& scene, const Cycle& source, const std::vector<bool>& is_replaced,
+WorstError measure_packed(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
                           const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes, double enough) {
     const std::size_t joints = scene.joints.size();
     std::vector<Local> rest;

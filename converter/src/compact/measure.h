@@ -3,7 +3,7 @@
 #include "space.h"
 
 #include <bendy/converter/scene.h>
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 
 #include <cstdint>
 #include <vector>
@@ -24,16 +24,16 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
 struct WorstError {
     double metres = 0.0;  ///< in model space
     std::uint32_t joint = kNone;
-    double seconds = 0.0;  ///< on the cycle's time line
+    double seconds = 0.0;  ///< on the clip's time line
 };
 
-/// Plays a packed cycle against its source, 240 times a second and at each of the source's key times, the source
+/// Plays a packed clip against its source, 240 times a second and at each of the source's key times, the source
 /// interpolated as glTF says.
 /// \param source       with all tracks
-/// \param is_replaced  per track: the packed cycle has it, or leaves the property at rest
+/// \param is_replaced  per track: the packed clip has it, or leaves the property at rest
 /// \param packed       as read from the bytes that are written
 /// \param enough       stops at the first error above this
-WorstError measure_packed(const Scene& scene, const Cycle& source, const std::vector<bool>& is_replaced,
+WorstError measure_packed(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
                           const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes, double enough);
 
 }  // namespace bendy::converter

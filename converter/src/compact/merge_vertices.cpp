@@ -26,7 +26,7 @@ void for_each_stream(Mesh& mesh, CompactMesh& compact, const Visit& visit) {
     }
     visit(mesh.bones, mesh.influences);
     visit(mesh.weights, mesh.influences);
-    for (Target& target : mesh.targets) {
+    for (MorphTarget& target : mesh.targets) {
         visit(target.positions, 1);
         visit(target.normals, 1);
         visit(target.tangents, 1);
@@ -54,8 +54,8 @@ void move_vertices(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32
         values = std::move(moved);
     });
     for (std::uint32_t& vertex : compact.vertex_of) vertex = place_of[vertex];
-    for (Part& part : mesh.parts) {
-        for (std::uint32_t& index : part.indices) index = place_of[index];
+    for (Submesh& submesh : mesh.submeshes) {
+        for (std::uint32_t& index : submesh.indices) index = place_of[index];
     }
 }
 
@@ -100,7 +100,7 @@ void merge_vertices(Mesh& mesh, CompactMesh& compact) {
 void order_for_codecs(Mesh& mesh, CompactMesh& compact) {
     const std::size_t vertices = mesh.positions.size();
     AssignedPolygons assigned = assign_polygons(mesh);
-    for (const PolygonRange& range : assigned.ranges) {
+    for (const AssignedSubmesh& range : assigned.ranges) {
         if (range.topology != Topology::triangles) continue;
         const auto part = std::span(assigned.indices).subspan(range.first, range.count);
         const std::vector<std::uint32_t> before(part.begin(), part.end());
@@ -115,17 +115,17 @@ void order_for_codecs(Mesh& mesh, CompactMesh& compact) {
     for (std::uint32_t& place : place_of) {
         if (place == kUnused) place = next++;
     }
-    mesh.parts.clear();
+    mesh.submeshes.clear();
     move_vertices(mesh, compact, place_of, vertices);
     for (std::uint32_t& index : assigned.indices) index = place_of[index];
     const bool all_triangles = std::all_of(assigned.ranges.begin(), assigned.ranges.end(),
-                                           [](const PolygonRange& r) { return r.topology == Topology::triangles; });
+                                           [](const AssignedSubmesh& r) { return r.topology == Topology::triangles; });
     if (all_triangles) {
         if (auto canonical = canonical_triangles(assigned.indices)) assigned.indices = std::move(*canonical);
     }
-    for (const PolygonRange& range : assigned.ranges) {
+    for (const AssignedSubmesh& range : assigned.ranges) {
         const auto indices = std::span(assigned.indices).subspan(range.first, range.count);
-        mesh.parts.push_back({range.topology, range.material, {indices.begin(), indices.end()}});
+        mesh.submeshes.push_back({range.topology, range.material, {indices.begin(), indices.end()}});
     }
 }
 

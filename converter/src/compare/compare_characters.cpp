@@ -54,7 +54,7 @@ Mesh gather(const Mesh& mesh, std::span<const MatchedPolygons::Corner> corners,
     gathered.joint = mesh.joint;
     gathered.influences = mesh.influences;
     gathered.palette = mesh.palette;
-    for (const Target& target : mesh.targets)
+    for (const MorphTarget& target : mesh.targets)
         gathered.targets.push_back({{}, target.rest_weight, {}, {}, {}, target.is_frame, target.grid});
     for (const MatchedPolygons::Corner& corner : corners) {
         const std::uint32_t from = corner.*vertex;
@@ -82,7 +82,7 @@ public:
         if (!pair_joints()) return std::move(result_);
         pair_meshes();
         compare_materials();
-        pair_cycles();
+        pair_clips();
         compare_rests();
         constexpr double kMatched = 0.2;  // of the whole work
         compare_meshes();
@@ -90,10 +90,10 @@ public:
         if (result_.gave_up) return std::move(result_);
         measure_rest();
         measure_targets();
-        for (std::uint32_t cycle = 0; cycle < a_cycles_.size(); ++cycle) {
-            const double done = static_cast<double>(cycle) / static_cast<double>(a_cycles_.size());
-            const double step = (1.0 - kMatched) / static_cast<double>(a_cycles_.size());
-            measure_cycle(cycle, [&](double share) {
+        for (std::uint32_t clip = 0; clip < a_clips_.size(); ++clip) {
+            const double done = static_cast<double>(clip) / static_cast<double>(a_clips_.size());
+            const double step = (1.0 - kMatched) / static_cast<double>(a_clips_.size());
+            measure_clip(clip, [&](double share) {
                 if (progress) progress(kMatched + done * (1.0 - kMatched) + share * step);
             });
         }
@@ -166,14 +166,13 @@ private:
                 add(Kind::value, place, "name: " + quoted_name(a.name, number) + " -> " + quoted_name(b.name, other));
             if (a.targets.size() != b.targets.size()) {
                 add(Kind::value, place,
-                    "inbetweening targets: " + std::to_string(a.targets.size()) + " -> " +
-                        std::to_string(b.targets.size()));
+                    "morph targets: " + std::to_string(a.targets.size()) + " -> " + std::to_string(b.targets.size()));
                 continue;
             }
             for (std::uint32_t target = 0; target < a.targets.size(); ++target) {
                 if (a.targets[target].name == b.targets[target].name) continue;
                 add(Kind::value, place,
-                    "inbetweening target " + quoted_name(a.targets[target].name, target) + " -> " +
+                    "morph target " + quoted_name(a.targets[target].name, target) + " -> " +
                         quoted_name(b.targets[target].name, target));
             }
             numbers_.push_back(number);
@@ -181,17 +180,17 @@ private:
         }
     }
 
-    void pair_cycles() {
-        const MatchedNames cycles = match_names(names_of(a_.cycles), names_of(source_b_.cycles));
-        add_lone("cycle ", cycles, a_.cycles, source_b_.cycles);
-        for (std::uint32_t number = 0; number < a_.cycles.size(); ++number) {
-            if (cycles.b_of[number] == kNone) continue;
-            const Cycle& a = a_.cycles[number];
-            const Cycle& b = source_b_.cycles[cycles.b_of[number]];
-            compare_frames(a, b, "cycle " + quoted_name(a.name, number));
-            cycle_numbers_.push_back(number);
-            Cycle& here = a_cycles_.emplace_back(a);
-            Cycle& there = b_cycles_.emplace_back(b);
+    void pair_clips() {
+        const MatchedNames clips = match_names(names_of(a_.clips), names_of(source_b_.clips));
+        add_lone("clip ", clips, a_.clips, source_b_.clips);
+        for (std::uint32_t number = 0; number < a_.clips.size(); ++number) {
+            if (clips.b_of[number] == kNone) continue;
+            const Clip& a = a_.clips[number];
+            const Clip& b = source_b_.clips[clips.b_of[number]];
+            compare_frames(a, b, "clip " + quoted_name(a.name, number));
+            clip_numbers_.push_back(number);
+            Clip& here = a_clips_.emplace_back(a);
+            Clip& there = b_clips_.emplace_back(b);
             keep_tracks(here, [&](std::uint32_t& mesh) {
                 const auto kept = std::find(numbers_.begin(), numbers_.end(), mesh);
                 mesh = static_cast<std::uint32_t>(kept - numbers_.begin());
@@ -210,15 +209,15 @@ private:
 
     /// Drops weights of meshes that are not compared. \param is_kept  renumbers, too
     template <class IsKept>
-    static void keep_tracks(Cycle& cycle, IsKept is_kept) {
-        std::erase_if(cycle.tracks,
+    static void keep_tracks(Clip& clip, IsKept is_kept) {
+        std::erase_if(clip.tracks,
                       [&](Track& track) { return track.path == TrackPath::weights && !is_kept(track.target); });
-        std::erase_if(cycle.plays, [&](Play& play) { return !is_kept(play.mesh); });
+        std::erase_if(clip.plays, [&](Play& play) { return !is_kept(play.mesh); });
     }
 
-    void compare_frames(const Cycle& a, const Cycle& b, const std::string& place) {
-        const CycleSpan here = span_of(a);
-        const CycleSpan there = span_of(b);
+    void compare_frames(const Clip& a, const Clip& b, const std::string& place) {
+        const ClipSpan here = span_of(a);
+        const ClipSpan there = span_of(b);
         if (!(std::abs(here.start - there.start) <= kSameTime && std::abs(here.end - there.end) <= kSameTime)) {
             add(Kind::value, place,
                 text_of(here.start) + " to " + text_of(here.end) + " s -> " + text_of(there.start) + " to " +
@@ -231,7 +230,7 @@ private:
             add(difference.kind, place + ", " + difference.curve, std::move(difference.what));
     }
 
-    void compare_markers(const Cycle& a, const Cycle& b, const std::string& place) {
+    void compare_markers(const Clip& a, const Clip& b, const std::string& place) {
         const auto text = [](const Marker& marker) {
             return '"' + marker.name + "\" at " + text_of(marker.seconds) + " s";
         };
@@ -334,7 +333,7 @@ private:
         a.joints = b.joints = a_.joints;
         for (const std::uint32_t number : numbers_) a.meshes.push_back(a_.meshes[number]);
         b.meshes = b_.meshes;
-        a.cycles = b.cycles = a_cycles_;
+        a.clips = b.clips = a_clips_;
         const std::vector<std::vector<Shape>> shapes_a = find_shapes(a);
         const std::vector<std::vector<Shape>> shapes_b = find_shapes(b);
         for (std::size_t mesh = 0; mesh < a.meshes.size(); ++mesh) {
@@ -394,7 +393,7 @@ private:
 
     // --- distances
 
-    [[nodiscard]] MeasuredError measure(const Cycle* a, const Cycle* b, const std::function<void(double)>& progress) {
+    [[nodiscard]] MeasuredError measure(const Clip* a, const Clip* b, const std::function<void(double)>& progress) {
         Scene here;
         Scene there;
         here.joints = a_.joints;
@@ -402,8 +401,8 @@ private:
         std::swap(here.meshes, a_meshes_);
         std::swap(there.meshes, b_meshes_);
         if (a != nullptr) {
-            here.cycles.push_back(*a);
-            there.cycles.push_back(*b);
+            here.clips.push_back(*a);
+            there.clips.push_back(*b);
         }
         const MeasuredError error = measure_error(here, there, {}, progress);
         std::swap(here.meshes, a_meshes_);
@@ -412,12 +411,12 @@ private:
     }
 
     /// In A's numbers.
-    [[nodiscard]] std::string place_in_a(MeasuredError error, std::uint32_t cycle) const {
+    [[nodiscard]] std::string place_in_a(MeasuredError error, std::uint32_t clip) const {
         if (error.mesh != kNone) {
             error.vertex = corners_[error.mesh][error.vertex].a;
             error.mesh = numbers_[error.mesh];
         }
-        if (error.cycle != kNone) error.cycle = cycle;
+        if (error.clip != kNone) error.clip = clip;
         return place_of(a_, error);
     }
 
@@ -427,9 +426,9 @@ private:
     }
 
     /// Only what is worse than at rest is new.
-    void measure_cycle(std::uint32_t cycle, const std::function<void(double)>& progress) {
-        const MeasuredError error = measure(&a_cycles_[cycle], &b_cycles_[cycle], progress);
-        if (error.cycle != kNone) add_distance(error.metres, place_in_a(error, cycle_numbers_[cycle]));
+    void measure_clip(std::uint32_t clip, const std::function<void(double)>& progress) {
+        const MeasuredError error = measure(&a_clips_[clip], &b_clips_[clip], progress);
+        if (error.clip != kNone) add_distance(error.metres, place_in_a(error, clip_numbers_[clip]));
     }
 
     void measure_targets() {
@@ -475,8 +474,8 @@ private:
     std::vector<std::uint32_t> material_of_;
     Scene b_;                             // joints and meshes that have a partner, as A numbers them
     std::vector<std::uint32_t> numbers_;  // of A's meshes that have a partner
-    std::vector<std::uint32_t> cycle_numbers_;
-    std::vector<Cycle> a_cycles_, b_cycles_;
+    std::vector<std::uint32_t> clip_numbers_;
+    std::vector<Clip> a_clips_, b_clips_;
     std::vector<Mesh> a_meshes_, b_meshes_;  // a vertex for each pair of corners
     std::vector<std::vector<MatchedPolygons::Corner>> corners_;
 };

@@ -67,7 +67,7 @@ std::vector<double> times_to_compare(const Curve& a, const Curve& b) {
 
 class CurveComparison {
 public:
-    std::vector<CurveDifference> run(const Scene& a, const Cycle& clip_a, const Scene& b, const Cycle& clip_b,
+    std::vector<CurveDifference> run(const Scene& a, const Clip& clip_a, const Scene& b, const Clip& clip_b,
                                      const CurveTargets& targets) {
         std::map<OwnProperty, const Curve*> others;
         for (const Curve& curve : clip_b.curves) {
@@ -149,7 +149,7 @@ private:
 
 }  // namespace
 
-std::vector<CurveDifference> compare_curves(const Scene& a, const Cycle& clip_a, const Scene& b, const Cycle& clip_b,
+std::vector<CurveDifference> compare_curves(const Scene& a, const Clip& clip_a, const Scene& b, const Clip& clip_b,
                                             const CurveTargets& targets) {
     return CurveComparison().run(a, clip_a, b, clip_b, targets);
 }

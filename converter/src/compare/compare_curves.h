@@ -23,7 +23,7 @@ struct CurveDifference {
 
 /// Compares the curves of two clips by what they animate: those that only one has, names, components, and values at
 /// every key of either and half-way between keys. Values may be one step of their component's range / 65535 apart.
-std::vector<CurveDifference> compare_curves(const Scene& a, const Cycle& clip_a, const Scene& b, const Cycle& clip_b,
+std::vector<CurveDifference> compare_curves(const Scene& a, const Clip& clip_a, const Scene& b, const Clip& clip_b,
                                             const CurveTargets& targets);
 
 }  // namespace bendy::converter

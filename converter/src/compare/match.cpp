@@ -175,13 +175,13 @@ constexpr double kGrowth = 4.0;
 /// Each one's polygons; those that are drawn nowhere, since two corners are one vertex, are left out.
 std::vector<Polygon> list_polygons(const Mesh& mesh, std::span<const std::uint32_t> material_of) {
     std::vector<Polygon> polygons;
-    for (const Part& part : mesh.parts) {
+    for (const Submesh& submesh : mesh.submeshes) {
         Polygon polygon;
-        polygon.corners = part.topology == Topology::triangles ? 3 : part.topology == Topology::lines ? 2 : 1;
-        polygon.material = part.material;
-        if (part.material < material_of.size()) polygon.material = material_of[part.material];
-        for (std::size_t at = 0; at + polygon.corners <= part.indices.size(); at += polygon.corners) {
-            std::copy_n(part.indices.begin() + static_cast<std::ptrdiff_t>(at), polygon.corners,
+        polygon.corners = submesh.topology == Topology::triangles ? 3 : submesh.topology == Topology::lines ? 2 : 1;
+        polygon.material = submesh.material;
+        if (submesh.material < material_of.size()) polygon.material = material_of[submesh.material];
+        for (std::size_t at = 0; at + polygon.corners <= submesh.indices.size(); at += polygon.corners) {
+            std::copy_n(submesh.indices.begin() + static_cast<std::ptrdiff_t>(at), polygon.corners,
                         polygon.vertices.begin());
             const auto& v = polygon.vertices;
             const bool is_flat =

@@ -7,7 +7,7 @@
 #include "rest_frames.h"
 
 #include <bendy/format/marker.h>
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>
@@ -116,10 +116,10 @@ void put_rest(LeafWriter& out, const Transform& rest) {
     out.leaf(FourCC("REST"), bytes_of(record).first(has_shear ? sizeof record : kShortest<RestRecord>));
 }
 
-using PullsByJoint = std::vector<std::vector<PullRecord>>;
+using ChainWeightsByJoint = std::vector<std::vector<ChainWeightRecord>>;
 
-PullsByJoint sort_pulls(const Scene& scene) {
-    PullsByJoint by_joint(scene.joints.size());
+ChainWeightsByJoint sort_chain_weights(const Scene& scene) {
+    ChainWeightsByJoint by_joint(scene.joints.size());
     for (std::uint32_t chain = 0; chain < scene.chains.size(); ++chain) {
         for (const Chain::Weight& weight : scene.chains[chain].weights)
             by_joint[weight.joint].push_back({chain, weight.weight});
@@ -127,23 +127,23 @@ PullsByJoint sort_pulls(const Scene& scene) {
     return by_joint;
 }
 
-void put_pivot(LeafWriter& out, const Joint& joint, std::span<const PullRecord> pulls, bool has_table) {
-    if (has_table && joint.limits.empty() && pulls.empty()) return;
+void put_pivot(LeafWriter& out, const Joint& joint, std::span<const ChainWeightRecord> chain_weights, bool has_table) {
+    if (has_table && joint.constraints.empty() && chain_weights.empty()) return;
     out.begin(FourCC("PIVO"));
     if (!has_table) put_rest(out, joint.rest);
-    for (const LimitRecord& limit : joint.limits) out.leaf(FourCC("LIMT"), bytes_of(limit));
-    for (const PullRecord& pull : pulls) out.leaf(FourCC("PULL"), bytes_of(pull));
+    for (const ConstraintRecord& constraint : joint.constraints) out.leaf(FourCC("LIMT"), bytes_of(constraint));
+    for (const ChainWeightRecord& chain_weight : chain_weights) out.leaf(FourCC("PULL"), bytes_of(chain_weight));
     out.end();
 }
 
-using PolygonsByJoint = std::vector<std::vector<PolygonRecord>>;
+using SubmeshesByJoint = std::vector<std::vector<SubmeshRecord>>;
 
-PolygonsByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygons> pools) {
-    PolygonsByJoint by_joint(scene.joints.size());
-    for (std::uint32_t pool = 0; pool < pools.size(); ++pool) {
-        for (const PolygonRange& range : pools[pool].ranges) {
-            PolygonRecord record;
-            record.pool = pool;
+SubmeshesByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygons> meshes) {
+    SubmeshesByJoint by_joint(scene.joints.size());
+    for (std::uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
+        for (const AssignedSubmesh& range : meshes[mesh].ranges) {
+            SubmeshRecord record;
+            record.mesh = mesh;
             record.material = range.material;
             record.first = range.first;
             record.count = range.count;
@@ -155,32 +155,32 @@ PolygonsByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygo
 }
 
 /// JNTS and JNAM: what SKIN chunks would say of every joint.
-void put_joint_table(LeafWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+void put_joint_table(LeafWriter& out, const Scene& scene, const SubmeshesByJoint& submeshes) {
     std::vector<RestRecord> rests;
-    std::vector<JointPolygons> ranges;
+    std::vector<JointSubmesh> ranges;
     std::string names;
     bool is_named = false;
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         rests.push_back(to_record(scene.joints[joint].rest));
-        for (const PolygonRecord& record : polygons[joint]) ranges.push_back({joint, record});
+        for (const SubmeshRecord& record : submeshes[joint]) ranges.push_back({joint, record});
         names.append(scene.joints[joint].name).push_back('\0');
         is_named = is_named || !scene.joints[joint].name.empty();
     }
     JointsRecord record;
     record.joints = static_cast<std::uint32_t>(rests.size());
-    record.polygons = static_cast<std::uint32_t>(ranges.size());
+    record.submeshes = static_cast<std::uint32_t>(ranges.size());
     out.leaf(FourCC("JNTS"),
              std::array{bytes_of(record), std::as_bytes(std::span(rests)), std::as_bytes(std::span(ranges))},
              LeafShape{0, 0, sizeof(float), false});
     if (is_named) out.text_leaf(FourCC("JNAM"), names);
 }
 
-void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& polygons) {
+void put_joints(LeafWriter& out, const Scene& scene, const SubmeshesByJoint& submeshes) {
     // A zero inside a name would end it too early in the table.
     const bool has_table =
         out.is_compact() && std::none_of(scene.joints.begin(), scene.joints.end(),
                                          [](const Joint& j) { return j.name.find('\0') != std::string::npos; });
-    const PullsByJoint pulls = sort_pulls(scene);
+    const ChainWeightsByJoint chain_weights = sort_chain_weights(scene);
     std::vector<std::uint32_t> open;
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
         const Joint& joint = scene.joints[number];
@@ -192,16 +192,16 @@ void put_joints(LeafWriter& out, const Scene& scene, const PolygonsByJoint& poly
         out.begin(FourCC("SKIN"));
         open.push_back(number);
         if (!has_table) put_text(out, FourCC("NAME"), joint.name);
-        put_pivot(out, joint, pulls[number], has_table);
+        put_pivot(out, joint, chain_weights[number], has_table);
         if (!has_table) {
-            for (const PolygonRecord& record : polygons[number]) out.leaf(FourCC("POLY"), bytes_of(record));
+            for (const SubmeshRecord& record : submeshes[number]) out.leaf(FourCC("POLY"), bytes_of(record));
         }
         put_text(out, FourCC("EXTR"), joint.extras);
         put_text(out, FourCC("EXTN"), joint.extensions);
         put_text(out, FourCC("MORE"), joint.more);
     }
     for (; !open.empty(); open.pop_back()) out.end();
-    if (has_table && !scene.joints.empty()) put_joint_table(out, scene, polygons);
+    if (has_table && !scene.joints.empty()) put_joint_table(out, scene, submeshes);
 }
 
 void put_chain(LeafWriter& out, const Chain& chain) {
@@ -212,7 +212,7 @@ void put_chain(LeafWriter& out, const Chain& chain) {
     out.end();
 }
 
-// --- cycles
+// --- clips
 
 /// Orders float arrays by their bits: 0 and -0 differ.
 struct ByBits {
@@ -240,21 +240,21 @@ private:
 };
 
 /// Packed frames may end a float before the keys that they stand for: markers stay inside.
-void put_markers(LeafWriter& out, const Cycle& cycle, const CycleRecord& info) {
-    if (cycle.markers.empty()) return;
+void put_markers(LeafWriter& out, const Clip& clip, const ClipRecord& info) {
+    if (clip.markers.empty()) return;
     std::vector<bendy::Marker> markers;
-    markers.reserve(cycle.markers.size());
-    for (const Marker& marker : cycle.markers)
+    markers.reserve(clip.markers.size());
+    for (const Marker& marker : clip.markers)
         markers.push_back({std::clamp(marker.seconds, info.start, info.end), marker.name});
     out.leaf(FourCC("MARK"), write_markers(markers));
 }
 
-void put_plays(LeafWriter& out, const Cycle& cycle) {
-    if (cycle.plays.empty()) return;
+void put_plays(LeafWriter& out, const Clip& clip) {
+    if (clip.plays.empty()) return;
     std::vector<PlayRecord> records;
-    for (const Play& play : cycle.plays) {
+    for (const Play& play : clip.plays) {
         PlayRecord& record = records.emplace_back();
-        record.pool = play.mesh;
+        record.mesh = play.mesh;
         record.first = play.first;
         record.frames = play.frames;
         record.closed = play.closed ? 1 : 0;
@@ -262,17 +262,17 @@ void put_plays(LeafWriter& out, const Cycle& cycle) {
     out.leaf(FourCC("PLAY"), std::as_bytes(std::span(records)));
 }
 
-void put_cycle(LeafWriter& out, const Cycle& cycle) {
-    CycleRecord info;
-    info.loop = cycle.loop ? 1 : 0;
-    const CycleSpan span = span_of(cycle);
+void put_clip(LeafWriter& out, const Clip& clip) {
+    ClipRecord info;
+    info.loop = clip.loop ? 1 : 0;
+    const ClipSpan span = span_of(clip);
     info.start = span.start;
     info.end = span.end;
-    if (!cycle.plays.empty()) info.frame_rate = cycle.frame_rate;
+    if (!clip.plays.empty()) info.frame_rate = clip.frame_rate;
     FloatPool times;
     FloatPool values;
     std::vector<TrackRecord> tracks;
-    for (const Track& track : cycle.tracks) {
+    for (const Track& track : clip.tracks) {
         TrackRecord record;
         record.target = track.target;
         record.path = static_cast<std::uint8_t>(track.path);
@@ -284,20 +284,20 @@ void put_cycle(LeafWriter& out, const Cycle& cycle) {
         tracks.push_back(record);
     }
     out.begin(FourCC("CYCL"));
-    put_text(out, FourCC("NAME"), cycle.name);
+    put_text(out, FourCC("NAME"), clip.name);
     out.leaf(FourCC("CINF"), bytes_of(info));
-    put_text(out, FourCC("EXTR"), cycle.extras);
-    put_text(out, FourCC("MORE"), cycle.more);
-    if (!cycle.packed.empty()) out.leaf(FourCC("PACK"), cycle.packed, LeafShape{.is_packed_cycle = true});
-    put_plays(out, cycle);
+    put_text(out, FourCC("EXTR"), clip.extras);
+    put_text(out, FourCC("MORE"), clip.more);
+    if (!clip.packed.empty()) out.leaf(FourCC("PACK"), clip.packed, LeafShape{.is_packed_clip = true});
+    put_plays(out, clip);
     if (!tracks.empty()) {
         constexpr LeafShape kFloats{0, 0, sizeof(float), false};
         out.leaf(FourCC("TRAK"), std::as_bytes(std::span(tracks)), kFloats);
         out.leaf(FourCC("TIME"), times.bytes(), kFloats);
         out.leaf(FourCC("KEYV"), values.bytes(), kFloats);
     }
-    put_markers(out, cycle, info);
-    put_curves(out, cycle);
+    put_markers(out, clip, info);
+    put_curves(out, clip);
     out.end();
 }
 
@@ -305,9 +305,9 @@ VersionRecord make_version(const Scene& scene, std::string_view generator) {
     VersionRecord version;
     version.objects = 1;
     version.joints = static_cast<std::uint32_t>(scene.joints.size());
-    version.pools = static_cast<std::uint32_t>(scene.meshes.size());
+    version.meshes = static_cast<std::uint32_t>(scene.meshes.size());
     for (const Mesh& mesh : scene.meshes) version.vertices += mesh.positions.size();
-    version.cycles = static_cast<std::uint32_t>(scene.cycles.size());
+    version.clips = static_cast<std::uint32_t>(scene.clips.size());
     version.materials = static_cast<std::uint32_t>(scene.materials.size());
     version.textures = static_cast<std::uint32_t>(scene.textures.size());
     std::copy_n(generator.begin(), std::min(generator.size(), version.generator.size()), version.generator.begin());
@@ -345,9 +345,9 @@ std::uint64_t bulk_of(const Mesh& mesh) {
     for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
         for (const Stream& stream : *streams) sum += bytes(stream.values);
     }
-    for (const Target& target : mesh.targets)
+    for (const MorphTarget& target : mesh.targets)
         sum += bytes(target.positions) + bytes(target.normals) + bytes(target.tangents);
-    for (const Part& part : mesh.parts) sum += bytes(part.indices);
+    for (const Submesh& submesh : mesh.submeshes) sum += bytes(submesh.indices);
     return sum;
 }
 
@@ -355,9 +355,9 @@ std::uint64_t bulk_of(const Scene& scene) {
     std::uint64_t sum = 0;
     for (const Mesh& mesh : scene.meshes) sum += bulk_of(mesh);
     for (const Image& image : scene.images) sum += image.bytes.size();
-    for (const Cycle& cycle : scene.cycles) {
-        for (const Track& track : cycle.tracks) sum += (track.times.size() + track.values.size()) * sizeof(float);
-        for (const Curve& curve : cycle.curves) sum += (curve.times.size() + curve.values.size()) * sizeof(float);
+    for (const Clip& clip : scene.clips) {
+        for (const Track& track : clip.tracks) sum += (track.times.size() + track.values.size()) * sizeof(float);
+        for (const Curve& curve : clip.curves) sum += (curve.times.size() + curve.values.size()) * sizeof(float);
     }
     return sum;
 }
@@ -381,9 +381,9 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     if (!options.compact) out.reserve(bulk_of(scene) + kRoundUp);
     std::vector<AssignedPolygons> polygons;
     polygons.reserve(scene.meshes.size());
-    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) {
-        polygons.push_back(assign_polygons(scene.meshes[pool]));
-        if (spent != nullptr) spent->meshes[pool].parts = {};
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        polygons.push_back(assign_polygons(scene.meshes[mesh]));
+        if (spent != nullptr) spent->meshes[mesh].submeshes = {};
     }
 
     const bool embeds = std::any_of(scene.textures.begin(), scene.textures.end(), [&](const Texture& texture) {
@@ -404,14 +404,14 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     put_joints(out, scene, sort_by_joint(scene, polygons));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;
-    for (std::size_t pool = 0; pool < scene.meshes.size(); ++pool) {
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         const bool is_compact = options.geometry != nullptr;
-        put_pool(out, scene.meshes[pool], polygons[pool].indices, is_compact ? options.geometry->meshes[pool] : exact);
-        polygons[pool].indices = {};
-        if (spent != nullptr) release_streams(spent->meshes[pool]);
+        put_mesh(out, scene.meshes[mesh], polygons[mesh].indices, is_compact ? options.geometry->meshes[mesh] : exact);
+        polygons[mesh].indices = {};
+        if (spent != nullptr) release_streams(spent->meshes[mesh]);
     }
     put_collapse(out, scene);
-    for (const Cycle& cycle : scene.cycles) put_cycle(out, cycle);
+    for (const Clip& clip : scene.clips) put_clip(out, clip);
     out.end();
     if (embeds) put_textures(out, scene);
     out.end();

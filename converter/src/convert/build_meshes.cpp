@@ -67,7 +67,7 @@ void put_vectors(LeafWriter& out, FourCC id, std::span<const Vector> vectors) {
              stream_shape(sizeof record, sizeof(float), record.components, false));
 }
 
-bool is_touched(const Target& target, std::size_t vertex) {
+bool is_touched(const MorphTarget& target, std::size_t vertex) {
     const auto moves = [&](const std::vector<glm::vec3>& stream) {
         return !stream.empty() && stream[vertex] != glm::vec3(0.0f);
     };
@@ -83,7 +83,7 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& stream, std::span<cons
 }
 
 /// Stores the touched vertices only, where that is smaller.
-void put_target(LeafWriter& out, const Target& target, const CompactTarget& compact, std::uint32_t vertices) {
+void put_target(LeafWriter& out, const MorphTarget& target, const CompactTarget& compact, std::uint32_t vertices) {
     std::vector<std::uint32_t> touched;
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
         if (is_touched(target, vertex)) touched.push_back(vertex);
@@ -92,13 +92,13 @@ void put_target(LeafWriter& out, const Target& target, const CompactTarget& comp
                          static_cast<std::uint64_t>(!target.normals.empty()) +
                          static_cast<std::uint64_t>(!target.tangents.empty());
     const std::uint64_t dense = vertices * present * sizeof(glm::vec3);
-    const StoredNumbers indices = narrow_indices(touched, vertices, false);
+    const StoredNumbers indices = smallest_exact_indices(touched, vertices, false);
     const std::uint64_t sparse =
         kChunkHeaderSize + sizeof(StreamRecord) + indices.bytes.size() + touched.size() * present * sizeof(glm::vec3);
 
     out.begin(FourCC("TARG"));
     put_text(out, FourCC("NAME"), target.name);
-    out.leaf(FourCC("TINF"), bytes_of(TargetRecord{target.rest_weight}));
+    out.leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{target.rest_weight}));
     if (present != 0 && !touched.empty()) {
         const bool is_sparse = sparse < dense;
         if (is_sparse) put_stream(out, FourCC("INDX"), indices, 1, static_cast<std::uint32_t>(touched.size()));
@@ -149,7 +149,7 @@ void put_sets(LeafWriter& out, FourCC id, std::span<const Stream> streams,
         if (k < stored.size() && stored[k]) {
             put_stored(out, id, *stored[k], {}, stream.set);
         } else {
-            put_stream(out, id, narrow_fractions(stream.values), stream.components, vertices, stream.set);
+            put_stream(out, id, smallest_exact_fractions(stream.values), stream.components, vertices, stream.set);
         }
     }
 }
@@ -158,7 +158,7 @@ void put_frames(LeafWriter& out, const StoredFrames& frames) {
     out.begin(FourCC("FRMS"));
     put_text(out, FourCC("FNAM"), frames.names);
     out.leaf(FourCC("GRID"), std::as_bytes(std::span(frames.grid)), LeafShape{0, 0, sizeof(float), false});
-    put_stream(out, FourCC("INDX"), narrow_indices(frames.places, frames.place_count, true), 1,
+    put_stream(out, FourCC("INDX"), smallest_exact_indices(frames.places, frames.place_count, true), 1,
                static_cast<std::uint32_t>(frames.places.size()));
     put_stored(out, FourCC("POSI"), frames.positions);
     if (frames.normals) put_stored(out, FourCC("NORM"), *frames.normals);
@@ -173,11 +173,11 @@ void append_padded(std::vector<std::byte>& bytes, Bytes array) {
 
 }  // namespace
 
-void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact) {
+void put_mesh(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact) {
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     out.begin(FourCC("VECT"));
     put_text(out, FourCC("NAME"), mesh.name);
-    out.leaf(FourCC("VINF"), bytes_of(PoolRecord{vertices, mesh.joint}));
+    out.leaf(FourCC("VINF"), bytes_of(MeshRecord{vertices, mesh.joint}));
     put_text(out, FourCC("EXTR"), mesh.extras);
     put_text(out, FourCC("MORE"), mesh.more);
     if (mesh.influences != 0) put_palette(out, mesh.palette, compact.bind_base);
@@ -197,16 +197,16 @@ void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
         out.end();
     }
     if (mesh.influences != 0) {
-        put_stream(out, FourCC("BONE"), narrow_indices(mesh.bones, mesh.palette.joints.size(), true), mesh.influences,
-                   vertices);
+        put_stream(out, FourCC("BONE"), smallest_exact_indices(mesh.bones, mesh.palette.joints.size(), true),
+                   mesh.influences, vertices);
         if (compact.weights) {
             put_stored(out, FourCC("WGHT"), *compact.weights);
         } else {
-            put_stream(out, FourCC("WGHT"), narrow_fractions(mesh.weights), mesh.influences, vertices);
+            put_stream(out, FourCC("WGHT"), smallest_exact_fractions(mesh.weights), mesh.influences, vertices);
         }
     }
     if (!indices.empty()) {
-        put_stream(out, FourCC("INDX"), narrow_indices(indices, vertices, false), 1,
+        put_stream(out, FourCC("INDX"), smallest_exact_indices(indices, vertices, false), 1,
                    static_cast<std::uint32_t>(indices.size()));
     }
     for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
@@ -225,16 +225,16 @@ void put_collapse(LeafWriter& out, const Scene& scene) {
     if (meshes.empty()) return;
     std::vector<std::byte> payload;
     CollapseRecord record;
-    record.pools = static_cast<std::uint32_t>(meshes.size());
+    record.meshes = static_cast<std::uint32_t>(meshes.size());
     record.levels = static_cast<std::uint32_t>(scene.levels.size());
     append_padded(payload, bytes_of(record));
     for (const std::uint32_t number : meshes) {
         const Mesh& mesh = scene.meshes[number];
-        PoolCollapseRecord pool;
-        pool.pool = number;
-        pool.base = mesh.base;
-        pool.target_type = static_cast<std::uint8_t>(narrow_indices({}, mesh.collapse.size(), false).type);
-        append_padded(payload, bytes_of(pool));
+        MeshCollapseRecord entry;
+        entry.mesh = number;
+        entry.base = mesh.base;
+        entry.target_type = static_cast<std::uint8_t>(smallest_exact_indices({}, mesh.collapse.size(), false).type);
+        append_padded(payload, bytes_of(entry));
     }
     std::vector<std::uint32_t> rows;
     for (const LodLevel& level : scene.levels) {
@@ -244,8 +244,9 @@ void put_collapse(LeafWriter& out, const Scene& scene) {
     append_padded(payload, std::as_bytes(std::span(rows)));
     for (const std::uint32_t number : meshes) {
         const Mesh& mesh = scene.meshes[number];
-        append_padded(payload,
-                      narrow_indices(std::span(mesh.collapse).subspan(mesh.base), mesh.collapse.size(), false).bytes);
+        append_padded(
+            payload,
+            smallest_exact_indices(std::span(mesh.collapse).subspan(mesh.base), mesh.collapse.size(), false).bytes);
         std::vector<std::byte> bits((mesh.collapse.size() - mesh.base + 7) / 8);
         for (std::size_t k = 0; k < mesh.collapse.size() - mesh.base; ++k) {
             if (mesh.joined[mesh.base + k] != 0) bits[k / 8] |= std::byte{1} << (k % 8);

@@ -17,7 +17,7 @@ inline void put_text(LeafWriter& out, FourCC id, const std::string& text) {
 }
 
 /// VECT: a mesh with its streams, palette, indices and targets. \param compact  what of it is stored as integers
-void put_pool(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact);
+void put_mesh(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> indices, const CompactMesh& compact);
 
 /// LODD: the collapse sequences of all meshes that have one, and the levels.
 void put_collapse(LeafWriter& out, const Scene& scene);

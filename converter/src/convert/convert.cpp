@@ -75,7 +75,7 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.merge_clips) {
             merge_clips(*scene, report);
         } else if (is_spread_motion(*scene)) {
-            report.suggest("the motion is spread over " + std::to_string(scene->cycles.size()) +
+            report.suggest("the motion is spread over " + std::to_string(scene->clips.size()) +
                            " clips, most of one joint each: --merge-clips makes one of them");
         }
         if (options.auto_skin) {

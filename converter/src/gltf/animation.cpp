@@ -58,7 +58,7 @@ std::uint64_t separate_equal_times(Keys& keys) {
     return touched;
 }
 
-/// glTF cannot say that a cycle repeats; authors say it in extras: {"loop": true}, or 1 as Blender writes booleans.
+/// glTF cannot say that a clip repeats; authors say it in extras: {"loop": true}, or 1 as Blender writes booleans.
 bool asks_to_loop(const Json& animation) {
     const auto extras = animation.find("extras");
     if (extras == animation.end() || !extras->is_object()) return false;
@@ -79,26 +79,26 @@ public:
     void import(std::size_t index) {
         const tinygltf::Animation& animation = document_.model.animations[index];
         place_ = at("animations", index);
-        Cycle cycle;
-        cycle.name = animation.name;
-        cycle.extras = extras_text(document_.json["animations"][index]);
-        cycle.loop = asks_to_loop(document_.json["animations"][index]);
+        Clip clip;
+        clip.name = animation.name;
+        clip.extras = extras_text(document_.json["animations"][index]);
+        clip.loop = asks_to_loop(document_.json["animations"][index]);
         std::map<std::pair<TrackPath, std::uint32_t>, std::size_t> track_of;
         curve_of_.clear();
         for (std::size_t c = 0; c < animation.channels.size(); ++c) {
-            for (Track& track : read_channel(animation, c, index, cycle)) {
-                const auto [known, is_new] = track_of.emplace(std::pair(track.path, track.target), cycle.tracks.size());
+            for (Track& track : read_channel(animation, c, index, clip)) {
+                const auto [known, is_new] = track_of.emplace(std::pair(track.path, track.target), clip.tracks.size());
                 if (is_new) {
-                    cycle.tracks.push_back(std::move(track));
+                    clip.tracks.push_back(std::move(track));
                 } else {
                     document_.report.warn("second channel for the same target, the last one is taken",
                                           place_ + '.' + at("channels", c));
-                    cycle.tracks[known->second] = std::move(track);
+                    clip.tracks[known->second] = std::move(track);
                 }
             }
         }
-        take_markers_from_extras(cycle, place_ + ".extras", document_.report);
-        scene_.cycles.push_back(std::move(cycle));
+        take_markers_from_extras(clip, place_ + ".extras", document_.report);
+        scene_.clips.push_back(std::move(clip));
     }
 
     /// Of all animations.
@@ -106,16 +106,16 @@ public:
 
 private:
     /// The tracks that a channel becomes: none, one, or one for each mesh of a node whose morph weights it moves. What
-    /// it animates beside nodes' transforms and weights becomes a curve of the cycle.
+    /// it animates beside nodes' transforms and weights becomes a curve of the clip.
     std::vector<Track> read_channel(const tinygltf::Animation& animation, std::size_t c, std::size_t index,
-                                    Cycle& cycle) {
+                                    Clip& clip) {
         const tinygltf::AnimationChannel& channel = animation.channels[c];
         const std::string place = place_ + '.' + at("channels", c);
         const Json& source = document_.json["animations"][index]["channels"][c];
         const auto sampler = static_cast<std::size_t>(channel.sampler);
         const std::string sampler_place = place_ + '.' + at("samplers", sampler);
         if (pointer_of(source) != nullptr)
-            return read_pointer(source, animation.samplers[sampler], sampler_place, place, cycle);
+            return read_pointer(source, animation.samplers[sampler], sampler_place, place, clip);
         const Json& target = source["target"];
         const auto path = track_path(channel.target_path);
         if (!path) {
@@ -171,7 +171,7 @@ private:
 
     /// A channel of KHR_animation_pointer.
     std::vector<Track> read_pointer(const Json& channel, const tinygltf::AnimationSampler& sampler,
-                                    const std::string& sampler_place, const std::string& place, Cycle& cycle) {
+                                    const std::string& sampler_place, const std::string& place, Clip& clip) {
         const Json& target = channel["target"];
         if (target.contains("node"))
             document_.report.warn("node of a channel that animates a pointer left out", place + ".target.node");
@@ -190,7 +190,7 @@ private:
                 if (tracks.empty()) losses_.add("channels of weights that no node takes", quote(pointer), place);
                 break;
             case PointedProperty::Kind::curve:
-                read_curve(pointed, channel, sampler, sampler_place, place, cycle);
+                read_curve(pointed, channel, sampler, sampler_place, place, clip);
                 break;
             case PointedProperty::Kind::left_out:
                 losses_.add(pointed.why, quote(pointer), place);
@@ -217,7 +217,7 @@ private:
     }
 
     void read_curve(const PointedProperty& pointed, const Json& channel, const tinygltf::AnimationSampler& sampler,
-                    const std::string& sampler_place, const std::string& place, Cycle& cycle) {
+                    const std::string& sampler_place, const std::string& place, Clip& clip) {
         const std::size_t components = curve_components(sampler);
         if (components > kMostCurveComponents) {
             losses_.add("channels of a pointer with more than 4 numbers, or with 32-bit integers",
@@ -235,12 +235,12 @@ private:
         curve.components = static_cast<std::uint32_t>(components);
         curve.times = std::move(keys.times);
         curve.values = std::move(keys.values);
-        const auto [known, is_new] = curve_of_.emplace(own_property_of(curve), cycle.curves.size());
+        const auto [known, is_new] = curve_of_.emplace(own_property_of(curve), clip.curves.size());
         if (is_new) {
-            cycle.curves.push_back(std::move(curve));
+            clip.curves.push_back(std::move(curve));
         } else {
             document_.report.warn("second channel for the same target, the last one is taken", place);
-            cycle.curves[known->second] = std::move(curve);
+            clip.curves[known->second] = std::move(curve);
         }
     }
 

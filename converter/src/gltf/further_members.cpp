@@ -229,8 +229,8 @@ public:
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
             scene_.materials[i].more = text_of(further_members(root_["materials"][i], Element::material), "materials");
         for (std::size_t i = 0; i < scene_.textures.size(); ++i) keep_texture(i);
-        for (std::size_t i = 0; i < scene_.cycles.size(); ++i)
-            scene_.cycles[i].more = text_of(further_members(root_["animations"][i], Element::animation), "animations");
+        for (std::size_t i = 0; i < scene_.clips.size(); ++i)
+            scene_.clips[i].more = text_of(further_members(root_["animations"][i], Element::animation), "animations");
     }
 
 private:

@@ -83,8 +83,8 @@ void append_vertices(Mesh& to, Mesh&& from, const Document& document, const std:
     append(to.bones, std::move(from.bones));
     append(to.weights, std::move(from.weights));
     for (std::size_t t = 0; t < to.targets.size(); ++t) {
-        Target& target = to.targets[t];
-        Target& more = from.targets[t];
+        MorphTarget& target = to.targets[t];
+        MorphTarget& more = from.targets[t];
         append_displacements(target.positions, std::move(more.positions), before, added, document, place);
         append_displacements(target.normals, std::move(more.normals), before, added, document, place);
         append_displacements(target.tangents, std::move(more.tangents), before, added, document, place);
@@ -141,9 +141,9 @@ private:
             return;
         }
         const Placed& placed = place_vertices(primitive, json, place);
-        Part part = read_part(document_, primitive, json, placed.count, placed.draco_indices, place);
-        for (std::uint32_t& index : part.indices) index += static_cast<std::uint32_t>(placed.first_vertex);
-        templates_[placed.entry].mesh.parts.push_back(std::move(part));
+        Submesh submesh = read_submesh(document_, primitive, json, placed.count, placed.draco_indices, place);
+        for (std::uint32_t& index : submesh.indices) index += static_cast<std::uint32_t>(placed.first_vertex);
+        templates_[placed.entry].mesh.submeshes.push_back(std::move(submesh));
     }
 
     /// Where the vertices of a primitive are; decodes them if no earlier primitive named the same accessors.
@@ -187,7 +187,7 @@ private:
         mesh.extras = extras_text(json_);
         if (const Json more = further_members(json_, Element::mesh); !more.empty()) mesh.more = more.dump();
         trim_influences(mesh);
-        document_.budget.take(target_count_, sizeof(Target), place_);
+        document_.budget.take(target_count_, sizeof(MorphTarget), place_);
         mesh.targets.resize(target_count_);
         const Json* extras = find(json_, "extras");
         const Json* names = extras != nullptr && extras->is_object() ? find(*extras, "targetNames") : nullptr;
@@ -216,10 +216,10 @@ std::uint64_t byte_size(const Mesh& mesh) {
     for (const auto* kind : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
         for (const Stream& stream : *kind) size += sizeof(Stream) + bytes(stream.values);
     }
-    for (const Target& target : mesh.targets) {
-        size += sizeof(Target) + bytes(target.positions) + bytes(target.normals) + bytes(target.tangents);
+    for (const MorphTarget& target : mesh.targets) {
+        size += sizeof(MorphTarget) + bytes(target.positions) + bytes(target.normals) + bytes(target.tangents);
     }
-    for (const Part& part : mesh.parts) size += sizeof(Part) + bytes(part.indices);
+    for (const Submesh& submesh : mesh.submeshes) size += sizeof(Submesh) + bytes(submesh.indices);
     return size;
 }
 

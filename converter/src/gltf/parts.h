@@ -28,7 +28,7 @@ struct Skeleton {
 /// Makes a joint of every node of the chosen scene (see GltfOptions::scene), of the ancestors of its roots, and of the
 /// joints of skins that its meshes use, with their ancestors; and, if asked for, of every instance of a mesh, which is
 /// the node's child; pre-order. Sets the scene's name, extras and further members. Fails on a node with two parents and
-/// on cycles, wherever in the file.
+/// on loops of nodes, wherever in the file.
 Skeleton import_skeleton(const Document& document, const GltfOptions& options, Scene& scene);
 
 // EXT_mesh_gpu_instancing: a node that draws its mesh several times.
@@ -56,7 +56,7 @@ void import_materials(const Document& document, Scene& scene);
 /// not there.
 void import_images(const Document& document, bool embed, Scene& scene);
 
-/// Fills Scene::cycles: one for each animation of the file, in its order, even if nothing in it moves the scene. Keys
+/// Fills Scene::clips: one for each animation of the file, in its order, even if nothing in it moves the scene. Keys
 /// stay as they are, but for rotations that are no unit quaternions.
 void import_animations(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene);
 
@@ -65,7 +65,7 @@ void import_animations(const Document& document, const Skeleton& skeleton, const
 /// node that has no joint, with a warning. What is only kept is named in the report.
 void keep_extensions(const Document& document, const Skeleton& skeleton, Scene& scene);
 
-/// Fills `more` of the scene's joints, materials, textures and cycles, and of its root: what the file says of them that
+/// Fills `more` of the scene's joints, materials, textures and clips, and of its root: what the file says of them that
 /// no field holds, and the names and extras of skins, cameras, samplers and images with those that use them.
 void keep_members(const Document& document, const Skeleton& skeleton, Scene& scene);
 

@@ -254,7 +254,7 @@ private:
             const std::string target_place = place_ + '.' + at("targets", t);
             for (const auto& [name, accessor] : primitive_.targets[t]) {
                 const std::string place = target_place + '.' + key(name);
-                Target& target = mesh.targets[t];
+                MorphTarget& target = mesh.targets[t];
                 std::vector<glm::vec3>* stream = nullptr;
                 if (name == "POSITION") stream = &target.positions;
                 if (name == "NORMAL" && !mesh.normals.empty()) stream = &target.normals;
@@ -333,13 +333,14 @@ Vertices read_vertices(const Document& document, const tinygltf::Primitive& prim
     return PrimitiveReader(document, primitive, json, place).read(skinned);
 }
 
-Part read_part(const Document& document, const tinygltf::Primitive& primitive, const Json& json,
-               std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices, const std::string& place) {
-    Part part;
-    if (primitive.material >= 0) part.material = static_cast<std::uint32_t>(primitive.material);
+Submesh read_submesh(const Document& document, const tinygltf::Primitive& primitive, const Json& json,
+                     std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices,
+                     const std::string& place) {
+    Submesh submesh;
+    if (primitive.material >= 0) submesh.material = static_cast<std::uint32_t>(primitive.material);
     if (find_draco(json) != nullptr) {
-        part.indices = draco_indices;  // Draco stores strips as triangles too
-        return part;
+        submesh.indices = draco_indices;  // Draco stores strips as triangles too
+        return submesh;
     }
     const int mode = primitive.mode;
     const bool is_list = mode == TINYGLTF_MODE_POINTS || mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_TRIANGLES;
@@ -349,47 +350,47 @@ Part read_part(const Document& document, const tinygltf::Primitive& primitive, c
     std::size_t unused = 0;  // vertices that make no whole primitive
     switch (mode) {
         case TINYGLTF_MODE_POINTS:
-            part.topology = Topology::points;
-            part.indices = std::move(sequence);
+            submesh.topology = Topology::points;
+            submesh.indices = std::move(sequence);
             break;
         case TINYGLTF_MODE_LINE:
-            part.topology = Topology::lines;
+            submesh.topology = Topology::lines;
             unused = n % 2;
             sequence.resize(n - unused);
-            part.indices = std::move(sequence);
+            submesh.indices = std::move(sequence);
             break;
         case TINYGLTF_MODE_LINE_LOOP:
         case TINYGLTF_MODE_LINE_STRIP:
-            part.topology = Topology::lines;
+            submesh.topology = Topology::lines;
             if (n < 2) unused = n;
             for (std::size_t i = 0; i + 1 < n; ++i)
-                part.indices.insert(part.indices.end(), {sequence[i], sequence[i + 1]});
+                submesh.indices.insert(submesh.indices.end(), {sequence[i], sequence[i + 1]});
             if (mode == TINYGLTF_MODE_LINE_LOOP && n >= 2) {
-                part.indices.insert(part.indices.end(), {sequence[n - 1], sequence[0]});
+                submesh.indices.insert(submesh.indices.end(), {sequence[n - 1], sequence[0]});
             }
             break;
         case TINYGLTF_MODE_TRIANGLE_STRIP:
             if (n < 3) unused = n;
             for (std::size_t i = 0; i + 2 < n;
                  ++i) {  // every other triangle the other way round: all face the same side
-                part.indices.insert(part.indices.end(),
-                                    {sequence[i], sequence[i + 1 + i % 2], sequence[i + 2 - i % 2]});
+                submesh.indices.insert(submesh.indices.end(),
+                                       {sequence[i], sequence[i + 1 + i % 2], sequence[i + 2 - i % 2]});
             }
             break;
         case TINYGLTF_MODE_TRIANGLE_FAN:
             if (n < 3) unused = n;
             for (std::size_t i = 1; i + 1 < n; ++i) {
-                part.indices.insert(part.indices.end(), {sequence[i], sequence[i + 1], sequence[0]});
+                submesh.indices.insert(submesh.indices.end(), {sequence[i], sequence[i + 1], sequence[0]});
             }
             break;
         default:
             unused = n % 3;
             sequence.resize(n - unused);
-            part.indices = std::move(sequence);
+            submesh.indices = std::move(sequence);
             break;
     }
     if (unused > 0) document.report.warn("vertices at the end that make no whole primitive left out", place, unused);
-    return part;
+    return submesh;
 }
 
 }  // namespace bendy::converter::gltf

@@ -28,7 +28,8 @@ Vertices read_vertices(const Document& document, const tinygltf::Primitive& prim
                        const std::string& place);
 
 /// The primitive's list of vertex indices, strips, fans and loops resolved; all below `vertex_count`.
-Part read_part(const Document& document, const tinygltf::Primitive& primitive, const Json& json,
-               std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices, const std::string& place);
+Submesh read_submesh(const Document& document, const tinygltf::Primitive& primitive, const Json& json,
+                     std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices,
+                     const std::string& place);
 
 }  // namespace bendy::converter::gltf

@@ -164,7 +164,7 @@ std::vector<std::uint32_t> find_parents(const Nodes& nodes) {
             parent = static_cast<std::uint32_t>(i);
         }
     }
-    // With one parent each, what cannot be reached from a root lies on a cycle or below one.
+    // With one parent each, what cannot be reached from a root lies on a loop or below one.
     std::vector<std::uint32_t> pending;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (parents[i] == kNone) pending.push_back(static_cast<std::uint32_t>(i));
@@ -177,7 +177,7 @@ std::vector<std::uint32_t> find_parents(const Nodes& nodes) {
         for (const int child : nodes[node].children) pending.push_back(static_cast<std::uint32_t>(child));
     }
     if (const auto lost = std::find(reached.begin(), reached.end(), false); lost != reached.end()) {
-        fail(at("nodes", static_cast<std::size_t>(lost - reached.begin())), "the node is its own ancestor (a cycle)");
+        fail(at("nodes", static_cast<std::size_t>(lost - reached.begin())), "the node is its own ancestor (a loop)");
     }
     return parents;
 }

@@ -45,49 +45,49 @@ public:
 
     ExportedAnimations run() {
         ExportedAnimations exported;
-        for (std::size_t i = 0; i < scene_.cycles.size(); ++i) {
-            Json animation = write(scene_.cycles[i], at("cycles", i));
-            const bool is_kept = animation.contains("channels") || !scene_.cycles[i].curves.empty();
+        for (std::size_t i = 0; i < scene_.clips.size(); ++i) {
+            Json animation = write(scene_.clips[i], at("clips", i));
+            const bool is_kept = animation.contains("channels") || !scene_.clips[i].curves.empty();
             const auto number = static_cast<std::uint32_t>(exported.animations.size());
-            exported.animation_of_cycle.push_back(is_kept ? number : kNone);
+            exported.animation_of_clip.push_back(is_kept ? number : kNone);
             if (is_kept) {
                 exported.animations.push_back(std::move(animation));
             } else {
-                report_.warn("a cycle that moves nothing is left out", at("cycles", i));
+                report_.warn("a clip that moves nothing is left out", at("clips", i));
             }
         }
         return exported;
     }
 
 private:
-    Json write(const Cycle& cycle, const std::string& place) {
+    Json write(const Clip& clip, const std::string& place) {
         Json animation = Json::object();
-        if (!cycle.name.empty()) animation["name"] = cycle.name;
-        add_extras(animation, cycle.extras, place, report_);
-        add_members(animation, read_members(cycle.more, place, report_), gltf::Element::animation, place, report_);
-        if (cycle.loop) mark_as_loop(animation, place);
-        shift_ = shift_of(cycle);
-        if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
-        add_markers(cycle, animation, place);
+        if (!clip.name.empty()) animation["name"] = clip.name;
+        add_extras(animation, clip.extras, place, report_);
+        add_members(animation, read_members(clip.more, place, report_), gltf::Element::animation, place, report_);
+        if (clip.loop) mark_as_loop(animation, place);
+        shift_ = shift_of(clip);
+        if (shift_ > 0.0f) report_.warn("clip that begins before 0 s is moved to begin there", place);
+        add_markers(clip, animation, place);
         weights_of_node_.clear();
-        for (std::size_t t = 0; t < cycle.tracks.size(); ++t) {
-            check_rotations(cycle.tracks[t], place + "." + at("tracks", t));
-            add_channel(cycle.tracks[t], animation, place);
+        for (std::size_t t = 0; t < clip.tracks.size(); ++t) {
+            check_rotations(clip.tracks[t], place + "." + at("tracks", t));
+            add_channel(clip.tracks[t], animation, place);
         }
-        std::vector<Track> frames;  // they are looked at again until the cycle is written
-        frames.reserve(cycle.plays.size());
-        for (const Play& play : cycle.plays)
-            add_channel(frames.emplace_back(weights_track(scene_, cycle, play)), animation, place);
-        if (const CycleSpan span = span_of(cycle); span != span_of_keys(cycle)) hold(cycle, span, animation, place);
+        std::vector<Track> frames;  // they are looked at again until the clip is written
+        frames.reserve(clip.plays.size());
+        for (const Play& play : clip.plays)
+            add_channel(frames.emplace_back(weights_track(scene_, clip, play)), animation, place);
+        if (const ClipSpan span = span_of(clip); span != span_of_keys(clip)) hold(clip, span, animation, place);
         return animation;
     }
 
     /// glTF's animations are as long as their keys: one more channel, of a property that no track moves, keeps a longer
     /// clip's length.
-    void hold(const Cycle& cycle, const CycleSpan& span, Json& animation, const std::string& place) {
+    void hold(const Clip& clip, const ClipSpan& span, Json& animation, const std::string& place) {
         const auto is_free = [&](std::uint32_t joint) {
             return scene_.joints[joint].rest.shear == glm::vec3(0.0f) &&
-                   std::none_of(cycle.tracks.begin(), cycle.tracks.end(), [&](const Track& track) {
+                   std::none_of(clip.tracks.begin(), clip.tracks.end(), [&](const Track& track) {
                        return track.path == TrackPath::translation && track.target == joint;
                    });
         };
@@ -124,23 +124,23 @@ private:
         Json& extras = animation["extras"];
         if (extras.is_null()) extras = Json::object();
         if (extras.is_object()) return &extras;
-        report_.warn(std::string(what) + " left out: the cycle's extras are no object", place);
+        report_.warn(std::string(what) + " left out: the clip's extras are no object", place);
         return nullptr;
     }
 
     void mark_as_loop(Json& animation, const std::string& place) {
-        Json* extras = extras_of(animation, "that a cycle repeats is", place);
+        Json* extras = extras_of(animation, "that a clip repeats is", place);
         if (extras == nullptr) return;
         const auto loop = extras->find("loop");
         if (loop == extras->end() || (*loop != true && *loop != 1)) (*extras)["loop"] = true;
     }
 
-    void add_markers(const Cycle& cycle, Json& animation, const std::string& place) {
-        if (cycle.markers.empty()) return;
+    void add_markers(const Clip& clip, Json& animation, const std::string& place) {
+        if (clip.markers.empty()) return;
         Json* extras = extras_of(animation, "markers are", place);
         if (extras == nullptr) return;
         Json list = Json::array();
-        for (const Marker& marker : cycle.markers)
+        for (const Marker& marker : clip.markers)
             list.push_back({{"time", shortest(marker.seconds + shift_)}, {"name", marker.name}});
         (*extras)["markers"] = std::move(list);
     }
@@ -173,8 +173,8 @@ private:
     std::span<const std::uint32_t> node_of_mesh_;
     Buffer& buffer_;
     Report& report_;
-    float shift_ = 0.0f;  ///< seconds, of the cycle that is being written
-    /// The track that is written of a cycle: several meshes of a node have one channel in glTF.
+    float shift_ = 0.0f;  ///< seconds, of the clip that is being written
+    /// The track that is written of a clip: several meshes of a node have one channel in glTF.
     std::unordered_map<std::uint32_t, const Track*> weights_of_node_;
 };
 
@@ -191,8 +191,8 @@ const char* interpolation_name(Interpolation interpolation) {
     }
 }
 
-float shift_of(const Cycle& cycle) {
-    const float start = span_of(cycle).start;
+float shift_of(const Clip& clip) {
+    const float start = span_of(clip).start;
     return start < 0.0f ? -start : 0.0f;
 }
 

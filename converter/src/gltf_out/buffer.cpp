@@ -139,7 +139,7 @@ std::uint32_t Buffer::add_floats(std::span<const float> values, std::uint32_t co
 }
 
 std::uint32_t Buffer::add_fractions(std::span<const float> values, std::uint32_t components) {
-    const StoredNumbers stored = narrow_fractions(values);
+    const StoredNumbers stored = smallest_exact_fractions(values);
     if (stored.type == ComponentType::f32) return add_floats(values, components, Use::vertices, false);
     const Code code = stored.type == ComponentType::u8 ? Code::u8 : Code::u16;
     Json accessor = describe(code, values.size() / components, components);

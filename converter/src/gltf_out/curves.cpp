@@ -71,10 +71,10 @@ public:
     CurveExporter(std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report)
         : node_of_mesh_(node_of_mesh), root_(root), buffer_(buffer), report_(report) {}
 
-    void write(const Cycle& cycle, Json& animation, const std::string& place) {
-        const float shift = shift_of(cycle);
-        for (std::size_t c = 0; c < cycle.curves.size(); ++c) {
-            const Curve& curve = cycle.curves[c];
+    void write(const Clip& clip, Json& animation, const std::string& place) {
+        const float shift = shift_of(clip);
+        for (std::size_t c = 0; c < clip.curves.size(); ++c) {
+            const Curve& curve = clip.curves[c];
             const std::string pointer = pointer_to(curve);
             if (pointer.empty() || !open_parent(root_, pointer)) {
                 report_.warn("curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
@@ -131,19 +131,19 @@ private:
 
 }  // namespace
 
-void export_curves(const Scene& scene, std::span<const std::uint32_t> animation_of_cycle,
+void export_curves(const Scene& scene, std::span<const std::uint32_t> animation_of_clip,
                    std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report) {
     CurveExporter exporter(node_of_mesh, root, buffer, report);
     bool is_one_empty = false;
-    for (std::size_t i = 0; i < scene.cycles.size(); ++i) {
-        if (scene.cycles[i].curves.empty()) continue;
-        Json animation = std::move(root["animations"][animation_of_cycle[i]]);
-        exporter.write(scene.cycles[i], animation, at("cycles", i));
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+        if (scene.clips[i].curves.empty()) continue;
+        Json animation = std::move(root["animations"][animation_of_clip[i]]);
+        exporter.write(scene.clips[i], animation, at("clips", i));
         if (!animation.contains("channels")) {
             is_one_empty = true;
-            report.warn("a cycle that moves nothing is left out", at("cycles", i));
+            report.warn("a clip that moves nothing is left out", at("clips", i));
         }
-        root["animations"][animation_of_cycle[i]] = std::move(animation);
+        root["animations"][animation_of_clip[i]] = std::move(animation);
     }
     if (!is_one_empty) return;
     Json& animations = root["animations"];

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gltf_out/parts.h"
 #include "gltf_out/buffer.h"
+#include "gltf_out/parts.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
@@ -14,9 +14,9 @@ namespace bendy::converter::gltf_out {
 /// Adds the clips' curves to their animations in the document `root`, which is complete but for them: channels of
 /// KHR_animation_pointer. A curve whose property the document does not have is left out, which is said; so is an
 /// animation that has no channel then.
-/// \param animation_of_cycle  see ExportedAnimations
+/// \param animation_of_clip  see ExportedAnimations
 /// \param node_of_mesh        see ExportedMeshes
-void export_curves(const Scene& scene, std::span<const std::uint32_t> animation_of_cycle,
+void export_curves(const Scene& scene, std::span<const std::uint32_t> animation_of_clip,
                    std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report);
 
 }  // namespace bendy::converter::gltf_out

@@ -59,7 +59,7 @@ void gather_extensions(const Json& json, std::set<std::string>& names) {
 }
 
 bool has_rig(const ObjectView& object) {
-    return !object.skeleton.limits.empty() || !object.chains.empty();
+    return !object.skeleton.constraints.empty() || !object.chains.empty();
 }
 
 void add_rig(Json& scene, const ObjectView& object, Report& report) {
@@ -132,7 +132,7 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     gltf_out::add_extensions(root, scene.extensions, "HEAD/EXTN", report);
     gltf_out::add_members(root, gltf_out::read_members(scene.source_more, "HEAD/MORE", report), gltf::Element::root,
                           "HEAD/MORE", report);
-    gltf_out::export_curves(scene, animations.animation_of_cycle, meshes.node_of_mesh, root, buffer, report);
+    gltf_out::export_curves(scene, animations.animation_of_clip, meshes.node_of_mesh, root, buffer, report);
     std::set<std::string> used;
     gather_extensions(root, used);
     if (!used.empty()) root["extensionsUsed"] = used;

@@ -68,8 +68,8 @@ int mode_of(Topology topology) {
 }
 
 bool has_primitives(const Mesh& mesh) {
-    return !mesh.positions.empty() &&
-           std::any_of(mesh.parts.begin(), mesh.parts.end(), [](const Part& part) { return !part.indices.empty(); });
+    return !mesh.positions.empty() && std::any_of(mesh.submeshes.begin(), mesh.submeshes.end(),
+                                                  [](const Submesh& submesh) { return !submesh.indices.empty(); });
 }
 
 /// What is a skin in glTF: the palette, and what its node says of the skin (null: nothing).
@@ -143,7 +143,7 @@ private:
         const Mesh& mesh = scene_.meshes[number];
         Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh, number), mesh.name, mesh.extras, mesh.more,
                   {}};
-        for (const Target& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
+        for (const MorphTarget& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
         const std::uint32_t skin = slot.skin;
         const auto [known, is_new] = slots_.try_emplace(std::move(slot), drawn_.size());
         if (is_new) drawn_.push_back({node_for(mesh, number), skin, {}});
@@ -173,9 +173,9 @@ private:
         add_extras(mesh, first.extras, place, report_);
         add_members(mesh, read_members(first.more, place, report_), gltf::Element::mesh, place, report_);
         name_targets(mesh, first, place);
-        const auto is_set = [](const Target& target) { return target.rest_weight != 0.0f; };
+        const auto is_set = [](const MorphTarget& target) { return target.rest_weight != 0.0f; };
         if (std::any_of(first.targets.begin(), first.targets.end(), is_set)) {
-            for (const Target& target : first.targets) mesh["weights"].push_back(json_number(target.rest_weight));
+            for (const MorphTarget& target : first.targets) mesh["weights"].push_back(json_number(target.rest_weight));
         }
         for (const std::uint32_t number : drawn.meshes) write_primitives(scene_.meshes[number], number, mesh);
         nodes_[drawn.node]["mesh"] = out_.meshes.size();
@@ -187,7 +187,7 @@ private:
     void name_targets(Json& mesh, const Mesh& source, const std::string& place) {
         Json names = Json::array();
         bool any = false;
-        for (const Target& target : source.targets) {
+        for (const MorphTarget& target : source.targets) {
             names.push_back(target.name);
             any = any || !target.name.empty();
         }
@@ -211,11 +211,11 @@ private:
     void write_primitives(const Mesh& mesh, std::uint32_t number, Json& out) {
         Json attributes = write_attributes(mesh, number);
         const Json targets = write_targets(mesh);
-        for (const Part& part : mesh.parts) {
-            if (part.indices.empty()) continue;
-            Json primitive{{"attributes", attributes}, {"mode", mode_of(part.topology)}};
-            primitive["indices"] = buffer_.add_integers(part.indices, 1, Buffer::Use::indices);
-            if (part.material != kNone) primitive["material"] = part.material;
+        for (const Submesh& submesh : mesh.submeshes) {
+            if (submesh.indices.empty()) continue;
+            Json primitive{{"attributes", attributes}, {"mode", mode_of(submesh.topology)}};
+            primitive["indices"] = buffer_.add_integers(submesh.indices, 1, Buffer::Use::indices);
+            if (submesh.material != kNone) primitive["material"] = submesh.material;
             if (!targets.empty()) primitive["targets"] = targets;
             out["primitives"].push_back(std::move(primitive));
         }
@@ -300,7 +300,7 @@ private:
     Json write_targets(const Mesh& mesh) {
         Json targets = Json::array();
         const std::vector<glm::vec3> zeros(mesh.targets.empty() ? 0 : mesh.positions.size());
-        for (const Target& target : mesh.targets) {
+        for (const MorphTarget& target : mesh.targets) {
             Json written = Json::object();
             // A target must displace something; what is all zero takes no bytes.
             const bool is_empty = target.positions.empty() && target.normals.empty() && target.tangents.empty();

@@ -100,8 +100,8 @@ Json matrix_of(const Transform& rest) {
 
 std::vector<bool> find_moved(const Scene& scene) {
     std::vector<bool> moved(scene.joints.size());
-    for (const Cycle& cycle : scene.cycles) {
-        for (const Track& track : cycle.tracks) {
+    for (const Clip& clip : scene.clips) {
+        for (const Track& track : clip.tracks) {
             if (track.path != TrackPath::weights) moved[track.target] = true;
         }
     }

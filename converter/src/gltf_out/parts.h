@@ -55,10 +55,10 @@ ExportedMeshes export_meshes(const Scene& scene, std::span<const Json> node_memb
 
 struct ExportedAnimations {
     Json animations = Json::array();
-    std::vector<std::uint32_t> animation_of_cycle;  ///< kNone: left out
+    std::vector<std::uint32_t> animation_of_clip;  ///< kNone: left out
 };
 
-/// Writes the scene's cycles, each as an animation, but for their curves: one that has nothing else has no channels
+/// Writes the scene's clips, each as an animation, but for their curves: one that has nothing else has no channels
 /// yet. \param node_of_mesh  see ExportedMeshes
 ExportedAnimations export_animations(const Scene& scene, std::span<const std::uint32_t> node_of_mesh, Buffer& buffer,
                                      Report& report);
@@ -66,8 +66,8 @@ ExportedAnimations export_animations(const Scene& scene, std::span<const std::ui
 /// glTF's word for it.
 const char* interpolation_name(Interpolation interpolation);
 
-/// Seconds by which an animation is later than its cycle: glTF's do not begin before 0 s.
-float shift_of(const Cycle& cycle);
+/// Seconds by which an animation is later than its clip: glTF's do not begin before 0 s.
+float shift_of(const Clip& clip);
 
 /// Key times, later by `shift`, as an accessor.
 std::uint32_t add_times(const std::vector<float>& times, float shift, Buffer& buffer);

@@ -38,8 +38,8 @@ std::string degrees(float radians) {
     return std::to_string(std::lround(exact + (exact < 0.0 ? -1e-4 : 1e-4)));  // a float's half degrees go outward
 }
 
-std::string range_of(const LimitRecord& limit, std::size_t axis) {
-    return degrees(limit.rotation_min[axis]) + " to " + degrees(limit.rotation_max[axis]);
+std::string range_of(const ConstraintRecord& constraint, std::size_t axis) {
+    return degrees(constraint.rotation_min[axis]) + " to " + degrees(constraint.rotation_max[axis]);
 }
 
 /// With so many decimals; no locale.
@@ -121,17 +121,18 @@ std::string line_of(const Scene& scene, const Chain& chain, const std::optional<
     return bend->clips == 0 ? line : line + " as in " + clips_of(bend->clips);
 }
 
-std::string line_of(const Scene& scene, const ProposedLimit& proposed) {
-    const LimitRecord& limit = proposed.limit;
+std::string line_of(const Scene& scene, const ProposedConstraint& proposed) {
+    const ConstraintRecord& constraint = proposed.constraint;
     std::string line = part_of(proposed.anatomy) + ", " + name_of(scene, proposed.anatomy.joint) + ": ";
-    const auto model = static_cast<LimitModel>(limit.model);
-    if (model == LimitModel::hinge) {
-        line += "hinge about " + vector_of(proposed.axis) + ", " + range_of(limit, 0) + " degrees";
+    const auto model = static_cast<ConstraintModel>(constraint.model);
+    if (model == ConstraintModel::hinge) {
+        line += "hinge about " + vector_of(proposed.axis) + ", " + range_of(constraint, 0) + " degrees";
     } else if (bends(proposed.anatomy.part)) {
-        line += "bends " + range_of(limit, 2) + " degrees about " + vector_of(proposed.axis) + ", sideways " +
-                range_of(limit, 1) + ", twist " + range_of(limit, 0);
+        line += "bends " + range_of(constraint, 2) + " degrees about " + vector_of(proposed.axis) + ", sideways " +
+                range_of(constraint, 1) + ", twist " + range_of(constraint, 0);
     } else {
-        line += "swing " + range_of(limit, 1) + " and " + range_of(limit, 2) + " degrees, twist " + range_of(limit, 0);
+        line += "swing " + range_of(constraint, 1) + " and " + range_of(constraint, 2) + " degrees, twist " +
+                range_of(constraint, 0);
     }
     if (proposed.is_axis_fitted) {
         line += ", axis fitted to " + clips_of(proposed.clips) + ", " + decimals(proposed.axis_off, 1) +
@@ -421,10 +422,10 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
     const std::vector<JointAnatomy> anatomy = find_anatomy(scene, rest, found, stance);
-    for (const ProposedLimit& proposed : fit_to_clips(scene, rest, clips, anatomy, stance.left, report)) {
+    for (const ProposedConstraint& proposed : fit_to_clips(scene, rest, clips, anatomy, stance.left, report)) {
         Joint& joint = scene.joints[proposed.anatomy.joint];
-        if (!joint.limits.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
-        joint.limits.push_back(proposed.limit);
+        if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
+        joint.constraints.push_back(proposed.constraint);
         report.propose(line_of(scene, proposed));
     }
 }

@@ -41,9 +41,9 @@ std::optional<glm::dquat> rotation_at(const Track& track, double seconds, std::v
 }  // namespace
 
 ClipRotations::ClipRotations(const Scene& scene) : scene_(scene), tracks_(scene.joints.size()) {
-    for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
-        for (const Track& track : scene.cycles[cycle].tracks) {
-            if (track.path == TrackPath::rotation) tracks_[track.target].push_back({cycle, &track});
+    for (std::size_t clip = 0; clip < scene.clips.size(); ++clip) {
+        for (const Track& track : scene.clips[clip].tracks) {
+            if (track.path == TrackPath::rotation) tracks_[track.target].push_back({clip, &track});
         }
     }
 }
@@ -57,7 +57,7 @@ ClipRotations::OfJoint ClipRotations::of(std::uint32_t joint) const {
         const glm::dquat away = from_rest * q;
         result.rotations.push_back(away.w < 0.0 ? -away : away);
     };
-    for (const auto& [cycle, track] : tracks_[joint]) {
+    for (const auto& [clip, track] : tracks_[joint]) {
         ++result.clips;
         std::optional<glm::dquat> last;
         double last_time = 0.0;
@@ -89,15 +89,15 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
     if (path.empty() || path.back() != limb.start) return std::nullopt;
     std::reverse(path.begin(), path.end());
 
-    std::vector<std::vector<const Track*>> by_cycle(scene_.cycles.size());  // as many as the path has joints, or none
+    std::vector<std::vector<const Track*>> by_clip(scene_.clips.size());  // as many as the path has joints, or none
     std::size_t moving = 0;
     for (std::size_t link = 0; link < path.size(); ++link) {
-        for (const auto& [cycle, track] : tracks_[path[link]]) {
-            if (by_cycle[cycle].empty()) {
-                by_cycle[cycle].resize(path.size());
+        for (const auto& [clip, track] : tracks_[path[link]]) {
+            if (by_clip[clip].empty()) {
+                by_clip[clip].resize(path.size());
                 ++moving;
             }
-            by_cycle[cycle][link] = track;
+            by_clip[clip][link] = track;
         }
     }
     if (moving == 0) return std::nullopt;
@@ -108,10 +108,10 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
     double weight = 0.0;
     double most = 0.0;
     std::vector<double> numbers;
-    for (std::size_t cycle = 0; cycle < by_cycle.size(); ++cycle) {
-        if (by_cycle[cycle].empty()) continue;
+    for (std::size_t clip = 0; clip < by_clip.size(); ++clip) {
+        if (by_clip[clip].empty()) continue;
         ++result.clips;
-        const CycleSpan span = span_of(scene_.cycles[cycle]);
+        const ClipSpan span = span_of(scene_.clips[clip]);
         for (std::size_t time = 0; time < times; ++time) {
             const double seconds = span.at(static_cast<double>(time) / static_cast<double>(times - 1));
             glm::dquat turn(1.0, 0.0, 0.0, 0.0);
@@ -121,7 +121,7 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
                 const Joint& joint = scene_.joints[path[link]];
                 if (link > 0) place += turn * glm::dvec3(joint.rest.translation);
                 if (path[link] == limb.middle) middle = place;
-                const Track* track = by_cycle[cycle][link];
+                const Track* track = by_clip[clip][link];
                 const std::optional<glm::dquat> q =
                     track != nullptr ? rotation_at(*track, seconds, numbers) : std::optional(rest_rotation(joint));
                 if (q) turn = turn * *q;

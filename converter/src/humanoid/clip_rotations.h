@@ -45,12 +45,12 @@ public:
 
 private:
     struct Placed {
-        std::size_t cycle = 0;
+        std::size_t clip = 0;
         const Track* track = nullptr;
     };
 
     const Scene& scene_;
-    std::vector<std::vector<Placed>> tracks_;  ///< rotation tracks, by joint, in the cycles' order
+    std::vector<std::vector<Placed>> tracks_;  ///< rotation tracks, by joint, in the clips' order
 };
 
 }  // namespace bendy::converter

@@ -358,11 +358,11 @@ public:
         members_.push_back(std::move(member));
     }
 
-    [[nodiscard]] std::vector<ProposedLimit> fit(Report& report) {
-        pool();
+    [[nodiscard]] std::vector<ProposedConstraint> fit(Report& report) {
+        mesh();
         bool moves = false;
         for (const Member& member : members_) moves = moves || largest_angle(member.rotations) >= kStill;
-        std::vector<ProposedLimit> limits;
+        std::vector<ProposedConstraint> constraints;
         for (const Member& member : members_) {
             if (member.anatomy->is_strange && !moves) {
                 report.warn(
@@ -371,18 +371,18 @@ public:
                     scene_.joints[member.anatomy->joint].name);
                 continue;
             }
-            ProposedLimit proposed;
+            ProposedConstraint proposed;
             proposed.anatomy = *member.anatomy;
             if (moves) proposed.clips = clips_;
-            limits.push_back(proposed);
+            constraints.push_back(proposed);
         }
-        if (limits.empty()) return limits;
+        if (constraints.empty()) return constraints;
         if (members_.front().bends()) {
-            fit_bends(limits);
+            fit_bends(constraints);
         } else {
-            fit_swings(limits);
+            fit_swings(constraints);
         }
-        return limits;
+        return constraints;
     }
 
 private:
@@ -390,9 +390,9 @@ private:
         return glm::normalize(glm::conjugate(*rest_.turning_axes(joint)) * rotation_of_axes(axes));
     }
 
-    [[nodiscard]] const Member& member_of(const ProposedLimit& limit) const {
+    [[nodiscard]] const Member& member_of(const ProposedConstraint& constraint) const {
         return *std::find_if(members_.begin(), members_.end(),
-                             [&](const Member& member) { return member.anatomy->joint == limit.anatomy.joint; });
+                             [&](const Member& member) { return member.anatomy->joint == constraint.anatomy.joint; });
     }
 
     /// Whether both sides rest as each other's mirror images.
@@ -406,7 +406,7 @@ private:
                glm::length(members_[0].rest - members_[1].rest) < kAlike;
     }
 
-    void pool() {
+    void mesh() {
         for (const Member& member : members_) clips_ = std::max(clips_, member.clips);
         is_pooled_ = members_.size() == 1 || are_alike();
         if (!is_pooled_) return;
@@ -450,7 +450,7 @@ private:
         return same;
     }
 
-    void fit_bends(std::vector<ProposedLimit>& limits) {
+    void fit_bends(std::vector<ProposedConstraint>& constraints) {
         const std::vector<BendFit> fits = choose_fits();
         // Of both sides together, away from the straight limb.
         Range bend = members_.front().human.z;
@@ -462,37 +462,39 @@ private:
             twist = united(twist, with_margin(fits[i].x, twist));
             sideways = united(sideways, with_margin(fits[i].y, sideways));
         }
-        for (ProposedLimit& limit : limits) {
-            const Member& member = member_of(limit);
+        for (ProposedConstraint& constraint : constraints) {
+            const Member& member = member_of(constraint);
             const BendFit& fit = fits[static_cast<std::size_t>(&member - members_.data())];
             const glm::dvec3 axis = member.to_side(fit.axis);
-            limit.axis = glm::normalize(limit.anatomy.axes * axis);
-            limit.is_axis_fitted = fit.is_fitted;
-            limit.axis_off = degrees_of(0.5 * glm::length(limit.axis - limit.anatomy.axes[2]));
+            constraint.axis = glm::normalize(constraint.anatomy.axes * axis);
+            constraint.is_axis_fitted = fit.is_fitted;
+            constraint.axis_off = degrees_of(0.5 * glm::length(constraint.axis - constraint.anatomy.axes[2]));
             const double rest_bend = glm::dot(member.rest, fit.axis);
             Range range = shifted(bend, -rest_bend);
             const Range human = ranges_from_rest(member.human, {0.0, 0.0, rest_bend}).z;
-            limit.growth = std::max({human.low - range.low, range.high - human.high, 0.0});
+            constraint.growth = std::max({human.low - range.low, range.high - human.high, 0.0});
             range = whole({std::min(range.low, 0.0), std::max(range.high, 0.0)}, human);
             if (fit.is_hinge) {
-                const glm::dvec3 along = limit.anatomy.axes[0];
-                const auto z = unit_across(along, limit.axis);
-                const glm::dmat3 axes(limit.axis, glm::cross(*z, limit.axis), *z);
-                set(limit, LimitModel::hinge, axes, {range, {}, {}});
+                const glm::dvec3 along = constraint.anatomy.axes[0];
+                const auto z = unit_across(along, constraint.axis);
+                const glm::dmat3 axes(constraint.axis, glm::cross(*z, constraint.axis), *z);
+                set(constraint, ConstraintModel::hinge, axes, {range, {}, {}});
                 continue;
             }
-            const glm::dmat3 axes(limit.anatomy.axes[0], glm::cross(limit.axis, limit.anatomy.axes[0]), limit.axis);
+            const glm::dmat3 axes(constraint.anatomy.axes[0], glm::cross(constraint.axis, constraint.anatomy.axes[0]),
+                                  constraint.axis);
             const Ranges side = member.to_side(Ranges{twist, sideways, {}});
-            set(limit, LimitModel::swing_twist_pyramid, axes,
+            set(constraint, ConstraintModel::swing_twist_pyramid, axes,
                 {whole(side.x, {}), whole(side.y, {}), {std::max(range.low, -179.0), std::min(range.high, 179.0)}});
             // A straight limb bends to where it bends most readily.
-            limit.limit.preferred[2] = static_cast<float>(std::clamp(30.0, range.low, range.high) * trig::kDegree);
+            constraint.constraint.preferred[2] =
+                static_cast<float>(std::clamp(30.0, range.low, range.high) * trig::kDegree);
         }
     }
 
     // --- all others
 
-    void fit_swings(std::vector<ProposedLimit>& limits) {
+    void fit_swings(std::vector<ProposedConstraint>& constraints) {
         // An ellipse, as a human's joints have it, unless the clips make it allow much more than a pyramid would.
         std::vector<Ellipse> ellipses;
         std::vector<Pyramid> pyramids;
@@ -520,9 +522,10 @@ private:
                 swing[axis] = united(swing[axis], shifted(range, axis == 0 ? rest_pose.y : rest_pose.z));
             }
         }
-        const LimitModel model = is_pyramid ? LimitModel::swing_twist_pyramid : LimitModel::swing_twist_ellipse;
-        for (ProposedLimit& limit : limits) {
-            const Member& member = member_of(limit);
+        const ConstraintModel model =
+            is_pyramid ? ConstraintModel::swing_twist_pyramid : ConstraintModel::swing_twist_ellipse;
+        for (ProposedConstraint& constraint : constraints) {
+            const Member& member = member_of(constraint);
             const Ranges human = ranges_from_rest(member.human, member.rest);
             Ranges ranges{twist, shifted(swing[0], -member.rest.y), shifted(swing[1], -member.rest.z)};
             ranges.x = whole(ranges.x, human.x);
@@ -530,8 +533,8 @@ private:
             ranges.z = whole(ranges.z, human.z);
             for (const auto& [now, before] :
                  {std::pair(ranges.x, human.x), std::pair(ranges.y, human.y), std::pair(ranges.z, human.z)})
-                limit.growth = std::max({limit.growth, before.low - now.low, now.high - before.high});
-            set(limit, model, limit.anatomy.axes, member.to_side(ranges));
+                constraint.growth = std::max({constraint.growth, before.low - now.low, now.high - before.high});
+            set(constraint, model, constraint.anatomy.axes, member.to_side(ranges));
         }
     }
 
@@ -549,16 +552,16 @@ private:
                 range.high > before.high + kSame ? std::min(std::ceil(range.high), 180.0) : before.high};
     }
 
-    void set(ProposedLimit& proposed, LimitModel model, const glm::dmat3& axes, const Ranges& ranges) const {
+    void set(ProposedConstraint& proposed, ConstraintModel model, const glm::dmat3& axes, const Ranges& ranges) const {
         const glm::dquat frame = frame_of(proposed.anatomy.joint, axes);
-        LimitRecord& limit = proposed.limit;
-        limit.model = static_cast<std::uint8_t>(model);
-        limit.flags = kProposed;
-        limit.frame = to_record(frame);
+        ConstraintRecord& constraint = proposed.constraint;
+        constraint.model = static_cast<std::uint8_t>(model);
+        constraint.flags = kProposed;
+        constraint.frame = to_record(frame);
         const std::array<Range, 3> of_axis{ranges.x, ranges.y, ranges.z};
         for (std::size_t axis = 0; axis < limited_axes(model); ++axis) {
-            limit.rotation_min[axis] = static_cast<float>(of_axis[axis].low * trig::kDegree);
-            limit.rotation_max[axis] = static_cast<float>(of_axis[axis].high * trig::kDegree);
+            constraint.rotation_min[axis] = static_cast<float>(of_axis[axis].low * trig::kDegree);
+            constraint.rotation_max[axis] = static_cast<float>(of_axis[axis].high * trig::kDegree);
         }
     }
 
@@ -574,10 +577,10 @@ private:
 
 }  // namespace
 
-std::vector<ProposedLimit> fit_to_clips(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                                        const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left,
-                                        Report& report) {
-    std::vector<ProposedLimit> limits;
+std::vector<ProposedConstraint> fit_to_clips(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                                             const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left,
+                                             Report& report) {
+    std::vector<ProposedConstraint> constraints;
     std::vector<bool> is_done(anatomy.size());
     for (std::size_t i = 0; i < anatomy.size(); ++i) {
         if (is_done[i]) continue;
@@ -590,9 +593,9 @@ std::vector<ProposedLimit> fit_to_clips(const Scene& scene, const RestFrames& re
             is_done[j] = true;
             if (j != i) break;
         }
-        for (const ProposedLimit& limit : group.fit(report)) limits.push_back(limit);
+        for (const ProposedConstraint& constraint : group.fit(report)) constraints.push_back(constraint);
     }
-    return limits;
+    return constraints;
 }
 
 }  // namespace bendy::converter

@@ -15,9 +15,9 @@
 
 namespace bendy::converter {
 
-struct ProposedLimit {
+struct ProposedConstraint {
     JointAnatomy anatomy;
-    LimitRecord limit;            ///< flagged kProposed
+    ConstraintRecord constraint;  ///< flagged kProposed
     glm::dvec3 axis{0.0};         ///< of a bend: about which it bends, in model space at rest
     std::uint32_t clips = 0;      ///< that turn this joint, or its counterpart, by 5 degrees or more in all
     bool is_axis_fitted = false;  ///< to the clips
@@ -30,8 +30,8 @@ struct ProposedLimit {
 /// degree, it gets a hinge; else a swing and twist whose Z is the bend. Ranges are a human's, widened to hold every
 /// key and what lies between. Both sides have the same ranges, and mirrored axes where their clips and the rest pose
 /// let them. A joint that rests where a human's cannot gets no limit, with a warning, unless clips move it.
-std::vector<ProposedLimit> fit_to_clips(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                                        const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left,
-                                        Report& report);
+std::vector<ProposedConstraint> fit_to_clips(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                                             const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left,
+                                             Report& report);
 
 }  // namespace bendy::converter

@@ -63,8 +63,8 @@ void read_bones_0(const Json& vrm, const std::string& place, Reader& reader, Rep
     const std::string here = place + ".humanoid";
     const Json* bones = member(*humanoid, "humanBones", true, here, reader);
     if (bones == nullptr) return;
-    std::uint64_t own_limits = 0;
-    std::string first_limit;
+    std::uint64_t own_constraints = 0;
+    std::string first_constraint;
     for (std::size_t i = 0; i < bones->size(); ++i) {
         const Json& entry = (*bones)[i];
         const std::string at = here + ".humanBones[" + std::to_string(i) + ']';
@@ -75,12 +75,12 @@ void read_bones_0(const Json& vrm, const std::string& place, Reader& reader, Rep
         }
         reader.add(entry["bone"].get<std::string>(), entry, at);
         if (const auto defaults = entry.find("useDefaultValues"); defaults != entry.end() && *defaults == false) {
-            if (own_limits++ == 0) first_limit = at;
+            if (own_constraints++ == 0) first_constraint = at;
         }
     }
-    if (own_limits > 0) {
+    if (own_constraints > 0) {
         report.warn("limits of VRM 0.x bones are kept as JSON, not interpreted: they are about Unity's muscle axes",
-                    first_limit, own_limits);
+                    first_constraint, own_constraints);
     }
 }
 

@@ -163,8 +163,8 @@ public:
         Mesh mesh;
         mesh.name = name_;
         mesh.joint = 0;
-        mesh.parts.emplace_back();
-        read_skins(mesh.parts.front());
+        mesh.submeshes.emplace_back();
+        read_skins(mesh.submeshes.front());
         read_triangles(mesh);
         budget_.take(std::uint64_t{header_.frames} * vertices_.size(), 2 * sizeof(glm::vec3), place_of(40));
         for (const glm::vec3& normal : quake_normals()) table_.push_back(to_our_axes(normal));
@@ -172,7 +172,7 @@ public:
         std::vector<std::string> names;
         for (std::uint32_t frame = 0; frame < header_.frames; ++frame) names.push_back(read_frame(frame, mesh));
         scene_.meshes.push_back(std::move(mesh));
-        if (header_.frames > 1) add_cycles(names);
+        if (header_.frames > 1) add_clips(names);
         report_.warn("units are taken as 1/32 of a metre");
         if (!has_normals_)
             report_.warn("normals are computed from the polygons: the file gives all vertices the same one");
@@ -183,7 +183,7 @@ public:
 
 private:
     /// Every skin is a material; the mesh has the first.
-    void read_skins(Part& part) {
+    void read_skins(Submesh& submesh) {
         for (std::uint32_t skin = 0; skin < header_.skins; ++skin) {
             const std::string path = read_name(file_, header_.skins_at + skin * kSkinSize, kSkinSize);
             Image image;
@@ -198,7 +198,7 @@ private:
             scene_.textures.push_back(std::move(texture));
             scene_.materials.push_back(std::move(material));
         }
-        if (header_.skins > 0) part.material = 0;
+        if (header_.skins > 0) submesh.material = 0;
         if (header_.skins > 1) report_.warn("further skin kept as a material that nothing uses", {}, header_.skins - 1);
     }
 
@@ -226,7 +226,7 @@ private:
                 corners_.push_back(vertex);
                 const std::uint64_t pair = std::uint64_t{vertex} << 32 | coord;
                 const auto [found, is_new] = known.try_emplace(pair, static_cast<std::uint32_t>(vertices_.size()));
-                mesh.parts.front().indices.push_back(found->second);
+                mesh.submeshes.front().indices.push_back(found->second);
                 if (!is_new) continue;
                 vertices_.push_back(vertex);
                 const std::size_t coord_at = header_.coords_at + std::size_t{coord} * kCoordSize;
@@ -261,7 +261,7 @@ private:
             mesh.normals = std::move(turned);
             return name;
         }
-        Target& target = mesh.targets.emplace_back();
+        MorphTarget& target = mesh.targets.emplace_back();
         target.name = name;
         target.is_frame = true;
         target.grid = grid;
@@ -347,18 +347,18 @@ private:
         return normals;
     }
 
-    void add_cycles(const std::vector<std::string>& names) {
+    void add_clips(const std::vector<std::string>& names) {
         for (const FrameRun& run : find_runs(names)) {
-            Cycle cycle;
-            cycle.name = run.name;
-            cycle.loop = is_repeated(run.name);
-            cycle.frame_rate = kFrameRate;
+            Clip clip;
+            clip.name = run.name;
+            clip.loop = is_repeated(run.name);
+            clip.frame_rate = kFrameRate;
             Play play;
             play.first = static_cast<std::uint32_t>(run.first);
             play.frames = static_cast<std::uint32_t>(run.count);
-            play.closed = cycle.loop;
-            cycle.plays.push_back(play);
-            scene_.cycles.push_back(std::move(cycle));
+            play.closed = clip.loop;
+            clip.plays.push_back(play);
+            scene_.clips.push_back(std::move(clip));
         }
     }
 

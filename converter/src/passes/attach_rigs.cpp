@@ -37,7 +37,7 @@ void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_pro
         attach_curves(scene, *rig_file, index, report);
     }
     const bool is_told = rig_file && rig_file->complete;
-    const bool markers_are_told = rig_file && rig_file->cycles;
+    const bool markers_are_told = rig_file && rig_file->clips;
     if (is_told || attach_exported_rig(scene, index, claims, markers_are_told, report)) return;
     attach_extras(scene, index, claims, report);
     add_vrm_chains(scene, report);
@@ -50,7 +50,7 @@ void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_prop
     Claims claims{std::vector<bool>(scene.joints.size()), {}};
     if (rig_file) {
         if (rig_file->complete) {
-            for (Joint& joint : scene.joints) joint.limits.clear();
+            for (Joint& joint : scene.joints) joint.constraints.clear();
         }
         std::unordered_set<std::string_view> renewed;
         for (const RigChain& chain : rig_file->chains) renewed.insert(chain.name);

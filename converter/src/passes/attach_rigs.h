@@ -9,7 +9,7 @@
 
 namespace bendy::converter {
 
-/// Gives a scene its joint constraints and IK chains, and cycles the markers and curves of rig files. The sources come
+/// Gives a scene its joint constraints and IK chains, and clips the markers and curves of rig files. The sources come
 /// in the order of their authority (spec/rig.md): what an earlier one says of a joint, or of a chain's name, no later
 /// one changes. Fails where the rig file does not go with the scene. \param with_proposals  what is left gets
 /// constraints and chains by the joints' names

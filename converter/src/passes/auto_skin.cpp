@@ -207,7 +207,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     for (const std::size_t number : meshes) {
         Mesh& mesh = scene.meshes[number];
         const glm::dmat4 mesh_to_model = mesh.joint == kNone ? glm::dmat4(1.0) : pose.joints[mesh.joint];
-        Binding binding = bind_vertices(evaluate_vertices(mesh, pose.target_weights[number], pose.joints), bones,
+        Binding binding = bind_vertices(evaluate_vertices(mesh, pose.morph_weights[number], pose.joints), bones,
                                         mesh_to_model, pose.joints);
         const std::string name = mesh.name.empty() ? '#' + std::to_string(number) : quote(mesh.name);
         if (!is_finite(binding.palette)) {

@@ -40,11 +40,11 @@ std::string_view common_start(std::string_view a, std::string_view b) {
 
 /// A clip that others are being merged into.
 struct Merged {
-    Cycle clip;
+    Clip clip;
     std::string start;  // of all names
 };
 
-void merge(Cycle&& clip, Merged& into, Report& report) {
+void merge(Clip&& clip, Merged& into, Report& report) {
     into.start = common_start(into.start, clip.name);
     into.clip.loop = into.clip.loop && clip.loop;
     std::move(clip.tracks.begin(), clip.tracks.end(), std::back_inserter(into.clip.tracks));
@@ -60,7 +60,7 @@ std::uint32_t merge_clips(Scene& scene, Report& report) {
     std::vector<Merged> merged;
     std::map<Property, std::size_t> next;  // the first merged clip that a property is still free in, and after it
     std::map<OwnProperty, std::size_t> next_of_curve;  // the same
-    for (Cycle& clip : scene.cycles) {
+    for (Clip& clip : scene.clips) {
         std::size_t number = 0;
         for (const Track& track : clip.tracks) number = std::max(number, next[property_of(track)]);
         for (const Curve& curve : clip.curves) number = std::max(number, next_of_curve[own_property_of(curve)]);
@@ -74,23 +74,23 @@ std::uint32_t merge_clips(Scene& scene, Report& report) {
         begun.start = clip.name;
         begun.clip = std::move(clip);
     }
-    scene.cycles.clear();
+    scene.clips.clear();
     for (Merged& one : merged) {
         if (!one.start.empty()) one.clip.name = one.start;
         std::stable_sort(one.clip.markers.begin(), one.clip.markers.end(),
                          [](const Marker& a, const Marker& b) { return a.seconds < b.seconds; });
-        scene.cycles.push_back(std::move(one.clip));
+        scene.clips.push_back(std::move(one.clip));
     }
-    return static_cast<std::uint32_t>(scene.cycles.size());
+    return static_cast<std::uint32_t>(scene.clips.size());
 }
 
 bool is_spread_motion(const Scene& scene) {
     constexpr std::size_t kFewest = 3;
-    if (scene.cycles.size() < kFewest) return false;
+    if (scene.clips.size() < kFewest) return false;
     std::set<Property> properties;
     std::set<CurveProperty> curves;
     std::size_t single = 0;
-    for (const Cycle& clip : scene.cycles) {
+    for (const Clip& clip : scene.clips) {
         if (clip.tracks.empty()) return false;
         for (const Track& track : clip.tracks) {
             if (!properties.insert(property_of(track)).second) return false;
@@ -105,7 +105,7 @@ bool is_spread_motion(const Scene& scene) {
         });
         single += is_single ? 1 : 0;
     }
-    return 2 * single > scene.cycles.size();
+    return 2 * single > scene.clips.size();
 }
 
 }  // namespace bendy::converter

@@ -72,13 +72,14 @@ struct Key {
 AssignedPolygons assign_polygons(const Mesh& mesh) {
     HeaviestJoint heaviest(mesh);
     std::map<Key, std::uint32_t> numbers;  // of the ranges, as they are met
-    std::vector<PolygonRange> ranges;
+    std::vector<AssignedSubmesh> ranges;
     std::vector<std::uint32_t> range_of;  // each polygon, part after part
-    for (const Part& part : mesh.parts) {
-        const std::uint32_t step = corners(part.topology);
+    for (const Submesh& submesh : mesh.submeshes) {
+        const std::uint32_t step = corners(submesh.topology);
         auto last = numbers.end();
-        for (std::size_t first = 0; first + step <= part.indices.size(); first += step) {
-            const Key key{part.material, part.topology, heaviest(std::span(part.indices).subspan(first, step))};
+        for (std::size_t first = 0; first + step <= submesh.indices.size(); first += step) {
+            const Key key{submesh.material, submesh.topology,
+                          heaviest(std::span(submesh.indices).subspan(first, step))};
             if (last == numbers.end() || key < last->first || last->first < key) {
                 last = numbers.try_emplace(key, static_cast<std::uint32_t>(ranges.size())).first;
                 if (last->second == ranges.size()) ranges.push_back({key.joint, key.material, key.topology, 0, 0});
@@ -91,18 +92,18 @@ AssignedPolygons assign_polygons(const Mesh& mesh) {
     AssignedPolygons assigned;
     std::uint32_t at = 0;
     for (const auto& [key, number] : numbers) {
-        PolygonRange& range = ranges[number];
+        AssignedSubmesh& range = ranges[number];
         range.first = at;
         at += range.count;
         assigned.ranges.push_back(range);
     }
     assigned.indices.resize(at);
     auto range = range_of.begin();
-    for (const Part& part : mesh.parts) {
-        const std::uint32_t step = corners(part.topology);
-        for (std::size_t first = 0; first + step <= part.indices.size(); first += step) {
+    for (const Submesh& submesh : mesh.submeshes) {
+        const std::uint32_t step = corners(submesh.topology);
+        for (std::size_t first = 0; first + step <= submesh.indices.size(); first += step) {
             std::uint32_t& to = ranges[*range++].first;
-            for (std::uint32_t k = 0; k < step; ++k) assigned.indices[to++] = part.indices[first + k];
+            for (std::uint32_t k = 0; k < step; ++k) assigned.indices[to++] = submesh.indices[first + k];
         }
     }
     return assigned;
@@ -135,13 +136,13 @@ std::vector<std::uint32_t> permute_vertices(Mesh& mesh, std::span<const std::uin
     }
     permute(mesh.bones, mesh.influences, order);
     permute(mesh.weights, mesh.influences, order);
-    for (Target& target : mesh.targets) {
+    for (MorphTarget& target : mesh.targets) {
         permute(target.positions, 1, order);
         permute(target.normals, 1, order);
         permute(target.tangents, 1, order);
     }
-    for (Part& part : mesh.parts) {
-        for (std::uint32_t& index : part.indices) {
+    for (Submesh& submesh : mesh.submeshes) {
+        for (std::uint32_t& index : submesh.indices) {
             assert(number[index] != kNone);
             index = number[index];
         }
@@ -193,15 +194,15 @@ bool has_area(const std::array<std::uint32_t, 3>& corners) {
 }
 
 /// The corners where `now` says that they are; triangles without area that had one go.
-std::vector<std::uint32_t> moved(const Part& part, std::span<const std::uint32_t> now) {
+std::vector<std::uint32_t> moved(const Submesh& submesh, std::span<const std::uint32_t> now) {
     std::vector<std::uint32_t> indices;
-    indices.reserve(part.indices.size());
-    if (part.topology != Topology::triangles) {
-        for (const std::uint32_t index : part.indices) indices.push_back(now[index]);
+    indices.reserve(submesh.indices.size());
+    if (submesh.topology != Topology::triangles) {
+        for (const std::uint32_t index : submesh.indices) indices.push_back(now[index]);
         return indices;
     }
-    for (std::size_t k = 0; k + 2 < part.indices.size(); k += 3) {
-        const std::array before{part.indices[k], part.indices[k + 1], part.indices[k + 2]};
+    for (std::size_t k = 0; k + 2 < submesh.indices.size(); k += 3) {
+        const std::array before{submesh.indices[k], submesh.indices[k + 1], submesh.indices[k + 2]};
         const std::array after{now[before[0]], now[before[1]], now[before[2]]};
         if (has_area(after) || !has_area(before)) indices.insert(indices.end(), after.begin(), after.end());
     }
@@ -212,7 +213,7 @@ void keep_first(Mesh& mesh, std::uint32_t vertices) {
     std::vector<std::uint32_t> now(mesh.positions.size());
     std::iota(now.begin(), now.end(), 0u);
     for (std::size_t vertex = vertices; vertex < now.size(); ++vertex) now[vertex] = now[mesh.collapse[vertex]];
-    for (Part& part : mesh.parts) part.indices = moved(part, now);
+    for (Submesh& submesh : mesh.submeshes) submesh.indices = moved(submesh, now);
     now.resize(vertices);
     permute_vertices(mesh, now);
 }

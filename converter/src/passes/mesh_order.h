@@ -9,7 +9,7 @@
 namespace bendy::converter {
 
 /// A run of the ordered index list with one joint, material and topology.
-struct PolygonRange {
+struct AssignedSubmesh {
     std::uint32_t joint = 0;
     std::uint32_t material = kNone;
     Topology topology = Topology::triangles;
@@ -18,8 +18,8 @@ struct PolygonRange {
 };
 
 struct AssignedPolygons {
-    std::vector<std::uint32_t> indices;  ///< by material first, then topology, then joint; else the source's order
-    std::vector<PolygonRange> ranges;    ///< in the order of `indices`, which they cover
+    std::vector<std::uint32_t> indices;   ///< by material first, then topology, then joint; else the source's order
+    std::vector<AssignedSubmesh> ranges;  ///< in the order of `indices`, which they cover
 };
 
 /// Gives every polygon of a mesh to the joint that has most weight in it (the paper's POLY), ties to the smaller joint

@@ -198,42 +198,42 @@ bool has_even_scale(const Transform& rest) {
     return near(rest.scale.y) && near(rest.scale.z) && rest.shear == glm::vec3(0.0f);
 }
 
-LimitRecord to_limit(const Articulation& articulation, const Joint& joint, Report& report) {
+ConstraintRecord to_limit(const Articulation& articulation, const Joint& joint, Report& report) {
     Motions motions = gather(articulation, report);
-    LimitRecord limit;
+    ConstraintRecord constraint;
     // X of the frame is the hinge's axis: frame axis i is the joint's axis (i + first) % 3, so nothing changes its
     // sign.
     std::size_t first = 0;
     if (motions.order.size() == 1) {
         first = motions.order.front();
-        limit.model = static_cast<std::uint8_t>(LimitModel::hinge);
+        constraint.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
         constexpr std::array<std::array<float, 4>, 3> kFrames{
             {{0.0f, 0.0f, 0.0f, 1.0f}, {0.5f, 0.5f, 0.5f, 0.5f}, {-0.5f, -0.5f, -0.5f, 0.5f}}};
-        limit.frame = kFrames[first];
+        constraint.frame = kFrames[first];
     } else if (motions.order.empty()) {
-        limit.model = static_cast<std::uint8_t>(LimitModel::locked);
+        constraint.model = static_cast<std::uint8_t>(ConstraintModel::locked);
     } else {
-        limit.model = static_cast<std::uint8_t>(LimitModel::euler_box);
-        limit.euler_order = static_cast<std::uint8_t>(order_of(motions.order));
+        constraint.model = static_cast<std::uint8_t>(ConstraintModel::euler_box);
+        constraint.euler_order = static_cast<std::uint8_t>(order_of(motions.order));
     }
     constexpr double kDegree = std::numbers::pi / 180.0;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t axis = (i + first) % 3;
         const Stage turn = motions.turns[axis].value_or(Stage{});
         const Stage shift = motions.shifts[axis].value_or(Stage{});
-        limit.rotation_min[i] = to_float(turn.low * kDegree);
-        limit.rotation_max[i] = to_float(turn.high * kDegree);
-        limit.preferred[i] = to_float(turn.initial * kDegree);
+        constraint.rotation_min[i] = to_float(turn.low * kDegree);
+        constraint.rotation_max[i] = to_float(turn.high * kDegree);
+        constraint.preferred[i] = to_float(turn.initial * kDegree);
         // The stages stand to the right of the node's matrix: its scale is theirs.
         const auto scale = static_cast<double>(joint.rest.scale[static_cast<int>(axis)]);
         const auto [low, high] = std::minmax({shift.low * scale, shift.high * scale});
-        limit.translation_min[i] = to_float(low);
-        limit.translation_max[i] = to_float(high);
+        constraint.translation_min[i] = to_float(low);
+        constraint.translation_max[i] = to_float(high);
     }
     if (!has_even_scale(joint.rest)) motions.is_exact = false;
-    if (!motions.is_exact) limit.flags |= kApproximated;
-    if (!holds_rest(limit)) limit.flags |= kRestOutside;
-    return limit;
+    if (!motions.is_exact) constraint.flags |= kApproximated;
+    if (!holds_rest(constraint)) constraint.flags |= kRestOutside;
+    return constraint;
 }
 
 std::optional<std::string> articulation_of(const Joint& joint, Report& report) {
@@ -260,8 +260,8 @@ void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& r
         const auto articulation = articulations.find(*name);
         if (articulation == articulations.end()) {
             report.warn("node of an articulation that is not there", joint.name);
-        } else if (joint.limits.empty() && (claimed.empty() || !claimed[number])) {
-            joint.limits.push_back(to_limit(articulation->second, joint, report));
+        } else if (joint.constraints.empty() && (claimed.empty() || !claimed[number])) {
+            joint.constraints.push_back(to_limit(articulation->second, joint, report));
         }
     }
 }

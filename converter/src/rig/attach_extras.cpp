@@ -44,7 +44,7 @@ public:
         std::erase_if(joints_, [&](const Extra& extra) {
             return !guard("constraints left out", extra.place, [&] { read_bone(extra); });
         });
-        for (const Extra& extra : joints_) guard("constraints left out", extra.place, [&] { read_limits(extra); });
+        for (const Extra& extra : joints_) guard("constraints left out", extra.place, [&] { read_constraints(extra); });
         for (const Extra& extra : chains_) guard("chains left out", extra.place, [&] { read_chains(extra); });
         tell_apart();
         for (NamedChain& named : found_) {
@@ -110,25 +110,26 @@ private:
                kTurned;
     }
 
-    void read_limits(const Extra& extra) {
+    void read_constraints(const Extra& extra) {
         if (claims_.joints[extra.joint]) return;
         Fields fields(extra.value, extra.place, AngleUnit::radians);
-        std::vector<LimitRecord> limits;
+        std::vector<ConstraintRecord> constraints;
         if (const OrderedJson* own = fields.find("limits"); own != nullptr) {
-            limits = parse_limits(*own, fields.place_of("limits"), AngleUnit::radians);
+            constraints = parse_constraints(*own, fields.place_of("limits"), AngleUnit::radians);
         } else {
-            limits = read_blender_limits(fields, axes_of_bone(extra.joint), report_);
-            if (limits.empty()) return;
+            constraints = read_blender_limits(fields, axes_of_bone(extra.joint), report_);
+            if (constraints.empty()) return;
         }
         const Rotation& then = rig_.axes[extra.joint];
         const Rotation& now = rest_.turn(extra.joint);
-        for (LimitRecord& limit : limits) {
-            if (is_turned(then, now)) limit.frame = to_record(glm::conjugate(now) * then * to_rotation(limit.frame));
-            check_limit_at(limit, extra.place);
-            flag_rest_outside(limit, scene_.joints[extra.joint].name, extra.place, report_);
+        for (ConstraintRecord& constraint : constraints) {
+            if (is_turned(then, now))
+                constraint.frame = to_record(glm::conjugate(now) * then * to_rotation(constraint.frame));
+            check_constraint_at(constraint, extra.place);
+            flag_rest_outside(constraint, scene_.joints[extra.joint].name, extra.place, report_);
         }
         claims_.joints[extra.joint] = true;
-        scene_.joints[extra.joint].limits = std::move(limits);
+        scene_.joints[extra.joint].constraints = std::move(constraints);
     }
 
     /// What the writing tool has to say of it.
@@ -175,9 +176,9 @@ private:
                 Fields chain(list[i], place, AngleUnit::radians);
                 const bool is_blenders = chain.find("joints") != nullptr;
                 if (is_blenders) read_notes(chain);
-                found_.push_back({is_blenders ? read_blender_chain(chain, extra.joint, rig_, effort_, report_)
+                found_.push_back({is_blenders ? read_blender_chain(chain, extra.joint, rig_, budget_, report_)
                                               : resolve_chain(parse_chain(list[i], place, AngleUnit::radians), scene_,
-                                                              rig_.index, effort_),
+                                                              rig_.index, budget_),
                                   place});
             });
         }
@@ -205,7 +206,7 @@ private:
     Report& report_;
     RestFrames rest_;
     BlenderRig rig_;
-    Effort effort_;
+    WorkBudget budget_;
     std::vector<std::uint32_t> armature_of_;  ///< by joint: the node above the bones; kNone: the joint is no bone
     std::vector<Extra> joints_;
     std::vector<Extra> chains_;

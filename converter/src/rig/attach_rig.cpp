@@ -37,15 +37,15 @@ public:
     }
 
     /// The number of the key whose value a joint takes.
-    std::size_t find(std::uint32_t joint, std::string_view name, Effort& effort) const {
-        effort.take(1);
+    std::size_t find(std::uint32_t joint, std::string_view name, WorkBudget& budget) const {
+        budget.take(1);
         if (const auto found = by_number_.find(joint); found != by_number_.end()) return found->second;
         if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
         if (globs_.empty()) return kNoKey;
-        effort.take(name.size());
+        budget.take(name.size());
         const std::u32string characters = characters_of(name);
         const auto fitting = std::find_if(globs_.rbegin(), globs_.rend(),
-                                          [&](const auto& glob) { return fits(*glob.first, characters, effort); });
+                                          [&](const auto& glob) { return fits(*glob.first, characters, budget); });
         return fitting == globs_.rend() ? kNoKey : fitting->second;
     }
 
@@ -63,15 +63,15 @@ std::uint32_t find_joint(const RigChain& chain, const char* role, const std::str
 }
 
 std::vector<Chain::Weight> resolve_weights(const RigChain& source, const ChainRecord& record, const Scene& scene,
-                                           Effort& effort) {
+                                           WorkBudget& budget) {
     std::vector<Chain::Weight> weights;
     if (source.weights.empty()) return weights;
     Keys keys;
     for (const auto& [key, weight] : source.weights) keys.add(key);
     std::vector<bool> is_taken(source.weights.size());
     for (std::uint32_t joint = record.effector;; joint = scene.joints[joint].parent) {
-        effort.take(kStepsPerLink);
-        if (const std::size_t key = keys.find(joint, scene.joints[joint].name, effort); key != Keys::kNoKey) {
+        budget.take(kStepsPerLink);
+        if (const std::size_t key = keys.find(joint, scene.joints[joint].name, budget); key != Keys::kNoKey) {
             weights.push_back({joint, source.weights[key].second});
             is_taken[key] = true;
         }
@@ -102,13 +102,14 @@ void report_untaken(const Rig& rig, const std::vector<bool>& is_taken, Report& r
 
 }  // namespace
 
-void flag_rest_outside(LimitRecord& limit, const std::string& joint, const std::string& place, Report& report) {
-    if (holds_rest(limit) || (limit.flags & kRestOutside) != 0) return;
-    limit.flags |= kRestOutside;
+void flag_rest_outside(ConstraintRecord& constraint, const std::string& joint, const std::string& place,
+                       Report& report) {
+    if (holds_rest(constraint) || (constraint.flags & kRestOutside) != 0) return;
+    constraint.flags |= kRestOutside;
     report.warn("the rest pose of joint " + quote(joint) + " is outside its limits", place);
 }
 
-Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex& index, Effort& effort) {
+Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex& index, WorkBudget& budget) {
     Chain chain;
     chain.name = source.name;
     chain.record = source.record;
@@ -122,21 +123,21 @@ Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex
         fail(source.place + ".start",
              "joint " + quote(source.start) + " is neither " + quote(source.effector) + " itself nor above it");
     }
-    chain.weights = resolve_weights(source, record, scene, effort);
+    chain.weights = resolve_weights(source, record, scene, budget);
     return chain;
 }
 
 void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& claims, Report& report) {
-    Effort effort;
+    WorkBudget budget;
     std::vector<Chain> chains;
     for (const RigChain& chain : rig.chains) {
-        if (!claims.chains.contains(chain.name)) chains.push_back(resolve_chain(chain, scene, index, effort));
+        if (!claims.chains.contains(chain.name)) chains.push_back(resolve_chain(chain, scene, index, budget));
     }
     Keys keys;
     for (const RigEntry& entry : rig.joints) keys.add(entry.key);
     std::vector<std::size_t> key_of(index.size());
     for (std::uint32_t joint = 0; joint < index.size(); ++joint)
-        key_of[joint] = keys.find(joint, scene.joints[joint].name, effort);
+        key_of[joint] = keys.find(joint, scene.joints[joint].name, budget);
 
     // From here on nothing fails.
     std::vector<bool> is_taken(rig.joints.size());
@@ -146,9 +147,9 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
         is_taken[key_of[joint]] = true;
         if (claims.joints[joint]) continue;
         claims.joints[joint] = true;
-        scene.joints[joint].limits = entry.limits;
-        for (LimitRecord& limit : scene.joints[joint].limits)
-            flag_rest_outside(limit, scene.joints[joint].name, rig.source + entry.place, report);
+        scene.joints[joint].constraints = entry.constraints;
+        for (ConstraintRecord& constraint : scene.joints[joint].constraints)
+            flag_rest_outside(constraint, scene.joints[joint].name, rig.source + entry.place, report);
     }
     for (Chain& chain : chains) {
         claims.chains.insert(chain.name);

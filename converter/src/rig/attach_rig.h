@@ -27,10 +27,11 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
 
 /// A chain with its joints looked up. Fails at its JSON path: joints that are not there, a start that is not above the
 /// effector, a named weight outside the chain.
-Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex& index, Effort& effort);
+Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex& index, WorkBudget& budget);
 
 /// Sets the flag and warns where the rest pose lies outside.
-void flag_rest_outside(LimitRecord& limit, const std::string& joint, const std::string& place, Report& report);
+void flag_rest_outside(ConstraintRecord& constraint, const std::string& joint, const std::string& place,
+                       Report& report);
 
 /// Gives a scene the constraints and chains that its extras speak of: rig_joint and rig_ik of nodes, rig_ik of the
 /// scene (spec/rig.md), but for what is claimed already, and claims them. The extras stay as they are. What is wrong in
@@ -44,9 +45,9 @@ void attach_extras(Scene& scene, const JointIndex& index, Claims& claims, Report
 /// that it has no limits; empty: nobody has
 void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& report);
 
-/// Gives the scene's cycles the markers of a source, in place of their own; a complete one that says anything of
-/// markers leaves no others. An entry that no cycle takes is named in `report`. Fails at the JSON path of a marker
-/// outside its cycle, and of a second entry for one cycle.
+/// Gives the scene's clips the markers of a source, in place of their own; a complete one that says anything of
+/// markers leaves no others. An entry that no clip takes is named in `report`. Fails at the JSON path of a marker
+/// outside its clip, and of a second entry for one clip.
 void attach_markers(Scene& scene, const Rig& rig, Report& report);
 
 }  // namespace bendy::converter

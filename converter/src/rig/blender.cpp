@@ -35,7 +35,7 @@ std::array<double, 3> to_euler(const Rotation& rotation, EulerOrder order) {
 
 namespace {
 
-constexpr float kFree = LimitRecord::kFree;
+constexpr float kFree = ConstraintRecord::kFree;
 constexpr std::array<std::string_view, 5> kSpaceNames{"rest", "rest_with_parent", "armature", "world", "custom"};
 enum class Space : std::uint8_t { rest, rest_with_parent, armature, world, custom };
 
@@ -92,14 +92,14 @@ std::vector<Source> read_sources(Fields& fields, std::string_view key, bool is_r
     return sources;
 }
 
-void approximate(LimitRecord& limit, const std::string& what, const std::string& place, Report& report) {
-    limit.flags |= kApproximated;
+void approximate(ConstraintRecord& constraint, const std::string& what, const std::string& place, Report& report) {
+    constraint.flags |= kApproximated;
     report.warn(what, place);
 }
 
-void note_influence(const Source& source, LimitRecord& limit, Report& report) {
+void note_influence(const Source& source, ConstraintRecord& constraint, Report& report) {
     if (source.influence != 1.0f) {
-        approximate(limit, "a limit with an influence of less than 1 counts in full", source.place + ".influence",
+        approximate(constraint, "a limit with an influence of less than 1 counts in full", source.place + ".influence",
                     report);
     }
 }
@@ -108,18 +108,18 @@ void note_influence(const Source& source, LimitRecord& limit, Report& report) {
 /// That is D Q with D = r conj(zero) and Q = zero q conj(zero). With D as R(last) R(middle) R(first), the frame that
 /// turns the first back leaves a box for Q that D's angles shift; exactly so if the middle angle is zero. False where
 /// that one is too large for the box to resemble what was meant.
-bool shift_box(const Rotation& rest, const Rotation& zero, LimitRecord& limit) {
+bool shift_box(const Rotation& rest, const Rotation& zero, ConstraintRecord& constraint) {
     constexpr double kResembles = std::numbers::pi / 3.0;
-    const auto order = static_cast<EulerOrder>(limit.euler_order);
+    const auto order = static_cast<EulerOrder>(constraint.euler_order);
     const auto [first, middle, last] = axes_of(order);
     const std::array<double, 3> angles = to_euler(rest * glm::conjugate(zero), order);
     if (std::abs(angles[middle]) > kResembles) return false;
     glm::dvec3 axis(0.0);
     axis[static_cast<int>(first)] = 1.0;
-    limit.frame = to_record(glm::conjugate(zero) * glm::angleAxis(-angles[first], axis));
+    constraint.frame = to_record(glm::conjugate(zero) * glm::angleAxis(-angles[first], axis));
     for (std::size_t i = 0; i < 3; ++i) {
-        float& low = limit.rotation_min[i];
-        float& high = limit.rotation_max[i];
+        float& low = constraint.rotation_min[i];
+        float& high = constraint.rotation_max[i];
         const double low_there = low - angles[i];
         const double high_there = high - angles[i];
         const bool is_bounded = std::isfinite(low_there) && std::isfinite(high_there);
@@ -132,39 +132,39 @@ bool shift_box(const Rotation& rest, const Rotation& zero, LimitRecord& limit) {
 }
 
 /// False where the space cannot be held.
-bool place_box(const Source& source, const BoneAxes& bone, LimitRecord& limit, Report& report) {
+bool place_box(const Source& source, const BoneAxes& bone, ConstraintRecord& constraint, Report& report) {
     if (source.space == Space::rest) return true;
     if (source.space == Space::custom) return false;
-    approximate(limit, "a rotation limit counts the parents' motion in Blender, and does not here", source.place,
+    approximate(constraint, "a rotation limit counts the parents' motion in Blender, and does not here", source.place,
                 report);
     if (source.space == Space::rest_with_parent) return true;
     const Rotation& rest = source.space == Space::world ? bone.in_file : bone.in_armature;
-    return shift_box(rest, to_rotation(source.zero), limit);
+    return shift_box(rest, to_rotation(source.zero), constraint);
 }
 
-std::optional<LimitRecord> read_rotation_box(Fields& fields, const BoneAxes& bone, Report& report) {
-    std::optional<LimitRecord> limit;
+std::optional<ConstraintRecord> read_rotation_box(Fields& fields, const BoneAxes& bone, Report& report) {
+    std::optional<ConstraintRecord> constraint;
     Source first;
     for (Source& source : read_sources(fields, "euler_limits", true)) {
-        if (!limit) {
-            limit.emplace();
-            limit->model = static_cast<std::uint8_t>(LimitModel::euler_box);
-            limit->euler_order = source.order;
+        if (!constraint) {
+            constraint.emplace();
+            constraint->model = static_cast<std::uint8_t>(ConstraintModel::euler_box);
+            constraint->euler_order = source.order;
             first = std::move(source);
-            note_influence(first, *limit, report);
+            note_influence(first, *constraint, report);
             continue;
         }
-        note_influence(source, *limit, report);
+        note_influence(source, *constraint, report);
         const bool is_alike = source.space == first.space && source.order == first.order;
         if (!is_alike || !first.box.intersect(source.box)) {
-            approximate(*limit, "of several rotation limits that do not go together the first counts", source.place,
-                        report);
+            approximate(*constraint, "of several rotation limits that do not go together the first counts",
+                        source.place, report);
         }
     }
-    if (!limit) return limit;
-    limit->rotation_min = first.box.low;
-    limit->rotation_max = first.box.high;
-    if (place_box(first, bone, *limit, report)) return limit;
+    if (!constraint) return constraint;
+    constraint->rotation_min = first.box.low;
+    constraint->rotation_max = first.box.high;
+    if (place_box(first, bone, *constraint, report)) return constraint;
     report.warn("a rotation limit in space " + std::string(kSpaceNames[static_cast<std::size_t>(first.space)]) +
                     " left out: it cannot be held in the joint's rest space",
                 first.place);
@@ -172,88 +172,88 @@ std::optional<LimitRecord> read_rotation_box(Fields& fields, const BoneAxes& bon
 }
 
 /// The limits and stiffness of Blender's IK solver.
-std::optional<LimitRecord> read_ik_limits(Fields& fields) {
-    std::optional<LimitRecord> limit;
+std::optional<ConstraintRecord> read_ik_limits(Fields& fields) {
+    std::optional<ConstraintRecord> constraint;
     const OrderedJson* value = fields.find("swing_twist");
     if (value != nullptr) {
-        limit.emplace();
-        limit->model = static_cast<std::uint8_t>(LimitModel::swing_twist_ellipse);
-        limit->frame = kAlongBone;
+        constraint.emplace();
+        constraint->model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_ellipse);
+        constraint->frame = kAlongBone;
         Fields ranges(*value, fields.place_of("swing_twist"), AngleUnit::radians);
         constexpr std::array<std::string_view, 3> kRanges{"twist_y", "swing_z", "swing_x"};
         for (std::size_t axis = 0; axis < 3; ++axis)
-            ranges.read_angle_range(kRanges[axis], limit->rotation_min[axis], limit->rotation_max[axis]);
+            ranges.read_angle_range(kRanges[axis], constraint->rotation_min[axis], constraint->rotation_max[axis]);
         constexpr std::array<float, 3> kZeros{};
-        if (limit->rotation_min == kZeros && limit->rotation_max == kZeros) {
-            *limit = LimitRecord{};
-            limit->model = static_cast<std::uint8_t>(LimitModel::locked);
+        if (constraint->rotation_min == kZeros && constraint->rotation_max == kZeros) {
+            *constraint = ConstraintRecord{};
+            constraint->model = static_cast<std::uint8_t>(ConstraintModel::locked);
         }
     }
     std::array<float, 3> stiffness{};
     fields.read("stiffness", stiffness, 0.0f, 1.0f);
     if (stiffness != std::array<float, 3>{}) {
-        if (!limit) limit.emplace();
-        const bool is_along = limit->frame == kAlongBone;
+        if (!constraint) constraint.emplace();
+        const bool is_along = constraint->frame == kAlongBone;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            limit->stiffness[axis] = stiffness[is_along ? kBoneAxis[axis] : axis];
+            constraint->stiffness[axis] = stiffness[is_along ? kBoneAxis[axis] : axis];
     }
-    if (!limit) return limit;
-    limit->scope = static_cast<std::uint8_t>(LimitScope::ik_only);
-    check_limit_at(*limit, fields.place_of("swing_twist"));
-    return limit;
+    if (!constraint) return constraint;
+    constraint->scope = static_cast<std::uint8_t>(ConstraintScope::ik_only);
+    check_constraint_at(*constraint, fields.place_of("swing_twist"));
+    return constraint;
 }
 
 /// Limits of the place, along the bone's axes: a free model with nothing else.
-std::optional<LimitRecord> read_location_box(Fields& fields, Report& report) {
-    std::optional<LimitRecord> limit;
+std::optional<ConstraintRecord> read_location_box(Fields& fields, Report& report) {
+    std::optional<ConstraintRecord> constraint;
     Box box;
     for (const Source& source : read_sources(fields, "location_limits", false)) {
         if (source.space != Space::rest) {
             report.warn("a location limit in another space than the joint's rest space left out", source.place);
             continue;
         }
-        if (!limit) limit.emplace();
-        note_influence(source, *limit, report);
+        if (!constraint) constraint.emplace();
+        note_influence(source, *constraint, report);
         if (!box.intersect(source.box)) {
-            approximate(*limit, "of several location limits that do not go together the first counts", source.place,
-                        report);
+            approximate(*constraint, "of several location limits that do not go together the first counts",
+                        source.place, report);
         }
     }
-    if (!limit) return limit;
-    limit->translation_min = box.low;
-    limit->translation_max = box.high;
-    return limit;
+    if (!constraint) return constraint;
+    constraint->translation_min = box.low;
+    constraint->translation_max = box.high;
+    return constraint;
 }
 
 }  // namespace
 
-std::vector<LimitRecord> read_blender_limits(Fields& fields, const BoneAxes& bone, Report& report) {
-    std::optional<LimitRecord> rotation = read_rotation_box(fields, bone, report);
-    const std::optional<LimitRecord> ik = read_ik_limits(fields);
-    std::optional<LimitRecord> location = read_location_box(fields, report);
+std::vector<ConstraintRecord> read_blender_limits(Fields& fields, const BoneAxes& bone, Report& report) {
+    std::optional<ConstraintRecord> rotation = read_rotation_box(fields, bone, report);
+    const std::optional<ConstraintRecord> ik = read_ik_limits(fields);
+    std::optional<ConstraintRecord> location = read_location_box(fields, report);
 
     // Blender's constraints do not hold its IK solver back, which has limits of its own; where it has none, these
     // serve.
-    if (rotation && ik) rotation->scope = static_cast<std::uint8_t>(LimitScope::all_but_ik);
+    if (rotation && ik) rotation->scope = static_cast<std::uint8_t>(ConstraintScope::all_but_ik);
     if (rotation && location) {
-        if (rotation->frame == LimitRecord{}.frame) {
+        if (rotation->frame == ConstraintRecord{}.frame) {
             rotation->translation_min = location->translation_min;
             rotation->translation_max = location->translation_max;
             rotation->flags |= location->flags;
             location.reset();
         } else if (!ik) {
-            location->scope = static_cast<std::uint8_t>(LimitScope::all_but_ik);  // the solver moves no joint
+            location->scope = static_cast<std::uint8_t>(ConstraintScope::all_but_ik);  // the solver moves no joint
         }
     }
     bool is_approximated = false;
     fields.read("approximated", is_approximated);
-    std::vector<LimitRecord> limits;
+    std::vector<ConstraintRecord> constraints;
     for (const auto& limit : {rotation, ik, location}) {
         if (!limit) continue;
-        limits.push_back(*limit);
-        if (is_approximated) limits.back().flags |= kApproximated;
+        constraints.push_back(*limit);
+        if (is_approximated) constraints.back().flags |= kApproximated;
     }
-    return limits;
+    return constraints;
 }
 
 namespace {
@@ -270,8 +270,8 @@ std::optional<glm::dvec3> across(const glm::dvec3& vector, const glm::dvec3& lin
 
 class Reader {
 public:
-    Reader(Fields& fields, std::uint32_t node, const BlenderRig& rig, Effort& effort, Report& report)
-        : fields_(fields), node_(node), rig_(rig), effort_(effort), report_(report) {}
+    Reader(Fields& fields, std::uint32_t node, const BlenderRig& rig, WorkBudget& budget, Report& report)
+        : fields_(fields), node_(node), rig_(rig), budget_(budget), report_(report) {}
 
     Chain read() {
         fields_.need("name");
@@ -330,7 +330,7 @@ private:
             links_.push_back(joint);
         links_.push_back(start_);
         std::reverse(links_.begin(), links_.end());
-        effort_.take(8 * links_.size());
+        budget_.take(8 * links_.size());
         chain_.record.start = start_;
         chain_.record.effector = last_;
     }
@@ -390,7 +390,7 @@ private:
         double nearest = 1e-3 * length;
         if (chain_.record.rotation_weight == 0.0f && local != glm::dvec3(0.0)) {
             for (std::uint32_t child = last_ + 1; child < rig_.index.end(last_); child = rig_.index.end(child)) {
-                effort_.take(1);
+                budget_.take(1);
                 const double distance = glm::distance(rig_.rest.place(child), tip_);
                 if (!(distance < nearest)) continue;
                 nearest = distance;
@@ -405,10 +405,10 @@ private:
     void choose_solver() {
         if (const OrderedJson* solver = fields_.find("solver"); solver != nullptr && !solver->is_string())
             fail(fields_.place_of("solver"), "it must be a string, not " + shown(*solver));
-        const auto& limits = rig_.scene.joints[start_].limits;
-        const bool is_free = std::none_of(limits.begin(), limits.end(), [](const LimitRecord& limit) {
-            const auto model = static_cast<LimitModel>(limit.model);
-            return model == LimitModel::hinge || model == LimitModel::locked;
+        const auto& limits = rig_.scene.joints[start_].constraints;
+        const bool is_free = std::none_of(limits.begin(), limits.end(), [](const ConstraintRecord& constraint) {
+            const auto model = static_cast<ConstraintModel>(constraint.model);
+            return model == ConstraintModel::hinge || model == ConstraintModel::locked;
         });
         if (links_.size() == 2 && is_free) chain_.record.solver = static_cast<std::uint8_t>(Solver::two_bone);
     }
@@ -472,7 +472,7 @@ private:
     Fields& fields_;
     std::uint32_t node_;
     const BlenderRig& rig_;
-    Effort& effort_;
+    WorkBudget& budget_;
     Report& report_;
     Chain chain_;
     std::uint32_t start_ = 0;
@@ -484,8 +484,9 @@ private:
 
 }  // namespace
 
-Chain read_blender_chain(Fields& fields, std::uint32_t node, const BlenderRig& rig, Effort& effort, Report& report) {
-    return Reader(fields, node, rig, effort, report).read();
+Chain read_blender_chain(Fields& fields, std::uint32_t node, const BlenderRig& rig, WorkBudget& budget,
+                         Report& report) {
+    return Reader(fields, node, rig, budget, report).read();
 }
 
 }  // namespace bendy::converter

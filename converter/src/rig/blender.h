@@ -30,7 +30,7 @@ struct BoneAxes {
 /// The constraints that node.extras.rig_joint gives a bone in Blender's terms (spec/rig.md), in the axes of that time:
 /// at most one of each scope, the rest pose perhaps outside. What cannot be held as it is gets the flag and is named in
 /// `report`. Fails at the JSON path of what is wrong.
-std::vector<LimitRecord> read_blender_limits(Fields& fields, const BoneAxes& bone, Report& report);
+std::vector<ConstraintRecord> read_blender_limits(Fields& fields, const BoneAxes& bone, Report& report);
 
 /// The skeleton that Blender's chains are read against.
 struct BlenderRig {
@@ -44,6 +44,6 @@ struct BlenderRig {
 /// A chain of rig_ik as Blender has it (spec/rig.md). \param node  the joint whose extras these are, the armature;
 /// kNone: the scene. What the records cannot hold is flagged and named in `report`. Fails at the JSON path of what is
 /// wrong.
-Chain read_blender_chain(Fields& fields, std::uint32_t node, const BlenderRig& rig, Effort& effort, Report& report);
+Chain read_blender_chain(Fields& fields, std::uint32_t node, const BlenderRig& rig, WorkBudget& budget, Report& report);
 
 }  // namespace bendy::converter

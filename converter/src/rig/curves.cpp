@@ -1,9 +1,9 @@
 #include "curves.h"
 
 #include "curve_property.h"
-#include "frame_shapes.h"
 #include "failure.h"
 #include "fields.h"
+#include "frame_shapes.h"
 #include "joint_key.h"
 #include "parse_rig.h"
 
@@ -135,9 +135,9 @@ private:
 };
 
 /// A clip's length before its curves change; nothing for one without keys.
-std::optional<CycleSpan> length_before(const Cycle& cycle) {
-    const bool has_keys = !cycle.tracks.empty() || !cycle.plays.empty() || !cycle.curves.empty() || cycle.stated_span;
-    return has_keys ? std::optional(span_of(cycle)) : std::nullopt;
+std::optional<ClipSpan> length_before(const Clip& clip) {
+    const bool has_keys = !clip.tracks.empty() || !clip.plays.empty() || !clip.curves.empty() || clip.stated_span;
+    return has_keys ? std::optional(span_of(clip)) : std::nullopt;
 }
 
 class CurveAttacher {
@@ -147,12 +147,12 @@ public:
           rig_(rig),
           index_(index),
           report_(report),
-          clips_(scene.cycles),
+          clips_(scene.clips),
           materials_(scene.materials),
           meshes_(scene.meshes),
           textures_(scene.textures),
-          numbers_of_(scene.cycles.size()) {
-        for (const Cycle& cycle : scene.cycles) lengths_.push_back(length_before(cycle));
+          numbers_of_(scene.clips.size()) {
+        for (const Clip& clip : scene.clips) lengths_.push_back(length_before(clip));
     }
 
     void run() {
@@ -170,13 +170,13 @@ public:
             resolved.emplace_back(clip, std::move(curve));
         }
         // From here on nothing fails.
-        for (std::size_t clip = 0; clip < scene_.cycles.size(); ++clip) {
-            std::vector<Curve>& curves = scene_.cycles[clip].curves;
+        for (std::size_t clip = 0; clip < scene_.clips.size(); ++clip) {
+            std::vector<Curve>& curves = scene_.clips[clip].curves;
             if (rig_.complete) curves.clear();
             for (std::size_t c = 0; c < curves.size(); ++c) numbers_of_[clip].emplace(own_property_of(curves[c]), c);
         }
         for (auto& [clip, curve] : resolved) put(clip, std::move(curve));
-        for (std::size_t clip = 0; clip < scene_.cycles.size(); ++clip) keep_length(clip);
+        for (std::size_t clip = 0; clip < scene_.clips.size(); ++clip) keep_length(clip);
     }
 
 private:
@@ -204,7 +204,7 @@ private:
         return curve;
     }
 
-    static void check_times(const Curve& curve, const std::optional<CycleSpan>& length, const RigCurve& entry) {
+    static void check_times(const Curve& curve, const std::optional<ClipSpan>& length, const RigCurve& entry) {
         if (!length) return;
         for (const float seconds : {curve.times.front(), curve.times.back()}) {
             if (seconds >= length->start - kNearEnd && seconds <= length->end + kNearEnd) continue;
@@ -214,7 +214,7 @@ private:
     }
 
     void put(std::size_t clip, Curve curve) {
-        std::vector<Curve>& curves = scene_.cycles[clip].curves;
+        std::vector<Curve>& curves = scene_.clips[clip].curves;
         const auto known = numbers_of_[clip].find(own_property_of(curve));
         if (known == numbers_of_[clip].end()) {
             curves.push_back(std::move(curve));
@@ -224,8 +224,8 @@ private:
     }
 
     void keep_length(std::size_t clip) {
-        Cycle& cycle = scene_.cycles[clip];
-        if (lengths_[clip] && span_of(cycle) != *lengths_[clip]) cycle.stated_span = lengths_[clip];
+        Clip& changed = scene_.clips[clip];
+        if (lengths_[clip] && span_of(changed) != *lengths_[clip]) changed.stated_span = lengths_[clip];
     }
 
     Scene& scene_;
@@ -233,7 +233,7 @@ private:
     const JointIndex& index_;
     Report& report_;
     NamedThings clips_, materials_, meshes_, textures_;
-    std::vector<std::optional<CycleSpan>> lengths_;
+    std::vector<std::optional<ClipSpan>> lengths_;
     std::set<std::pair<std::size_t, OwnProperty>> taken_;
     std::vector<std::map<OwnProperty, std::size_t>> numbers_of_;
 };

@@ -2,7 +2,7 @@
 
 #include "failure.h"
 
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/read_record.h>
 
 #include <algorithm>

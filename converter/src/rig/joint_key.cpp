@@ -102,17 +102,17 @@ JointKey parse_joint_key(std::string_view text, const std::string& place) {
     return key;
 }
 
-bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Effort& effort) {
+bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, WorkBudget& budget) {
     using Kind = JointKey::Step::Kind;
     constexpr std::uint64_t kStart = 8;  // a glob that fails at once takes time too
-    effort.take(kStart);
+    budget.take(kStart);
     std::size_t step = 0;
     std::size_t at = 0;
     // Where the last * stands and what of the name it has not taken: on a mismatch it takes one character more.
     std::size_t run = glob.size();
     std::size_t run_end = 0;
     while (at < name.size()) {
-        effort.take(1);
+        budget.take(1);
         const bool is_left = step < glob.size();
         if (is_left && glob[step].kind == Kind::any_run) {
             run = step++;

@@ -14,7 +14,7 @@
 namespace bendy::converter {
 
 /// Bounds the work of matching: a small hostile file can set any number of globs against any number of joints.
-class Effort {
+class WorkBudget {
 public:
     static constexpr std::uint64_t kMost = 400'000'000;  ///< steps: a character compared is one
 
@@ -51,7 +51,7 @@ struct JointKey {
 JointKey parse_joint_key(std::string_view text, const std::string& place);
 
 /// True where all of `name` fits the glob.
-bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Effort& effort);
+bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, WorkBudget& budget);
 
 /// The number of `#12`; false for other text.
 bool parse_joint_number(std::string_view text, std::uint64_t& number);

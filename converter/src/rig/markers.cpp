@@ -40,9 +40,9 @@ std::string seconds_text(float seconds) {
     return shown(OrderedJson(static_cast<double>(seconds))) + " s";
 }
 
-float inside(float seconds, const CycleSpan& span, const std::string& place) {
+float inside(float seconds, const ClipSpan& span, const std::string& place) {
     if (seconds < span.start - kNear || seconds > span.end + kNear) {
-        fail(place, seconds_text(seconds) + " is outside the cycle, which lasts from " + seconds_text(span.start) +
+        fail(place, seconds_text(seconds) + " is outside the clip, which lasts from " + seconds_text(span.start) +
                         " to " + seconds_text(span.end));
     }
     return std::clamp(seconds, span.start, span.end);
@@ -76,9 +76,9 @@ std::vector<SourceMarker> parse_markers(const OrderedJson& value, const std::str
     return markers;
 }
 
-void set_markers(Cycle& cycle, std::vector<SourceMarker> markers, const std::string& source, WrongMarkers wrong,
+void set_markers(Clip& clip, std::vector<SourceMarker> markers, const std::string& source, WrongMarkers wrong,
                  Report& report) {
-    const CycleSpan span = span_of(cycle);
+    const ClipSpan span = span_of(clip);
     std::vector<Marker> kept;
     for (SourceMarker& from : markers) {
         guard(wrong, source, report, [&] {
@@ -87,48 +87,48 @@ void set_markers(Cycle& cycle, std::vector<SourceMarker> markers, const std::str
         });
     }
     std::stable_sort(kept.begin(), kept.end(), [](const Marker& a, const Marker& b) { return a.seconds < b.seconds; });
-    cycle.markers = std::move(kept);
+    clip.markers = std::move(kept);
 }
 
-void take_markers_from_extras(Cycle& cycle, const std::string& place, Report& report) {
+void take_markers_from_extras(Clip& clip, const std::string& place, Report& report) {
     constexpr const char* kMember = "markers";
-    if (cycle.extras.find(kMember) == std::string::npos) return;
+    if (clip.extras.find(kMember) == std::string::npos) return;
     const std::string where = place + '.' + kMember;
     try {
-        auto extras = parse_json_text<Json>(cycle.extras, report);
+        auto extras = parse_json_text<Json>(clip.extras, report);
         if (!extras.is_object() || !extras.contains(kMember)) return;
         const Json& found = extras[kMember];
         const std::string text = found.is_string() ? found.get<std::string>() : found.dump();
         auto markers = parse_markers(parse_json_text<OrderedJson>(text, report), where, WrongMarkers::left_out, report);
         if (markers.empty()) return;
-        set_markers(cycle, std::move(markers), {}, WrongMarkers::left_out, report);
+        set_markers(clip, std::move(markers), {}, WrongMarkers::left_out, report);
         extras.erase(kMember);
-        cycle.extras = extras.empty() ? std::string() : extras.dump();
+        clip.extras = extras.empty() ? std::string() : extras.dump();
     } catch (const Failure& failure) {
         report.warn("markers left out: " + failure.error.message, where);
     }
 }
 
 void attach_markers(Scene& scene, const Rig& rig, Report& report) {
-    if (!rig.cycles) return;
+    if (!rig.clips) return;
     std::unordered_map<std::string_view, std::size_t> by_name;  // the first of a name
-    for (std::size_t i = 0; i < scene.cycles.size(); ++i) by_name.try_emplace(scene.cycles[i].name, i);
-    std::vector<bool> is_taken(scene.cycles.size());
-    for (const RigCycle& entry : *rig.cycles) {
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) by_name.try_emplace(scene.clips[i].name, i);
+    std::vector<bool> is_taken(scene.clips.size());
+    for (const RigClip& entry : *rig.clips) {
         std::uint64_t number = 0;
         const bool is_number = parse_joint_number(entry.key, number);
         const auto named = by_name.find(entry.key);
         if (!is_number && named != by_name.end()) number = named->second;
-        if (is_number ? number >= scene.cycles.size() : named == by_name.end()) {
-            report.warn("no cycle takes " + quote(entry.key), rig.source + entry.place);
+        if (is_number ? number >= scene.clips.size() : named == by_name.end()) {
+            report.warn("no clip takes " + quote(entry.key), rig.source + entry.place);
             continue;
         }
-        if (is_taken[number]) fail(entry.place, "cycle " + quote(entry.key) + " has an earlier entry");
+        if (is_taken[number]) fail(entry.place, "clip " + quote(entry.key) + " has an earlier entry");
         is_taken[number] = true;
-        set_markers(scene.cycles[number], entry.markers, rig.source, WrongMarkers::fail, report);
+        set_markers(scene.clips[number], entry.markers, rig.source, WrongMarkers::fail, report);
     }
     for (std::size_t i = 0; i < is_taken.size(); ++i) {
-        if (rig.complete && !is_taken[i]) scene.cycles[i].markers.clear();
+        if (rig.complete && !is_taken[i]) scene.clips[i].markers.clear();
     }
 }
 

@@ -27,15 +27,15 @@ enum class WrongMarkers : std::uint8_t {
 std::vector<SourceMarker> parse_markers(const OrderedJson& value, const std::string& place, WrongMarkers wrong,
                                         Report& report);
 
-/// Gives a cycle these markers in place of its own, in the order of their times. One that lies up to a millisecond
-/// outside the cycle's keys is moved to the nearest key; one that lies further out is wrong.
+/// Gives a clip these markers in place of its own, in the order of their times. One that lies up to a millisecond
+/// outside the clip's keys is moved to the nearest key; one that lies further out is wrong.
 /// \param source  what warnings name before the markers' places, or empty
-void set_markers(Cycle& cycle, std::vector<SourceMarker> markers, const std::string& source, WrongMarkers wrong,
+void set_markers(Clip& clip, std::vector<SourceMarker> markers, const std::string& source, WrongMarkers wrong,
                  Report& report);
 
-/// Takes the member `markers` out of the extras of a cycle whose tracks are there, and gives the cycle these markers.
+/// Takes the member `markers` out of the extras of a clip whose tracks are there, and gives the clip these markers.
 /// What is wrong is named in the report; extras of which no marker could be read stay as they are.
 /// \param place  of the extras
-void take_markers_from_extras(Cycle& cycle, const std::string& place, Report& report);
+void take_markers_from_extras(Clip& clip, const std::string& place, Report& report);
 
 }  // namespace bendy::converter

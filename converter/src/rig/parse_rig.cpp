@@ -13,42 +13,43 @@ namespace bendy::converter {
 namespace {
 
 /// Fails where a member is there that means nothing for the model.
-void refuse(Fields& fields, std::string_view key, LimitModel model) {
+void refuse(Fields& fields, std::string_view key, ConstraintModel model) {
     if (fields.find(key) == nullptr) return;
     fail(fields.place_of(key),
          "it means nothing for model " + std::string(kModelNames[static_cast<std::size_t>(model)]));
 }
 
-void read_rotation_limits(Fields& fields, LimitModel model, LimitRecord& limit) {
-    if (model == LimitModel::largest_angle) {
+void read_rotation_limits(Fields& fields, ConstraintModel model, ConstraintRecord& constraint) {
+    if (model == ConstraintModel::largest_angle) {
         if (const OrderedJson* angle = fields.find("angle"); angle != nullptr && !angle->is_null()) {
-            fields.read_angle("angle", limit.rotation_max[0]);
-            if (limit.rotation_max[0] < 0.0f) fail(fields.place_of("angle"), "it is less than 0");
+            fields.read_angle("angle", constraint.rotation_max[0]);
+            if (constraint.rotation_max[0] < 0.0f) fail(fields.place_of("angle"), "it is less than 0");
         }
     } else {
         refuse(fields, "angle", model);
     }
-    const std::size_t ranges = model == LimitModel::largest_angle ? 0 : limited_axes(model);
-    const bool is_swing = model == LimitModel::swing_twist_ellipse || model == LimitModel::swing_twist_pyramid;
+    const std::size_t ranges = model == ConstraintModel::largest_angle ? 0 : limited_axes(model);
+    const bool is_swing =
+        model == ConstraintModel::swing_twist_ellipse || model == ConstraintModel::swing_twist_pyramid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (axis >= ranges) {
             refuse(fields, kAxisNames[axis], model);
             continue;
         }
-        float& low = limit.rotation_min[axis];
-        float& high = limit.rotation_max[axis];
+        float& low = constraint.rotation_min[axis];
+        float& high = constraint.rotation_max[axis];
         fields.read_angle_range(kAxisNames[axis], low, high);
         if (is_swing && axis != 0 && !(low <= 0.0f && high >= 0.0f))
             fail(fields.place_of(kAxisNames[axis]), "a swing's range must hold 0");
     }
 }
 
-void read_translation(Fields& fields, AngleUnit unit, LimitRecord& limit) {
+void read_translation(Fields& fields, AngleUnit unit, ConstraintRecord& constraint) {
     const OrderedJson* value = fields.find("translation");
     if (value == nullptr) return;
     Fields translation(*value, fields.place_of("translation"), unit);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        translation.read_range(kAxisNames[axis], limit.translation_min[axis], limit.translation_max[axis]);
+        translation.read_range(kAxisNames[axis], constraint.translation_min[axis], constraint.translation_max[axis]);
     translation.refuse_others();
 }
 
@@ -60,53 +61,53 @@ void read_flag(Fields& fields, std::string_view key, std::uint8_t flag, std::uin
 
 }  // namespace
 
-void check_limit_at(const LimitRecord& limit, const std::string& place) {
-    LimitRecord admitted = limit;
+void check_constraint_at(const ConstraintRecord& constraint, const std::string& place) {
+    ConstraintRecord admitted = constraint;
     admitted.flags |= kRestOutside;
     Faults faults;
-    check_limit(admitted, 0, 0, faults);
+    check_constraint(admitted, 0, 0, faults);
     if (!faults.empty()) fail(place, describe(faults.list().front()));
 }
 
-LimitRecord parse_limit(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, AngleUnit unit) {
     Fields fields(value, place, unit);
-    LimitRecord limit;
+    ConstraintRecord constraint;
     fields.need("model");
-    fields.read_word("model", kModelNames, limit.model);
-    const auto model = static_cast<LimitModel>(limit.model);
-    if (model == LimitModel::euler_box) {
-        fields.read_word("order", kOrderNames, limit.euler_order);
+    fields.read_word("model", kModelNames, constraint.model);
+    const auto model = static_cast<ConstraintModel>(constraint.model);
+    if (model == ConstraintModel::euler_box) {
+        fields.read_word("order", kOrderNames, constraint.euler_order);
     } else {
         refuse(fields, "order", model);
     }
-    fields.read_word("scope", kScopeNames, limit.scope);
-    fields.read_rotation("frame", limit.frame);
-    read_rotation_limits(fields, model, limit);
-    read_translation(fields, unit, limit);
-    fields.read("stiffness", limit.stiffness, 0.0f, 1.0f);
-    fields.read_angles("preferred", limit.preferred);
-    fields.read_angle("soft_zone", limit.soft_zone);
-    if (limit.soft_zone < 0.0f) fail(fields.place_of("soft_zone"), "it is less than 0");
-    read_flag(fields, "approximated", kApproximated, limit.flags);
-    read_flag(fields, "proposed", kProposed, limit.flags);
-    read_flag(fields, "rest_outside", kRestOutside, limit.flags);
+    fields.read_word("scope", kScopeNames, constraint.scope);
+    fields.read_rotation("frame", constraint.frame);
+    read_rotation_limits(fields, model, constraint);
+    read_translation(fields, unit, constraint);
+    fields.read("stiffness", constraint.stiffness, 0.0f, 1.0f);
+    fields.read_angles("preferred", constraint.preferred);
+    fields.read_angle("soft_zone", constraint.soft_zone);
+    if (constraint.soft_zone < 0.0f) fail(fields.place_of("soft_zone"), "it is less than 0");
+    read_flag(fields, "approximated", kApproximated, constraint.flags);
+    read_flag(fields, "proposed", kProposed, constraint.flags);
+    read_flag(fields, "rest_outside", kRestOutside, constraint.flags);
     fields.refuse_others();
-    check_limit_at(limit, place);
-    return limit;
+    check_constraint_at(constraint, place);
+    return constraint;
 }
 
-std::vector<LimitRecord> parse_limits(const OrderedJson& value, const std::string& place, AngleUnit unit) {
-    if (!value.is_array()) return {parse_limit(value, place, unit)};
-    std::vector<LimitRecord> limits;
-    std::bitset<kLimitScopes> taken;
+std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    if (!value.is_array()) return {parse_constraint(value, place, unit)};
+    std::vector<ConstraintRecord> constraints;
+    std::bitset<kConstraintScopes> taken;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const LimitRecord limit = parse_limit(value[i], at(place, i), unit);
-        if (taken[limit.scope])
-            fail(at(place, i), "there is a second constraint of scope " + std::string(kScopeNames[limit.scope]));
-        taken.set(limit.scope);
-        limits.push_back(limit);
+        const ConstraintRecord constraint = parse_constraint(value[i], at(place, i), unit);
+        if (taken[constraint.scope])
+            fail(at(place, i), "there is a second constraint of scope " + std::string(kScopeNames[constraint.scope]));
+        taken.set(constraint.scope);
+        constraints.push_back(constraint);
     }
-    return limits;
+    return constraints;
 }
 
 namespace {
@@ -184,7 +185,8 @@ Rig parse_rig(std::string_view text, Report& report) {
         Fields entries(*joints, "joints", AngleUnit::degrees);  // an object, every key once
         for (const auto& [name, value] : joints->items()) {
             const std::string place = entries.place_of(name);
-            rig.joints.push_back({parse_joint_key(name, place), place, parse_limits(value, place, AngleUnit::degrees)});
+            rig.joints.push_back(
+                {parse_joint_key(name, place), place, parse_constraints(value, place, AngleUnit::degrees)});
         }
     }
     std::unordered_set<std::string> names;
@@ -197,12 +199,12 @@ Rig parse_rig(std::string_view text, Report& report) {
             rig.chains.push_back(std::move(chain));
         }
     }
-    if (const OrderedJson* cycles = fields.find("markers"); cycles != nullptr) {
-        Fields entries(*cycles, "markers", AngleUnit::degrees);
-        rig.cycles.emplace();
-        for (const auto& [key, value] : cycles->items()) {
+    if (const OrderedJson* clips = fields.find("markers"); clips != nullptr) {
+        Fields entries(*clips, "markers", AngleUnit::degrees);
+        rig.clips.emplace();
+        for (const auto& [key, value] : clips->items()) {
             const std::string place = entries.place_of(key);
-            rig.cycles->push_back({key, place, parse_markers(value, place, WrongMarkers::fail, report)});
+            rig.clips->push_back({key, place, parse_markers(value, place, WrongMarkers::fail, report)});
         }
     }
     if (const OrderedJson* curves = fields.find("curves"); curves != nullptr)

@@ -23,8 +23,8 @@ namespace bendy::converter {
 struct RigEntry {
     JointKey key;
     std::string place;  ///< JSON path in the source
-    std::vector<LimitRecord>
-        limits;  ///< at most one of each scope; pass check_limit but for the rest pose; may be empty
+    std::vector<ConstraintRecord>
+        constraints;  ///< at most one of each scope; pass check_constraint but for the rest pose; may be empty
 };
 
 /// What a source says of a chain. Joints are keys, no globs; empty: none.
@@ -37,9 +37,9 @@ struct RigChain {
     std::string extras;  ///< JSON text or empty
 };
 
-/// What a source says of a cycle: all of its markers.
-struct RigCycle {
-    std::string key;    ///< the cycle's name, or its number as `#12`
+/// What a source says of a clip: all of its markers.
+struct RigClip {
+    std::string key;    ///< the clip's name, or its number as `#12`
     std::string place;  ///< JSON path in the source
     std::vector<SourceMarker> markers;
 };
@@ -51,19 +51,19 @@ struct Rig {
     bool complete = false;
     std::vector<RigEntry> joints;
     std::vector<RigChain> chains;
-    std::optional<std::vector<RigCycle>> cycles;  ///< none: it says nothing of markers
+    std::optional<std::vector<RigClip>> clips;    ///< none: it says nothing of markers
     std::optional<std::vector<RigCurve>> curves;  ///< none: it says nothing of curves
 };
 
-/// One constraint of a rig file or of extras. The rest pose may lie outside; all else passes check_limit. Fails at the
-/// JSON path of what is wrong.
-LimitRecord parse_limit(const OrderedJson& value, const std::string& place, AngleUnit unit);
+/// One constraint of a rig file or of extras. The rest pose may lie outside; all else passes check_constraint. Fails at
+/// the JSON path of what is wrong.
+ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, AngleUnit unit);
 
 /// A joint's constraints: one, or a list, at most one of each scope.
-std::vector<LimitRecord> parse_limits(const OrderedJson& value, const std::string& place, AngleUnit unit);
+std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, AngleUnit unit);
 
-/// Fails at `place` where check_limit finds a fault other than a rest pose outside.
-void check_limit_at(const LimitRecord& limit, const std::string& place);
+/// Fails at `place` where check_constraint finds a fault other than a rest pose outside.
+void check_constraint_at(const ConstraintRecord& constraint, const std::string& place);
 
 /// One chain of a rig file or of extras. Fails at the JSON path of what is wrong.
 RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUnit unit);

@@ -103,7 +103,7 @@ public:
     }
     template <class Number>
     void add_range(std::string_view key, float low, float high, Number number) {
-        if (low == -LimitRecord::kFree && high == LimitRecord::kFree) return;
+        if (low == -ConstraintRecord::kFree && high == ConstraintRecord::kFree) return;
         add(key, list(std::array{low, high}, number));
     }
     void add_flag(std::string_view key, std::uint8_t flags, std::uint8_t flag) {
@@ -117,30 +117,31 @@ private:
     std::string text_;
 };
 
-std::string write_limit(const LimitRecord& limit) {
-    const LimitRecord usual;
-    const auto model = static_cast<LimitModel>(limit.model);
+std::string write_constraint(const ConstraintRecord& constraint) {
+    const ConstraintRecord usual;
+    const auto model = static_cast<ConstraintModel>(constraint.model);
     Line line;
-    line.add("model", json_string(kModelNames[limit.model]));
-    if (model == LimitModel::euler_box) line.add_word("order", kOrderNames, limit.euler_order);
-    line.add_word("scope", kScopeNames, limit.scope);
-    line.add_list("frame", limit.frame, usual.frame, plain);
-    if (model == LimitModel::largest_angle) {
-        line.add_angle("angle", limit.rotation_max[0], usual.rotation_max[0]);
+    line.add("model", json_string(kModelNames[constraint.model]));
+    if (model == ConstraintModel::euler_box) line.add_word("order", kOrderNames, constraint.euler_order);
+    line.add_word("scope", kScopeNames, constraint.scope);
+    line.add_list("frame", constraint.frame, usual.frame, plain);
+    if (model == ConstraintModel::largest_angle) {
+        line.add_angle("angle", constraint.rotation_max[0], usual.rotation_max[0]);
     } else {
         for (std::size_t axis = 0; axis < limited_axes(model); ++axis)
-            line.add_range(kAxisNames[axis], limit.rotation_min[axis], limit.rotation_max[axis], degrees);
+            line.add_range(kAxisNames[axis], constraint.rotation_min[axis], constraint.rotation_max[axis], degrees);
     }
     Line translation;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        translation.add_range(kAxisNames[axis], limit.translation_min[axis], limit.translation_max[axis], plain);
+        translation.add_range(kAxisNames[axis], constraint.translation_min[axis], constraint.translation_max[axis],
+                              plain);
     if (!translation.empty()) line.add("translation", translation.text());
-    line.add_list("stiffness", limit.stiffness, usual.stiffness, plain);
-    line.add_list("preferred", limit.preferred, usual.preferred, degrees);
-    line.add_angle("soft_zone", limit.soft_zone);
-    line.add_flag("approximated", limit.flags, kApproximated);
-    line.add_flag("proposed", limit.flags, kProposed);
-    line.add_flag("rest_outside", limit.flags, kRestOutside);
+    line.add_list("stiffness", constraint.stiffness, usual.stiffness, plain);
+    line.add_list("preferred", constraint.preferred, usual.preferred, degrees);
+    line.add_angle("soft_zone", constraint.soft_zone);
+    line.add_flag("approximated", constraint.flags, kApproximated);
+    line.add_flag("proposed", constraint.flags, kProposed);
+    line.add_flag("rest_outside", constraint.flags, kRestOutside);
     return line.text();
 }
 
@@ -148,20 +149,20 @@ class Writer {
 public:
     explicit Writer(const ObjectView& object) : object_(object), weights_(object.chains.size()) {
         for (const JointView& joint : object.skeleton.joints) ++count_[joint.name];
-        for (const PullView& pull : object.skeleton.pulls)
-            weights_[pull.chain].add(key_of(pull.joint), plain(pull.weight));
+        for (const ChainWeightView& chain_weight : object.skeleton.chain_weights)
+            weights_[chain_weight.chain].add(key_of(chain_weight.joint), plain(chain_weight.weight));
     }
 
-    /// \param with_markers  and curves, of all cycles, too
+    /// \param with_markers  and curves, of all clips, too
     std::string write(bool with_markers) const {
         std::string text = "{\n  \"bendy_rig\": 1,\n  \"complete\": true";
-        const std::vector<LimitView>& limits = object_.skeleton.limits;  // ordered by joint
+        const std::vector<ConstraintView>& records = object_.skeleton.constraints;  // ordered by joint
         std::string entries;
-        for (std::size_t i = 0; i < limits.size();) {
-            const std::uint32_t joint = limits[i].joint;
+        for (std::size_t i = 0; i < records.size();) {
+            const std::uint32_t joint = records[i].joint;
             std::vector<std::string> constraints;
-            for (; i < limits.size() && limits[i].joint == joint; ++i)
-                constraints.push_back(write_limit(limits[i].record));
+            for (; i < records.size() && records[i].joint == joint; ++i)
+                constraints.push_back(write_constraint(records[i].record));
             entries += (entries.empty() ? "\n    " : ",\n    ") + json_string(key_of(joint)) + ": ";
             entries += constraints.size() == 1 ? constraints.front() : '[' + joined(constraints) + "\n    ]";
         }
@@ -202,16 +203,16 @@ private:
         return means_itself ? std::string(name) : '#' + std::to_string(joint);
     }
 
-    /// The entries of all cycles that have markers.
+    /// The entries of all clips that have markers.
     [[nodiscard]] std::string write_markers() const {
         const NameCounts count = count_clips();
         std::string text;
-        for (std::size_t i = 0; i < object_.cycles.size(); ++i) {
-            const CycleView& cycle = object_.cycles[i];
-            if (cycle.markers.empty()) continue;
+        for (std::size_t i = 0; i < object_.clips.size(); ++i) {
+            const ClipView& clip = object_.clips[i];
+            if (clip.markers.empty()) continue;
             const std::string key = clip_key(i, count);
             std::vector<std::string> entries;
-            for (const bendy::Marker& marker : cycle.markers) {
+            for (const bendy::Marker& marker : clip.markers) {
                 Line line;
                 line.add("time", plain(marker.seconds));
                 line.add("name", json_string(marker.name));
@@ -226,12 +227,12 @@ private:
 
     [[nodiscard]] NameCounts count_clips() const {
         NameCounts count;
-        for (const CycleView& cycle : object_.cycles) ++count[cycle.name];
+        for (const ClipView& clip : object_.clips) ++count[clip.name];
         return count;
     }
 
     [[nodiscard]] std::string clip_key(std::size_t number, const NameCounts& count) const {
-        const std::string_view name = object_.cycles[number].name;
+        const std::string_view name = object_.clips[number].name;
         std::uint64_t unused = 0;
         const bool means_itself = !name.empty() && count.at(name) == 1 && !parse_joint_number(name, unused);
         return means_itself ? std::string(name) : '#' + std::to_string(number);
@@ -241,8 +242,8 @@ private:
     [[nodiscard]] std::string write_curves() const {
         const NameCounts count = count_clips();
         std::string text;
-        for (std::size_t i = 0; i < object_.cycles.size(); ++i) {
-            for (const CurveView& curve : object_.cycles[i].curves)
+        for (std::size_t i = 0; i < object_.clips.size(); ++i) {
+            for (const CurveView& curve : object_.clips[i].curves)
                 text += (text.empty() ? "\n    " : ",\n    ") + write_curve_entry(curve, clip_key(i, count));
         }
         return text;

@@ -61,7 +61,7 @@ Scene import(std::string_view bytes, const std::filesystem::path& file, const XO
     import_joints(source, scene, report);
     import_rig(source, frames, scene, report);
     import_materials(source, file, options.embed_images, scene, report);
-    import_cycles(source, frames, scene, report);
+    import_clips(source, frames, scene, report);
     import_meshes(source, frames, budget, scene, report);
     if (scene.joints.empty()) fail({}, "there is nothing to convert: the file has neither frames nor meshes");
     return scene;

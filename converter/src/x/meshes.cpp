@@ -167,8 +167,8 @@ public:
         mesh.name = source.name;
         mesh.joint = source.frame;
         const Vertices vertices = find_vertices(source);
-        mesh.parts = make_parts(source, vertices);
-        if (mesh.parts.empty()) {
+        mesh.submeshes = make_parts(source, vertices);
+        if (mesh.submeshes.empty()) {
             report_.warn("a mesh that draws nothing is left out", source.place);
             return;
         }
@@ -197,24 +197,24 @@ private:
 
     /// Triangles by material. A face's first corner stays the first; the others go the other way round, as the mirror
     /// turns outside in.
-    [[nodiscard]] std::vector<Part> make_parts(const Mesh& source, const Vertices& vertices) const {
-        std::vector<Part> parts(std::max<std::size_t>(source.slots.size(), 1));
+    [[nodiscard]] std::vector<Submesh> make_parts(const Mesh& source, const Vertices& vertices) const {
+        std::vector<Submesh> submeshes(std::max<std::size_t>(source.slots.size(), 1));
         for (std::size_t slot = 0; slot < source.slots.size(); ++slot)
-            parts[slot].material = material_of(source.slots[slot]);
+            submeshes[slot].material = material_of(source.slots[slot]);
         std::size_t first = 0;
         std::uint64_t thin = 0;
         for (std::size_t face = 0; face < source.face_sizes.size(); ++face) {
             const std::uint32_t size = source.face_sizes[face];
-            Part& part = parts[source.face_slots.empty() ? 0 : source.face_slots[face]];
+            Submesh& submesh = submeshes[source.face_slots.empty() ? 0 : source.face_slots[face]];
             const std::uint32_t* const corners = vertices.corners.data() + first;
             for (std::uint32_t corner = 1; corner + 1 < size; ++corner)
-                part.indices.insert(part.indices.end(), {corners[0], corners[corner + 1], corners[corner]});
+                submesh.indices.insert(submesh.indices.end(), {corners[0], corners[corner + 1], corners[corner]});
             thin += size < 3 ? 1 : 0;
             first += size;
         }
         if (thin != 0) report_.warn("face of fewer than three corners left out", source.place, thin);
-        std::erase_if(parts, [](const Part& part) { return part.indices.empty(); });
-        return parts;
+        std::erase_if(submeshes, [](const Submesh& submesh) { return submesh.indices.empty(); });
+        return submeshes;
     }
 
     /// Those of frames that exist.

@@ -73,7 +73,7 @@ Material read_material(ObjectReader& in);
 /// A BendyName whose type has been read.
 std::string read_name(ObjectReader& in);
 
-/// A BendyConstraint whose type has been read; the record passes check_limit but for the rest pose.
+/// A BendyConstraint whose type has been read; the record passes check_constraint but for the rest pose.
 Constraint read_constraint(ObjectReader& in);
 
 /// A BendyIkChain whose type has been read; every number in its range.

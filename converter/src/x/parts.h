@@ -53,7 +53,7 @@ float power_of(float roughness);
 /// outside of all frames gets a joint of its own.
 void import_meshes(const XFile& file, const FrameIndex& frames, Budget& budget, Scene& scene, Report& report);
 
-/// Fills Scene::cycles. Keys are linear; a single key that says no more than the rest pose is none.
-void import_cycles(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report);
+/// Fills Scene::clips. Keys are linear; a single key that says no more than the rest pose is none.
+void import_clips(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report);
 
 }  // namespace bendy::converter::x

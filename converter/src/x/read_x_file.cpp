@@ -45,7 +45,7 @@ public:
     void ranges(const char* /*field*/, std::array<float, 3>& numbers) {
         for (float& number : numbers) {
             number = in_.number();
-            if (std::abs(number) == kMost) number = std::copysign(LimitRecord::kFree, number);
+            if (std::abs(number) == kMost) number = std::copysign(ConstraintRecord::kFree, number);
         }
     }
     void text(const char* /*field*/, std::string& text) { text = decode_text(in_.string()); }
@@ -78,10 +78,10 @@ Constraint read_constraint(ObjectReader& in) {
     constraint.place = in.place();
     in.head();
     FieldReader fields(in);
-    walk_constraint(fields, constraint.record);
+    visit_constraint(fields, constraint.record);
     in.end_of("BendyConstraint");
     normalise(constraint.record.frame, constraint.place);
-    check_limit_at(constraint.record, constraint.place);
+    check_constraint_at(constraint.record, constraint.place);
     return constraint;
 }
 
@@ -90,7 +90,7 @@ IkChain read_chain(ObjectReader& in) {
     chain.place = in.place();
     in.head();
     FieldReader fields(in);
-    walk_chain(fields, chain);
+    visit_chain(fields, chain);
     in.end_of("BendyIkChain");
     normalise(chain.record.tip_rotation, chain.place);
     return chain;
@@ -235,11 +235,11 @@ private:
             out_.sets.push_back(read_animation_set(in_));
         } else if (type == "BendyIkChain") {
             out_.chains.push_back(read_chain(in_));
-        } else if (type == "BendyCycle") {
+        } else if (type == "BendyClip") {
             in_.head();
             std::string set(in_.string());
-            out_.cycle_names.emplace_back(std::move(set), decode_text(in_.string()));
-            in_.end_of("BendyCycle");
+            out_.clip_names.emplace_back(std::move(set), decode_text(in_.string()));
+            in_.end_of("BendyClip");
         } else {
             in_.skip_unknown(type);
         }

@@ -12,46 +12,46 @@ namespace bendy::converter::x {
 
 inline constexpr float kMost = std::numeric_limits<float>::max();  ///< in ranges: free, as X-files know no infinity
 
-template <class Walk>
-void walk_constraint(Walk& walk, LimitRecord& record) {
-    walk.word("model", kModelNames, record.model);
-    walk.word("order", kOrderNames, record.euler_order);
-    walk.word("scope", kScopeNames, record.scope);
-    walk.integer("flags", record.flags, kLimitFlags - 1);
-    walk.number("softZone", record.soft_zone, 0.0f, kMost);
-    walk.numbers("frame", record.frame, -kMost, kMost);
-    walk.ranges("rotationMin", record.rotation_min);
-    walk.ranges("rotationMax", record.rotation_max);
-    walk.ranges("translationMin", record.translation_min);
-    walk.ranges("translationMax", record.translation_max);
-    walk.numbers("stiffness", record.stiffness, 0.0f, 1.0f);
-    walk.numbers("preferred", record.preferred, -kMost, kMost);
+template <class Visitor>
+void visit_constraint(Visitor& visitor, ConstraintRecord& record) {
+    visitor.word("model", kModelNames, record.model);
+    visitor.word("order", kOrderNames, record.euler_order);
+    visitor.word("scope", kScopeNames, record.scope);
+    visitor.integer("flags", record.flags, kConstraintFlags - 1);
+    visitor.number("softZone", record.soft_zone, 0.0f, kMost);
+    visitor.numbers("frame", record.frame, -kMost, kMost);
+    visitor.ranges("rotationMin", record.rotation_min);
+    visitor.ranges("rotationMax", record.rotation_max);
+    visitor.ranges("translationMin", record.translation_min);
+    visitor.ranges("translationMax", record.translation_max);
+    visitor.numbers("stiffness", record.stiffness, 0.0f, 1.0f);
+    visitor.numbers("preferred", record.preferred, -kMost, kMost);
 }
 
-template <class Walk>
-void walk_chain(Walk& walk, IkChain& chain) {
+template <class Visitor>
+void visit_chain(Visitor& visitor, IkChain& chain) {
     ChainRecord& record = chain.record;
-    walk.text("name", chain.name);
-    walk.frame("start", chain.start);
-    walk.frame("effector", chain.effector);
-    walk.frame("target", chain.target);
-    walk.frame("pole", chain.pole);
-    walk.word("solver", kSolverNames, record.solver);
-    walk.integer("flags", record.flags, kChainFlags - 1);
-    walk.integer("iterations", record.iterations, std::numeric_limits<std::uint16_t>::max());
-    walk.integer("priority", record.priority, std::numeric_limits<std::uint8_t>::max());
-    walk.number("tolerance", record.tolerance, 0.0f, kMost);
-    walk.numbers("poleVector", record.pole_vector, -kMost, kMost);
-    walk.number("poleAngle", record.pole_angle, -kMost, kMost);
-    walk.numbers("tipOffset", record.tip_offset, -kMost, kMost);
-    walk.numbers("tipRotation", record.tip_rotation, -kMost, kMost);
-    walk.number("positionWeight", record.position_weight, 0.0f, 1.0f);
-    walk.number("rotationWeight", record.rotation_weight, 0.0f, 1.0f);
-    walk.number("influence", record.influence, 0.0f, 1.0f);
-    walk.number("stretch", record.stretch, 0.0f, kMost);
-    walk.number("compress", record.compress, 0.0f, 1.0f);
-    walk.text("extras", chain.extras);
-    walk.weights("weights", chain.weights);
+    visitor.text("name", chain.name);
+    visitor.frame("start", chain.start);
+    visitor.frame("effector", chain.effector);
+    visitor.frame("target", chain.target);
+    visitor.frame("pole", chain.pole);
+    visitor.word("solver", kSolverNames, record.solver);
+    visitor.integer("flags", record.flags, kChainFlags - 1);
+    visitor.integer("iterations", record.iterations, std::numeric_limits<std::uint16_t>::max());
+    visitor.integer("priority", record.priority, std::numeric_limits<std::uint8_t>::max());
+    visitor.number("tolerance", record.tolerance, 0.0f, kMost);
+    visitor.numbers("poleVector", record.pole_vector, -kMost, kMost);
+    visitor.number("poleAngle", record.pole_angle, -kMost, kMost);
+    visitor.numbers("tipOffset", record.tip_offset, -kMost, kMost);
+    visitor.numbers("tipRotation", record.tip_rotation, -kMost, kMost);
+    visitor.number("positionWeight", record.position_weight, 0.0f, 1.0f);
+    visitor.number("rotationWeight", record.rotation_weight, 0.0f, 1.0f);
+    visitor.number("influence", record.influence, 0.0f, 1.0f);
+    visitor.number("stretch", record.stretch, 0.0f, kMost);
+    visitor.number("compress", record.compress, 0.0f, 1.0f);
+    visitor.text("extras", chain.extras);
+    visitor.weights("weights", chain.weights);
 }
 
 }  // namespace bendy::converter::x

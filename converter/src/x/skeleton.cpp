@@ -66,14 +66,15 @@ void add_constraint(const Constraint& constraint, std::vector<RigEntry>& entries
                     std::unordered_map<std::uint32_t, std::size_t>& entry_of) {
     const auto [known, is_new] = entry_of.try_emplace(constraint.frame, entries.size());
     if (is_new) entries.push_back({key_of(constraint.frame), constraint.place, {}});
-    std::vector<LimitRecord>& limits = entries[known->second].limits;
-    const bool has_one = std::any_of(limits.begin(), limits.end(),
-                                     [&](const LimitRecord& limit) { return limit.scope == constraint.record.scope; });
+    std::vector<ConstraintRecord>& constraints = entries[known->second].constraints;
+    const bool has_one = std::any_of(constraints.begin(), constraints.end(), [&](const ConstraintRecord& other) {
+        return other.scope == constraint.record.scope;
+    });
     if (has_one) {
         fail(constraint.place,
              "there is a second constraint of scope " + std::string(kScopeNames[constraint.record.scope]));
     }
-    limits.push_back(constraint.record);
+    constraints.push_back(constraint.record);
 }
 
 }  // namespace
@@ -143,26 +144,26 @@ struct Times {
     std::vector<std::size_t> keys;
 };
 
-class CycleImporter {
+class ClipImporter {
 public:
-    CycleImporter(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report)
+    ClipImporter(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report)
         : file_(file), frames_(frames), scene_(scene), report_(report) {
-        for (const auto& [set, name] : file.cycle_names) names_.try_emplace(set, name);
+        for (const auto& [set, name] : file.clip_names) names_.try_emplace(set, name);
     }
 
     void import(const AnimationSet& set) {
-        Cycle cycle;
+        Clip clip;
         const auto known = names_.find(set.identifier);
-        cycle.name = known == names_.end() || set.identifier.empty() ? set.name : known->second;
-        cycle.loop = set.loops;
+        clip.name = known == names_.end() || set.identifier.empty() ? set.name : known->second;
+        clip.loop = set.loops;
         track_of_.clear();
-        for (const Animation& animation : set.animations) add(animation, cycle);
-        drop_resting(cycle);
-        scene_.cycles.push_back(std::move(cycle));
+        for (const Animation& animation : set.animations) add(animation, clip);
+        drop_resting(clip);
+        scene_.clips.push_back(std::move(clip));
     }
 
 private:
-    void add(const Animation& animation, Cycle& cycle) {
+    void add(const Animation& animation, Clip& clip) {
         const auto has_keys = [](const Keys& keys) { return !keys.times.empty(); };
         if (std::none_of(animation.keys.begin(), animation.keys.end(), has_keys)) {
             report_.warn("animation without keys left out", animation.place);
@@ -189,12 +190,12 @@ private:
             track.times = times.seconds;
             for (const std::size_t key : times.keys)
                 add_value(kind, keys.values.data() + key * components, animation, track);
-            keep(std::move(track), animation.place, cycle);
+            keep(std::move(track), animation.place, clip);
         };
         add_kind(kPosition, TrackPath::translation, 3);
         add_kind(kRotation, TrackPath::rotation, 4);
         add_kind(kScale, TrackPath::scale, 3);
-        if (!animation.keys[kMatrix].times.empty()) add_matrices(animation, joint, cycle);
+        if (!animation.keys[kMatrix].times.empty()) add_matrices(animation, joint, clip);
     }
 
     Times read_times(const Keys& keys, const std::string& place) {
@@ -235,7 +236,7 @@ private:
     }
 
     /// Matrix keys become three tracks.
-    void add_matrices(const Animation& animation, std::uint32_t joint, Cycle& cycle) {
+    void add_matrices(const Animation& animation, std::uint32_t joint, Clip& clip) {
         const Keys& keys = animation.keys[kMatrix];
         const Times times = read_times(keys, animation.place);
         Track moved{TrackPath::translation, Interpolation::linear, joint, 3, times.seconds, {}};
@@ -255,24 +256,24 @@ private:
             sheared += glm::length(transform.shear) > 1e-4f * most ? 1 : 0;
         }
         if (sheared != 0) report_.warn("shear of a matrix key left out", animation.place, sheared);
-        for (Track* track : {&moved, &turned, &scaled}) keep(std::move(*track), animation.place, cycle);
+        for (Track* track : {&moved, &turned, &scaled}) keep(std::move(*track), animation.place, clip);
     }
 
-    void keep(Track track, const std::string& place, Cycle& cycle) {
-        const auto [known, is_new] = track_of_.try_emplace({track.path, track.target}, cycle.tracks.size());
+    void keep(Track track, const std::string& place, Clip& clip) {
+        const auto [known, is_new] = track_of_.try_emplace({track.path, track.target}, clip.tracks.size());
         if (is_new) {
-            cycle.tracks.push_back(std::move(track));
+            clip.tracks.push_back(std::move(track));
         } else {
             report_.warn("second animation of a frame in a set: the last is taken", place);
-            cycle.tracks[known->second] = std::move(track);
+            clip.tracks[known->second] = std::move(track);
         }
     }
 
     /// Writers, ours among them, give all three kinds of keys where only one moves.
-    void drop_resting(Cycle& cycle) const {
+    void drop_resting(Clip& clip) const {
         std::vector<bool> moves(scene_.joints.size());
-        for (const Track& track : cycle.tracks) moves[track.target] = moves[track.target] || !rests(track);
-        std::erase_if(cycle.tracks, [&](const Track& track) { return moves[track.target] && rests(track); });
+        for (const Track& track : clip.tracks) moves[track.target] = moves[track.target] || !rests(track);
+        std::erase_if(clip.tracks, [&](const Track& track) { return moves[track.target] && rests(track); });
     }
 
     [[nodiscard]] bool rests(const Track& track) const {
@@ -298,8 +299,8 @@ private:
 
 }  // namespace
 
-void import_cycles(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report) {
-    CycleImporter importer(file, frames, scene, report);
+void import_clips(const XFile& file, const FrameIndex& frames, Scene& scene, Report& report) {
+    ClipImporter importer(file, frames, scene, report);
     for (const AnimationSet& set : file.sets) importer.import(set);
 }
 

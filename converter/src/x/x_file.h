@@ -86,7 +86,7 @@ struct AnimationSet : Named {
 
 struct Constraint {
     std::uint32_t frame = 0;
-    LimitRecord record;
+    ConstraintRecord record;
     std::string place;
 };
 
@@ -106,8 +106,8 @@ struct XFile {
     std::vector<AnimationSet> sets;
     std::vector<Constraint> constraints;
     std::vector<IkChain> chains;
-    double ticks_per_second = 0.0;                                 ///< 0: the file does not say
-    std::vector<std::pair<std::string, std::string>> cycle_names;  ///< of sets: identifier, name
+    double ticks_per_second = 0.0;                                ///< 0: the file does not say
+    std::vector<std::pair<std::string, std::string>> clip_names;  ///< of sets: identifier, name
 };
 
 }  // namespace bendy::converter::x

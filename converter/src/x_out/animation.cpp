@@ -20,11 +20,11 @@ namespace {
 /// Key times of X-files are whole numbers; one file has one number of ticks in a second.
 class Ticks {
 public:
-    /// Cycles that take longer are left out.
+    /// Clips that take longer are left out.
     static constexpr float kLongest = 1e6f;  ///< seconds
 
     /// Takes a frame rate that gives every key time of the scene back to the bit, if there is one; else as many ticks
-    /// as the longest cycle lets 31 bits count, a power of two, which rounds times that are small beside it only.
+    /// as the longest clip lets 31 bits count, a power of two, which rounds times that are small beside it only.
     explicit Ticks(const Scene& scene);
 
     [[nodiscard]] std::uint32_t per_second() const { return per_second_; }
@@ -45,15 +45,15 @@ constexpr std::array<std::uint32_t, 14> kRates{24,  25,    30,    50,    60,    
                                                240, 1'000, 3'000, 4'800, 6'000, 9'600, 48'000};
 constexpr double kMostTicks = 2147483647.0;
 
-/// By how much a cycle's times are moved, so that none is below 0; seconds.
-float shift_of(const Cycle& cycle) {
-    const float start = span_of(cycle).start;
+/// By how much a clip's times are moved, so that none is below 0; seconds.
+float shift_of(const Clip& clip) {
+    const float start = span_of(clip).start;
     return start < 0.0f ? -start : 0.0f;
 }
 
-bool is_left_out(const Cycle& cycle) {
-    const CycleSpan span = span_of(cycle);
-    return !(span.end + shift_of(cycle) <= Ticks::kLongest);
+bool is_left_out(const Clip& clip) {
+    const ClipSpan span = span_of(clip);
+    return !(span.end + shift_of(clip) <= Ticks::kLongest);
 }
 
 /// Not below 0, and a time that is not exact may be too large for the type.
@@ -67,8 +67,8 @@ Ticks::Ticks(const Scene& scene) {
         if (is_exact(scene)) return;
     }
     double longest = 1.0;
-    for (const Cycle& cycle : scene.cycles) {
-        if (!is_left_out(cycle)) longest = std::max(longest, double{span_of(cycle).end + shift_of(cycle)});
+    for (const Clip& clip : scene.clips) {
+        if (!is_left_out(clip)) longest = std::max(longest, double{span_of(clip).end + shift_of(clip)});
     }
     per_second_ = 1;
     while (longest * per_second_ * 2 < kMostTicks / 2) per_second_ *= 2;
@@ -76,11 +76,11 @@ Ticks::Ticks(const Scene& scene) {
 
 bool Ticks::is_exact(const Scene& scene) const {
     std::uint64_t rounded = 0;
-    for (const Cycle& cycle : scene.cycles) {
-        if (is_left_out(cycle)) continue;
-        const float shift = shift_of(cycle);
-        if (double{span_of(cycle).end + shift} * per_second_ > kMostTicks / 2) return false;
-        for (const Track& track : cycle.tracks) {
+    for (const Clip& clip : scene.clips) {
+        if (is_left_out(clip)) continue;
+        const float shift = shift_of(clip);
+        if (double{span_of(clip).end + shift} * per_second_ > kMostTicks / 2) return false;
+        for (const Track& track : clip.tracks) {
             if (track.path == TrackPath::weights) continue;
             static_cast<void>(of(track.times, shift, rounded));
             if (rounded != 0) return false;
@@ -121,69 +121,68 @@ public:
         : scene_(scene), names_(names), text_(text), report_(report), ticks_(scene) {}
 
     void run() {
-        if (scene_.cycles.empty()) return;
+        if (scene_.clips.empty()) return;
         text_.open("AnimTicksPerSecond");
         text_.line(std::to_string(ticks_.per_second()) + ';');
         text_.close();
-        for (std::size_t i = 0; i < scene_.cycles.size(); ++i)
-            write(scene_.cycles[i], names_.cycles[i], at("cycles", i));
+        for (std::size_t i = 0; i < scene_.clips.size(); ++i) write(scene_.clips[i], names_.clips[i], at("clips", i));
     }
 
 private:
     using TracksOfJoint = std::array<const Track*, 3>;  ///< by type of key
 
-    void write(const Cycle& cycle, const std::string& identifier, const std::string& place) {
-        shift_ = shift_of(cycle);
+    void write(const Clip& clip, const std::string& identifier, const std::string& place) {
+        shift_ = shift_of(clip);
         std::map<std::uint32_t, TracksOfJoint> joints;
-        std::uint64_t weights = cycle.plays.size();
-        for (const Track& track : cycle.tracks) {
+        std::uint64_t weights = clip.plays.size();
+        for (const Track& track : clip.tracks) {
             if (track.path == TrackPath::weights) {
                 ++weights;
             } else {
                 joints[track.target][static_cast<std::size_t>(type_of(track.path))] = &track;
             }
         }
-        if (weights != 0) report_.warn("weights of inbetweening targets left out of a cycle", place, weights);
-        if (!cycle.curves.empty()) {
-            report_.warn("named curves left out of a clip: X-files have no place for them", place, cycle.curves.size());
+        if (weights != 0) report_.warn("weights of morph targets left out of a clip", place, weights);
+        if (!clip.curves.empty()) {
+            report_.warn("named curves left out of a clip: X-files have no place for them", place, clip.curves.size());
         }
-        if (!(span_of(cycle).end + shift_ <= Ticks::kLongest)) {
-            report_.warn("a cycle of more than a million seconds is left out", place);
+        if (!(span_of(clip).end + shift_ <= Ticks::kLongest)) {
+            report_.warn("a clip of more than a million seconds is left out", place);
             return;
         }
         if (joints.empty()) {
-            report_.warn("a cycle that moves no joint is left out", place);
+            report_.warn("a clip that moves no joint is left out", place);
             return;
         }
-        if (span_of(cycle) != span_of_tracks(cycle))
+        if (span_of(clip) != span_of_tracks(clip))
             report_.warn("clip that is longer than its keys is written as long as they are", place);
-        if (shift_ > 0.0f) report_.warn("cycle that begins before 0 s is moved to begin there", place);
-        if (!cycle.extras.empty() || !cycle.more.empty())
-            report_.warn("extras of a cycle left out: X-files have no place for it", place);
+        if (shift_ > 0.0f) report_.warn("clip that begins before 0 s is moved to begin there", place);
+        if (!clip.extras.empty() || !clip.more.empty())
+            report_.warn("extras of a clip left out: X-files have no place for it", place);
         rounded_ = 0;
         text_.open("AnimationSet", identifier);
-        for (const auto& [joint, tracks] : joints) write_joint(joint, tracks, cycle, place);
+        for (const auto& [joint, tracks] : joints) write_joint(joint, tracks, clip, place);
         text_.close();
         if (rounded_ != 0) report_.warn("key time rounded to a tick of the file", place, rounded_);
-        if (identifier == cycle.name) return;
-        text_.open("BendyCycle");
+        if (identifier == clip.name) return;
+        text_.open("BendyClip");
         text_.line('"' + identifier + "\";");
-        text_.line('"' + x::encode_text(cycle.name) + "\";");
+        text_.line('"' + x::encode_text(clip.name) + "\";");
         text_.close();
     }
 
     /// All three kinds of keys: readers differ in what they take where one is missing.
-    void write_joint(std::uint32_t joint, const TracksOfJoint& tracks, const Cycle& cycle, const std::string& place) {
+    void write_joint(std::uint32_t joint, const TracksOfJoint& tracks, const Clip& clip, const std::string& place) {
         const Transform& rest = scene_.joints[joint].rest;
         if (rest.shear != glm::vec3(0.0f))
             report_.warn("shear of an animated joint is left out while it moves", at("joints", joint));
         text_.open("Animation");
         text_.line("{ " + names_.joints[joint] + " }");
         text_.open("AnimationOptions");
-        text_.line(cycle.loop ? "0;" : "1;");
+        text_.line(clip.loop ? "0;" : "1;");
         text_.line("1;");
         text_.close();
-        const std::uint64_t start = ticks_.of({span_of(cycle).start}, shift_, unheard_).front();
+        const std::uint64_t start = ticks_.of({span_of(clip).start}, shift_, unheard_).front();
         const auto write = [&](int type, std::vector<float> resting) {
             const Track* track = tracks[static_cast<std::size_t>(type)];
             write_keys(type, track != nullptr ? keys_of(*track, place) : Keys{{start}, std::move(resting)});
@@ -265,14 +264,14 @@ private:
     Text& text_;
     Report& report_;
     Ticks ticks_;
-    float shift_ = 0.0f;         ///< seconds, of the cycle that is being written
+    float shift_ = 0.0f;         ///< seconds, of the clip that is being written
     std::uint64_t rounded_ = 0;  ///< its key times that do not come back
     std::uint64_t unheard_ = 0;
 };
 
 }  // namespace
 
-void write_cycles(const Scene& scene, const Names& names, Text& text, Report& report) {
+void write_clips(const Scene& scene, const Names& names, Text& text, Report& report) {
     AnimationExporter(scene, names, text, report).run();
 }
 

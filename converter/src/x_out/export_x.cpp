@@ -70,16 +70,16 @@ void write_templates(Text& text) {
             text);
     declare("AnimTicksPerSecond", "9E415A43-7BA6-4A73-8743-B73D47E88476", {"DWORD AnimTicksPerSecond;"}, text);
     declare("BendyName", "4620F87F-D301-478E-A231-778A892284BE", {"STRING name;"}, text);
-    declare("BendyCycle", "37C3E628-EE6E-4EA4-AD94-B4116F6833E4", {"STRING animationSet;", "STRING name;"}, text);
+    declare("BendyClip", "37C3E628-EE6E-4EA4-AD94-B4116F6833E4", {"STRING animationSet;", "STRING name;"}, text);
     begin("BendyConstraint", "E514D09B-AD9F-4A00-915F-E216F5853E17", text);
     Declaration declaration(text);
-    LimitRecord limit;
-    x::walk_constraint(declaration, limit);
+    ConstraintRecord constraint;
+    x::visit_constraint(declaration, constraint);
     text.close();
     declare("BendyIkWeight", "AB327CA5-4272-42AD-B48F-D0033667B9A7", {"STRING frame;", "FLOAT weight;"}, text);
     begin("BendyIkChain", "3386D549-B39E-43CE-8A3C-659221E001F4", text);
     x::IkChain chain;
-    x::walk_chain(declaration, chain);
+    x::visit_chain(declaration, chain);
     text.close();
 }
 
@@ -98,7 +98,7 @@ XAsset write(const Scene& scene, const std::string& image_stem, Report& report) 
     write_materials(scene, names, image_stem, text, asset.images, report);
     write_frames(scene, names, text, report);
     write_chains(scene, names, text);
-    write_cycles(scene, names, text, report);
+    write_clips(scene, names, text, report);
     if (!scene.levels.empty()) report.warn("levels of detail left out: X-files have no place for them");
     if (!scene.extras.empty() || !scene.source_extras.empty() || !scene.extensions.empty() || !scene.more.empty() ||
         !scene.source_more.empty())

@@ -63,10 +63,10 @@ private:
 }  // namespace
 
 void write_constraints(const Joint& joint, Text& text) {
-    for (LimitRecord limit : joint.limits) {
+    for (ConstraintRecord constraint : joint.constraints) {
         text.open("BendyConstraint");
         FieldWriter fields(text);
-        x::walk_constraint(fields, limit);
+        x::visit_constraint(fields, constraint);
         text.close();
     }
 }
@@ -86,7 +86,7 @@ void write_chains(const Scene& scene, const Names& names, Text& text) {
         chain.extras = source.extras;
         text.open("BendyIkChain");
         FieldWriter fields(text);
-        x::walk_chain(fields, chain);
+        x::visit_chain(fields, chain);
         text.close();
     }
 }

@@ -23,10 +23,10 @@ public:
           names_(names),
           text_(text),
           report_(report) {
-        for (const Part& part : mesh_.parts) {
-            if (part.topology == Topology::triangles) {
-                triangles_ += part.indices.size() / 3;
-            } else if (!part.indices.empty()) {
+        for (const Submesh& submesh : mesh_.submeshes) {
+            if (submesh.topology == Topology::triangles) {
+                triangles_ += submesh.indices.size() / 3;
+            } else if (!submesh.indices.empty()) {
                 report_.warn("lines and points left out: X-files have triangles only", place_);
             }
         }
@@ -39,11 +39,11 @@ public:
         }
         report_losses();
         text_.open("Mesh", names_.meshes[number_]);
-        write_vectors(at_rest(mesh_.positions, &Target::positions));
+        write_vectors(at_rest(mesh_.positions, &MorphTarget::positions));
         write_faces();
         if (!mesh_.normals.empty()) {
             text_.open("MeshNormals");
-            write_vectors(at_rest(mesh_.normals, &Target::normals));
+            write_vectors(at_rest(mesh_.normals, &MorphTarget::normals));
             write_faces();
             text_.close();
         }
@@ -58,8 +58,8 @@ public:
 private:
     /// With the targets' rest weights, as the character looks when nothing moves.
     std::vector<glm::vec3> at_rest(std::vector<glm::vec3> vectors,
-                                   std::vector<glm::vec3> Target::*displacements) const {
-        for (const Target& target : mesh_.targets) {
+                                   std::vector<glm::vec3> MorphTarget::*displacements) const {
+        for (const MorphTarget& target : mesh_.targets) {
             const std::vector<glm::vec3>& moves = target.*displacements;
             if (target.rest_weight == 0.0f || moves.empty()) continue;
             for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] += target.rest_weight * moves[i];
@@ -75,9 +75,9 @@ private:
 
     template <class Each>
     void for_each_triangle(Each each) const {
-        for (const Part& part : mesh_.parts) {
-            if (part.topology != Topology::triangles) continue;
-            for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3) each(part, part.indices.data() + i);
+        for (const Submesh& submesh : mesh_.submeshes) {
+            if (submesh.topology != Topology::triangles) continue;
+            for (std::size_t i = 0; i + 2 < submesh.indices.size(); i += 3) each(submesh, submesh.indices.data() + i);
         }
     }
 
@@ -85,7 +85,7 @@ private:
     void write_faces() {
         text_.line(std::to_string(triangles_) + ';');
         std::uint64_t left = triangles_;
-        for_each_triangle([&](const Part& /*part*/, const std::uint32_t* corners) {
+        for_each_triangle([&](const Submesh& /*part*/, const std::uint32_t* corners) {
             text_.begin_line();
             text_.add("3;").add(std::uint64_t{corners[0]}).add(",").add(std::uint64_t{corners[2]}).add(",");
             text_.add(std::uint64_t{corners[1]}).add(--left == 0 ? ";;" : ";,");
@@ -131,19 +131,19 @@ private:
     void write_materials() {
         std::vector<std::uint32_t> slots;  // materials
         std::unordered_map<std::uint32_t, std::size_t> slot_of;
-        for (const Part& part : mesh_.parts) {
-            const bool counts = part.topology == Topology::triangles && !part.indices.empty();
-            if (counts && slot_of.try_emplace(part.material, slots.size()).second) slots.push_back(part.material);
+        for (const Submesh& submesh : mesh_.submeshes) {
+            const bool counts = submesh.topology == Topology::triangles && !submesh.indices.empty();
+            if (counts && slot_of.try_emplace(submesh.material, slots.size()).second) slots.push_back(submesh.material);
         }
         if (slots.size() == 1 && slots.front() == kNone) return;
         text_.open("MeshMaterialList");
         text_.line(std::to_string(slots.size()) + ';');
         text_.line(std::to_string(triangles_) + ';');
         std::uint64_t left = triangles_;
-        for (const Part& part : mesh_.parts) {
-            if (part.topology != Topology::triangles || part.indices.empty()) continue;
-            const std::string slot = std::to_string(slot_of.at(part.material));
-            for (std::size_t i = 0; i < part.indices.size() / 3; ++i) text_.line(slot + (--left == 0 ? ";" : ","));
+        for (const Submesh& submesh : mesh_.submeshes) {
+            if (submesh.topology != Topology::triangles || submesh.indices.empty()) continue;
+            const std::string slot = std::to_string(slot_of.at(submesh.material));
+            for (std::size_t i = 0; i < submesh.indices.size() / 3; ++i) text_.line(slot + (--left == 0 ? ";" : ","));
         }
         for (const std::uint32_t material : slots) {
             if (material != kNone) {
@@ -232,7 +232,7 @@ private:
     [[nodiscard]] std::size_t most_of_face() const {
         std::size_t most = 0;
         std::vector<std::uint32_t> bones;
-        for_each_triangle([&](const Part& /*part*/, const std::uint32_t* corners) {
+        for_each_triangle([&](const Submesh& /*part*/, const std::uint32_t* corners) {
             bones.clear();
             for (int corner = 0; corner < 3; ++corner) {
                 const std::size_t first = std::size_t{corners[corner]} * mesh_.influences;
@@ -251,7 +251,7 @@ private:
         const auto lose = [&](std::size_t count, const char* what) {
             if (count != 0) report_.warn(std::string(what) + " left out: X-files have no place for it", place_, count);
         };
-        lose(mesh_.targets.size(), "inbetweening target");
+        lose(mesh_.targets.size(), "morph target");
         lose(mesh_.tangents.empty() ? 0 : 1, "tangents of a mesh");
         const auto further = [](const std::vector<Stream>& streams) {
             return streams.size() - (first_set(streams) == nullptr ? 0 : 1);

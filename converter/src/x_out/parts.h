@@ -26,7 +26,7 @@ void write_frames(const Scene& scene, const Names& names, Text& text, Report& re
 void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
                      std::vector<XAsset::File>& images, Report& report);
 
-/// Writes AnimTicksPerSecond, an AnimationSet for every cycle, and the cycles' names where they are others.
-void write_cycles(const Scene& scene, const Names& names, Text& text, Report& report);
+/// Writes AnimTicksPerSecond, an AnimationSet for every clip, and the clips' names where they are others.
+void write_clips(const Scene& scene, const Names& names, Text& text, Report& report);
 
 }  // namespace bendy::converter::x_out

@@ -108,7 +108,7 @@ Names::Names(const Scene& scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         materials.push_back(make(scene.materials[i].name, "material", i));
     no_material = make("no_material", "material", scene.materials.size());
-    for (std::size_t i = 0; i < scene.cycles.size(); ++i) cycles.push_back(make(scene.cycles[i].name, "cycle", i));
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) clips.push_back(make(scene.clips[i].name, "clip", i));
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) meshes.push_back(make(scene.meshes[i].name, "mesh", i));
 }
 

@@ -73,7 +73,7 @@ public:
     std::vector<std::string> joints;
     std::vector<std::string> meshes;
     std::vector<std::string> materials;
-    std::vector<std::string> cycles;
+    std::vector<std::string> clips;
     std::string no_material;  ///< of what is drawn without one
 
 private:

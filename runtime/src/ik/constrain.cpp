@@ -21,12 +21,12 @@ double violation(const Constraint& constraint, const glm::dquat& R) {
     return angle_between(clamp_rotation(constraint, R), R);
 }
 
-glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local) {
+glm::dquat to_constraint_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local) {
     const glm::dquat relative = glm::conjugate(glm::dquat(rest)) * glm::dquat(local);
     return glm::normalize(glm::conjugate(constraint.frame) * relative * constraint.frame);
 }
 
-glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R) {
+glm::quat from_constraint_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R) {
     const glm::dquat relative = constraint.frame * R * glm::conjugate(constraint.frame);
     const glm::dquat local = glm::normalize(glm::dquat(rest) * relative);
     return {static_cast<float>(local.w), static_cast<float>(local.x), static_cast<float>(local.y),
@@ -56,9 +56,10 @@ void constrain(Pose& pose) {
         if (model.constraint(constraint.joint) != &constraint) continue;
         const JointTransform& rest = joints[constraint.joint].rest;
         JointTransform& joint = local[constraint.joint];
-        const glm::dquat R = to_limit_space(constraint, rest.rotation, joint.rotation);
+        const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
         const glm::dquat legal = clamp_rotation(constraint, R);
-        if (angle_between(legal, R) > kRounding) joint.rotation = from_limit_space(constraint, rest.rotation, legal);
+        if (angle_between(legal, R) > kRounding)
+            joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
         if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
     }
 }

@@ -48,7 +48,7 @@ double half_axis(double limit, double soft_zone) {
     return kLargest * trig::sin_cos(0.5 * std::max(0.0, held(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
 }
 
-LimitShape make_shape(const LimitRecord& record, double soft_zone) {
+LimitShape make_shape(const ConstraintRecord& record, double soft_zone) {
     LimitShape shape;
     for (std::size_t axis = 0; axis < 3; ++axis)
         shape.angles[axis] = make_range(record.rotation_min[axis], record.rotation_max[axis], soft_zone);
@@ -68,24 +68,24 @@ glm::dquat unit_frame(const std::array<float, 4>& frame) {
 
 }  // namespace
 
-Constraint make_constraint(const LimitView& view) {
-    const LimitRecord& record = view.record;
+Constraint make_constraint(const ConstraintView& view) {
+    const ConstraintRecord& record = view.record;
     Constraint constraint;
     constraint.joint = view.joint;
-    constraint.model = static_cast<LimitModel>(record.model);
+    constraint.model = static_cast<ConstraintModel>(record.model);
     constraint.euler_order = static_cast<EulerOrder>(record.euler_order);
-    constraint.scope = static_cast<LimitScope>(record.scope);
+    constraint.scope = static_cast<ConstraintScope>(record.scope);
     constraint.flags = record.flags;
     constraint.frame = unit_frame(record.frame);
     constraint.shape = make_shape(record, 0.0);
-    constraint.has_soft_zone = record.soft_zone > 0.0f && record.soft_zone < LimitRecord::kFree;
+    constraint.has_soft_zone = record.soft_zone > 0.0f && record.soft_zone < ConstraintRecord::kFree;
     if (constraint.has_soft_zone) constraint.inner = make_shape(record, record.soft_zone);
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         constraint.stiffness[axis] = held(record.stiffness[i], 0.0, 1.0, 0.0);
         constraint.limits_translation = constraint.limits_translation ||
-                                        record.translation_min[i] > -LimitRecord::kFree ||
-                                        record.translation_max[i] < LimitRecord::kFree;
+                                        record.translation_min[i] > -ConstraintRecord::kFree ||
+                                        record.translation_max[i] < ConstraintRecord::kFree;
     }
     constraint.record = record;
     return constraint;

@@ -122,15 +122,16 @@ private:
     }
 
     void gather_weights() {
-        for (const PullView& pull : model_.chain_weights(chain_)) {
+        for (const ChainWeightView& chain_weight : model_.chain_weights(chain_)) {
             // Joint numbers ascend along the chain.
-            const auto link = std::lower_bound(links_.begin(), links_.end(), pull.joint,
+            const auto link = std::lower_bound(links_.begin(), links_.end(), chain_weight.joint,
                                                [](const IkLink& l, std::uint32_t joint) { return l.joint < joint; });
-            if (link != links_.end() && link->joint == pull.joint)
-                link->freedom *= std::isnan(pull.weight) ? 1.0 : std::clamp(double{pull.weight}, 0.0, 1.0);
+            if (link != links_.end() && link->joint == chain_weight.joint)
+                link->freedom *=
+                    std::isnan(chain_weight.weight) ? 1.0 : std::clamp(double{chain_weight.weight}, 0.0, 1.0);
         }
         for (IkLink& link : links_) {
-            const bool is_locked = link.constraint != nullptr && link.constraint->model == LimitModel::locked;
+            const bool is_locked = link.constraint != nullptr && link.constraint->model == ConstraintModel::locked;
             link.is_fixed = is_locked || link.freedom == glm::dvec3(0.0);
         }
     }

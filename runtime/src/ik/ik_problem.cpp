@@ -118,12 +118,12 @@ glm::dvec3 preferred_side(const Constraint& constraint) {
         return std::min(shape.swing_high.at(side), 1.0) - std::min(shape.swing_low.at(side), 1.0);
     };
     switch (constraint.model) {
-        case LimitModel::hinge:
+        case ConstraintModel::hinge:
             return {middle(0), 0.0, 0.0};
-        case LimitModel::swing_twist_ellipse:
-        case LimitModel::swing_twist_pyramid:
+        case ConstraintModel::swing_twist_ellipse:
+        case ConstraintModel::swing_twist_pyramid:
             return {middle(0), swing(0), swing(1)};
-        case LimitModel::euler_box:
+        case ConstraintModel::euler_box:
             return {middle(0), middle(1), middle(2)};
         default:
             return glm::dvec3(0.0);
@@ -137,10 +137,10 @@ glm::dvec3 only_axis(const Constraint& constraint) {
         return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
     };
     switch (constraint.model) {
-        case LimitModel::hinge:
+        case ConstraintModel::hinge:
             return {1.0, 0.0, 0.0};
-        case LimitModel::swing_twist_ellipse:
-        case LimitModel::swing_twist_pyramid:
+        case ConstraintModel::swing_twist_ellipse:
+        case ConstraintModel::swing_twist_pyramid:
             if (has_width(0) == has_width(1)) return glm::dvec3(0.0);
             return {0.0, has_width(0) ? 1.0 : 0.0, has_width(1) ? 1.0 : 0.0};
         default:

@@ -84,14 +84,14 @@ BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& poi
 }
 
 /// A joint's constraint while the chain is solved.
-class Limit {
+class LinkConstraint {
 public:
-    BENDY_INLINE Limit(const Model& model, std::uint32_t joint, const ReachOptions& options)
+    BENDY_INLINE LinkConstraint(const Model& model, std::uint32_t joint, const ReachOptions& options)
         : constraint_(options.obey_constraints ? model.ik_constraint(joint) : nullptr),
           rest_(&model.joints()[joint].rest) {}
 
     BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
-    BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == LimitModel::hinge; }
+    BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
     [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
     /// Whether it says nothing but which rotations there are.
     BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
@@ -107,7 +107,7 @@ public:
 
 private:
     [[nodiscard]] bool says_rotations_only() const {
-        return constraint_->model != LimitModel::locked && !constraint_->has_soft_zone &&
+        return constraint_->model != ConstraintModel::locked && !constraint_->has_soft_zone &&
                constraint_->stiffness == glm::dvec3(0.0);
     }
     [[nodiscard]] Side find_side(const glm::dquat& local) const {
@@ -181,8 +181,8 @@ BENDY_INLINE Turn turn_to(const Bend& bend, double side) {
 }
 
 /// False where the chain is straight or cannot be as long as `distance`, squared.
-BENDY_INLINE bool find_bend(const Limit& limit, const glm::dquat& local, const glm::dvec3& rest, double distance,
-                            Bend& bend) {
+BENDY_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local, const glm::dvec3& rest,
+                            double distance, Bend& bend) {
     const double sizes = squared(bend.bone) * squared(rest);
     constexpr double kStraight = 1e-8;
     double along = 0.0;
@@ -220,7 +220,7 @@ BENDY_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const glm::dqu
 }
 
 /// The smaller turn, or a hinge's other one; false if the limits leave no side, or no clear one.
-BENDY_INLINE bool bend_middle(const Limit& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
+BENDY_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
     const glm::dquat before = local;
     turn = turn_to(bend, -1.0);
     if (!limit.is_there()) return turn_middle(bend, turn, before, local);
@@ -230,8 +230,8 @@ BENDY_INLINE bool bend_middle(const Limit& limit, const Bend& bend, glm::dquat& 
     const double gain = other.cosine - turn.cosine;
     if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
     if (!turn_middle(bend, turn, before, local)) return false;
-    const Limit::Side side = limit.side(local);
-    if (side != Limit::Side::outside) return side == Limit::Side::inside;
+    const LinkConstraint::Side side = limit.side(local);
+    if (side != LinkConstraint::Side::outside) return side == LinkConstraint::Side::inside;
     turn = other;
     return limit.is_hinge() && turn_middle(bend, turn, before, local) && limit.holds(local);
 }
@@ -258,9 +258,9 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
                           read_rotation(local[start], upper) && read_rotation(local[middle], lower) &&
                           read_rotation(local[tip], end);
     if (!is_plain) return std::nullopt;
-    const Limit upper_limit(model, start, options);
-    const Limit lower_limit(model, middle, options);
-    const Limit end_limit(model, tip, options);
+    const LinkConstraint upper_limit(model, start, options);
+    const LinkConstraint lower_limit(model, middle, options);
+    const LinkConstraint end_limit(model, tip, options);
     const bool is_legal = upper_limit.is_plain() && lower_limit.is_plain() && end_limit.is_plain() &&
                           !upper_limit.is_hinge() && upper_limit.holds(upper) && lower_limit.holds(lower) &&
                           end_limit.holds(end);
@@ -312,7 +312,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     const Model& model = pose.model();
     const std::uint32_t joint = chain.start;
     const JointTransform& transform = std::as_const(pose).local()[joint];
-    const Limit limit(model, joint, options);
+    const LinkConstraint limit(model, joint, options);
     const auto& turned_tip = chain.record.tip_rotation;
     glm::dquat rotation;
     glm::dquat tip(turned_tip[3], turned_tip[0], turned_tip[1], turned_tip[2]);

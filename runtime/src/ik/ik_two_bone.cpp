@@ -33,7 +33,7 @@ std::size_t find_middle(const IkProblem& problem) {
 
 /// The axis about which the middle joint bends, not of unit length.
 glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::dvec3& u, const glm::dvec3& v) {
-    if (middle.constraint != nullptr && middle.constraint->model == LimitModel::hinge)
+    if (middle.constraint != nullptr && middle.constraint->model == ConstraintModel::hinge)
         return middle.global * (middle.frame * glm::dvec3(1.0, 0.0, 0.0));
     const double size = length_of(u) * length_of(v);
     glm::dvec3 axis = glm::cross(u, v);
@@ -185,7 +185,7 @@ glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const 
 }  // namespace
 
 bool hinge_prefers_back(const Constraint* constraint) {
-    return constraint != nullptr && constraint->model == LimitModel::hinge && preferred_side(*constraint).x < 0.0;
+    return constraint != nullptr && constraint->model == ConstraintModel::hinge && preferred_side(*constraint).x < 0.0;
 }
 
 void soften_target(IkProblem& problem) {

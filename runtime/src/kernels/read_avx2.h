@@ -1,4 +1,4 @@
-// Reading a packed cycle's numbers with AVX2, eight at once. Included after lanes.h.
+// Reading a packed clip's numbers with AVX2, eight at once. Included after lanes.h.
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 

@@ -1,4 +1,4 @@
-// Reading a packed cycle's numbers one by one, for instruction sets without shifts by lane. Included after lanes.h.
+// Reading a packed clip's numbers one by one, for instruction sets without shifts by lane. Included after lanes.h.
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
 

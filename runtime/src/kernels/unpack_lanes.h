@@ -1,4 +1,4 @@
-// The body of the kernels for packed cycles, included after lanes.h and sample_lanes.h by one source for each
+// The body of the kernels for packed clips, included after lanes.h and sample_lanes.h by one source for each
 // instruction set, which also defines roots_of(Lanes) and read_component<is_near_end>(...): see read_lanes.h.
 
 // NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace

@@ -290,13 +290,13 @@ Swing nearest_in_pyramid(const LimitShape& shape, const Swing& v) {
     return best;
 }
 
-bool swing_holds(LimitModel model, const LimitShape& shape, const Swing& swing) {
-    return model == LimitModel::swing_twist_ellipse ? ellipse_holds(shape, swing)
-                                                    : pyramid_holds(pyramid_planes(shape), swing);
+bool swing_holds(ConstraintModel model, const LimitShape& shape, const Swing& swing) {
+    return model == ConstraintModel::swing_twist_ellipse ? ellipse_holds(shape, swing)
+                                                         : pyramid_holds(pyramid_planes(shape), swing);
 }
 
-Swing nearest_swing(LimitModel model, const LimitShape& shape, const Swing& v) {
-    return model == LimitModel::swing_twist_ellipse ? nearest_in_ellipse(shape, v) : nearest_in_pyramid(shape, v);
+Swing nearest_swing(ConstraintModel model, const LimitShape& shape, const Swing& v) {
+    return model == ConstraintModel::swing_twist_ellipse ? nearest_in_ellipse(shape, v) : nearest_in_pyramid(shape, v);
 }
 
 /// A candidate for the nearest rotation.
@@ -313,7 +313,7 @@ struct Found {
 };
 
 /// With the twist at an end of its range, the best swing is the nearest on the sphere.
-void consider_twist(LimitModel model, const LimitShape& shape, const glm::dquat& R, double twist, Found& best) {
+void consider_twist(ConstraintModel model, const LimitShape& shape, const glm::dquat& R, double twist, Found& best) {
     const glm::dquat v = R * about(0, -twist);
     const double length = std::sqrt(v.w * v.w + v.y * v.y + v.z * v.z);
     if (length < 1e-12) return;
@@ -334,13 +334,13 @@ struct LeftOver {
 };
 
 /// The swing, on the rim of what is legal, that the best twist brings nearest to R.
-void consider_rim(LimitModel model, const LimitShape& shape, const glm::dquat& R, Found& best) {
+void consider_rim(ConstraintModel model, const LimitShape& shape, const glm::dquat& R, Found& best) {
     const LeftOver closeness(R);
     const auto consider = [&](const Swing& swing) {
         const double twist = 2.0 * trig::atan2(glm::dot(closeness.x, swing), glm::dot(closeness.w, swing));
         if (holds(shape.angles[0], twist)) best.consider(join(swing, nearest_angle(shape.angles[0], twist)), R);
     };
-    if (model == LimitModel::swing_twist_ellipse) {
+    if (model == ConstraintModel::swing_twist_ellipse) {
         const AngleRange& range = shape.angles[0];
         const Swing swing = best_on_ellipse(shape, [&](const Swing& s) {
             const double w = glm::dot(closeness.w, s);
@@ -374,7 +374,7 @@ void consider_rim(LimitModel model, const LimitShape& shape, const glm::dquat& R
     }
 }
 
-glm::dquat nearest_swing_twist(LimitModel model, const LimitShape& shape, const glm::dquat& R) {
+glm::dquat nearest_swing_twist(ConstraintModel model, const LimitShape& shape, const glm::dquat& R) {
     const SwingTwist parts = split(R);
     const AngleRange& twist = shape.angles[0];
     if (swing_holds(model, shape, parts.swing) && holds(twist, parts.twist)) return R;
@@ -513,26 +513,26 @@ glm::dquat nearest_to_none(const glm::dquat& R) {
 
 }  // namespace
 
-glm::dquat nearest_rotation(LimitModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
+glm::dquat nearest_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
     switch (model) {
-        case LimitModel::locked:
+        case ConstraintModel::locked:
             return nearest_to_none(R);
-        case LimitModel::hinge:
+        case ConstraintModel::hinge:
             return nearest_on_hinge(shape.angles[0], R);
-        case LimitModel::swing_twist_ellipse:
-        case LimitModel::swing_twist_pyramid:
+        case ConstraintModel::swing_twist_ellipse:
+        case ConstraintModel::swing_twist_pyramid:
             return nearest_swing_twist(model, shape, R);
-        case LimitModel::euler_box:
+        case ConstraintModel::euler_box:
             return nearest_in_box(make_box(order, shape), R);
-        case LimitModel::largest_angle:
+        case ConstraintModel::largest_angle:
             return nearest_by_angle(shape.largest, R);
         default:
             return R;
     }
 }
 
-glm::dquat quick_legal_rotation(LimitModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
-    if (model == LimitModel::swing_twist_ellipse || model == LimitModel::swing_twist_pyramid) {
+glm::dquat quick_legal_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
+    if (model == ConstraintModel::swing_twist_ellipse || model == ConstraintModel::swing_twist_pyramid) {
         const double length = std::sqrt(R.w * R.w + R.x * R.x);
         const glm::dvec2 twist = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
         // swing = R * conj(twist); its x is 0
@@ -543,13 +543,13 @@ glm::dquat quick_legal_rotation(LimitModel model, EulerOrder order, const LimitS
         return glm::dquat(legal_swing.x, 0.0, legal_swing.y, legal_swing.z) *
                glm::dquat(legal_twist.x, legal_twist.y, 0.0, 0.0);
     }
-    if (model == LimitModel::hinge) {
+    if (model == ConstraintModel::hinge) {
         const double length = std::sqrt(R.w * R.w + R.x * R.x);
         const glm::dvec2 turn = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
         const glm::dvec2 legal = nearest_turn(shape.angles[0], turn);
         return {legal.x, legal.y, 0.0, 0.0};
     }
-    if (model == LimitModel::euler_box) {
+    if (model == ConstraintModel::euler_box) {
         const EulerBox box = make_box(order, shape);
         const Angles angles = to_angles(box.order, R);
         const Angles other = other_form(angles);

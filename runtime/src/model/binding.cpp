@@ -37,16 +37,16 @@ void add(Paths& paths, TrackPath path) {
     paths.scale = paths.scale || path == TrackPath::scale;
 }
 
-/// What a cycle animates of each joint.
-std::vector<Paths> find_paths(const Cycle& cycle, std::size_t joints) {
+/// What a clip animates of each joint.
+std::vector<Paths> find_paths(const Clip& clip, std::size_t joints) {
     std::vector<Paths> paths(joints);
-    for (const TrackView& track : cycle.tracks) {
+    for (const TrackView& track : clip.tracks) {
         if (track.path != TrackPath::weights && track.target < joints) add(paths[track.target], track.path);
     }
-    if (!cycle.packed) return paths;
-    for (std::uint32_t joint = 0; joint < joints && joint < cycle.packed->record.joints; ++joint) {
+    if (!clip.packed) return paths;
+    for (std::uint32_t joint = 0; joint < joints && joint < clip.packed->record.joints; ++joint) {
         for (const TrackPath path : {TrackPath::rotation, TrackPath::translation, TrackPath::scale}) {
-            if (cycle.packed->animates(joint, path)) add(paths[joint], path);
+            if (clip.packed->animates(joint, path)) add(paths[joint], path);
         }
     }
     return paths;
@@ -62,9 +62,9 @@ Binding::Binding(const Model& animated, const Model& posed, const BindingOptions
     const std::vector<bool> is_root = find_roots(options.root);
     std::vector<bool> missed_joints(joints_.size());
     std::vector<bool> missed_targets(targets_.size());
-    cycles_.reserve(animated.cycles().size());
-    for (const Cycle& cycle : animated.cycles())
-        bind(cycle, is_root, options.root_scale, has_all, missed_joints, missed_targets);
+    clips_.reserve(animated.clips().size());
+    for (const Clip& clip : animated.clips())
+        bind(clip, is_root, options.root_scale, has_all, missed_joints, missed_targets);
     unmatched_joints_ = places_of(missed_joints);
     unmatched_targets_ = places_of(missed_targets);
 }
@@ -85,19 +85,19 @@ void Binding::match_joints() {
 
 void Binding::match_targets() {
     ByName anywhere;
-    std::unordered_map<std::string_view, ByName> in_pool;
-    for (std::uint32_t pool = 0; pool < posed_.pools().size(); ++pool) {
-        std::uint32_t number = posed_.first_target(pool);
-        for (const TargetView& target : posed_.pools()[pool].targets) {
+    std::unordered_map<std::string_view, ByName> in_mesh;
+    for (std::uint32_t mesh = 0; mesh < posed_.meshes().size(); ++mesh) {
+        std::uint32_t number = posed_.first_morph_target(mesh);
+        for (const MorphTargetView& target : posed_.meshes()[mesh].targets) {
             anywhere.emplace(target.name, number);
-            in_pool[posed_.pools()[pool].name].emplace(target.name, number);
+            in_mesh[posed_.meshes()[mesh].name].emplace(target.name, number);
             ++number;
         }
     }
-    for (const Pool& pool : animated_.pools()) {
-        const auto same = in_pool.find(pool.name);
-        for (const TargetView& target : pool.targets) {
-            const std::uint32_t found = same == in_pool.end() ? kNone : find(same->second, target.name);
+    for (const Mesh& mesh : animated_.meshes()) {
+        const auto same = in_mesh.find(mesh.name);
+        for (const MorphTargetView& target : mesh.targets) {
+            const std::uint32_t found = same == in_mesh.end() ? kNone : find(same->second, target.name);
             targets_.push_back(found == kNone ? find(anywhere, target.name) : found);
         }
     }
@@ -123,10 +123,10 @@ std::vector<bool> Binding::find_roots(std::uint32_t root) const {
     return is_root;
 }
 
-void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float root_scale, bool has_all,
+void Binding::bind(const Clip& clip, const std::vector<bool>& is_root, float root_scale, bool has_all,
                    std::vector<bool>& missed_joints, std::vector<bool>& missed_targets) {
-    BoundCycle bound;
-    const std::vector<Paths> paths = find_paths(cycle, joints_.size());
+    BoundClip bound;
+    const std::vector<Paths> paths = find_paths(clip, joints_.size());
     for (std::uint32_t joint = 0; joint < paths.size(); ++joint) {
         BoundJoint made{joint, joints_[joint], paths[joint].rotation, paths[joint].translation, paths[joint].scale,
                         1.0f};
@@ -148,39 +148,40 @@ void Binding::bind(const Cycle& cycle, const std::vector<bool>& is_root, float r
             bound.targets.push_back({target, targets_[target]});
         }
     };
-    for (const TrackView& track : cycle.tracks) {
-        if (track.path != TrackPath::weights || track.target >= animated_.pools().size()) continue;
-        for (std::uint32_t k = 0; k < animated_.pools()[track.target].targets.size(); ++k)
-            bind_target(animated_.first_target(track.target) + k);
+    for (const TrackView& track : clip.tracks) {
+        if (track.path != TrackPath::weights || track.target >= animated_.meshes().size()) continue;
+        for (std::uint32_t k = 0; k < animated_.meshes()[track.target].targets.size(); ++k)
+            bind_target(animated_.first_morph_target(track.target) + k);
     }
-    for (const PlayView& play : cycle.plays) {
-        const std::uint32_t frame_1 = animated_.first_target(play.pool) + animated_.pools()[play.pool].first_frame;
+    for (const PlayView& play : clip.plays) {
+        const std::uint32_t frame_1 =
+            animated_.first_morph_target(play.mesh) + animated_.meshes()[play.mesh].first_frame;
         for (std::uint32_t k = std::max(play.first, 1u); k < play.first + play.frames; ++k)
             bind_target(frame_1 + k - 1);
     }
-    cycles_.push_back(std::move(bound));
+    clips_.push_back(std::move(bound));
 }
 
-Result<void, CallError> sample(Pose& pose, Binding& binding, const Cycle* cycle, float seconds) {
+Result<void, CallError> sample(Pose& pose, Binding& binding, const Clip* clip, float seconds) {
     if (pose.model() != binding.posed_) return CallError::other_model;
     pose.set_rest();
-    if (cycle == nullptr) return CallError::missing;
-    const auto cycles = binding.animated_.cycles();
+    if (clip == nullptr) return CallError::missing;
+    const auto clips = binding.animated_.clips();
     std::size_t number = 0;
-    while (number < cycles.size() && &cycles[number] != cycle) ++number;
-    if (number == cycles.size()) return CallError::other_model;
-    if (const auto sampled = sample(binding.sampled_, cycle, seconds); !sampled) return sampled;
+    while (number < clips.size() && &clips[number] != clip) ++number;
+    if (number == clips.size()) return CallError::other_model;
+    if (const auto sampled = sample(binding.sampled_, clip, seconds); !sampled) return sampled;
     const std::span<JointTransform> local = pose.change_local();
-    for (const Binding::BoundJoint& joint : binding.cycles_[number].joints) {
+    for (const Binding::BoundJoint& joint : binding.clips_[number].joints) {
         const JointTransform& from = binding.sampled_.local()[joint.from];
         JointTransform& to = local[joint.to];
         if (joint.rotation) to.rotation = from.rotation;
         if (joint.translation) to.translation = joint.translation_scale * from.translation;
         if (joint.scale) to.scale = from.scale;
     }
-    const std::span<float> weights = pose.change_target_weights();
-    for (const Binding::BoundTarget& target : binding.cycles_[number].targets)
-        weights[target.to] = binding.sampled_.target_weights()[target.from];
+    const std::span<float> weights = pose.change_morph_weights();
+    for (const Binding::BoundMorphTarget& target : binding.clips_[number].targets)
+        weights[target.to] = binding.sampled_.morph_weights()[target.from];
     return {};
 }
 

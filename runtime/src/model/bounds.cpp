@@ -65,26 +65,26 @@ Box unite(const Box& a, const Box& b) {
 struct Bounds::Builder {
     explicit Builder(Bounds& made) : bounds(made), model(made.model_), shifts(made.joints_.size()) {}
 
-    void add_pool(std::uint32_t number) {
-        const Pool& pool = model.pools()[number];
-        std::vector<glm::vec3> vectors(pool.vertices);
-        pool.positions.decode(std::span(vectors).first(pool.positions.empty() ? 0 : vectors.size()));
-        for (std::uint32_t vertex = 0; vertex < pool.vertices; ++vertex) {
+    void add_mesh(std::uint32_t number) {
+        const Mesh& mesh = model.meshes()[number];
+        std::vector<glm::vec3> vectors(mesh.vertices);
+        mesh.positions.decode(std::span(vectors).first(mesh.positions.empty() ? 0 : vectors.size()));
+        for (std::uint32_t vertex = 0; vertex < mesh.vertices; ++vertex) {
             for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
                 put_in(bounds.joints_[joint].box, glm::dvec3(bind * glm::dvec4(glm::dvec3(vectors[vertex]), 1.0)));
             });
-            if (!pool.is_rigid()) look_at_weights(pool, vertex);
+            if (!mesh.is_rigid()) look_at_weights(mesh, vertex);
         }
-        for (std::uint32_t k = 0; k < pool.targets.size(); ++k) add_target(number, k);
+        for (std::uint32_t k = 0; k < mesh.targets.size(); ++k) add_target(number, k);
     }
 
     void add_target(std::uint32_t number, std::uint32_t k) {
-        const TargetView& target = model.pools()[number].targets[k];
+        const MorphTargetView& target = model.meshes()[number].targets[k];
         if (!target.positions) return;
-        const std::uint32_t place = model.first_target(number) + k;
-        const Pool& pool = model.pools()[number];
-        for (std::uint32_t entry = 0; entry < target.touched(pool.vertices); ++entry) {
-            const glm::dvec3 displacement(target.displacement(*target.positions, pool.positions, entry));
+        const std::uint32_t place = model.first_morph_target(number) + k;
+        const Mesh& mesh = model.meshes()[number];
+        for (std::uint32_t entry = 0; entry < target.touched(mesh.vertices); ++entry) {
+            const glm::dvec3 displacement(target.displacement(*target.positions, mesh.positions, entry));
             const std::uint32_t vertex = target.vertex(entry);
             for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
                 // The joint's other vertices stay: no displacement is in the box as well.
@@ -94,28 +94,28 @@ struct Bounds::Builder {
         }
     }
 
-    /// visit(joint, inverse bind matrix) for each joint that moves the vertex; a rigid pool's are in joint space.
+    /// visit(joint, inverse bind matrix) for each joint that moves the vertex; a rigid mesh's are in joint space.
     template <class Visit>
     void for_each_mover(std::uint32_t number, std::uint32_t vertex, const Visit& visit) const {
-        const Pool& pool = model.pools()[number];
-        if (pool.is_rigid()) {
+        const Mesh& mesh = model.meshes()[number];
+        if (mesh.is_rigid()) {
             const std::uint32_t joint = model.rigid_mover(number, vertex);
             visit(joint == kNone ? static_cast<std::uint32_t>(bounds.joints_.size() - 1) : joint, glm::dmat4(1.0));
             return;
         }
-        for (std::uint32_t k = 0; k < pool.bones->components; ++k) {
-            if (pool.weights->number(vertex, k) == 0.0f) continue;
-            const std::uint32_t bone = pool.bones->index(vertex, k);
-            visit(pool.palette.joints[bone], glm::dmat4(pool.palette.inverse_bind()[bone]));
+        for (std::uint32_t k = 0; k < mesh.bones->components; ++k) {
+            if (mesh.weights->number(vertex, k) == 0.0f) continue;
+            const std::uint32_t bone = mesh.bones->index(vertex, k);
+            visit(mesh.palette.joints[bone], glm::dmat4(mesh.palette.inverse_bind()[bone]));
         }
     }
 
     /// With positive weights P and negative ones -N, a vertex is P times a point among its places less N times one.
-    void look_at_weights(const Pool& pool, std::uint32_t vertex) {
+    void look_at_weights(const Mesh& mesh, std::uint32_t vertex) {
         double above = 0.0;
         double below = 0.0;
-        for (std::uint32_t k = 0; k < pool.weights->components; ++k) {
-            const double weight = pool.weights->number(vertex, k);
+        for (std::uint32_t k = 0; k < mesh.weights->components; ++k) {
+            const double weight = mesh.weights->number(vertex, k);
             (weight < 0.0 ? below : above) += std::abs(weight);
         }
         if (above == 0.0 && below == 0.0) {
@@ -142,7 +142,7 @@ struct Bounds::Builder {
 
 Bounds::Bounds(const Model& model) : model_(model), joints_(model.joints().size() + 1) {
     Builder builder(*this);
-    for (std::uint32_t pool = 0; pool < model.pools().size(); ++pool) builder.add_pool(pool);
+    for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) builder.add_mesh(mesh);
     builder.finish();
 }
 
@@ -160,12 +160,12 @@ Box Bounds::shifted(const JointBox& joint, std::span<const float> weights) const
 
 Box Bounds::of(Pose& pose, std::uint32_t joint) const {
     assert(pose.model() == model_ && joint < model_.joints().size());
-    return moved(shifted(joints_[joint], pose.target_weights()), glm::dmat4(pose.model_space()[joint]));
+    return moved(shifted(joints_[joint], pose.morph_weights()), glm::dmat4(pose.model_space()[joint]));
 }
 
 Box Bounds::of(Pose& pose) const {
     assert(pose.model() == model_);
-    Box all = moved(shifted(joints_.back(), pose.target_weights()), glm::dmat4(1.0));
+    Box all = moved(shifted(joints_.back(), pose.morph_weights()), glm::dmat4(1.0));
     for (std::uint32_t joint = 0; joint < model_.joints().size(); ++joint) {
         if (!joints_[joint].box.is_empty()) all = unite(all, of(pose, joint));
     }

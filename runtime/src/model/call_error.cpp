@@ -5,7 +5,7 @@ namespace bendy {
 const char* error_text(CallError error) {
     switch (error) {
         case CallError::missing:
-            return "expected a cycle or an IK chain, found none";
+            return "expected a clip or an IK chain, found none";
         case CallError::not_finite:
             return "expected finite numbers";
         case CallError::other_model:

@@ -1,29 +1,29 @@
 #pragma once
 
-#include <bendy/format/pool.h>
+#include <bendy/format/mesh.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 
-// Frames (FRMS) among a pool's targets. They hold shapes, not displacements: with weights w the pool's own streams
-// count 1 - sum w. So a frame that has all the weight is what the file holds, to the bit, whatever the pool's own is.
+// Frames (FRMS) among a mesh's targets. They hold shapes, not displacements: with weights w the mesh's own streams
+// count 1 - sum w. So a frame that has all the weight is what the file holds, to the bit, whatever the mesh's own is.
 namespace bendy {
 
-/// How much of the pool's own streams is left beside the frames.
-inline float rest_share(const PoolView& pool, std::span<const float> weights) {
+/// How much of the mesh's own streams is left beside the frames.
+inline float rest_share(const MeshView& mesh, std::span<const float> weights) {
     double frames = 0.0;
-    for (std::size_t k = pool.first_frame; k < pool.targets.size(); ++k) frames += double{weights[k]};
+    for (std::size_t k = mesh.first_frame; k < mesh.targets.size(); ++k) frames += double{weights[k]};
     return static_cast<float>(1.0 - frames);
 }
 
-/// Whether `stream` of the pool's targets is one that frames have.
-inline bool have_frames(const PoolView& pool, std::optional<StreamView> TargetView::*stream) {
-    return pool.first_frame < pool.targets.size() && (pool.targets.back().*stream).has_value();
+/// Whether `stream` of the mesh's targets is one that frames have.
+inline bool have_frames(const MeshView& mesh, std::optional<StreamView> MorphTargetView::*stream) {
+    return mesh.first_frame < mesh.targets.size() && (mesh.targets.back().*stream).has_value();
 }
 
-/// Makes the pool's own vectors as light as the frames leave them.
+/// Makes the mesh's own vectors as light as the frames leave them.
 template <class Vector>
 void lighten(float share, std::span<Vector> vectors) {
     if (share == 1.0f) return;

@@ -1,6 +1,6 @@
 #include <bendy/runtime/lod.h>
 
-#include "find_deaths.h"
+#include "find_triangle_thresholds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,30 +8,30 @@
 
 namespace bendy {
 
-Lod::Lod(const Model& model) : model_(model), pools_(model.pools().size()), place_(model.pools().size(), kNone) {
+Lod::Lod(const Model& model) : model_(model), meshes_(model.meshes().size()), place_(model.meshes().size(), kNone) {
     if (const CollapseView* collapse = model.collapse()) {
-        for (std::uint32_t place = 0; place < collapse->pools.size(); ++place) {
-            place_[collapse->pools[place].pool] = place;
-            pools_[collapse->pools[place].pool].collapse = &collapse->pools[place];
+        for (std::uint32_t place = 0; place < collapse->meshes.size(); ++place) {
+            place_[collapse->meshes[place].mesh] = place;
+            meshes_[collapse->meshes[place].mesh].collapse = &collapse->meshes[place];
         }
     }
-    draws_.assign(model.draws().begin(), model.draws().end());
-    first_draw_.assign(pools_.size() + 1, 0);
-    for (const Draw& draw : draws_) ++first_draw_[draw.pool + std::size_t{1}];
-    std::partial_sum(first_draw_.begin(), first_draw_.end(), first_draw_.begin());
-    for (std::uint32_t pool = 0; pool < pools_.size(); ++pool) prepare(pool);
-    for (const Draw& draw : model.draws()) {
-        const std::uint64_t count = draw.topology == Topology::triangles ? draw.count / 3 : 0;
+    submeshes_.assign(model.submeshes().begin(), model.submeshes().end());
+    first_submesh_.assign(meshes_.size() + 1, 0);
+    for (const Submesh& submesh : submeshes_) ++first_submesh_[submesh.mesh + std::size_t{1}];
+    std::partial_sum(first_submesh_.begin(), first_submesh_.end(), first_submesh_.begin());
+    for (std::uint32_t mesh = 0; mesh < meshes_.size(); ++mesh) prepare(mesh);
+    for (const Submesh& submesh : model.submeshes()) {
+        const std::uint64_t count = submesh.topology == Topology::triangles ? submesh.count / 3 : 0;
         all_triangles_ += count;
-        if (place_[draw.pool] == kNone) fixed_triangles_ += count;
+        if (place_[submesh.mesh] == kNone) fixed_triangles_ += count;
     }
     set_share(1.0f);
 }
 
-/// What a pool's levels are made of. Only the triangles that are drawn are counted.
-void Lod::prepare(std::uint32_t pool) {
-    const Pool& source = model_.pools()[pool];
-    PoolLevel& state = pools_[pool];
+/// What a mesh's levels are made of. Only the triangles that are drawn are counted.
+void Lod::prepare(std::uint32_t mesh) {
+    const Mesh& source = model_.meshes()[mesh];
+    MeshLevel& state = meshes_[mesh];
     state.vertices = source.vertices;
     if (source.indices) {
         state.all.resize(source.indices->elements);
@@ -47,24 +47,25 @@ void Lod::prepare(std::uint32_t pool) {
     std::iota(state.now.begin(), state.now.begin() + state.collapse->base, 0u);
     state.counts.assign(std::size_t{source.vertices} - state.collapse->base + 1, 0);
     std::vector<std::uint32_t> corners;
-    const auto draws = model_.draws().subspan(first_draw_[pool], first_draw_[pool + 1] - first_draw_[pool]);
-    for (const Draw& draw : draws) {
-        const auto part = std::span(state.all).subspan(draw.first, draw.count);
-        if (draw.topology == Topology::triangles) corners.insert(corners.end(), part.begin(), part.end());
+    const auto submeshes =
+        model_.submeshes().subspan(first_submesh_[mesh], first_submesh_[mesh + 1] - first_submesh_[mesh]);
+    for (const Submesh& submesh : submeshes) {
+        const auto part = std::span(state.all).subspan(submesh.first, submesh.count);
+        if (submesh.topology == Topology::triangles) corners.insert(corners.end(), part.begin(), part.end());
     }
-    state.deaths = find_deaths(*state.collapse, corners);
-    for (const std::uint32_t death : state.deaths)
-        ++state.counts[std::max(death + 1, state.collapse->base) - state.collapse->base];
+    state.thresholds = find_triangle_thresholds(*state.collapse, corners);
+    for (const std::uint32_t threshold : state.thresholds)
+        ++state.counts[std::max(threshold + 1, state.collapse->base) - state.collapse->base];
     std::partial_sum(state.counts.begin(), state.counts.end(), state.counts.begin());
 }
 
 /// A level is a row of the file's table, or a number between two of them; 0 full detail. Past the table, down to base.
-std::uint32_t Lod::vertices_at(std::uint32_t pool, double level) const {
-    const PoolCollapseView& collapse = *pools_[pool].collapse;
+std::uint32_t Lod::vertices_at(std::uint32_t mesh, double level) const {
+    const MeshCollapseView& collapse = *meshes_[mesh].collapse;
     const CollapseView& table = *model_.collapse();
     const auto row = [&](std::uint32_t at) {
         if (at == 0) return collapse.vertices;
-        return at <= table.levels ? table.alive(at - 1, place_[pool]) : collapse.base;
+        return at <= table.levels ? table.alive(at - 1, place_[mesh]) : collapse.base;
     };
     const double whole = std::floor(level);
     const auto before = static_cast<std::uint32_t>(whole);
@@ -79,9 +80,9 @@ std::uint32_t Lod::vertices_at(std::uint32_t pool, double level) const {
 
 std::uint64_t Lod::triangles_at(double level) const {
     std::uint64_t triangles = fixed_triangles_;
-    for (std::uint32_t number = 0; number < pools_.size(); ++number) {
-        const PoolLevel& pool = pools_[number];
-        if (pool.collapse != nullptr) triangles += pool.counts[vertices_at(number, level) - pool.collapse->base];
+    for (std::uint32_t number = 0; number < meshes_.size(); ++number) {
+        const MeshLevel& mesh = meshes_[number];
+        if (mesh.collapse != nullptr) triangles += mesh.counts[vertices_at(number, level) - mesh.collapse->base];
     }
     return triangles;
 }
@@ -102,42 +103,42 @@ void Lod::set_share(float triangles) {
         level = high;
     }
     triangles_ = fixed_triangles_;
-    for (std::uint32_t number = 0; number < pools_.size(); ++number) {
-        PoolLevel& pool = pools_[number];
-        if (pool.collapse == nullptr) continue;
-        pool.vertices = vertices_at(number, level);
-        triangles_ += pool.counts[pool.vertices - pool.collapse->base];
+    for (std::uint32_t number = 0; number < meshes_.size(); ++number) {
+        MeshLevel& mesh = meshes_[number];
+        if (mesh.collapse == nullptr) continue;
+        mesh.vertices = vertices_at(number, level);
+        triangles_ += mesh.counts[mesh.vertices - mesh.collapse->base];
     }
     error_ = 0.0f;
     if (collapse != nullptr && collapse->levels != 0 && level > 0.0) {
         const auto row = static_cast<std::uint32_t>(std::ceil(level));
         error_ = collapse->error(std::min(row, collapse->levels) - 1);
     }
-    for (std::uint32_t number = 0; number < pools_.size(); ++number) {
-        if (pools_[number].collapse != nullptr) make_list(number);
+    for (std::uint32_t number = 0; number < meshes_.size(); ++number) {
+        if (meshes_[number].collapse != nullptr) make_list(number);
     }
 }
 
-/// The index list and the draws of a pool at its number of vertices.
-void Lod::make_list(std::uint32_t pool) {
-    PoolLevel& state = pools_[pool];
-    const PoolCollapseView& collapse = *state.collapse;
+/// The index list and the draws of a mesh at its number of vertices.
+void Lod::make_list(std::uint32_t mesh) {
+    MeshLevel& state = meshes_[mesh];
+    const MeshCollapseView& collapse = *state.collapse;
     const std::uint32_t alive = state.vertices;
-    const std::span<const Draw> draws = model_.draws();
+    const std::span<const Submesh> draws = model_.submeshes();
     for (std::uint32_t v = collapse.base; v < alive; ++v) state.now[v] = v;
     for (std::uint32_t v = alive; v < collapse.vertices; ++v)
         state.now[v] = state.now[state.targets[v - collapse.base]];
 
     std::uint32_t* out = state.indices.data();
-    const std::uint32_t* death = state.deaths.data();
-    for (std::uint32_t k = first_draw_[pool]; k < first_draw_[pool + 1]; ++k) {
-        const Draw& source = draws[k];
-        Draw& draw = draws_[k];
-        draw.first = static_cast<std::uint32_t>(out - state.indices.data());
+    const std::uint32_t* threshold = state.thresholds.data();
+    for (std::uint32_t k = first_submesh_[mesh]; k < first_submesh_[mesh + 1]; ++k) {
+        const Submesh& source = draws[k];
+        Submesh& submesh = submeshes_[k];
+        submesh.first = static_cast<std::uint32_t>(out - state.indices.data());
         const std::uint32_t end = source.first + source.count;
         if (source.topology == Topology::triangles) {
-            for (std::uint32_t at = source.first; at < end; at += 3, ++death) {
-                if (*death >= alive && *death != 0) continue;
+            for (std::uint32_t at = source.first; at < end; at += 3, ++threshold) {
+                if (*threshold >= alive && *threshold != 0) continue;
                 *out++ = state.now[state.all[at]];
                 *out++ = state.now[state.all[at + 1]];
                 *out++ = state.now[state.all[at + 2]];
@@ -145,7 +146,7 @@ void Lod::make_list(std::uint32_t pool) {
         } else {
             for (std::uint32_t at = source.first; at < end; ++at) *out++ = state.now[state.all[at]];
         }
-        draw.count = static_cast<std::uint32_t>(out - state.indices.data()) - draw.first;
+        submesh.count = static_cast<std::uint32_t>(out - state.indices.data()) - submesh.first;
     }
     state.corners = static_cast<std::size_t>(out - state.indices.data());
 }

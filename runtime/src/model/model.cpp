@@ -27,28 +27,28 @@ Joint make_joint(const JointView& view) {
     return joint;
 }
 
-/// The polygon ranges in pool order, neighbours of one material joined: writers order a pool by material first and
+/// The submeshes in mesh order, neighbours of one material joined: writers order a mesh by material first and
 /// joint second, so each material comes out as one draw.
-std::vector<Draw> make_draws(std::span<const PolygonView> polygons) {
-    std::vector<Draw> draws;
-    draws.reserve(polygons.size());
-    for (const PolygonView& p : polygons) draws.push_back({p.pool, p.material, p.topology, p.first, p.count});
-    std::sort(draws.begin(), draws.end(),
-              [](const Draw& a, const Draw& b) { return std::tie(a.pool, a.first) < std::tie(b.pool, b.first); });
+std::vector<Submesh> make_submeshes(std::span<const SubmeshView> of_joints) {
+    std::vector<Submesh> submeshes;
+    submeshes.reserve(of_joints.size());
+    for (const SubmeshView& p : of_joints) submeshes.push_back({p.mesh, p.material, p.topology, p.first, p.count});
+    std::sort(submeshes.begin(), submeshes.end(),
+              [](const Submesh& a, const Submesh& b) { return std::tie(a.mesh, a.first) < std::tie(b.mesh, b.first); });
     std::size_t last = 0;
-    for (std::size_t i = 1; i < draws.size(); ++i) {
-        Draw& before = draws[last];
-        const Draw& draw = draws[i];
-        const bool continues = before.pool == draw.pool && before.material == draw.material &&
-                               before.topology == draw.topology && before.first + before.count == draw.first;
+    for (std::size_t i = 1; i < submeshes.size(); ++i) {
+        Submesh& before = submeshes[last];
+        const Submesh& submesh = submeshes[i];
+        const bool continues = before.mesh == submesh.mesh && before.material == submesh.material &&
+                               before.topology == submesh.topology && before.first + before.count == submesh.first;
         if (continues) {
-            before.count += draw.count;
+            before.count += submesh.count;
         } else {
-            draws[++last] = draw;
+            submeshes[++last] = submesh;
         }
     }
-    if (!draws.empty()) draws.resize(last + 1);
-    return draws;
+    if (!submeshes.empty()) submeshes.resize(last + 1);
+    return submeshes;
 }
 
 Chain make_chain(const ChainView& view, std::uint32_t number, std::span<const std::uint32_t> depths) {
@@ -68,23 +68,23 @@ Chain make_chain(const ChainView& view, std::uint32_t number, std::span<const st
 
 void build_rig(ModelData& data) {
     const SkeletonView& skeleton = data.object.skeleton;
-    if (!skeleton.limits.empty()) data.obeyed.resize(data.joints.size());
-    data.constraints.reserve(skeleton.limits.size());
-    for (const LimitView& limit : skeleton.limits) {
+    if (!skeleton.constraints.empty()) data.joint_constraints.resize(data.joints.size());
+    data.constraints.reserve(skeleton.constraints.size());
+    for (const ConstraintView& constraint : skeleton.constraints) {
         const auto number = static_cast<std::uint32_t>(data.constraints.size());
-        data.constraints.push_back(make_constraint(limit));
-        Obeyed& obeyed = data.obeyed[limit.joint];
+        data.constraints.push_back(make_constraint(constraint));
+        JointConstraints& joint_constraints = data.joint_constraints[constraint.joint];
         // What is meant for one purpose goes before what is meant for every one.
         switch (data.constraints.back().scope) {
-            case LimitScope::every_pose:
-                if (obeyed.in_poses == kNone) obeyed.in_poses = number;
-                if (obeyed.in_ik == kNone) obeyed.in_ik = number;
+            case ConstraintScope::every_pose:
+                if (joint_constraints.in_poses == kNone) joint_constraints.in_poses = number;
+                if (joint_constraints.in_ik == kNone) joint_constraints.in_ik = number;
                 break;
-            case LimitScope::ik_only:
-                obeyed.in_ik = number;
+            case ConstraintScope::ik_only:
+                joint_constraints.in_ik = number;
                 break;
-            case LimitScope::all_but_ik:
-                obeyed.in_poses = number;
+            case ConstraintScope::all_but_ik:
+                joint_constraints.in_poses = number;
                 break;
         }
     }
@@ -103,22 +103,22 @@ void build_rig(ModelData& data) {
     std::stable_sort(data.chain_order.begin(), data.chain_order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return data.chains[a].record.priority < data.chains[b].record.priority;
     });
-    data.weights = skeleton.pulls;
-    std::sort(data.weights.begin(), data.weights.end(), [](const PullView& a, const PullView& b) {
+    data.weights = skeleton.chain_weights;
+    std::sort(data.weights.begin(), data.weights.end(), [](const ChainWeightView& a, const ChainWeightView& b) {
         return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
     });
 }
 
 std::vector<RigidMovers> find_movers(const ObjectView& object) {
-    std::vector<RigidMovers> movers(object.pools.size());
-    for (std::size_t pool = 0; pool < movers.size(); ++pool) movers[pool].joint = object.pools[pool].joint;
-    for (const PolygonView& range : object.skeleton.polygons) {
-        RigidMovers& mover = movers[range.pool];
-        const Pool& pool = object.pools[range.pool];
-        if (!pool.is_rigid() || range.joint == mover.joint || range.count == 0) continue;
-        if (mover.per_vertex.empty()) mover.per_vertex.assign(pool.vertices, mover.joint);
+    std::vector<RigidMovers> movers(object.meshes.size());
+    for (std::size_t mesh = 0; mesh < movers.size(); ++mesh) movers[mesh].joint = object.meshes[mesh].joint;
+    for (const SubmeshView& range : object.skeleton.submeshes) {
+        RigidMovers& mover = movers[range.mesh];
+        const Mesh& mesh = object.meshes[range.mesh];
+        if (!mesh.is_rigid() || range.joint == mover.joint || range.count == 0) continue;
+        if (mover.per_vertex.empty()) mover.per_vertex.assign(mesh.vertices, mover.joint);
         for (std::uint32_t k = 0; k < range.count; ++k)
-            mover.per_vertex[pool.indices->index(range.first + k, 0)] = range.joint;
+            mover.per_vertex[mesh.indices->index(range.first + k, 0)] = range.joint;
     }
     return movers;
 }
@@ -155,14 +155,15 @@ Result<Model> ModelData::read(MappedFile file, Bytes bytes, const OpenOptions& o
         data->is_sheared = data->is_sheared || joint.shear != glm::vec3(0.0f);
     }
     build_rig(*data);
-    data->draws = make_draws(object.skeleton.polygons);
+    data->submeshes = make_submeshes(object.skeleton.submeshes);
     data->movers = find_movers(object);
     data->first_vertex.push_back(0);
-    data->first_target.push_back(0);
-    for (const Pool& pool : object.pools) {
-        data->first_vertex.push_back(data->first_vertex.back() + pool.vertices);
-        data->first_target.push_back(data->first_target.back() + static_cast<std::uint32_t>(pool.targets.size()));
-        data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(pool.palette.joints.size()));
+    data->first_morph_target.push_back(0);
+    for (const Mesh& mesh : object.meshes) {
+        data->first_vertex.push_back(data->first_vertex.back() + mesh.vertices);
+        data->first_morph_target.push_back(data->first_morph_target.back() +
+                                           static_cast<std::uint32_t>(mesh.targets.size()));
+        data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(mesh.palette.joints.size()));
     }
     return Model(std::move(data));
 }
@@ -172,17 +173,17 @@ void ModelData::make_plans() const {
     const std::scoped_lock lock(making_plans);
     if (pose_plan) return;
     std::vector<SkinPlan> plans;
-    plans.reserve(object.pools.size());
-    for (const Pool& pool : object.pools) plans.push_back(make_skin_plan(pool));
+    plans.reserve(object.meshes.size());
+    for (const Mesh& mesh : object.meshes) plans.push_back(make_skin_plan(mesh));
     pose_plan = std::make_unique<const PosePlan>(make_pose_plan(object, joints));
     skin_plans = std::move(plans);
 }
 
-std::size_t ModelData::number_of(const Cycle& cycle) const {
-    const auto& cycles = object.cycles;
+std::size_t ModelData::number_of(const Clip& clip) const {
+    const auto& clips = object.clips;
     const std::less<> is_before;
-    if (is_before(&cycle, cycles.data()) || !is_before(&cycle, cycles.data() + cycles.size())) return cycles.size();
-    return static_cast<std::size_t>(&cycle - cycles.data());
+    if (is_before(&clip, clips.data()) || !is_before(&clip, clips.data() + clips.size())) return clips.size();
+    return static_cast<std::size_t>(&clip - clips.data());
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
@@ -206,11 +207,10 @@ Result<void> Model::check_sums() const {
     return {};
 }
 
-const Cycle* Model::cycle(std::string_view name) const {
-    const auto& cycles = data_->object.cycles;
-    const auto found =
-        std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& cycle) { return cycle.name == name; });
-    return found == cycles.end() ? nullptr : &*found;
+const Clip* Model::clip(std::string_view name) const {
+    const auto& clips = data_->object.clips;
+    const auto found = std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+    return found == clips.end() ? nullptr : &*found;
 }
 
 const Chain* Model::chain(std::string_view name) const {
@@ -220,8 +220,10 @@ const Chain* Model::chain(std::string_view name) const {
     return found == chains.end() ? nullptr : &*found;
 }
 
-std::span<const PullView> Model::chain_weights(const Chain& chain) const {
-    const auto less = [](const PullView& pull, std::uint32_t number) { return pull.chain < number; };
+std::span<const ChainWeightView> Model::chain_weights(const Chain& chain) const {
+    const auto less = [](const ChainWeightView& chain_weight, std::uint32_t number) {
+        return chain_weight.chain < number;
+    };
     const auto& weights = data_->weights;
     const auto first = std::lower_bound(weights.begin(), weights.end(), chain.number, less);
     const auto last = std::lower_bound(first, weights.end(), chain.number + 1, less);
@@ -229,13 +231,13 @@ std::span<const PullView> Model::chain_weights(const Chain& chain) const {
 }
 
 const Constraint* Model::constraint(std::uint32_t joint) const {
-    if (data_->obeyed.empty() || data_->obeyed[joint].in_poses == kNone) return nullptr;
-    return &data_->constraints[data_->obeyed[joint].in_poses];
+    if (data_->joint_constraints.empty() || data_->joint_constraints[joint].in_poses == kNone) return nullptr;
+    return &data_->constraints[data_->joint_constraints[joint].in_poses];
 }
 
 const Constraint* Model::ik_constraint(std::uint32_t joint) const {
-    if (data_->obeyed.empty() || data_->obeyed[joint].in_ik == kNone) return nullptr;
-    return &data_->constraints[data_->obeyed[joint].in_ik];
+    if (data_->joint_constraints.empty() || data_->joint_constraints[joint].in_ik == kNone) return nullptr;
+    return &data_->constraints[data_->joint_constraints[joint].in_ik];
 }
 
 std::uint32_t Model::joint(std::string_view name) const {
@@ -261,12 +263,12 @@ bool Model::is_sheared() const {
     return data_->is_sheared;
 }
 
-std::span<const Pool> Model::pools() const {
-    return data_->object.pools;
+std::span<const Mesh> Model::meshes() const {
+    return data_->object.meshes;
 }
 
-std::span<const Cycle> Model::cycles() const {
-    return data_->object.cycles;
+std::span<const Clip> Model::clips() const {
+    return data_->object.clips;
 }
 
 std::span<const Material> Model::materials() const {
@@ -277,16 +279,16 @@ std::span<const Texture> Model::textures() const {
     return data_->document.textures;
 }
 
-std::span<const Draw> Model::draws() const {
-    return data_->draws;
+std::span<const Submesh> Model::submeshes() const {
+    return data_->submeshes;
 }
 
 const CollapseView* Model::collapse() const {
     return data_->object.collapse ? &*data_->object.collapse : nullptr;
 }
 
-std::span<const PolygonView> Model::polygons() const {
-    return data_->object.skeleton.polygons;
+std::span<const SubmeshView> Model::joint_submeshes() const {
+    return data_->object.skeleton.submeshes;
 }
 
 std::span<const Constraint> Model::constraints() const {
@@ -309,28 +311,28 @@ std::uint64_t Model::vertex_count() const {
     return data_->first_vertex.back();
 }
 
-std::uint64_t Model::first_vertex(std::uint32_t pool) const {
-    return data_->first_vertex[pool];
+std::uint64_t Model::first_vertex(std::uint32_t mesh) const {
+    return data_->first_vertex[mesh];
 }
 
-std::uint32_t Model::target_count() const {
-    return data_->first_target.back();
+std::uint32_t Model::morph_target_count() const {
+    return data_->first_morph_target.back();
 }
 
-std::uint32_t Model::first_target(std::uint32_t pool) const {
-    return data_->first_target[pool];
+std::uint32_t Model::first_morph_target(std::uint32_t mesh) const {
+    return data_->first_morph_target[mesh];
 }
 
 std::uint32_t Model::largest_palette() const {
     return data_->largest_palette;
 }
 
-std::uint32_t Model::rigid_mover(std::uint32_t pool, std::uint32_t vertex) const {
-    return data_->rigid_mover(pool, vertex);
+std::uint32_t Model::rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const {
+    return data_->rigid_mover(mesh, vertex);
 }
 
-bool Model::has_one_mover(std::uint32_t pool) const {
-    return data_->movers[pool].per_vertex.empty();
+bool Model::has_one_mover(std::uint32_t mesh) const {
+    return data_->movers[mesh].per_vertex.empty();
 }
 
 }  // namespace bendy

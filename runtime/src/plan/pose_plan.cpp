@@ -32,12 +32,12 @@ bool is_same(const PaletteView& a, const PaletteView& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end());
 }
 
-/// Parts of a mesh mostly follow one skeleton: each pool is compared with the last one that had another palette.
-void plan_palettes(std::span<const PoolView> pools, PosePlan& plan) {
+/// Parts of a mesh mostly follow one skeleton: each mesh is compared with the last one that had another palette.
+void plan_palettes(std::span<const MeshView> meshes, PosePlan& plan) {
     std::uint32_t first = 0;
-    for (std::uint32_t number = 0; number < pools.size(); ++number) {
-        const PaletteView& palette = pools[number].palette;
-        if (number == 0 || !is_same(palette, pools[first].palette)) first = number;
+    for (std::uint32_t number = 0; number < meshes.size(); ++number) {
+        const PaletteView& palette = meshes[number].palette;
+        if (number == 0 || !is_same(palette, meshes[first].palette)) first = number;
         plan.same_palette.push_back(first);
         std::vector<PaletteMatrix>& rows = plan.inverse_bind.emplace_back();
         if (first != number) continue;
@@ -68,12 +68,12 @@ private:
     glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
 };
 
-/// Of a pool's vertices, by some hundreds of them, in pool space.
-double length_of(const PoolView& pool) {
+/// Of a mesh's vertices, by some hundreds of them, in mesh space.
+double length_of(const MeshView& mesh) {
     constexpr std::uint32_t kLooks = 256;
-    const std::uint32_t step = pool.vertices / kLooks + 1;
+    const std::uint32_t step = mesh.vertices / kLooks + 1;
     Box box;
-    for (std::uint32_t vertex = 0; vertex < pool.vertices; vertex += step) box.add(pool.positions.vec3(vertex));
+    for (std::uint32_t vertex = 0; vertex < mesh.vertices; vertex += step) box.add(mesh.positions.vec3(vertex));
     return box.diagonal();
 }
 
@@ -94,18 +94,18 @@ bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
         largest = std::max(largest, glm::length(glm::dvec3(model[joint][3])));
     }
     double length = -1.0;
-    for (const PoolView& pool : object.pools) {
-        double scale = pool.joint < joints.size() ? longest_axis(model[pool.joint]) : 0.0;
-        const auto inverse_bind = pool.palette.inverse_bind();
+    for (const MeshView& mesh : object.meshes) {
+        double scale = mesh.joint < joints.size() ? longest_axis(model[mesh.joint]) : 0.0;
+        const auto inverse_bind = mesh.palette.inverse_bind();
         for (std::size_t entry = 0; entry < inverse_bind.size(); ++entry) {
-            const glm::dmat4& joint = model[pool.palette.joints[entry]];
+            const glm::dmat4& joint = model[mesh.palette.joints[entry]];
             const glm::dmat4 bind(inverse_bind[entry]);
             largest = std::max(largest, longest_axis(joint) * glm::length(glm::dvec3(bind[3])));
             scale = std::max(scale, longest_axis(joint * bind));
         }
-        length = std::max(length, scale * length_of(pool));
+        length = std::max(length, scale * length_of(mesh));
     }
-    if (object.pools.empty()) length = places.diagonal();
+    if (object.meshes.empty()) length = places.diagonal();
     return largest <= kLargest * length;  // false where it is not a number
 }
 
@@ -134,10 +134,10 @@ SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
     return lines.back();
 }
 
-SamplePlan make_sample_plan(const CycleView& cycle, std::span<const JointTransform> rest) {
+SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
     SamplePlan plan;
-    if (cycle.packed) plan.packed = make_unpack_plan(*cycle.packed, rest);
-    for (const TrackView& track : cycle.tracks) {
+    if (clip.packed) plan.packed = make_unpack_plan(*clip.packed, rest);
+    for (const TrackView& track : clip.tracks) {
         SampleLine& line = line_of(track, plan.lines);
         if (!is_for_kernels(track)) {
             line.others.push_back(&track);
@@ -157,17 +157,17 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     PosePlan plan;
     plan.rest.reserve(joints.size());
     for (const Joint& joint : joints) plan.rest.push_back(joint.rest);
-    for (const PoolView& pool : object.pools) {
-        for (const TargetView& target : pool.targets) plan.rest_weights.push_back(target.rest_weight);
+    for (const MeshView& mesh : object.meshes) {
+        for (const MorphTargetView& target : mesh.targets) plan.rest_weights.push_back(target.rest_weight);
     }
-    plan_palettes(object.pools, plan);
+    plan_palettes(object.meshes, plan);
     plan.order.resize(joints.size());
     std::iota(plan.order.begin(), plan.order.end(), 0u);
     const std::vector<std::uint32_t> depths = depths_of(joints);
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
-    plan.cycles.reserve(object.cycles.size());
-    for (const CycleView& cycle : object.cycles) plan.cycles.push_back(make_sample_plan(cycle, plan.rest));
+    plan.clips.reserve(object.clips.size());
+    for (const ClipView& clip : object.clips) plan.clips.push_back(make_sample_plan(clip, plan.rest));
     plan.fits_floats = fits_floats(object, joints);
     return plan;
 }

@@ -17,7 +17,7 @@ namespace bendy {
 
 struct Joint;
 
-/// The tracks of a cycle that share their times. Linear ones of two keys or more are grouped for the kernels; `others`
+/// The tracks of a clip that share their times. Linear ones of two keys or more are grouped for the kernels; `others`
 /// are sampled one by one.
 struct SampleLine {
     const TrackView* clock = nullptr;  ///< any of the tracks: for its times
@@ -27,7 +27,7 @@ struct SampleLine {
     std::vector<const TrackView*> others;
 };
 
-/// Of a cycle. About 12 bytes for each rotation track, 16 for each translation or scale.
+/// Of a clip. About 12 bytes for each rotation track, 16 for each translation or scale.
 struct SamplePlan {
     std::vector<SampleLine> lines;
     UnpackPlan packed;  ///< if it is packed
@@ -35,11 +35,11 @@ struct SamplePlan {
 
 struct PosePlan {
     std::vector<JointTransform> rest;
-    std::vector<float> rest_weights;   ///< of the inbetweening targets
+    std::vector<float> rest_weights;   ///< of the morph targets
     std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent is far before it, and so already there
-    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< of each pool; empty where same_palette is another one
-    std::vector<std::uint32_t> same_palette;  ///< of each pool: the first of its neighbours with its palette
-    std::vector<SamplePlan> cycles;
+    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< of each mesh; empty where same_palette is another one
+    std::vector<std::uint32_t> same_palette;  ///< of each mesh: the first of its neighbours with its palette
+    std::vector<SamplePlan> clips;
     /// Floats are exact enough for joint matrices: no long chains, and nothing far away that cancels.
     bool fits_floats = false;
 };

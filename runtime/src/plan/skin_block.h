@@ -15,7 +15,7 @@ struct SkinOutput {
     std::size_t stride;  ///< floats, at least the attribute's own
 };
 
-/// Some vertices of a pool. All pointers are aligned to their numbers only, and nothing behind the last vertex is read
+/// Some vertices of a mesh. All pointers are aligned to their numbers only, and nothing behind the last vertex is read
 /// or written.
 struct SkinBlock {
     std::size_t vertices;

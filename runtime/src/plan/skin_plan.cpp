@@ -63,16 +63,16 @@ private:
 };
 
 template <class Bone, class WeightAt>
-void list(const PoolView& pool, SkinPlan& plan, const WeightAt& weight_at) {
+void list(const MeshView& mesh, SkinPlan& plan, const WeightAt& weight_at) {
     constexpr std::size_t kProbe = 64;
-    const std::size_t groups = (std::size_t{pool.vertices} + SkinPlan::kGroup - 1) / SkinPlan::kGroup;
+    const std::size_t groups = (std::size_t{mesh.vertices} + SkinPlan::kGroup - 1) / SkinPlan::kGroup;
     plan.first.reserve(groups + 1);
     plan.first.push_back(0);
     plan.is_complete = true;
-    Lists<Bone> lists(pool.bones->as<Bone>(), pool.bones->components, plan);
+    Lists<Bone> lists(mesh.bones->as<Bone>(), mesh.bones->components, plan);
     for (std::size_t group = 0; group < groups; ++group) {
         const std::size_t first = group * SkinPlan::kGroup;
-        lists.append(first, std::min(SkinPlan::kGroup, pool.vertices - first), weight_at);
+        lists.append(first, std::min(SkinPlan::kGroup, mesh.vertices - first), weight_at);
         plan.first.push_back(static_cast<std::uint32_t>(plan.bones.size()));
         if (group + 1 == kProbe) {  // the others are much like these
             plan.bones.reserve(plan.bones.size() * (groups / kProbe + 1));
@@ -82,28 +82,28 @@ void list(const PoolView& pool, SkinPlan& plan, const WeightAt& weight_at) {
 }
 
 template <class Bone, class Integer>
-void list_normalised(const PoolView& pool, SkinPlan& plan) {
-    const auto numbers = pool.weights->as<Integer>();
-    list<Bone>(pool, plan, [=](std::size_t at) {
+void list_normalised(const MeshView& mesh, SkinPlan& plan) {
+    const auto numbers = mesh.weights->as<Integer>();
+    list<Bone>(mesh, plan, [=](std::size_t at) {
         constexpr auto kOne = static_cast<float>(std::numeric_limits<Integer>::max());
         return static_cast<float>(numbers[at]) / kOne;
     });
 }
 
 template <class Bone>
-void list(const PoolView& pool, SkinPlan& plan) {
-    const StreamView& weights = *pool.weights;
+void list(const MeshView& mesh, SkinPlan& plan) {
+    const StreamView& weights = *mesh.weights;
     const bool is_boxed = !weights.boxes.empty();
     if (weights.type == ComponentType::f32) {
         const auto numbers = weights.as<float>();
-        list<Bone>(pool, plan, [=](std::size_t at) { return numbers[at]; });
+        list<Bone>(mesh, plan, [=](std::size_t at) { return numbers[at]; });
     } else if (weights.type == ComponentType::u8 && !is_boxed) {
-        list_normalised<Bone, std::uint8_t>(pool, plan);
+        list_normalised<Bone, std::uint8_t>(mesh, plan);
     } else if (weights.type == ComponentType::u16 && !is_boxed) {
-        list_normalised<Bone, std::uint16_t>(pool, plan);
+        list_normalised<Bone, std::uint16_t>(mesh, plan);
     } else {
         const std::uint32_t influences = weights.components;
-        list<Bone>(pool, plan, [&](std::size_t at) {
+        list<Bone>(mesh, plan, [&](std::size_t at) {
             return weights.number(static_cast<std::uint32_t>(at / influences),
                                   static_cast<std::uint32_t>(at % influences));
         });
@@ -112,13 +112,13 @@ void list(const PoolView& pool, SkinPlan& plan) {
 
 }  // namespace
 
-SkinPlan make_skin_plan(const PoolView& pool) {
+SkinPlan make_skin_plan(const MeshView& mesh) {
     SkinPlan plan;
-    if (pool.is_rigid() || pool.bones->components == 0) return plan;
-    if (pool.bones->type == ComponentType::u8) {
-        list<std::uint8_t>(pool, plan);
+    if (mesh.is_rigid() || mesh.bones->components == 0) return plan;
+    if (mesh.bones->type == ComponentType::u8) {
+        list<std::uint8_t>(mesh, plan);
     } else {
-        list<std::uint16_t>(pool, plan);
+        list<std::uint16_t>(mesh, plan);
     }
     return plan;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/pool.h>
+#include <bendy/format/mesh.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bendy {
 
-/// A pool's influences as kernels want them. Vertices that lie near each other follow much the same bones, so for each
+/// A mesh's influences as kernels want them. Vertices that lie near each other follow much the same bones, so for each
 /// group of eight there is a list of the bones that any of them follows, each with eight weights: a matrix then is read
 /// once for eight vertices. Groups of too many bones have no list.
 struct SkinPlan {
@@ -25,7 +25,7 @@ struct SkinPlan {
     bool is_complete = false;          ///< every group has a list
 };
 
-/// Nothing for a rigid pool. Linear in the pool's influences; at most 35 bytes a vertex.
-SkinPlan make_skin_plan(const PoolView& pool);
+/// Nothing for a rigid mesh. Linear in the mesh's influences; at most 35 bytes a vertex.
+SkinPlan make_skin_plan(const MeshView& mesh);
 
 }  // namespace bendy

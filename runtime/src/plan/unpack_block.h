@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// What the kernels for packed cycles work on: plain numbers only, as in skin_block.h.
+// What the kernels for packed clips work on: plain numbers only, as in skin_block.h.
 namespace bendy {
 
 /// Up to eight animated tracks that stand together in each frame, one in a lane. Lanes past `count` stand for the last
@@ -31,7 +31,7 @@ struct UnpackWindows {
     std::uint8_t right[UnpackGroup::kLanes]{};  ///< 32: the number has no bits
 };
 
-/// A packed cycle at one moment.
+/// A packed clip at one moment.
 struct UnpackBlock {
     const UnpackGroup* groups;
     std::size_t group_count;

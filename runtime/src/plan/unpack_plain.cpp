@@ -35,8 +35,8 @@ void unpack_plain(const UnpackPlan& plan, float seconds, std::span<JointTransfor
     const PackedView& packed = *plan.packed;
     if (packed.record.joints > local.size()) return;
     const PackedMoment moment = packed_moment(packed, seconds);
-    PackedWalk walk(packed, moment.frame);
-    for (PackedGroup group; walk.next(group);) {
+    PackedGroupReader reader(packed, moment.frame);
+    for (PackedGroup group; reader.next(group);) {
         for (std::uint32_t track = 0; track < group.count; ++track)
             set_unpacked(group, track, moment.fraction, local[group.joints[track]]);
     }

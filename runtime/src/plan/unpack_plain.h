@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 #include <bendy/runtime/transform.h>
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct UnpackPlan;
 /// \param local  at rest where a track animates
 using Unpack = void(const UnpackPlan& plan, float seconds, std::span<JointTransform> local);
 
-/// In double precision, on any machine: what a packed cycle means, which kernels are tested against. Looks at nothing
+/// In double precision, on any machine: what a packed clip means, which kernels are tested against. Looks at nothing
 /// of the plan but `packed`.
 Unpack unpack_plain;
 

@@ -111,13 +111,13 @@ void add_windows(const PackedView& packed, const PackedSegment& segment, std::ve
 UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTransform> rest) {
     UnpackPlan plan;
     plan.packed = &packed;
-    PackedWalk walk(packed, 0);
+    PackedGroupReader reader(packed, 0);
     std::uint32_t tables = 0;
     PackedGroup group;
     for (std::size_t k = 0; k < kPackedLists; ++k) {
         const PackedList& list = packed.lists[k];
         for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
-            walk.next(group);
+            reader.next(group);
             if (!group.kind.animated) {
                 for (std::uint32_t track = 0; track < group.count; ++track)
                     plan.constants.push_back(constant_of(group, track, rest[group.joints[track]]));

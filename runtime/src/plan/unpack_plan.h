@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/packed_cycle.h>
+#include <bendy/format/packed_clip.h>
 #include <bendy/runtime/transform.h>
 
 #include "unpack_block.h"
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-// What playing a packed cycle on a model takes that no frame changes: made once, when the model is opened.
+// What playing a packed clip on a model takes that no frame changes: made once, when the model is opened.
 namespace bendy {
 
 inline constexpr std::uint32_t kJointFloats = sizeof(JointTransform) / sizeof(float);

@@ -31,11 +31,11 @@ float Fade::weight() const {
     return from_ + (to_ - from_) * ease(easing_, static_cast<float>(passed_ / seconds_));
 }
 
-void Crossfade::play(const Cycle& cycle, const Playback& playback, float fade_seconds, Easing easing) {
+void Crossfade::play(const Clip& clip, const Playback& playback, float fade_seconds, Easing easing) {
     if (count_ == kMost) drop_oldest(1);
     Playing& added = playing_[count_];
     added = {};
-    added.cycle = &cycle;
+    added.clip = &clip;
     added.playback = playback;
     added.fade = Fade(count_ == 0 ? 1.0f : 0.0f);
     added.fade.to(1.0f, fade_seconds, easing);
@@ -47,7 +47,7 @@ void Crossfade::advance(double seconds) {
     std::size_t covered = 0;
     for (std::size_t k = 0; k < count_; ++k) {
         Playing& playing = playing_[k];
-        playing.walk = playing.playback.advance(seconds);
+        playing.played = playing.playback.advance(seconds);
         playing.fade.advance(seconds);
         if (playing.fade.is_done()) covered = k;
     }
@@ -78,12 +78,12 @@ Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scr
         pose.set_rest();
         return CallError::missing;
     }
-    Result<void, CallError> result = sample(pose, playing[0].cycle, playing[0].playback.seconds());
+    Result<void, CallError> result = sample(pose, playing[0].clip, playing[0].playback.seconds());
     const auto note = [&](const Result<void, CallError>& next) {
         if (result && !next) result = next;
     };
     for (const Playing& next : playing.subspan(1)) {
-        note(sample(scratch, next.cycle, next.playback.seconds()));
+        note(sample(scratch, next.clip, next.playback.seconds()));
         note(blend(pose, scratch, next.fade.weight()));
     }
     return result;

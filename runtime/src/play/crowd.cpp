@@ -21,13 +21,13 @@ Crowd::Crowd(const Model& model, std::size_t workers) : model_(model) {
     poses_.reserve(workers);
     for (std::size_t worker = 0; worker < workers; ++worker) poses_.emplace_back(model);
     first_entry_.push_back(0);
-    for (const Pool& pool : model.pools())
-        first_entry_.push_back(first_entry_.back() + (pool.is_rigid() ? 1 : pool.palette.joints.size()));
+    for (const Mesh& mesh : model.meshes())
+        first_entry_.push_back(first_entry_.back() + (mesh.is_rigid() ? 1 : mesh.palette.joints.size()));
 }
 
 Result<void, CallError> Crowd::play(std::span<const CrowdMember> members, std::size_t worker) {
     return play(members, worker, [](const CrowdMember& member, Pose& pose) {
-        (void)sample(pose, member.cycle, member.seconds);  // without a cycle: the rest pose
+        (void)sample(pose, member.clip, member.seconds);  // without a clip: the rest pose
     });
 }
 
@@ -41,12 +41,12 @@ Result<void, CallError> Crowd::write(const CrowdMember& member, Pose& pose) cons
 }
 
 void Crowd::write_palette(Pose& pose, std::span<PaletteMatrix> palette) const {
-    const std::span<const Pool> pools = model_.pools();
-    for (std::uint32_t number = 0; number < pools.size(); ++number) {
-        const Pool& pool = pools[number];
+    const std::span<const Mesh> meshes = model_.meshes();
+    for (std::uint32_t number = 0; number < meshes.size(); ++number) {
+        const Mesh& mesh = meshes[number];
         const auto entries = palette.subspan(first_entry_[number], first_entry_[number + 1] - first_entry_[number]);
-        if (pool.is_rigid()) {
-            const std::uint32_t joint = pool.vertices == 0 ? kNone : model_.rigid_mover(number, 0);
+        if (mesh.is_rigid()) {
+            const std::uint32_t joint = mesh.vertices == 0 ? kNone : model_.rigid_mover(number, 0);
             entries.front() = to_rows(joint == kNone ? glm::mat4(1.0f) : pose.model_space()[joint]);
         } else {
             const auto bones = pose.palette(number);

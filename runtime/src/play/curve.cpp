@@ -65,7 +65,7 @@ bool sample_curve(const Curve& curve, double seconds, std::span<float> value) {
     return true;
 }
 
-const Curve* find_curve(const CycleView& clip, std::string_view name_or_path) {
+const Curve* find_curve(const ClipView& clip, std::string_view name_or_path) {
     const auto first = [&](std::string_view Curve::*text) {
         const auto found = std::find_if(clip.curves.begin(), clip.curves.end(),
                                         [&](const Curve& curve) { return curve.*text == name_or_path; });
@@ -75,7 +75,7 @@ const Curve* find_curve(const CycleView& clip, std::string_view name_or_path) {
     return named != nullptr ? named : first(&Curve::path);
 }
 
-const Curve* find_curve(const CycleView& clip, CurveTarget kind, std::uint32_t target, std::string_view path) {
+const Curve* find_curve(const ClipView& clip, CurveTarget kind, std::uint32_t target, std::string_view path) {
     const auto found = std::find_if(clip.curves.begin(), clip.curves.end(), [&](const Curve& curve) {
         return curve.kind == kind && curve.target == target && curve.path == path;
     });

@@ -4,13 +4,13 @@
 
 namespace bendy {
 
-std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretch& stretch) {
-    if (stretch.is_empty()) return {};
-    const bool is_back = stretch.to < stretch.from;
-    const double low = is_back ? stretch.to : stretch.from;
-    const double high = is_back ? stretch.from : stretch.to;
-    const bool has_low = !is_back || stretch.has_end;
-    const bool has_high = is_back || stretch.has_end;
+std::span<const Marker> markers_in(std::span<const Marker> markers, const TimeSpan& span) {
+    if (span.is_empty()) return {};
+    const bool is_back = span.to < span.from;
+    const double low = is_back ? span.to : span.from;
+    const double high = is_back ? span.from : span.to;
+    const bool has_low = !is_back || span.has_end;
+    const bool has_high = is_back || span.has_end;
     const auto before = [](const Marker& marker, double seconds) { return double{marker.seconds} < seconds; };
     const auto after = [](double seconds, const Marker& marker) { return seconds < double{marker.seconds}; };
     const auto begin = has_low ? std::lower_bound(markers.begin(), markers.end(), low, before)
@@ -20,16 +20,18 @@ std::span<const Marker> markers_in(std::span<const Marker> markers, const Stretc
     return {begin, end};
 }
 
-std::uint64_t count_markers(std::span<const Marker> markers, const Walk& walk) {
-    const std::uint64_t back = walk.turns ? walk.passes / 2 : 0;
-    return markers_in(markers, walk.first).size() + (walk.passes - back) * markers_in(markers, walk.whole(0)).size() +
-           back * markers_in(markers, walk.whole(1)).size() + markers_in(markers, walk.last).size();
+std::uint64_t count_markers(std::span<const Marker> markers, const PlayedInterval& played) {
+    const std::uint64_t back = played.turns ? played.passes / 2 : 0;
+    return markers_in(markers, played.first).size() +
+           (played.passes - back) * markers_in(markers, played.whole(0)).size() +
+           back * markers_in(markers, played.whole(1)).size() + markers_in(markers, played.last).size();
 }
 
-std::size_t collect_markers(std::span<const Marker> markers, const Walk& walk, std::span<const Marker*> met) {
+std::size_t collect_markers(std::span<const Marker> markers, const PlayedInterval& played,
+                            std::span<const Marker*> met) {
     std::size_t count = 0;
     if (met.empty()) return count;
-    visit_markers(markers, walk, [&](const Marker& marker) {
+    visit_markers(markers, played, [&](const Marker& marker) {
         met[count++] = &marker;
         return count < met.size();
     });

@@ -25,8 +25,7 @@ std::int64_t moved(std::int64_t pass, std::uint64_t by) {
 
 }  // namespace
 
-Playback::Playback(const Cycle& cycle)
-    : Playback(cycle.start, cycle.end, cycle.loop ? LoopMode::repeat : LoopMode::once) {}
+Playback::Playback(const Clip& clip) : Playback(clip.start, clip.end, clip.loop ? LoopMode::repeat : LoopMode::once) {}
 
 Playback::Playback(float start, float end, LoopMode mode) : mode_(mode) {
     start_ = std::isfinite(start) ? double{start} : 0.0;
@@ -40,13 +39,13 @@ double Playback::time_at(double inside, bool is_back) const {
     return std::clamp(is_back ? end_ - inside : start_ + inside, start_, end_);
 }
 
-Stretch Playback::stretch(double from, double to, bool has_end) const {
+TimeSpan Playback::span_between(double from, double to, bool has_end) const {
     // Where it turns, the way back begins with what stands there.
     return {time_at(from, is_back()), time_at(to, is_back()), has_end && mode_ != LoopMode::ping_pong};
 }
 
-Stretch Playback::whole_pass(bool forth) const {
-    return forth ? stretch(0.0, length_, true) : stretch(length_, 0.0, true);
+TimeSpan Playback::whole_pass(bool forth) const {
+    return forth ? span_between(0.0, length_, true) : span_between(length_, 0.0, true);
 }
 
 double Playback::share() const {
@@ -73,71 +72,71 @@ void Playback::seek(double seconds) {
     pass_ = 1;
 }
 
-Walk Playback::advance(double seconds) {
+PlayedInterval Playback::advance(double seconds) {
     const double step = seconds * speed_;
-    Walk walk;
-    walk.turns = mode_ == LoopMode::ping_pong;
+    PlayedInterval played;
+    played.turns = mode_ == LoopMode::ping_pong;
     const double here = time_at(inside_, is_back());
-    walk.first = walk.pass = walk.last = {here, here, false};
-    if (!std::isfinite(step) || step == 0.0 || length_ == 0.0) return walk;
-    if (mode_ == LoopMode::once) return walk_once(step);
-    return step > 0.0 ? walk_forth(step) : walk_back(-step);
+    played.first = played.pass = played.last = {here, here, false};
+    if (!std::isfinite(step) || step == 0.0 || length_ == 0.0) return played;
+    if (mode_ == LoopMode::once) return advance_once(step);
+    return step > 0.0 ? advance_forward(step) : advance_backward(-step);
 }
 
-Walk Playback::walk_once(double step) {
+PlayedInterval Playback::advance_once(double step) {
     const double to = std::clamp(inside_ + step, 0.0, length_);
     const bool is_stopped = step > 0.0 ? to >= length_ : to <= 0.0;
-    Walk walk;
-    walk.first = stretch(inside_, to, is_stopped && to != inside_);
+    PlayedInterval played;
+    played.first = span_between(inside_, to, is_stopped && to != inside_);
     inside_ = to;
     const double here = time_at(to, false);
-    walk.pass = walk.last = {here, here, false};
-    return walk;
+    played.pass = played.last = {here, here, false};
+    return played;
 }
 
-Walk Playback::walk_forth(double step) {
-    Walk walk;
-    walk.turns = mode_ == LoopMode::ping_pong;
+PlayedInterval Playback::advance_forward(double step) {
+    PlayedInterval played;
+    played.turns = mode_ == LoopMode::ping_pong;
     const double beyond = (inside_ - length_) + step;
     if (beyond < 0.0 && inside_ + step < length_) {
-        walk.first = stretch(inside_, inside_ + step, false);
+        played.first = span_between(inside_, inside_ + step, false);
         inside_ += step;
-        walk.pass = walk.last = {walk.first.to, walk.first.to, false};
-        return walk;
+        played.pass = played.last = {played.first.to, played.first.to, false};
+        return played;
     }
     const Passes passes = split(std::max(beyond, 0.0), length_);
-    walk.first = stretch(inside_, length_, true);
+    played.first = span_between(inside_, length_, true);
     pass_ = moved(pass_, 1);
-    walk.pass = whole_pass(true);
-    walk.passes = passes.whole;
+    played.pass = whole_pass(true);
+    played.passes = passes.whole;
     pass_ = moved(pass_, passes.whole);
-    walk.last = stretch(0.0, passes.rest, false);
+    played.last = span_between(0.0, passes.rest, false);
     inside_ = passes.rest;
-    return walk;
+    return played;
 }
 
-Walk Playback::walk_back(double step) {
-    Walk walk;
-    walk.turns = mode_ == LoopMode::ping_pong;
+PlayedInterval Playback::advance_backward(double step) {
+    PlayedInterval played;
+    played.turns = mode_ == LoopMode::ping_pong;
     if (step < inside_) {
-        walk.first = stretch(inside_, inside_ - step, false);
+        played.first = span_between(inside_, inside_ - step, false);
         inside_ -= step;
-        walk.pass = walk.last = {walk.first.to, walk.first.to, false};
-        return walk;
+        played.pass = played.last = {played.first.to, played.first.to, false};
+        return played;
     }
     const Passes passes = split(step - inside_, length_);
-    walk.first = stretch(inside_, 0.0, inside_ > 0.0);
+    played.first = span_between(inside_, 0.0, inside_ > 0.0);
     pass_ = moved(pass_, ~std::uint64_t{0});
-    walk.pass = whole_pass(false);
-    walk.passes = passes.whole;
+    played.pass = whole_pass(false);
+    played.passes = passes.whole;
     pass_ = moved(pass_, 0 - passes.whole);
     inside_ = length_ - passes.rest;
     const bool has_moved = inside_ < length_;  // else it stands where the pass after this one begins
-    walk.last = stretch(length_, inside_, false);
-    if (has_moved) return walk;
+    played.last = span_between(length_, inside_, false);
+    if (has_moved) return played;
     inside_ = 0.0;
     pass_ = moved(pass_, 1);
-    return walk;
+    return played;
 }
 
 }  // namespace bendy

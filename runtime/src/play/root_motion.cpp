@@ -32,23 +32,23 @@ void set(const TrackView& track, std::span<const float> value, JointTransform& j
 }
 
 /// One joint of `sample`, without the others.
-JointTransform sample_joint(const Model& model, const Cycle& cycle, std::uint32_t joint, float seconds) {
+JointTransform sample_joint(const Model& model, const Clip& clip, std::uint32_t joint, float seconds) {
     JointTransform local = model.joints()[joint].rest;
-    for (const TrackView& track : cycle.tracks) {
+    for (const TrackView& track : clip.tracks) {
         if (track.path == TrackPath::weights || track.target != joint) continue;
         std::array<float, 4> value{};
         const auto used = std::span(value).first(track.components);
-        sample_track(track, cycle, seconds, used);
+        sample_track(track, clip, seconds, used);
         set(track, used, local);
     }
-    if (!cycle.packed || cycle.packed->record.joints > model.joints().size()) return local;
-    const PackedView& packed = *cycle.packed;
+    if (!clip.packed || clip.packed->record.joints > model.joints().size()) return local;
+    const PackedView& packed = *clip.packed;
     const bool is_animated = packed.animates(joint, TrackPath::rotation) ||
                              packed.animates(joint, TrackPath::translation) || packed.animates(joint, TrackPath::scale);
     if (!is_animated) return local;
     const PackedMoment moment = packed_moment(packed, seconds);
-    PackedWalk walk(packed, moment.frame);
-    for (PackedGroup group; walk.next(group);) {
+    PackedGroupReader reader(packed, moment.frame);
+    for (PackedGroup group; reader.next(group);) {
         for (std::uint32_t track = 0; track < group.count; ++track) {
             if (group.joints.at(track) == joint) set_unpacked(group, track, moment.fraction, local);
         }
@@ -64,7 +64,7 @@ glm::dmat4 RootMotion::matrix() const {
     return matrix;
 }
 
-RootMotion then(const RootMotion& before, const RootMotion& motion) {
+RootMotion compose(const RootMotion& before, const RootMotion& motion) {
     return {before.translation + before.rotation * motion.translation,
             glm::normalize(before.rotation * motion.rotation)};
 }
@@ -83,8 +83,8 @@ RootMotion repeat(const RootMotion& motion, std::uint64_t times) {
     RootMotion all;
     RootMotion power = motion;  // 1, 2, 4, ... of it
     for (; times != 0; times >>= 1u) {
-        if (times % 2 == 1) all = then(all, power);
-        power = then(power, power);
+        if (times % 2 == 1) all = compose(all, power);
+        power = compose(power, power);
     }
     return all;
 }
@@ -111,35 +111,35 @@ RootMotion RootPath::motion_of(const glm::dmat4& root) const {
     return motion;
 }
 
-RootMotion RootPath::at(const Cycle& cycle, double seconds) const {
+RootMotion RootPath::at(const Clip& clip, double seconds) const {
     if (path_.empty() || std::isnan(seconds)) return {};
     glm::dmat4 root(1.0);
     for (const std::uint32_t joint : path_) {
-        const JointTransform local = sample_joint(model_, cycle, joint, static_cast<float>(seconds));
+        const JointTransform local = sample_joint(model_, clip, joint, static_cast<float>(seconds));
         root *= to_matrix(local, model_.joints()[joint].shear);
     }
     return motion_of(root);
 }
 
-RootMotion RootPath::between(const Cycle& cycle, double from, double to) const {
-    return then(inverse(at(cycle, from)), at(cycle, to));
+RootMotion RootPath::between(const Clip& clip, double from, double to) const {
+    return compose(inverse(at(clip, from)), at(clip, to));
 }
 
-RootMotion RootPath::along(const Cycle& cycle, const Stretch& stretch) const {
-    return stretch.from == stretch.to ? RootMotion{} : between(cycle, stretch.from, stretch.to);
+RootMotion RootPath::along(const Clip& clip, const TimeSpan& span) const {
+    return span.from == span.to ? RootMotion{} : between(clip, span.from, span.to);
 }
 
-RootMotion RootPath::over(const Cycle& cycle, const Walk& walk) const {
-    RootMotion all = along(cycle, walk.first);
-    if (walk.turns) {  // there and back is nowhere
-        if (walk.passes % 2 == 1) all = then(all, along(cycle, walk.pass));
-    } else if (walk.passes != 0) {
-        all = then(all, repeat(along(cycle, walk.pass), walk.passes));
+RootMotion RootPath::over(const Clip& clip, const PlayedInterval& played) const {
+    RootMotion all = along(clip, played.first);
+    if (played.turns) {  // there and back is nowhere
+        if (played.passes % 2 == 1) all = compose(all, along(clip, played.pass));
+    } else if (played.passes != 0) {
+        all = compose(all, repeat(along(clip, played.pass), played.passes));
     }
-    return then(all, along(cycle, walk.last));
+    return compose(all, along(clip, played.last));
 }
 
-RootMotion RootPath::take_out(Pose& pose) const {
+RootMotion RootPath::extract(Pose& pose) const {
     if (path_.empty()) return {};
     const auto joints = model_.joints();
     glm::dmat4 above(1.0);

@@ -45,15 +45,15 @@ Interval timed_interval(std::span<const float> times, float seconds) {
     return {left, left + 1, (double{seconds} - times[left]) / length, length};
 }
 
-Interval frame_interval(const TrackView& track, const Cycle& cycle, float seconds) {
-    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+Interval frame_interval(const TrackView& track, const Clip& clip, float seconds) {
+    const double frame = (double{seconds} - clip.start) * clip.frame_rate;
     const double last = track.keys - 1.0;
     if (!(frame > 0.0)) return {};
     if (frame >= last) return {track.keys - std::size_t{1}, track.keys - std::size_t{1}};
     const double whole = std::floor(frame);
     const auto left = static_cast<std::size_t>(whole);
     if (frame == whole) return {left, left};
-    return {left, left + 1, frame - whole, 1.0 / cycle.frame_rate};
+    return {left, left + 1, frame - whole, 1.0 / clip.frame_rate};
 }
 
 // sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
@@ -140,8 +140,8 @@ void set_joint(const TrackView& track, std::span<const float> value, JointTransf
     }
 }
 
-Interval find_interval(const TrackView& track, const Cycle& cycle, float seconds) {
-    return track.times.empty() ? frame_interval(track, cycle, seconds) : timed_interval(track.times, seconds);
+Interval find_interval(const TrackView& track, const Clip& clip, float seconds) {
+    return track.times.empty() ? frame_interval(track, clip, seconds) : timed_interval(track.times, seconds);
 }
 
 void sample_between(const TrackView& track, const Interval& at, std::span<float> value) {
@@ -175,12 +175,12 @@ void sample_between(const TrackView& track, const Interval& at, std::span<float>
 
 }  // namespace
 
-void sample_track(const TrackView& track, const Cycle& cycle, float seconds, std::span<float> value) {
-    sample_between(track, find_interval(track, cycle, seconds), value);
+void sample_track(const TrackView& track, const Clip& clip, float seconds, std::span<float> value) {
+    sample_between(track, find_interval(track, clip, seconds), value);
 }
 
-FrameMix mix_frames(const PlayView& play, const Cycle& cycle, float seconds) {
-    const double frame = (double{seconds} - cycle.start) * cycle.frame_rate;
+FrameMix mix_frames(const PlayView& play, const Clip& clip, float seconds) {
+    const double frame = (double{seconds} - clip.start) * clip.frame_rate;
     const std::uint32_t intervals = play.closed ? play.frames : play.frames - 1;
     const std::uint32_t end = play.closed ? play.first : play.first + intervals;
     if (!(frame > 0.0)) return {play.first, play.first};
@@ -196,40 +196,40 @@ namespace {
 /// The work on a pose.
 class Sampling {
 public:
-    Sampling(const Cycle& cycle, float seconds, Pose& pose)
-        : cycle_(cycle),
+    Sampling(const Clip& clip, float seconds, Pose& pose)
+        : clip_(clip),
           seconds_(seconds),
           model_(*PoseState::of(pose).data),
           local_(pose.change_local()),
-          weights_(pose.change_target_weights()) {}
+          weights_(pose.change_morph_weights()) {}
 
     void run() const {
-        for (const PlayView& play : cycle_.plays) sample_frames(play);
+        for (const PlayView& play : clip_.plays) sample_frames(play);
         const PoseKernels* const kernels = pose_kernels();
-        const std::size_t number = model_.number_of(cycle_);
-        if (number >= model_.object.cycles.size()) {  // of another model
+        const std::size_t number = model_.number_of(clip_);
+        if (number >= model_.object.clips.size()) {  // of another model
             sample_tracks();
-            if (cycle_.packed) unpack_plain({&*cycle_.packed, {}, {}, {}, {}}, seconds_, local_);
+            if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}}, seconds_, local_);
             return;
         }
-        const SamplePlan& plan = model_.pose_plan->cycles[number];
+        const SamplePlan& plan = model_.pose_plan->clips[number];
         if (kernels == nullptr) {
             sample_tracks();
         } else {
             for (const SampleLine& line : plan.lines) sample_line(line, kernels->sample);
         }
-        if (cycle_.packed) unpack(plan.packed, seconds_, local_);
+        if (clip_.packed) unpack(plan.packed, seconds_, local_);
     }
 
 private:
     void sample_frames(const PlayView& play) const {
-        if (play.pool >= model_.object.pools.size()) return;  // a cycle of another model
-        const Pool& pool = model_.object.pools[play.pool];
-        if (play.first + play.frames > pool.frames()) return;
-        const FrameMix mix = mix_frames(play, cycle_, seconds_);
+        if (play.mesh >= model_.object.meshes.size()) return;  // a clip of another model
+        const Mesh& mesh = model_.object.meshes[play.mesh];
+        if (play.first + play.frames > mesh.frames()) return;
+        const FrameMix mix = mix_frames(play, clip_, seconds_);
         const auto add = [&](std::uint32_t frame, float weight) {
-            if (frame == 0) return;  // the pool's own streams have what the others leave
-            weights_[model_.first_target[play.pool] + pool.first_frame + frame - 1] += weight;
+            if (frame == 0) return;  // the mesh's own streams have what the others leave
+            weights_[model_.first_morph_target[play.mesh] + mesh.first_frame + frame - 1] += weight;
         };
         add(mix.left, 1.0f - mix.fraction);
         add(mix.right, mix.fraction);
@@ -239,16 +239,16 @@ private:
         // Neighbouring tracks mostly share their times.
         const TrackView* same = nullptr;
         Interval at;
-        for (const TrackView& track : cycle_.tracks) {
+        for (const TrackView& track : clip_.tracks) {
             if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
-                at = find_interval(track, cycle_, seconds_);
+                at = find_interval(track, clip_, seconds_);
             same = &track;
             sample_one(track, at);
         }
     }
 
     void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
-        const Interval at = find_interval(*line.clock, cycle_, seconds_);
+        const Interval at = find_interval(*line.clock, clip_, seconds_);
         for (const TrackView* track : line.others) sample_one(*track, at);
         if (line.rotations.empty() && line.vectors.empty()) return;
         SampleBlock block{line.rotations.data(),
@@ -267,9 +267,9 @@ private:
 
     void sample_one(const TrackView& track, const Interval& at) const {
         if (track.path == TrackPath::weights) {
-            if (track.target >= model_.object.pools.size()) return;  // a cycle of another model
-            if (track.components != model_.object.pools[track.target].targets.size()) return;
-            const std::size_t first = model_.first_target[track.target];
+            if (track.target >= model_.object.meshes.size()) return;  // a clip of another model
+            if (track.components != model_.object.meshes[track.target].targets.size()) return;
+            const std::size_t first = model_.first_morph_target[track.target];
             sample_between(track, at, weights_.subspan(first, track.components));
             return;
         }
@@ -279,7 +279,7 @@ private:
         set_joint(track, value, local_[track.target]);
     }
 
-    const Cycle& cycle_;
+    const Clip& clip_;
     float seconds_;
     const ModelData& model_;
     std::span<JointTransform> local_;
@@ -288,11 +288,11 @@ private:
 
 }  // namespace
 
-Result<void, CallError> sample(Pose& pose, const Cycle* cycle, float seconds) {
+Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
     pose.set_rest();
-    if (cycle == nullptr) return CallError::missing;
+    if (clip == nullptr) return CallError::missing;
     if (std::isnan(seconds)) return CallError::not_finite;
-    Sampling(*cycle, seconds, pose).run();
+    Sampling(*clip, seconds, pose).run();
     return {};
 }
 

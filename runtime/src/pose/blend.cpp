@@ -52,8 +52,8 @@ void add_plain(const BlendBlock& block, std::span<JointTransform> local, std::sp
 
 Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
     if (const auto checked = check_blend(pose, other, weight, mask); !checked) return checked;
-    const std::span<float> targets = pose.change_target_weights();
-    const std::span<const float> others = other.target_weights();
+    const std::span<float> targets = pose.change_morph_weights();
+    const std::span<const float> others = other.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] = (1.0f - weight) * targets[k] + weight * others[k];
     const std::span<JointTransform> local = pose.change_local();
     if (local.empty()) return {};
@@ -68,8 +68,8 @@ Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::
 
 Result<void, CallError> make_additive(Pose& pose, const Pose& reference) {
     if (const auto checked = check_blend(pose, reference, 1.0f, {}); !checked) return checked;
-    const std::span<float> targets = pose.change_target_weights();
-    const std::span<const float> others = reference.target_weights();
+    const std::span<float> targets = pose.change_morph_weights();
+    const std::span<const float> others = reference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] -= others[k];
     const std::span<JointTransform> local = pose.change_local();
     const std::span<const JointTransform> reference_local = reference.local();
@@ -85,8 +85,8 @@ Result<void, CallError> make_additive(Pose& pose, const Pose& reference) {
 
 Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, std::span<const float> mask) {
     if (const auto checked = check_blend(pose, difference, weight, mask); !checked) return checked;
-    const std::span<float> targets = pose.change_target_weights();
-    const std::span<const float> others = difference.target_weights();
+    const std::span<float> targets = pose.change_morph_weights();
+    const std::span<const float> others = difference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * others[k];
     const std::span<JointTransform> local = pose.change_local();
     if (local.empty()) return {};

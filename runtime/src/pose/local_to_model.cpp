@@ -13,7 +13,7 @@ static_assert(sizeof(JointTransform) == 10 * sizeof(float) && offsetof(JointTran
 
 void PoseState::find_model_space() {
     is_stale = false;
-    palette_pool = kNone;
+    palette_mesh = kNone;
     const std::vector<Joint>& joints = data->joints;
     if (joints.empty()) return;
     const PoseKernels* const kernels = pose_kernels();

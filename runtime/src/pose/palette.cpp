@@ -15,16 +15,16 @@ bool is_finite(const PaletteMatrix& entry) {
 
 }  // namespace
 
-bool PoseState::make_palette(std::uint32_t pool) {
-    pool = data->pose_plan->same_palette[pool];
-    if (palette_pool == pool) return is_palette_finite;
-    palette_pool = pool;
+bool PoseState::make_palette(std::uint32_t mesh) {
+    mesh = data->pose_plan->same_palette[mesh];
+    if (palette_mesh == mesh) return is_palette_finite;
+    palette_mesh = mesh;
     is_palette_finite = true;
-    const PaletteView& bind = data->object.pools[pool].palette;
+    const PaletteView& bind = data->object.meshes[mesh].palette;
     if (bind.joints.empty()) return true;
     const PoseKernels* const kernels = pose_kernels();
     if (kernels != nullptr && !is_exact) {
-        const std::vector<PaletteMatrix>& inverse_bind = data->pose_plan->inverse_bind[pool];
+        const std::vector<PaletteMatrix>& inverse_bind = data->pose_plan->inverse_bind[mesh];
         is_palette_finite = kernels->palette({bind.joints.size(), &model_space.front().matrix[0].x, bind.joints.data(),
                                               inverse_bind.data(), palette.data()});
         return is_palette_finite;
@@ -39,7 +39,7 @@ bool PoseState::make_palette(std::uint32_t pool) {
 }
 
 bool PoseState::make_rigid_palette(std::uint32_t joint) {
-    palette_pool = kNone;
+    palette_mesh = kNone;
     palette.front() = to_rows(exact_matrix(joint));
     return is_finite(palette.front());
 }

@@ -12,7 +12,7 @@ PoseState::PoseState(const Model& from)
       local(data->joints.size()),
       model_space(data->joints.size()),
       exact_model_space(data->joints.size()),
-      target_weights(from.target_count()),
+      morph_weights(from.morph_target_count()),
       ik_links(data->longest_chain),
       palette(std::max(data->largest_palette, 1u)) {
     data->make_plans();
@@ -24,7 +24,7 @@ void PoseState::set_rest() {
     const PosePlan& plan = *data->pose_plan;
     is_stale = true;
     std::copy(plan.rest.begin(), plan.rest.end(), local.begin());
-    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), target_weights.begin());
+    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), morph_weights.begin());
 }
 
 Pose::Pose(const Model& model) : state_(std::make_unique<PoseState>(model)) {}
@@ -64,12 +64,12 @@ std::span<JointTransform> Pose::change_local() {
     return state_->local;
 }
 
-std::span<const float> Pose::target_weights() const {
-    return state_->target_weights;
+std::span<const float> Pose::morph_weights() const {
+    return state_->morph_weights;
 }
 
-std::span<float> Pose::change_target_weights() {
-    return state_->target_weights;
+std::span<float> Pose::change_morph_weights() {
+    return state_->morph_weights;
 }
 
 std::span<const glm::mat4> Pose::model_space() {
@@ -78,10 +78,10 @@ std::span<const glm::mat4> Pose::model_space() {
     return {&state_->model_space.front().matrix, state_->model_space.size()};
 }
 
-std::span<const PaletteMatrix> Pose::palette(std::uint32_t pool) {
+std::span<const PaletteMatrix> Pose::palette(std::uint32_t mesh) {
     state_->refresh();
-    state_->make_palette(pool);
-    return std::span(state_->palette).first(state_->data->object.pools[pool].palette.joints.size());
+    state_->make_palette(mesh);
+    return std::span(state_->palette).first(state_->data->object.meshes[mesh].palette.joints.size());
 }
 
 }  // namespace bendy

@@ -21,9 +21,9 @@ namespace bendy {
 struct DualMotions {
     explicit DualMotions(const Model& model);
 
-    std::vector<glm::dvec3> places;          ///< of each palette entry's joint in pool space when it was bound
-    std::vector<std::uint32_t> first_place;  ///< of each pool
-    std::vector<StretchedMotion> motions;    ///< of the pool that is being skinned, by palette entry
+    std::vector<glm::dvec3> places;          ///< of each palette entry's joint in mesh space when it was bound
+    std::vector<std::uint32_t> first_place;  ///< of each mesh
+    std::vector<StretchedMotion> motions;    ///< of the mesh that is being skinned, by palette entry
     std::vector<DualMotion> kernel_motions;
     std::vector<PaletteMatrix> kernel_stretches;
     double scale = 1.0;
@@ -54,9 +54,9 @@ struct alignas(64) PoseState {
     [[nodiscard]] glm::dmat4 exact_matrix(std::uint32_t joint) const {
         return is_exact ? exact_model_space[joint] : glm::dmat4(model_space[joint].matrix);
     }
-    /// Sets `palette` for a skinned pool, if it is not that already. Whether all numbers are finite. Not of a stale
+    /// Sets `palette` for a skinned mesh, if it is not that already. Whether all numbers are finite. Not of a stale
     /// pose.
-    bool make_palette(std::uint32_t pool);
+    bool make_palette(std::uint32_t mesh);
     /// Sets `palette` for what one joint moves. Whether all numbers are finite. Not of a stale pose.
     bool make_rigid_palette(std::uint32_t joint);
 
@@ -65,10 +65,10 @@ struct alignas(64) PoseState {
     std::vector<JointTransform> local;
     std::vector<JointMatrix> model_space;
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
-    std::vector<float> target_weights;
+    std::vector<float> morph_weights;
     std::vector<IkLink> ik_links;        ///< of the chain that reaches
-    std::vector<PaletteMatrix> palette;  ///< of the pool that is being skinned; never empty
-    std::uint32_t palette_pool = kNone;  ///< whose palette is
+    std::vector<PaletteMatrix> palette;  ///< of the mesh that is being skinned; never empty
+    std::uint32_t palette_mesh = kNone;  ///< whose palette is
     bool is_palette_finite = false;
     bool is_exact = true;             ///< in doubles, so that rounding does not add up along deep chains
     bool is_stale = true;             ///< a local transform may have changed since find_model_space

@@ -60,7 +60,7 @@ glm::dmat4 matrix_of(const PaletteMatrix& entry) {
     return matrix;
 }
 
-/// Where the joint stood in the pool when it was bound; the pool's origin if its matrix has no inverse.
+/// Where the joint stood in the mesh when it was bound; the mesh's origin if its matrix has no inverse.
 glm::dvec3 place_of(const glm::mat4& inverse_bind) {
     const glm::dmat4 bind = glm::inverse(glm::dmat4(inverse_bind));
     const glm::dvec3 place(bind[3]);
@@ -109,11 +109,11 @@ bool round_motions(std::size_t count, DualMotions& dual) {
 }
 
 /// Fills the motions from the palette, unless it is not finite.
-void find_motions(PoseState& state, std::uint32_t pool, DualMotions& dual) {
+void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
     dual.are_good = false;
-    const auto& joints = state.data->object.pools[pool].palette.joints;
+    const auto& joints = state.data->object.meshes[mesh].palette.joints;
     if (joints.empty()) return;
-    state.make_palette(pool);
+    state.make_palette(mesh);
     const auto palette = std::span<const PaletteMatrix>(state.palette).first(joints.size());
     const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
     const glm::dmat3 top(matrix_of(palette[topmost]));
@@ -126,7 +126,7 @@ void find_motions(PoseState& state, std::uint32_t pool, DualMotions& dual) {
         glm::dmat4 matrix = matrix_of(palette[entry]);
         if (!std::isfinite(largest(glm::dmat3(matrix)) + glm::length(glm::dvec3(matrix[3])))) return;
         for (int c = 0; c < 4; ++c) matrix[c] = glm::dvec4(glm::dvec3(matrix[c]) / dual.scale, c == 3 ? 1.0 : 0.0);
-        dual.motions[entry] = motion_of(matrix, dual.places[dual.first_place[pool] + entry]);
+        dual.motions[entry] = motion_of(matrix, dual.places[dual.first_place[mesh] + entry]);
         dual.is_stretched = dual.is_stretched || largest(dual.motions[entry].stretch - glm::dmat3(1.0)) > kStretched;
     }
     dual.are_good = true;
@@ -137,24 +137,24 @@ void find_motions(PoseState& state, std::uint32_t pool, DualMotions& dual) {
 
 DualMotions::DualMotions(const Model& model)
     : motions(model.largest_palette()), kernel_motions(motions.size()), kernel_stretches(motions.size()) {
-    for (const Pool& pool : model.pools()) {
+    for (const Mesh& mesh : model.meshes()) {
         first_place.push_back(static_cast<std::uint32_t>(places.size()));
-        for (const glm::mat4& inverse_bind : pool.palette.inverse_bind()) places.push_back(place_of(inverse_bind));
+        for (const glm::mat4& inverse_bind : mesh.palette.inverse_bind()) places.push_back(place_of(inverse_bind));
     }
 }
 
-bool skin_by_dual_quaternions(PoseState& state, std::uint32_t pool, std::uint32_t& motions_of,
+bool skin_by_dual_quaternions(PoseState& state, std::uint32_t mesh, std::uint32_t& motions_of,
                               std::span<const float> weights, const SkinBlock& outputs) {
     const ModelData& data = *state.data;
     if (!state.dual) state.dual.emplace(state.model);
     DualMotions& dual = *state.dual;
-    const std::uint32_t with_palette = data.pose_plan->same_palette[pool];
-    if (motions_of != with_palette) find_motions(state, pool, dual);
+    const std::uint32_t with_palette = data.pose_plan->same_palette[mesh];
+    if (motions_of != with_palette) find_motions(state, mesh, dual);
     motions_of = with_palette;
     if (!dual.are_good) return false;
     SkinBlock wanted = outputs;
     wanted.palette = dual.has_kernel && dual.is_stretched ? dual.kernel_stretches.data() : nullptr;
-    Staging staging(data.object.pools[pool], nullptr, weights, wanted);
+    Staging staging(data.object.meshes[mesh], nullptr, weights, wanted);
     DualKernel* const run = dual.has_kernel ? skin_kernels(kernel()).dual : nullptr;
     DualBlock block{wanted, dual.kernel_motions.data(), static_cast<float>(dual.scale)};
     for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {

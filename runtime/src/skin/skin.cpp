@@ -51,18 +51,18 @@ public:
     Skinning(PoseState& state, const SkinRequest& request)
         : state_(state), data_(*state.data), method_(request.method), out_(request.out) {}
 
-    /// The first `vertices` of a pool, vertex 0 at `at` of the output.
-    void skin_pool(std::uint32_t pool, std::uint32_t vertices, std::uint64_t at);
+    /// The first `vertices` of a mesh, vertex 0 at `at` of the output.
+    void skin_mesh(std::uint32_t mesh, std::uint32_t vertices, std::uint64_t at);
 
 private:
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
-    void skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted);
+    void skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted);
 
     PoseState& state_;
     const ModelData& data_;
     SkinningMethod method_;
     const VertexBuffer& out_;
-    std::uint32_t motions_of_ = kNone;  // the pool whose palette state_.dual has the motions of
+    std::uint32_t motions_of_ = kNone;  // the mesh whose palette state_.dual has the motions of
 };
 
 void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first,
@@ -75,14 +75,14 @@ void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted
     }
 }
 
-void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock& wanted) {
+void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted) {
     SkinKernel* const chosen = skin_kernels(kernel()).linear;
     const std::size_t vertices = wanted.vertices;
-    const bool has_one_mover = data_.movers[pool].per_vertex.empty();
+    const bool has_one_mover = data_.movers[mesh].per_vertex.empty();
     for (std::size_t first = 0; first < vertices;) {
-        const std::uint32_t joint = data_.rigid_mover(pool, static_cast<std::uint32_t>(first));
+        const std::uint32_t joint = data_.rigid_mover(mesh, static_cast<std::uint32_t>(first));
         std::size_t end = has_one_mover ? vertices : first + 1;
-        while (end < vertices && data_.rigid_mover(pool, static_cast<std::uint32_t>(end)) == joint) ++end;
+        while (end < vertices && data_.rigid_mover(mesh, static_cast<std::uint32_t>(end)) == joint) ++end;
         if (joint == kNone) {
             run(copy_block, staging, wanted, first, end - first);
         } else {
@@ -92,8 +92,8 @@ void Skinning::skin_rigid(std::uint32_t pool, Staging& staging, const SkinBlock&
     }
 }
 
-void Skinning::skin_pool(std::uint32_t number, std::uint32_t vertices, std::uint64_t at) {
-    const Pool& pool = data_.object.pools[number];
+void Skinning::skin_mesh(std::uint32_t number, std::uint32_t vertices, std::uint64_t at) {
+    const Mesh& mesh = data_.object.meshes[number];
     if (vertices == 0) return;
     SkinBlock wanted{};
     wanted.vertices = vertices;
@@ -101,21 +101,21 @@ void Skinning::skin_pool(std::uint32_t number, std::uint32_t vertices, std::uint
     wanted.out_normals = output_at(out_.normals, at);
     wanted.out_tangents = output_at(out_.tangents, at);
     const auto weights =
-        std::span<const float>(state_.target_weights).subspan(data_.first_target[number], pool.targets.size());
-    if (method_ == SkinningMethod::dual_quaternion && !pool.is_rigid() &&
+        std::span<const float>(state_.morph_weights).subspan(data_.first_morph_target[number], mesh.targets.size());
+    if (method_ == SkinningMethod::dual_quaternion && !mesh.is_rigid() &&
         skin_by_dual_quaternions(state_, number, motions_of_, weights, wanted)) {
         return;
     }
     wanted.palette = state_.palette.data();
     wanted.streams = vertices >= kManyVertices;
-    if (pool.is_rigid()) {
-        Staging staging(pool, nullptr, weights, wanted);
+    if (mesh.is_rigid()) {
+        Staging staging(mesh, nullptr, weights, wanted);
         skin_rigid(number, staging, wanted);
         return;
     }
     // Lanes multiply by weights that are zero, too.
     const Kernel chosen = state_.make_palette(number) ? kernel() : Kernel::plain;
-    Staging staging(pool, chosen == Kernel::avx2 ? &data_.skin_plans[number] : nullptr, weights, wanted);
+    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[number] : nullptr, weights, wanted);
     run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
 }
 
@@ -123,12 +123,12 @@ void Skinning::skin_pool(std::uint32_t number, std::uint32_t vertices, std::uint
 
 Result<void, CallError> skin(Pose& pose, const SkinRequest& request) {
     PoseState& state = PoseState::of(pose);
-    const auto& pools = state.data->object.pools;
+    const auto& meshes = state.data->object.meshes;
     const bool has_all = request.mesh == kAllMeshes;
-    if (!has_all && request.mesh >= pools.size()) return CallError::out_of_range;
+    if (!has_all && request.mesh >= meshes.size()) return CallError::out_of_range;
     if (request.lod != nullptr && request.lod->model() != state.model) return CallError::other_model;
     const auto vertices_of = [&](std::uint32_t mesh) {
-        return request.lod != nullptr ? request.lod->vertices(mesh) : pools[mesh].vertices;
+        return request.lod != nullptr ? request.lod->vertices(mesh) : meshes[mesh].vertices;
     };
     const auto& first_vertex = state.data->first_vertex;
     const auto room = check_room(request.out, has_all ? first_vertex.back() : vertices_of(request.mesh));
@@ -136,11 +136,11 @@ Result<void, CallError> skin(Pose& pose, const SkinRequest& request) {
     state.refresh();
     Skinning skinning(state, request);
     if (!has_all) {
-        skinning.skin_pool(request.mesh, vertices_of(request.mesh), 0);
+        skinning.skin_mesh(request.mesh, vertices_of(request.mesh), 0);
         return {};
     }
-    for (std::uint32_t mesh = 0; mesh < pools.size(); ++mesh)
-        skinning.skin_pool(mesh, vertices_of(mesh), first_vertex[mesh]);
+    for (std::uint32_t mesh = 0; mesh < meshes.size(); ++mesh)
+        skinning.skin_mesh(mesh, vertices_of(mesh), first_vertex[mesh]);
     return {};
 }
 

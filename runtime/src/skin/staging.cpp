@@ -20,7 +20,7 @@ StreamView part_of(const StreamView& stream, std::size_t first, std::size_t coun
 
 /// Adds a target's displacements to vertices [first, first + vectors).
 template <class Vector>
-void shift(const TargetView& target, const StreamView& shifts, float weight, std::size_t first,
+void shift(const MorphTargetView& target, const StreamView& shifts, float weight, std::size_t first,
            std::span<Vector> vectors) {
     if (target.is_frame()) return add_frame(*target.places, shifts, weight, first, vectors);
     auto entry = static_cast<std::uint32_t>(first);
@@ -66,30 +66,30 @@ SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
 
 }  // namespace
 
-Staging::Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted)
-    : pool_(pool), plan_(plan), target_weights_(weights), positions_(pool.positions) {
+Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted)
+    : mesh_(mesh), plan_(plan), morph_weights_(weights), positions_(mesh.positions) {
     const auto is_active = [](float weight) { return weight != 0.0f; };
     is_shifted_ = std::any_of(weights.begin(), weights.end(), is_active);
-    rest_share_ = is_shifted_ ? rest_share(pool, weights) : 1.0f;
+    rest_share_ = is_shifted_ ? rest_share(mesh, weights) : 1.0f;
     const auto in_place = [&](const std::optional<StreamView>& stream, const SkinOutput& out) {
         return out.data == nullptr || (stream && stream->type == ComponentType::f32 && !is_shifted_);
     };
     positions_in_place_ = in_place(positions_, wanted.out_positions);
-    normals_in_place_ = in_place(pool.normals, wanted.out_normals);
-    tangents_in_place_ = in_place(pool.tangents, wanted.out_tangents);
+    normals_in_place_ = in_place(mesh.normals, wanted.out_normals);
+    tangents_in_place_ = in_place(mesh.tangents, wanted.out_tangents);
     if (plan_ != nullptr && plan_->first.empty()) plan_ = nullptr;
     weights_in_place_ =
-        !pool.weights || pool.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
+        !mesh.weights || mesh.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
     capacity_ = std::numeric_limits<std::size_t>::max();
     if (!positions_in_place_ || !normals_in_place_ || !tangents_in_place_) capacity_ = kVertices;
     if (weights_in_place_) return;
-    capacity_ = std::min(kVertices, kNumbers / pool.weights->components);
+    capacity_ = std::min(kVertices, kNumbers / mesh.weights->components);
     if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
     if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
 }
 
 template <class Vector>
-const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
+const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
                             std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const {
     constexpr auto kNumbersEach = static_cast<std::size_t>(Vector::length());
     if (in_place) return stream->as<float>().data() + first * kNumbersEach;
@@ -97,15 +97,15 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
     const std::span<Vector> vectors(reinterpret_cast<Vector*>(scratch.data()), count);  // NOLINT(*-reinterpret-cast)
     if (!stream) {
         std::fill(vectors.begin(), vectors.end(), Vector(0.0f));
-        if (shifts != &TargetView::positions) return scratch.data();  // displacements of nothing
+        if (shifts != &MorphTargetView::positions) return scratch.data();  // displacements of nothing
     } else {
         part_of(*stream, first, count).decode(vectors);
     }
-    if (have_frames(pool_, shifts)) lighten(rest_share_, vectors);
-    for (std::size_t k = 0; k < pool_.targets.size(); ++k) {
-        const TargetView& target = pool_.targets[k];
-        if (target_weights_[k] != 0.0f && target.*shifts)
-            shift(target, *(target.*shifts), target_weights_[k], first, vectors);
+    if (have_frames(mesh_, shifts)) lighten(rest_share_, vectors);
+    for (std::size_t k = 0; k < mesh_.targets.size(); ++k) {
+        const MorphTargetView& target = mesh_.targets[k];
+        if (morph_weights_[k] != 0.0f && target.*shifts)
+            shift(target, *(target.*shifts), morph_weights_[k], first, vectors);
     }
     return scratch.data();
 }
@@ -116,20 +116,20 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);
     if (wanted.out_positions.data != nullptr) {
-        block.positions =
-            bring<glm::vec3>(positions_, &TargetView::positions, first, count, positions_in_place_, positions_scratch_);
+        block.positions = bring<glm::vec3>(positions_, &MorphTargetView::positions, first, count, positions_in_place_,
+                                           positions_scratch_);
     }
     if (wanted.out_normals.data != nullptr) {
-        block.normals =
-            bring<glm::vec3>(pool_.normals, &TargetView::normals, first, count, normals_in_place_, normals_scratch_);
+        block.normals = bring<glm::vec3>(mesh_.normals, &MorphTargetView::normals, first, count, normals_in_place_,
+                                         normals_scratch_);
     }
     if (wanted.out_tangents.data != nullptr) {
-        block.tangents = bring<glm::vec4>(pool_.tangents, &TargetView::tangents, first, count, tangents_in_place_,
+        block.tangents = bring<glm::vec4>(mesh_.tangents, &MorphTargetView::tangents, first, count, tangents_in_place_,
                                           tangents_scratch_);
     }
-    if (!pool_.bones) return;
-    const StreamView& bones = *pool_.bones;
-    const StreamView& weights = *pool_.weights;
+    if (!mesh_.bones) return;
+    const StreamView& bones = *mesh_.bones;
+    const StreamView& weights = *mesh_.weights;
     const std::size_t at = first * bones.components;
     block.influences = bones.components;
     if (bones.type == ComponentType::u8) {

@@ -11,13 +11,13 @@
 
 namespace bendy {
 
-/// A pool's vertices as kernels want them: where the file has plain floats and no inbetweening target moves them, in
+/// A mesh's vertices as kernels want them: where the file has plain floats and no morph target moves them, in
 /// place; else decoded and moved, a few at a time, so that they are still in the nearest cache when they are skinned.
 class Staging {
 public:
-    /// `wanted`: only its outputs are looked at. `weights`: of the pool's targets. `plan`: null if the kernel has no
+    /// `wanted`: only its outputs are looked at. `weights`: of the mesh's targets. `plan`: null if the kernel has no
     /// use for it.
-    Staging(const Pool& pool, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted);
+    Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted);
 
     /// How many vertices fill() takes at most.
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
@@ -31,15 +31,15 @@ private:
 
     [[nodiscard]] bool is_in_place(const std::optional<StreamView>& stream, bool is_shifted) const;
     template <class Vector>
-    const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> TargetView::*shifts,
+    const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
                        std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const;
 
-    const Pool& pool_;
+    const Mesh& mesh_;
     const SkinPlan* plan_;
-    std::span<const float> target_weights_;
+    std::span<const float> morph_weights_;
     std::optional<StreamView> positions_;
     bool is_shifted_ = false;  // some target has a weight
-    float rest_share_ = 1.0f;  // of the pool's own streams, beside its frames
+    float rest_share_ = 1.0f;  // of the mesh's own streams, beside its frames
     bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
     std::size_t capacity_ = 0;
     std::array<float, 3 * kVertices> positions_scratch_;

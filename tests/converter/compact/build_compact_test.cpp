@@ -25,11 +25,11 @@ Scene skeleton_with_clips(std::uint32_t seed) {
     Numbers numbers(seed);
     Scene scene = test::random_scene(seed);
     scene.meshes.clear();
-    for (Cycle& cycle : scene.cycles) {
-        cycle.tracks.clear();
+    for (Clip& clip : scene.clips) {
+        clip.tracks.clear();
         for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
             for (const TrackPath path : {TrackPath::translation, TrackPath::rotation, TrackPath::scale})
-                cycle.tracks.push_back(test::random_track(numbers, path, Interpolation::linear, joint));
+                clip.tracks.push_back(test::random_track(numbers, path, Interpolation::linear, joint));
         }
     }
     return scene;
@@ -38,14 +38,14 @@ Scene skeleton_with_clips(std::uint32_t seed) {
 Scene lone_joint_that_turns() {
     Scene scene;
     scene.joints.resize(1);
-    Cycle turn;
+    Clip turn;
     turn.tracks = {{TrackPath::rotation,
                     Interpolation::linear,
                     0,
                     4,
                     {0.0f, 0.5f, 1.0f},
                     {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0.6f, 0, 0, 0.8f}}};
-    scene.cycles = {turn};
+    scene.clips = {turn};
     return scene;
 }
 
@@ -53,7 +53,7 @@ Scene lone_joint_that_turns() {
 Scene flat_chain() {
     Scene scene;
     scene.joints.resize(6);
-    Cycle bend;
+    Clip bend;
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         if (joint > 0) {
             scene.joints[joint].parent = joint - 1;
@@ -62,7 +62,7 @@ Scene flat_chain() {
         bend.tracks.push_back(
             {TrackPath::rotation, Interpolation::linear, joint, 4, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0.28f, 0, 0.96f}});
     }
-    scene.cycles = {bend};
+    scene.clips = {bend};
     return scene;
 }
 
@@ -72,11 +72,11 @@ double farthest(const Scene& a, const Scene& b, double size) {
     double worst = 0.0;
     EvaluatedPose here;
     EvaluatedPose there;
-    for (std::size_t cycle = 0; cycle < a.cycles.size(); ++cycle) {
-        const CycleSpan span = span_of(a.cycles[cycle]);
+    for (std::size_t clip = 0; clip < a.clips.size(); ++clip) {
+        const ClipSpan span = span_of(a.clips[clip]);
         for (int k = 0; k <= 100; ++k) {
-            evaluate(a, a.cycles[cycle], span.at(k / 100.0), here);
-            evaluate(b, b.cycles[cycle], span.at(k / 100.0), there);
+            evaluate(a, a.clips[clip], span.at(k / 100.0), here);
+            evaluate(b, b.clips[clip], span.at(k / 100.0), there);
             for (std::size_t joint = 0; joint < a.joints.size(); ++joint) {
                 for (const glm::dvec4& point : {glm::dvec4(0, 0, 0, 1), glm::dvec4(0.01 * size, 0, 0, 1),
                                                 glm::dvec4(0, 0.01 * size, 0, 1), glm::dvec4(0, 0, 0.01 * size, 1)}) {
@@ -131,13 +131,13 @@ Scene clips_with_still_tracks() {
         return track;
     };
     const glm::vec3 rest = scene.joints[1].rest.translation;
-    Cycle resting;
+    Clip resting;
     resting.tracks = {still({0.0f, 2.5f}, rest)};
-    Cycle elsewhere;
+    Clip elsewhere;
     elsewhere.tracks = {still({0.25f, 0.5f, 2.1f}, rest + glm::vec3(0.0f, 0.1f, 0.0f))};
-    Cycle longer = scene.cycles.front();
+    Clip longer = scene.clips.front();
     longer.tracks.push_back(still({-0.3f, 2.7f}, rest));
-    scene.cycles.insert(scene.cycles.end(), {resting, elsewhere, longer});
+    scene.clips.insert(scene.clips.end(), {resting, elsewhere, longer});
     return scene;
 }
 
@@ -146,7 +146,7 @@ TEST(BuildCompact, ClipsKeepTheirLength) {
     with_skin.meshes.resize(1);
     with_skin.meshes[0].joint = 5;
     with_skin.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    with_skin.meshes[0].parts = {{Topology::triangles, kNone, {0, 1, 2}}};
+    with_skin.meshes[0].submeshes = {{Topology::triangles, kNone, {0, 1, 2}}};
     for (const Scene& scene : {clips_with_still_tracks(), with_skin}) {
         Report report;
         const auto compact = build_compact(scene, {1e-4, true}, "test", report, {});
@@ -156,12 +156,12 @@ TEST(BuildCompact, ClipsKeepTheirLength) {
         ASSERT_TRUE(decoded);
         const auto again = import_bendy(build_chunks(*decoded, "test", report), report);
         ASSERT_TRUE(again);
-        for (std::size_t cycle = 0; cycle < scene.cycles.size(); ++cycle) {
-            SCOPED_TRACE(cycle);
-            const CycleSpan span = span_of(scene.cycles[cycle]);
+        for (std::size_t clip = 0; clip < scene.clips.size(); ++clip) {
+            SCOPED_TRACE(clip);
+            const ClipSpan span = span_of(scene.clips[clip]);
             for (const Scene* read : {&*decoded, &*again}) {
-                EXPECT_EQ(span_of(read->cycles[cycle]).start, span.start);
-                EXPECT_EQ(span_of(read->cycles[cycle]).end, span.end);
+                EXPECT_EQ(span_of(read->clips[clip]).start, span.start);
+                EXPECT_EQ(span_of(read->clips[clip]).end, span.end);
             }
         }
         EXPECT_TRUE(report.warnings().empty());

@@ -17,7 +17,7 @@
 namespace bendy::converter {
 namespace {
 
-/// Two joints, a wavy grid that they bend, one cycle that turns the second.
+/// Two joints, a wavy grid that they bend, one clip that turns the second.
 Scene bent_grid(float scale, std::uint32_t influences, unsigned seed) {
     std::mt19937 random(seed);
     const auto fraction = [&] { return static_cast<float>(random() % 10001) / 10000.0f; };
@@ -48,16 +48,16 @@ Scene bent_grid(float scale, std::uint32_t influences, unsigned seed) {
     down[3] = {0, -scale, 0, 1};
     mesh.palette.inverse_bind = {glm::mat4(1.0f), down};
     if (influences == 0) mesh.palette = {};
-    Part& part = mesh.parts.emplace_back();
+    Submesh& submesh = mesh.submeshes.emplace_back();
     for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
         for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
             const std::uint32_t a = y * kSide + x;
             for (const std::uint32_t i : {a, a + 1, a + kSide, a + kSide, a + 1, a + kSide + 1})
-                part.indices.push_back(i);
+                submesh.indices.push_back(i);
         }
     }
-    Cycle& cycle = scene.cycles.emplace_back();
-    Track& track = cycle.tracks.emplace_back();
+    Clip& clip = scene.clips.emplace_back();
+    Track& track = clip.tracks.emplace_back();
     track.path = TrackPath::rotation;
     track.target = 1;
     track.components = 4;
@@ -80,8 +80,8 @@ std::vector<glm::vec3> skinned(const std::vector<std::byte>& bytes, float time) 
     const auto model = Model::from_memory(bytes);
     EXPECT_TRUE(model.has_value());
     Pose pose(*model);
-    if (!model->cycles().empty()) {
-        EXPECT_TRUE(sample(pose, &model->cycles()[0], time));
+    if (!model->clips().empty()) {
+        EXPECT_TRUE(sample(pose, &model->clips()[0], time));
     }
     std::vector<glm::vec3> positions(model->vertex_count());
     EXPECT_TRUE(skin(pose, {.out = {.positions = positions}}));
@@ -168,17 +168,17 @@ TEST(CompactGeometry, TheJointTableSaysWhatTheChunksSaid) {
         EXPECT_EQ(a->joints()[joint].parent, b->joints()[joint].parent);
         EXPECT_EQ(a->joints()[joint].rest.translation, b->joints()[joint].rest.translation);
     }
-    ASSERT_EQ(a->draws().size(), b->draws().size());
-    EXPECT_EQ(a->draws()[0].count, b->draws()[0].count);
+    ASSERT_EQ(a->submeshes().size(), b->submeshes().size());
+    EXPECT_EQ(a->submeshes()[0].count, b->submeshes()[0].count);
 }
 
 /// Every triangle by its corners' places in the source, turned to start with the smallest, sorted.
 std::vector<std::array<std::uint32_t, 3>> triangles(const Mesh& mesh, const std::vector<std::uint32_t>& place) {
     std::vector<std::array<std::uint32_t, 3>> list;
-    for (const Part& part : mesh.parts) {
-        for (std::size_t at = 0; at + 3 <= part.indices.size(); at += 3) {
-            std::array<std::uint32_t, 3> t{place[part.indices[at]], place[part.indices[at + 1]],
-                                           place[part.indices[at + 2]]};
+    for (const Submesh& submesh : mesh.submeshes) {
+        for (std::size_t at = 0; at + 3 <= submesh.indices.size(); at += 3) {
+            std::array<std::uint32_t, 3> t{place[submesh.indices[at]], place[submesh.indices[at + 1]],
+                                           place[submesh.indices[at + 2]]};
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
             list.push_back(t);
         }
@@ -196,15 +196,15 @@ TEST(CompactGeometry, VerticesAlikeAreOneAndTrianglesStay) {
     loose.normals.clear();
     loose.bones.clear();
     loose.weights.clear();
-    for (std::uint32_t k = 0; k < mesh.parts[0].indices.size(); ++k) {
-        const std::uint32_t v = mesh.parts[0].indices[k];
+    for (std::uint32_t k = 0; k < mesh.submeshes[0].indices.size(); ++k) {
+        const std::uint32_t v = mesh.submeshes[0].indices[k];
         loose.positions.push_back(mesh.positions[v]);
         loose.normals.push_back(mesh.normals[v]);
         for (std::size_t i = 0; i < 2; ++i) {
             loose.bones.push_back(mesh.bones[v * 2 + i]);
             loose.weights.push_back(mesh.weights[v * 2 + i]);
         }
-        loose.parts[0].indices[k] = k;
+        loose.submeshes[0].indices[k] = k;
     }
     const std::size_t vertices = mesh.positions.size();
     mesh = loose;
@@ -220,14 +220,14 @@ TEST(CompactGeometry, VerticesThatMoveOtherwiseStayApart) {
     Scene scene = bent_grid(1.0f, 2, 3);
     Mesh& mesh = scene.meshes[0];
     mesh.positions.assign(mesh.positions.size(), glm::vec3(0, 1, 0));  // all in one place
-    mesh.parts[0].indices.resize(3);
+    mesh.submeshes[0].indices.resize(3);
     std::vector<float> kinds;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         kinds.push_back(v % 3 == 0 ? 1.0f : 0.5f);
         mesh.weights[v * 2] = v % 3 == 0 ? 1.0f : 0.5f;
         mesh.weights[v * 2 + 1] = v % 3 == 0 ? 0.0f : 0.5f;
     }
-    Target& target = mesh.targets.emplace_back();
+    MorphTarget& target = mesh.targets.emplace_back();
     target.positions.resize(mesh.positions.size());
     target.positions[1] = {0, 0, 1};
     compact_geometry(scene, 1e-3, {});
@@ -248,8 +248,8 @@ TEST(CompactGeometry, WhatCannotBeQuantisedStaysAsItIs) {
 
 TEST(CompactGeometry, LinesPointsAndEmptyMeshes) {
     Scene scene = bent_grid(1.0f, 2, 3);
-    scene.meshes[0].parts.push_back({Topology::lines, kNone, {0, 1, 1, 2}});
-    scene.meshes[0].parts.push_back({Topology::points, kNone, {5, 6, 7}});
+    scene.meshes[0].submeshes.push_back({Topology::lines, kNone, {0, 1, 1, 2}});
+    scene.meshes[0].submeshes.push_back({Topology::points, kNone, {5, 6, 7}});
     scene.meshes.emplace_back();
     const Scene exact = scene;
     CompactGeometry geometry;

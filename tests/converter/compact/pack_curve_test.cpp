@@ -119,10 +119,10 @@ Scene lone_joint(std::vector<Curve> curves) {
     scene.materials.resize(2);
     scene.materials[0].name = "a";
     scene.materials[1].name = "b";
-    Cycle clip;
+    Clip clip;
     clip.name = "clip";
     clip.curves = std::move(curves);
-    scene.cycles = {clip};
+    scene.clips = {clip};
     return scene;
 }
 
@@ -138,9 +138,9 @@ TEST(PackCurve, CompactFilesPackAndSayTheError) {
     EXPECT_LE(report.compact->curve_error, 0.51 / 65535.0);
     const auto again = import_bendy(bytes, report);
     ASSERT_TRUE(again);
-    ASSERT_EQ(again->cycles.at(0).curves.size(), 2u);
-    EXPECT_EQ(again->cycles[0].curves[1].values, scene.cycles[0].curves[1].values);
-    EXPECT_NE(again->cycles[0].curves[0].values, scene.cycles[0].curves[0].values);
+    ASSERT_EQ(again->clips.at(0).curves.size(), 2u);
+    EXPECT_EQ(again->clips[0].curves[1].values, scene.clips[0].curves[1].values);
+    EXPECT_NE(again->clips[0].curves[0].values, scene.clips[0].curves[0].values);
     const auto compared = compare_characters(scene, *again, {0.001, false}, {});
     EXPECT_TRUE(compared.differences.empty()) << compared.differences.front().place;
 }
@@ -164,45 +164,45 @@ TEST(CompareCurves, AChangeIsADifference) {
 
     Scene other = scene;
     std::swap(other.materials[0], other.materials[1]);
-    other.cycles[0].curves[0].target = 1;  // the same material by name
-    std::swap(other.cycles[0].curves[0], other.cycles[0].curves[1]);
+    other.clips[0].curves[0].target = 1;  // the same material by name
+    std::swap(other.clips[0].curves[0], other.clips[0].curves[1]);
     EXPECT_TRUE(differences(scene, other).empty());
 
     other = scene;  // the same line by one key more
-    other.cycles[0].curves[1] = curve_of("/extras/wind", {0, 0.5f, 1}, {0, 0, 0.5f, 0.5f, 1, 1});
+    other.clips[0].curves[1] = curve_of("/extras/wind", {0, 0.5f, 1}, {0, 0, 0.5f, 0.5f, 1, 1});
     EXPECT_TRUE(differences(scene, other).empty());
 
-    other.cycles[0].curves[1].values[2] = 0.75f;
+    other.clips[0].curves[1].values[2] = 0.75f;
     EXPECT_EQ(differences(scene, other),
-              std::vector<std::string>{"cycle \"clip\", curve \"/extras/wind\": up to 0.25 apart, at 0.5 s"});
+              std::vector<std::string>{"clip \"clip\", curve \"/extras/wind\": up to 0.25 apart, at 0.5 s"});
     other = scene;
-    other.cycles[0].curves[0].interpolation = Interpolation::step;
+    other.clips[0].curves[0].interpolation = Interpolation::step;
     EXPECT_EQ(differences(scene, other),
-              std::vector<std::string>{"cycle \"clip\", curve \"alphaCutoff\": up to 0.5 apart, at 0.5 s"});
+              std::vector<std::string>{"clip \"clip\", curve \"alphaCutoff\": up to 0.5 apart, at 0.5 s"});
     other = scene;
-    other.cycles[0].curves[0].target = 1;
-    EXPECT_EQ(differences(scene, other), (std::vector<std::string>{"cycle \"clip\", curve \"alphaCutoff\": ",
-                                                                   "cycle \"clip\", curve \"alphaCutoff\": "}));
+    other.clips[0].curves[0].target = 1;
+    EXPECT_EQ(differences(scene, other), (std::vector<std::string>{"clip \"clip\", curve \"alphaCutoff\": ",
+                                                                   "clip \"clip\", curve \"alphaCutoff\": "}));
     other = scene;
-    other.cycles[0].curves[1].name = "gust";
+    other.clips[0].curves[1].name = "gust";
     EXPECT_EQ(differences(scene, other),
-              std::vector<std::string>{"cycle \"clip\", curve \"/extras/wind\": name: \"\" -> \"gust\""});
+              std::vector<std::string>{"clip \"clip\", curve \"/extras/wind\": name: \"\" -> \"gust\""});
     other = scene;
-    other.cycles[0].curves[1] = curve_of("/extras/wind", {0, 1}, {0, 1});
+    other.clips[0].curves[1] = curve_of("/extras/wind", {0, 1}, {0, 1});
     EXPECT_EQ(differences(scene, other),
-              std::vector<std::string>{"cycle \"clip\", curve \"/extras/wind\": components: 2 -> 1"});
+              std::vector<std::string>{"clip \"clip\", curve \"/extras/wind\": components: 2 -> 1"});
 }
 
 TEST(MergeClipsWithCurves, CurvesOfOnePropertyStayApart) {
     Scene scene = lone_joint({curve_of("/extras/a", {0}, {1})});
-    scene.cycles.push_back(scene.cycles[0]);
-    scene.cycles.push_back(scene.cycles[0]);
-    scene.cycles[1].curves[0].path = "/extras/b";
+    scene.clips.push_back(scene.clips[0]);
+    scene.clips.push_back(scene.clips[0]);
+    scene.clips[1].curves[0].path = "/extras/b";
     Report report;
     EXPECT_EQ(merge_clips(scene, report), 2u);
-    ASSERT_EQ(scene.cycles[0].curves.size(), 2u);
-    EXPECT_EQ(scene.cycles[0].curves[1].path, "/extras/b");
-    EXPECT_EQ(scene.cycles[1].curves.size(), 1u);
+    ASSERT_EQ(scene.clips[0].curves.size(), 2u);
+    EXPECT_EQ(scene.clips[0].curves[1].path, "/extras/b");
+    EXPECT_EQ(scene.clips[1].curves.size(), 1u);
 }
 
 }  // namespace

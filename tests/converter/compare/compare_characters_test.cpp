@@ -29,15 +29,15 @@ Scene drawn_scene() {
     scene.materials[1].name = "hair";
     scene.meshes[0].name = "body";
     scene.meshes[1].name = "hat";
-    scene.cycles[0].name = "walk";
-    scene.cycles[1].name = "run";
+    scene.clips[0].name = "walk";
+    scene.clips[1].name = "run";
     std::vector<std::uint32_t> all(scene.meshes[0].positions.size());
     std::iota(all.begin(), all.end(), 0u);
     const auto middle = all.begin() + 30;
-    scene.meshes[0].parts = {{Topology::triangles, 0, {all.begin(), middle}},
-                             {Topology::triangles, 1, {middle, all.end() - 3}},
-                             {Topology::lines, 1, {57, 58}},
-                             {Topology::points, 0, {59}}};
+    scene.meshes[0].submeshes = {{Topology::triangles, 0, {all.begin(), middle}},
+                                 {Topology::triangles, 1, {middle, all.end() - 3}},
+                                 {Topology::lines, 1, {57, 58}},
+                                 {Topology::points, 0, {59}}};
     return scene;
 }
 
@@ -55,8 +55,8 @@ void reorder(Mesh& mesh, const std::vector<std::uint32_t>& order) {
     }
     std::vector<std::uint32_t> number(order.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) number[order[v]] = v;
-    for (Part& part : mesh.parts) {
-        for (std::uint32_t& index : part.indices) index = number[index];
+    for (Submesh& submesh : mesh.submeshes) {
+        for (std::uint32_t& index : submesh.indices) index = number[index];
     }
 }
 
@@ -77,25 +77,26 @@ TEST(CompareCharacters, AnotherOrderIsTheSame) {
     std::vector<std::uint32_t> order(60);
     for (std::uint32_t v = 0; v < 60; ++v) order[v] = (v * 37 + 11) % 60;
     reorder(b.meshes[0], order);
-    for (Part& part : b.meshes[0].parts) {
-        if (part.topology != Topology::triangles) continue;
-        std::rotate(part.indices.begin(), part.indices.begin() + 6, part.indices.end());
-        for (std::size_t at = 0; at < part.indices.size(); at += 3)
-            std::rotate(part.indices.begin() + static_cast<std::ptrdiff_t>(at),
-                        part.indices.begin() + static_cast<std::ptrdiff_t>(at) + 1,
-                        part.indices.begin() + static_cast<std::ptrdiff_t>(at) + 3);
+    for (Submesh& submesh : b.meshes[0].submeshes) {
+        if (submesh.topology != Topology::triangles) continue;
+        std::rotate(submesh.indices.begin(), submesh.indices.begin() + 6, submesh.indices.end());
+        for (std::size_t at = 0; at < submesh.indices.size(); at += 3)
+            std::rotate(submesh.indices.begin() + static_cast<std::ptrdiff_t>(at),
+                        submesh.indices.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                        submesh.indices.begin() + static_cast<std::ptrdiff_t>(at) + 3);
     }
-    std::swap(b.meshes[0].parts[2].indices[0], b.meshes[0].parts[2].indices[1]);
+    std::swap(b.meshes[0].submeshes[2].indices[0], b.meshes[0].submeshes[2].indices[1]);
     std::swap(b.meshes[0], b.meshes[1]);
-    for (Cycle& cycle : b.cycles) {
-        for (Track& track : cycle.tracks) {
+    for (Clip& clip : b.clips) {
+        for (Track& track : clip.tracks) {
             if (track.path == TrackPath::weights) track.target = 1;
         }
     }
-    std::swap(b.cycles[0], b.cycles[1]);
+    std::swap(b.clips[0], b.clips[1]);
     std::swap(b.materials[0], b.materials[1]);
     for (Mesh& mesh : b.meshes) {
-        for (Part& part : mesh.parts) part.material = part.material == kNone ? kNone : 1 - part.material;
+        for (Submesh& submesh : mesh.submeshes)
+            submesh.material = submesh.material == kNone ? kNone : 1 - submesh.material;
     }
     for (const bool swaps : {false, true}) {
         const CharacterComparison comparison = compare_characters(swaps ? b : a, swaps ? a : b, {1e-6, false});
@@ -135,27 +136,27 @@ TEST(CompareCharacters, ATurnedJointIsNamed) {
     EXPECT_TRUE(has(compare_characters(a, b, kMillimetre), "joint \"joint 7\", at rest"));
 }
 
-TEST(CompareCharacters, AnotherKeyIsNamedByItsCycle) {
+TEST(CompareCharacters, AnotherKeyIsNamedByItsClip) {
     const Scene a = drawn_scene();
     Scene b = a;
     const auto moves = [](const Track& track) {
         return track.path == TrackPath::translation && track.interpolation == Interpolation::linear;
     };
-    const auto track = std::find_if(b.cycles[1].tracks.begin(), b.cycles[1].tracks.end(), moves);
-    ASSERT_NE(track, b.cycles[1].tracks.end());
+    const auto track = std::find_if(b.clips[1].tracks.begin(), b.clips[1].tracks.end(), moves);
+    ASSERT_NE(track, b.clips[1].tracks.end());
     track->values[0] += 0.1f;
     const CharacterComparison comparison = compare_characters(a, b, kMillimetre);
-    EXPECT_TRUE(has(comparison, "cycle \"run\" at "));
-    EXPECT_FALSE(has(comparison, "cycle \"walk\""));
+    EXPECT_TRUE(has(comparison, "clip \"run\" at "));
+    EXPECT_FALSE(has(comparison, "clip \"walk\""));
     EXPECT_FALSE(has(comparison, "at rest"));
 }
 
 TEST(CompareCharacters, ATargetIsNamed) {
     const Scene a = drawn_scene();
     Scene b = a;
-    b.cycles.clear();
+    b.clips.clear();
     Scene still = a;
-    still.cycles.clear();
+    still.clips.clear();
     b.meshes[0].targets[1].positions[5].z += 0.1f;
     EXPECT_TRUE(has(compare_characters(still, b, kMillimetre), "with target #1"));
 }
@@ -163,7 +164,7 @@ TEST(CompareCharacters, ATargetIsNamed) {
 TEST(CompareCharacters, WhatIsMissingIsNamedOnItsSide) {
     const Scene a = drawn_scene();
     Scene b = a;
-    auto& indices = b.meshes[0].parts[0].indices;
+    auto& indices = b.meshes[0].submeshes[0].indices;
     indices.erase(indices.begin() + 9, indices.begin() + 12);
     CharacterComparison comparison = compare_characters(a, b, kMillimetre);
     ASSERT_EQ(comparison.differences.size(), 1u);
@@ -174,8 +175,8 @@ TEST(CompareCharacters, WhatIsMissingIsNamedOnItsSide) {
     EXPECT_EQ(comparison.differences[0].kind, Kind::only_in_b);
 
     b = a;
-    b.cycles.pop_back();
-    EXPECT_TRUE(has(compare_characters(a, b, kMillimetre), "cycle \"run\""));
+    b.clips.pop_back();
+    EXPECT_TRUE(has(compare_characters(a, b, kMillimetre), "clip \"run\""));
     b = a;
     b.joints[7].name = "other";
     EXPECT_EQ(places_of(compare_characters(a, b, kMillimetre)),
@@ -185,8 +186,8 @@ TEST(CompareCharacters, WhatIsMissingIsNamedOnItsSide) {
 TEST(CompareCharacters, ATriangleOfAnotherMaterialIsAnother) {
     const Scene a = drawn_scene();
     Scene b = a;
-    auto& from = b.meshes[0].parts[0].indices;
-    b.meshes[0].parts[1].indices.insert(b.meshes[0].parts[1].indices.end(), from.end() - 3, from.end());
+    auto& from = b.meshes[0].submeshes[0].indices;
+    b.meshes[0].submeshes[1].indices.insert(b.meshes[0].submeshes[1].indices.end(), from.end() - 3, from.end());
     from.resize(from.size() - 3);
     EXPECT_EQ(compare_characters(a, b, kMillimetre).differences.size(), 2u);
 }
@@ -198,13 +199,13 @@ Scene fine_scene() {
     scene.joints.resize(1);
     Mesh& mesh = scene.meshes.emplace_back();
     mesh.joint = 0;
-    Part& part = mesh.parts.emplace_back();
+    Submesh& submesh = mesh.submeshes.emplace_back();
     for (std::uint32_t y = 0; y <= kSide; ++y) {
         for (std::uint32_t x = 0; x <= kSide; ++x) {
             mesh.positions.push_back({1e-3f * static_cast<float>(x), 1e-3f * static_cast<float>(y), 0.0f});
             if (x == kSide || y == kSide) continue;
             const std::uint32_t v = y * (kSide + 1) + x;
-            part.indices.insert(part.indices.end(), {v, v + 1, v + kSide + 2, v, v + kSide + 2, v + kSide + 1});
+            submesh.indices.insert(submesh.indices.end(), {v, v + 1, v + kSide + 2, v, v + kSide + 2, v + kSide + 1});
         }
     }
     return scene;
@@ -215,7 +216,7 @@ TEST(CompareCharacters, ManyWithinTheToleranceFindTheirPartners) {
     Scene b = a;
     test::Numbers numbers(3);
     for (glm::vec3& position : b.meshes[0].positions) position += numbers.vector(6e-4f);
-    auto& indices = b.meshes[0].parts[0].indices;
+    auto& indices = b.meshes[0].submeshes[0].indices;
     std::rotate(indices.begin(), indices.begin() + 300, indices.end());
     const CharacterComparison comparison = compare_characters(a, b, {4e-3, false});
     EXPECT_EQ(places_of(comparison), std::vector<std::string>());
@@ -239,11 +240,11 @@ TEST(CompareCharacters, LayersAtOnePlaceAreToldApartByHowTheyMove) {
         mesh.bones.insert(mesh.bones.end(), {bone, bone, bone});
         mesh.weights.insert(mesh.weights.end(), {1, 1, 1});
     }
-    mesh.parts = {{Topology::triangles, kNone, {0, 1, 2, 3, 4, 5}}};
-    a.cycles.push_back(
+    mesh.submeshes = {{Topology::triangles, kNone, {0, 1, 2, 3, 4, 5}}};
+    a.clips.push_back(
         {"sway", false, {{TrackPath::translation, Interpolation::linear, 1, 3, {0, 1}, {0, 0, 0, 0, 0, 1}}}, {}});
     Scene b = a;
-    b.meshes[0].parts[0].indices = {3, 4, 5, 0, 1, 2};
+    b.meshes[0].submeshes[0].indices = {3, 4, 5, 0, 1, 2};
     EXPECT_EQ(compare_characters(a, b, kMillimetre).worst, 0.0);
     b.meshes[0].bones = {0, 0, 0, 0, 0, 0};
     EXPECT_NEAR(compare_characters(a, b, kMillimetre).worst, 1.0, 1e-6);

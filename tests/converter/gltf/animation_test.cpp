@@ -21,7 +21,7 @@ Import import_keys(const std::vector<float>& times, const std::vector<float>& va
 
 TEST(GltfAnimation, EveryPathAndInterpolation) {
     const Import step = import_keys({0, 1}, {1, 2, 3, 4, 5, 6}, "VEC3", "translation", "STEP");
-    const Track& track = step->cycles.at(0).tracks.at(0);
+    const Track& track = step->clips.at(0).tracks.at(0);
     EXPECT_EQ(track.path, TrackPath::translation);
     EXPECT_EQ(track.interpolation, Interpolation::step);
     EXPECT_EQ(track.components, 3u);
@@ -30,13 +30,13 @@ TEST(GltfAnimation, EveryPathAndInterpolation) {
     EXPECT_EQ(track.values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
 
     const Import linear = import_keys({0.5f}, {1, 2, 3}, "VEC3", "scale");
-    EXPECT_EQ(linear->cycles.at(0).tracks.at(0).path, TrackPath::scale);
-    EXPECT_EQ(linear->cycles.at(0).tracks.at(0).interpolation, Interpolation::linear);
+    EXPECT_EQ(linear->clips.at(0).tracks.at(0).path, TrackPath::scale);
+    EXPECT_EQ(linear->clips.at(0).tracks.at(0).interpolation, Interpolation::linear);
 
     const Import cubic = import_keys({0}, {9, 9, 9, 9, 0, 0, 0, 1, 8, 8, 8, 8}, "VEC4", "rotation", "CUBICSPLINE");
-    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).components, 4u);
-    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).interpolation, Interpolation::cubic);
-    EXPECT_EQ(cubic->cycles.at(0).tracks.at(0).values.size(), 12u);
+    EXPECT_EQ(cubic->clips.at(0).tracks.at(0).components, 4u);
+    EXPECT_EQ(cubic->clips.at(0).tracks.at(0).interpolation, Interpolation::cubic);
+    EXPECT_EQ(cubic->clips.at(0).tracks.at(0).values.size(), 12u);
 }
 
 TEST(GltfAnimation, OrderAndNumberStayEvenIfNothingMoves) {
@@ -48,15 +48,15 @@ TEST(GltfAnimation, OrderAndNumberStayEvenIfNothingMoves) {
     gltf.add_animation(0, "translation", input, output);
     gltf.json["animations"][2]["extras"] = {{"loop", true}};
     const Import import = gltf.import();
-    ASSERT_EQ(import->cycles.size(), 3u);
-    EXPECT_TRUE(import->cycles[0].tracks.empty());
-    EXPECT_EQ(import->cycles[1].name, "empty");
-    EXPECT_EQ(import->cycles[2].tracks.size(), 1u);
-    EXPECT_EQ(import->cycles[2].extras, R"({"loop":true})");
+    ASSERT_EQ(import->clips.size(), 3u);
+    EXPECT_TRUE(import->clips[0].tracks.empty());
+    EXPECT_EQ(import->clips[1].name, "empty");
+    EXPECT_EQ(import->clips[2].tracks.size(), 1u);
+    EXPECT_EQ(import->clips[2].extras, R"({"loop":true})");
     EXPECT_EQ(import.warned("animates 'pointer' left out"), 1u);
 }
 
-/// One cycle from 0 to 1 s with these extras.
+/// One clip from 0 to 1 s with these extras.
 Import import_extras(const Json& extras) {
     Gltf gltf = make_triangle();
     gltf.add_animation(0, "translation", gltf.add_accessor<float>({0, 1}, "SCALAR"),
@@ -67,7 +67,7 @@ Import import_extras(const Json& extras) {
 
 std::string markers_of(const Import& import) {
     std::string text;
-    for (const Marker& marker : import->cycles.at(0).markers)
+    for (const Marker& marker : import->clips.at(0).markers)
         text += marker.name + '@' + std::to_string(marker.seconds) + ' ';
     return text;
 }
@@ -76,27 +76,27 @@ TEST(GltfAnimation, MarkersStandInExtras) {
     const Import list = import_extras(
         {{"markers", {{{"time", 0.75}, {"name", "right"}}, {{"time", 0.25}, {"name", "left"}}}}, {"mine", 1}});
     EXPECT_EQ(markers_of(list), "left@0.250000 right@0.750000 ");
-    EXPECT_EQ(list->cycles[0].extras, R"({"mine":1})");
+    EXPECT_EQ(list->clips[0].extras, R"({"mine":1})");
     const Import object = import_extras({{"markers", {{"step", {0.25, 1}}, {"hit", 0}}}});
     EXPECT_EQ(markers_of(object), "hit@0.000000 step@0.250000 step@1.000000 ");
-    EXPECT_EQ(object->cycles[0].extras, "");
+    EXPECT_EQ(object->clips[0].extras, "");
     const Import text = import_extras({{"markers", R"([{"time": 0.5, "name": "in text"}])"}, {"loop", true}});
     EXPECT_EQ(markers_of(text), "in text@0.500000 ");
-    EXPECT_TRUE(text->cycles[0].loop);
+    EXPECT_TRUE(text->clips[0].loop);
 }
 
 TEST(GltfAnimation, MarkersThatAreWrongAreNamedAndLeftOut) {
     const Import import = import_extras(Json::parse(
         R"({"markers": [{"time": 2, "name": "late"}, {"time": 0.5, "name": "good"}, {"name": "when"}, 7, {"time": 1.0005, "name": "end"}]})"));
     EXPECT_EQ(markers_of(import), "good@0.500000 end@1.000000 ");
-    EXPECT_EQ(import->cycles[0].extras, "");
+    EXPECT_EQ(import->clips[0].extras, "");
     const auto place_of = [&](const char* message) {
         for (const Warning& warning : import.report.warnings()) {
             if (warning.message.find(message) != std::string::npos) return warning.first_place;
         }
         return std::string("nothing");
     };
-    EXPECT_EQ(place_of("2.0 s is outside the cycle, which lasts from 0.0 s to 1.0 s"),
+    EXPECT_EQ(place_of("2.0 s is outside the clip, which lasts from 0.0 s to 1.0 s"),
               "animations[0].extras.markers[0]");
     EXPECT_EQ(place_of("it is required and missing"), "animations[0].extras.markers[2].time");
     EXPECT_EQ(place_of("it must be an object, not 7"), "animations[0].extras.markers[3]");
@@ -106,7 +106,7 @@ TEST(GltfAnimation, OtherThingsNamedMarkersStayInExtras) {
     for (const char* extras : {R"({"markers":3})", R"({"markers":[1,2]})", R"({"markers":"no JSON"})"}) {
         const Import import = import_extras(Json::parse(extras));
         EXPECT_EQ(markers_of(import), "");
-        EXPECT_EQ(import->cycles[0].extras, extras);
+        EXPECT_EQ(import->clips[0].extras, extras);
         EXPECT_FALSE(import.report.warnings().empty());
     }
     const Import elsewhere = import_extras(Json::parse(R"({"a":{"markers":3}})"));
@@ -125,9 +125,9 @@ TEST(GltfAnimation, ChannelsWithoutANodeOfTheSceneAreCounted) {
     const Import import = gltf.import();
     EXPECT_EQ(import.warned("outside the chosen scene left out"), 1u + 1u);  // the node, and its channel
     EXPECT_EQ(import.warned("without a target node"), 1u);
-    ASSERT_EQ(import->cycles.size(), 2u);
-    EXPECT_TRUE(import->cycles[0].tracks.empty());
-    EXPECT_TRUE(import->cycles[1].tracks.empty());
+    ASSERT_EQ(import->clips.size(), 2u);
+    EXPECT_TRUE(import->clips[0].tracks.empty());
+    EXPECT_TRUE(import->clips[1].tracks.empty());
 }
 
 TEST(GltfAnimation, OfTwoChannelsForOneTargetTheLastIsTaken) {
@@ -138,8 +138,8 @@ TEST(GltfAnimation, OfTwoChannelsForOneTargetTheLastIsTaken) {
     animation["samplers"].push_back({{"input", input}, {"output", gltf.add_accessor<float>({2, 2, 2}, "VEC3")}});
     animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "translation"}}}});
     const Import import = gltf.import();
-    ASSERT_EQ(import->cycles.at(0).tracks.size(), 1u);
-    EXPECT_EQ(import->cycles[0].tracks[0].values, (std::vector<float>{2, 2, 2}));
+    ASSERT_EQ(import->clips.at(0).tracks.size(), 1u);
+    EXPECT_EQ(import->clips[0].tracks[0].values, (std::vector<float>{2, 2, 2}));
     EXPECT_EQ(import.warned("second channel"), 1u);
 }
 
@@ -160,7 +160,7 @@ TEST(GltfAnimation, TimesMustIncrease) {
 
 TEST(GltfAnimation, KeysAtOneTimeAreAJump) {
     const Import import = import_keys({0, 1, 1, 1, 2}, {0, 0, 0, 1, 1, 1, 7, 7, 7, 5, 5, 5, 6, 6, 6}, "VEC3", "scale");
-    const Track& track = import->cycles.at(0).tracks.at(0);
+    const Track& track = import->clips.at(0).tracks.at(0);
     EXPECT_EQ(track.times, (std::vector<float>{0, std::nextafter(1.0f, 0.0f), 1, 2}));
     EXPECT_EQ(track.values, (std::vector<float>{0, 0, 0, 1, 1, 1, 5, 5, 5, 6, 6, 6}));
     EXPECT_EQ(import.warned("keys at the same time"), 2u);
@@ -168,7 +168,7 @@ TEST(GltfAnimation, KeysAtOneTimeAreAJump) {
 
 TEST(GltfAnimation, RotationKeysAreNormalised) {
     const Import import = import_keys({0, 1}, {0, 0, 0, 2, 0.6f, 0, 0, 0.8f}, "VEC4", "rotation");
-    EXPECT_EQ(import->cycles.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
+    EXPECT_EQ(import->clips.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
     EXPECT_EQ(import.warned("no unit quaternion"), 1u);
     const Import zero = import_keys({0, 1}, {0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", "rotation");
     EXPECT_EQ(zero.message(), "rotation key 1 is (0, 0, 0, 0)");
@@ -178,7 +178,7 @@ TEST(GltfAnimation, NormalisedIntegersAreRotationsToo) {
     Gltf gltf = make_triangle();
     const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
     gltf.add_animation(0, "rotation", input, gltf.add_accessor<std::int16_t>({0, 0, 0, -32768}, "VEC4", true));
-    EXPECT_EQ(gltf.import()->cycles.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, -1}));
+    EXPECT_EQ(gltf.import()->clips.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, -1}));
 }
 
 TEST(GltfAnimation, WeightsMoveEveryMeshOfTheNode) {
@@ -189,7 +189,7 @@ TEST(GltfAnimation, WeightsMoveEveryMeshOfTheNode) {
     gltf.add_animation(0, "weights", input, gltf.add_accessor<float>({0, 1, 2, 3}, "SCALAR"));
     const Import import = gltf.import();
     ASSERT_EQ(import->meshes.size(), 2u);
-    const auto& tracks = import->cycles.at(0).tracks;
+    const auto& tracks = import->clips.at(0).tracks;
     ASSERT_EQ(tracks.size(), 2u);
     EXPECT_EQ(tracks[0].target, 0u);
     EXPECT_EQ(tracks[1].target, 1u);
@@ -199,7 +199,7 @@ TEST(GltfAnimation, WeightsMoveEveryMeshOfTheNode) {
 
 TEST(GltfAnimation, WeightsWithoutMorphTargetsAreLeftOut) {
     const Import import = import_keys({0}, {1}, "SCALAR", "weights");
-    EXPECT_TRUE(import->cycles.at(0).tracks.empty());
+    EXPECT_TRUE(import->clips.at(0).tracks.empty());
     EXPECT_EQ(import.warned("without morph targets"), 1u);
 }
 

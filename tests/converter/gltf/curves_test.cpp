@@ -2,7 +2,6 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/export.h>
-#include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
 #include <bendy/format/validate.h>
 
@@ -58,7 +57,7 @@ std::size_t add_pointer(Gltf& gltf, const std::string& pointer, const char* type
 }
 
 const std::vector<Curve>& curves_of(const Import& import) {
-    return import->cycles.at(0).curves;
+    return import->clips.at(0).curves;
 }
 
 TEST(GltfCurves, PointersBecomeCurvesOfTheirTargets) {
@@ -120,7 +119,7 @@ TEST(GltfCurves, TransformsAndWeightsBecomeTracks) {
     add_pointer(gltf, "/nodes/1/rotation", input, gltf.add_accessor<float>({0, 0, 0, 2, 0, 0, 1, 0}, "VEC4"));
     add_pointer(gltf, "/meshes/0/weights", input, gltf.add_accessor<float>({1, 2, 3, 4}, "SCALAR"));
     const Import import = gltf.import();
-    const auto& tracks = import->cycles.at(0).tracks;
+    const auto& tracks = import->clips.at(0).tracks;
     ASSERT_EQ(tracks.size(), 3u);
     EXPECT_EQ(tracks[0].path, TrackPath::translation);
     EXPECT_EQ(tracks[0].target, 1u);
@@ -300,15 +299,15 @@ TEST(GltfCurves, RoundTripGivesTheSameBytes) {
     EXPECT_EQ(pointers.size(), 9u);
     EXPECT_EQ(pointers.at(7), "/cameras/0/perspective/yfov");  // the only camera that a node has
     const Scene again = import_again(exported.asset);
-    EXPECT_EQ(again.cycles.at(0).curves.at(2).name, "Blink");
+    EXPECT_EQ(again.clips.at(0).curves.at(2).name, "Blink");
     const Buffer second = build(again);
     // Who made a file is not the same; the rest is.
     const Buffer third = build(import_again(export_file(second).asset));
     EXPECT_EQ(second, third);
-    ASSERT_EQ(again.cycles[0].curves.size(), import->cycles[0].curves.size());
-    for (std::size_t c = 0; c < again.cycles[0].curves.size(); ++c) {
-        const Curve& here = import->cycles[0].curves[c];
-        const Curve& there = again.cycles[0].curves[c];
+    ASSERT_EQ(again.clips[0].curves.size(), import->clips[0].curves.size());
+    for (std::size_t c = 0; c < again.clips[0].curves.size(); ++c) {
+        const Curve& here = import->clips[0].curves[c];
+        const Curve& there = again.clips[0].curves[c];
         EXPECT_EQ(std::tie(here.name, here.path, here.kind, here.target, here.interpolation, here.components,
                            here.times, here.values),
                   std::tie(there.name, there.path, there.kind, there.target, there.interpolation, there.components,
@@ -323,7 +322,7 @@ TEST(GltfCurves, OurFilesComeBackByteForByte) {
     const auto scene = import_bendy(file, report);
     ASSERT_TRUE(scene);
     EXPECT_EQ(build(*scene), file);
-    EXPECT_EQ(scene->cycles[0].curves.size(), 9u);
+    EXPECT_EQ(scene->clips[0].curves.size(), 9u);
     for (const Warning& warning : report.warnings())
         EXPECT_EQ(warning.message.find("chunk that is not read"), std::string::npos) << warning.message;
 }
@@ -347,7 +346,7 @@ TEST(GltfCurves, AClipMayHaveNothingElse) {
     add_pointer(gltf, "/materials/0/alphaCutoff");
     gltf.json["animations"][0]["extras"] = {{"markers", {{{"time", 0.5}, {"name", "half"}}}}};
     const Import import = gltf.import();
-    EXPECT_EQ(import->cycles[0].markers.size(), 1u);
+    EXPECT_EQ(import->clips[0].markers.size(), 1u);
     const Exported exported = export_file(build(*import));
     EXPECT_EQ(exported.json["animations"].size(), 1u);
     EXPECT_EQ(exported.json["animations"][0]["name"], "show");

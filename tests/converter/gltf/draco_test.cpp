@@ -63,7 +63,7 @@ void expect_square(const Import& import) {
     const Mesh& mesh = import->meshes[0];
     ASSERT_EQ(mesh.positions.size(), 4u);
     ASSERT_EQ(mesh.colours.size(), 1u);
-    ASSERT_EQ(mesh.parts.at(0).indices.size(), 6u);
+    ASSERT_EQ(mesh.submeshes.at(0).indices.size(), 6u);
     // Draco orders the vertices as it likes; the colour tells which one it is.
     const std::array<std::pair<float, glm::vec3>, 4> due = {
         {{0.0f, {0, 0, 0}}, {0.2f, {1, 0, 0}}, {0.4f, {1, 1, 0}}, {1.0f, {0, 1, 0}}}};
@@ -76,7 +76,7 @@ void expect_square(const Import& import) {
     }
     double area = 0;
     for (std::size_t i = 0; i < 6; i += 3) {
-        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.parts[0].indices[i + k]]; };
+        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.submeshes[0].indices[i + k]]; };
         const glm::vec3 u = corner(1) - corner(0);
         const glm::vec3 v = corner(2) - corner(0);
         area += static_cast<double>(u.x * v.y - u.y * v.x) / 2;
@@ -102,7 +102,7 @@ TEST(GltfDraco, PrimitivesOfOneStreamShareItsVertices) {
     gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive());
     const Import import = gltf.import();
     EXPECT_EQ(import->meshes.at(0).positions.size(), 4u);
-    EXPECT_EQ(import->meshes[0].parts.size(), 2u);
+    EXPECT_EQ(import->meshes[0].submeshes.size(), 2u);
 }
 
 TEST(GltfDraco, FaultsNameThePrimitive) {

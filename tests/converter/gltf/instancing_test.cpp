@@ -97,8 +97,8 @@ TEST(GltfInstancing, ClipsOfWeightsMoveAllInstances) {
     GltfOptions options;
     options.instances = true;
     const Import import = gltf.import(options);
-    ASSERT_EQ(import->cycles[0].tracks.size(), 2u);
-    EXPECT_EQ(import->cycles[0].tracks[1].target, 1u);
+    ASSERT_EQ(import->clips[0].tracks.size(), 2u);
+    EXPECT_EQ(import->clips[0].tracks[1].target, 1u);
 }
 
 TEST(GltfInstancing, FaultyOnesAreNamedOrRefused) {

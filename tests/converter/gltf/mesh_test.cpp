@@ -13,13 +13,13 @@ using Indices = std::vector<std::uint32_t>;
 // ---------------------------------------------------------------------------------------------- topology
 
 /// The part that `vertices` vertices make in a mode, without indices.
-Part part_of(int mode, std::size_t vertices, std::uint64_t* unused = nullptr) {
+Submesh part_of(int mode, std::size_t vertices, std::uint64_t* unused = nullptr) {
     Gltf gltf;
     gltf.add_mesh({{"POSITION", gltf.add_positions(vertices)}}, {{"mode", mode}});
     gltf.add_node({{"mesh", 0}});
     const Import import = gltf.import();
     if (unused != nullptr) *unused = import.warned("no whole primitive");
-    return import->meshes.at(0).parts.at(0);
+    return import->meshes.at(0).submeshes.at(0);
 }
 
 TEST(GltfMesh, ModesBecomeLists) {
@@ -56,9 +56,9 @@ Import import_indices(const std::vector<T>& indices, int mode = 4, std::size_t v
 }
 
 TEST(GltfMesh, IndicesOfEveryType) {
-    EXPECT_EQ(import_indices<std::uint8_t>({0, 3, 1})->meshes.at(0).parts.at(0).indices, (Indices{0, 3, 1}));
-    EXPECT_EQ(import_indices<std::uint16_t>({0, 3, 1})->meshes.at(0).parts.at(0).indices, (Indices{0, 3, 1}));
-    EXPECT_EQ(import_indices<std::uint32_t>({0, 3, 1})->meshes.at(0).parts.at(0).indices, (Indices{0, 3, 1}));
+    EXPECT_EQ(import_indices<std::uint8_t>({0, 3, 1})->meshes.at(0).submeshes.at(0).indices, (Indices{0, 3, 1}));
+    EXPECT_EQ(import_indices<std::uint16_t>({0, 3, 1})->meshes.at(0).submeshes.at(0).indices, (Indices{0, 3, 1}));
+    EXPECT_EQ(import_indices<std::uint32_t>({0, 3, 1})->meshes.at(0).submeshes.at(0).indices, (Indices{0, 3, 1}));
     EXPECT_EQ(import_indices<float>({0, 3, 1}).message(), "accessors[1] must hold unsigned scalars");
     EXPECT_EQ(import_indices<std::int16_t>({0, 3, 1}).message(), "accessors[1] must hold unsigned scalars");
 }
@@ -88,10 +88,10 @@ TEST(GltfMesh, PrimitivesOfOneLayoutBecomePartsOfOneMesh) {
     const Mesh& mesh = import->meshes[0];
     EXPECT_EQ(mesh.name, "body");
     EXPECT_EQ(mesh.positions.size(), 9u);
-    ASSERT_EQ(mesh.parts.size(), 2u);
-    EXPECT_EQ(mesh.parts[0].material, 1u);
-    EXPECT_EQ(mesh.parts[1].material, kNone);
-    EXPECT_EQ(mesh.parts[1].indices, (Indices{3, 4, 5, 6, 7, 8}));
+    ASSERT_EQ(mesh.submeshes.size(), 2u);
+    EXPECT_EQ(mesh.submeshes[0].material, 1u);
+    EXPECT_EQ(mesh.submeshes[1].material, kNone);
+    EXPECT_EQ(mesh.submeshes[1].indices, (Indices{3, 4, 5, 6, 7, 8}));
 }
 
 TEST(GltfMesh, PrimitivesOfTheSameAccessorsShareTheirVertices) {
@@ -101,7 +101,7 @@ TEST(GltfMesh, PrimitivesOfTheSameAccessorsShareTheirVertices) {
     const Import import = gltf.import();
     ASSERT_EQ(import->meshes.size(), 1u);
     EXPECT_EQ(import->meshes[0].positions.size(), 3u);
-    EXPECT_EQ(import->meshes[0].parts.at(1).indices, (Indices{2, 1, 0}));
+    EXPECT_EQ(import->meshes[0].submeshes.at(1).indices, (Indices{2, 1, 0}));
 }
 
 TEST(GltfMesh, OtherLayoutsBecomeMeshesOfTheirOwn) {

@@ -194,7 +194,7 @@ TEST(GltfMeshopt, CompressedViewsAreDecoded) {
     ASSERT_EQ(import->meshes.size(), 1u);
     EXPECT_EQ(import->meshes[0].positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     // The codec may turn a triangle, never over.
-    const auto& indices = import->meshes[0].parts.at(0).indices;
+    const auto& indices = import->meshes[0].submeshes.at(0).indices;
     ASSERT_EQ(indices.size(), 3u);
     EXPECT_EQ((indices[0] + 2) % 3, indices[1]);
     EXPECT_EQ((indices[1] + 2) % 3, indices[2]);

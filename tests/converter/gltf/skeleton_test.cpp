@@ -88,9 +88,8 @@ TEST(GltfSkeleton, CyclesAndSecondParentsAreRefused) {
         const Import import = import_nodes("\"nodes\":" + nodes);
         return import.place() + ": " + import.message();
     };
-    EXPECT_EQ(error_of(R"([{},{"children":[2]},{"children":[1]}])"),
-              "nodes[1]: the node is its own ancestor (a cycle)");
-    EXPECT_EQ(error_of(R"([{"children":[0]}])"), "nodes[0]: the node is its own ancestor (a cycle)");
+    EXPECT_EQ(error_of(R"([{},{"children":[2]},{"children":[1]}])"), "nodes[1]: the node is its own ancestor (a loop)");
+    EXPECT_EQ(error_of(R"([{"children":[0]}])"), "nodes[0]: the node is its own ancestor (a loop)");
     EXPECT_EQ(error_of(R"([{"children":[2]},{"children":[2]},{}])"),
               "nodes[1].children[0]: node 2 has two parents, the other is node 0");
     EXPECT_EQ(error_of(R"([{"children":[1,1]},{}])"),

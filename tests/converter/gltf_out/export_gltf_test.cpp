@@ -31,7 +31,7 @@ Scene triangle() {
     mesh.name = "triangle";
     mesh.joint = 0;
     mesh.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
-    mesh.parts.push_back({Topology::triangles, kNone, {0, 1, 2}});
+    mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2}});
     scene.meshes.push_back(mesh);
     return scene;
 }
@@ -85,7 +85,7 @@ TEST(ExportGltf, ATriangleIsWhatItIs) {
     EXPECT_EQ(exported.asset.buffer.size(), 36u + 6u);
     const Scene again = import_again(exported.asset);
     EXPECT_EQ(again.meshes[0].positions, triangle().meshes[0].positions);
-    EXPECT_EQ(again.meshes[0].parts[0].indices, triangle().meshes[0].parts[0].indices);
+    EXPECT_EQ(again.meshes[0].submeshes[0].indices, triangle().meshes[0].submeshes[0].indices);
 }
 
 TEST(ExportGltf, AnObjectWithoutJointsIsASceneWithoutNodes) {
@@ -130,90 +130,90 @@ TEST(ExportGltf, ShearIsAMatrixUnlessTheJointMoves) {
     EXPECT_FLOAT_EQ(shear.x, 0.25f);
     EXPECT_FLOAT_EQ(shear.z, 0.5f);
 
-    Cycle cycle;
-    cycle.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 2.0f, 3.0f}});
-    scene.cycles.push_back(cycle);
+    Clip clip;
+    clip.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 2.0f, 3.0f}});
+    scene.clips.push_back(clip);
     const Exported moved = export_scene(scene);
     EXPECT_FALSE(moved.document["nodes"][0].contains("matrix"));
     EXPECT_TRUE(moved.warns("shear of an animated joint left out"));
 }
 
-TEST(ExportGltf, ACycleThatBeginsBeforeZeroIsMoved) {
+TEST(ExportGltf, AClipThatBeginsBeforeZeroIsMoved) {
     Scene scene = triangle();
-    Cycle cycle;
-    cycle.tracks.push_back(
+    Clip clip;
+    clip.tracks.push_back(
         {TrackPath::scale, Interpolation::step, 0, 3, {-2.0f, 1.0f}, {1.0f, 1.0f, 1.0f, 2.0f, 2.0f, 2.0f}});
-    scene.cycles.push_back(cycle);
+    scene.clips.push_back(clip);
     const Exported exported = export_scene(scene);
     EXPECT_TRUE(exported.warns("begins before 0 s"));
-    EXPECT_EQ(import_again(exported.asset).cycles[0].tracks[0].times, (std::vector<float>{0.0f, 3.0f}));
+    EXPECT_EQ(import_again(exported.asset).clips[0].tracks[0].times, (std::vector<float>{0.0f, 3.0f}));
 }
 
 TEST(ExportGltf, TimesThatAreMovedStillAscend) {
     Scene scene = triangle();
-    Cycle cycle;
+    Clip clip;
     const float before_one = std::nextafter(1.0f, 0.0f);  // 2, once it is moved, as 1 is
-    cycle.tracks.push_back(
+    clip.tracks.push_back(
         {TrackPath::scale, Interpolation::step, 0, 3, {-1.0f, before_one, 1.0f}, std::vector<float>(9, 1.0f)});
-    scene.cycles.push_back(cycle);
-    EXPECT_EQ(import_again(export_scene(scene).asset).cycles[0].tracks[0].times,
+    scene.clips.push_back(clip);
+    EXPECT_EQ(import_again(export_scene(scene).asset).clips[0].tracks[0].times,
               (std::vector<float>{0.0f, 2.0f, std::nextafter(2.0f, 3.0f)}));
 }
 
 TEST(ExportGltf, AClipLongerThanItsKeysIsHeldForItsWholeLength) {
     Scene scene = triangle();
-    Cycle moving;
+    Clip moving;
     moving.tracks = {{TrackPath::translation, Interpolation::linear, 0, 3, {0.5f, 1.0f}, {0, 0, 0, 1, 0, 0}}};
-    moving.stated_span = CycleSpan{0.25f, 3.0f};
-    Cycle still;
-    still.stated_span = CycleSpan{0.0f, 2.5f};
+    moving.stated_span = ClipSpan{0.25f, 3.0f};
+    Clip still;
+    still.stated_span = ClipSpan{0.0f, 2.5f};
     Joint child;
     child.name = "child";
     child.parent = 0;
     child.rest.translation = {0.0f, 2.0f, 0.0f};
     scene.joints.push_back(child);
-    scene.cycles = {moving, still};
+    scene.clips = {moving, still};
     const Exported exported = export_scene(scene);
     EXPECT_TRUE(exported.warns("longer than its keys"));
     const Scene again = import_again(exported.asset);
-    ASSERT_EQ(again.cycles.size(), 2u);
-    for (std::size_t cycle = 0; cycle < 2; ++cycle) {
+    ASSERT_EQ(again.clips.size(), 2u);
+    for (std::size_t clip = 0; clip < 2; ++clip) {
         float first = 1e9f;
         float last = -1e9f;
-        for (const Track& track : again.cycles[cycle].tracks) {
+        for (const Track& track : again.clips[clip].tracks) {
             first = std::min(first, track.times.front());
             last = std::max(last, track.times.back());
         }
-        EXPECT_EQ(first, scene.cycles[cycle].stated_span->start);
-        EXPECT_EQ(last, scene.cycles[cycle].stated_span->end);
+        EXPECT_EQ(first, scene.clips[clip].stated_span->start);
+        EXPECT_EQ(last, scene.clips[clip].stated_span->end);
     }
-    ASSERT_EQ(again.cycles[0].tracks.size(), 2u);
-    EXPECT_EQ(again.cycles[0].tracks[1].target, 1u);
-    EXPECT_EQ(again.cycles[0].tracks[1].values, (std::vector<float>{0, 2, 0, 0, 2, 0}));
+    ASSERT_EQ(again.clips[0].tracks.size(), 2u);
+    EXPECT_EQ(again.clips[0].tracks[1].target, 1u);
+    EXPECT_EQ(again.clips[0].tracks[1].values, (std::vector<float>{0, 2, 0, 0, 2, 0}));
 }
 
-TEST(ExportGltf, ThatACycleRepeatsIsSaidInItsExtras) {
+TEST(ExportGltf, ThatAClipRepeatsIsSaidInItsExtras) {
     Scene scene = triangle();
-    Cycle cycle;
-    cycle.loop = true;
-    cycle.extras = R"({"mine":1})";
-    cycle.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 2.0f, 3.0f}});
-    scene.cycles.push_back(cycle);
+    Clip clip;
+    clip.loop = true;
+    clip.extras = R"({"mine":1})";
+    clip.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 2.0f, 3.0f}});
+    scene.clips.push_back(clip);
     const Exported exported = export_scene(scene);
     EXPECT_EQ(exported.document["animations"][0]["extras"], json::parse(R"({"loop":true,"mine":1})"));
-    EXPECT_TRUE(import_again(exported.asset).cycles[0].loop);
+    EXPECT_TRUE(import_again(exported.asset).clips[0].loop);
 }
 
 TEST(ExportGltf, MarkersStandInExtras) {
     Scene scene = triangle();
-    Cycle cycle;
-    cycle.extras = R"({"mine":1})";
-    cycle.tracks.push_back(
+    Clip clip;
+    clip.extras = R"({"mine":1})";
+    clip.tracks.push_back(
         {TrackPath::translation, Interpolation::linear, 0, 3, {0.0f, 1.0f}, {1.0f, 2.0f, 3.0f, 0.0f, 0.0f, 0.0f}});
-    cycle.markers = {{0.1f, "left"}, {1.0f / 3.0f, ""}, {1.0f, "left"}};
-    scene.cycles.push_back(cycle);
-    scene.cycles.push_back(cycle);
-    scene.cycles[1].extras = "[7]";
+    clip.markers = {{0.1f, "left"}, {1.0f / 3.0f, ""}, {1.0f, "left"}};
+    scene.clips.push_back(clip);
+    scene.clips.push_back(clip);
+    scene.clips[1].extras = "[7]";
     const Exported exported = export_scene(scene);
     const json& extras = exported.document["animations"][0]["extras"];
     EXPECT_EQ(extras["mine"], 1);
@@ -221,27 +221,27 @@ TEST(ExportGltf, MarkersStandInExtras) {
     EXPECT_EQ(exported.document["animations"][1]["extras"], json::parse("[7]"));
     EXPECT_TRUE(exported.warns("markers are left out"));
     const Scene again = import_again(exported.asset);
-    ASSERT_EQ(again.cycles[0].markers.size(), 3u);
-    EXPECT_EQ(again.cycles[0].extras, cycle.extras);
+    ASSERT_EQ(again.clips[0].markers.size(), 3u);
+    EXPECT_EQ(again.clips[0].extras, clip.extras);
     for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(again.cycles[0].markers[k].name, cycle.markers[k].name);
-        EXPECT_EQ(again.cycles[0].markers[k].seconds, cycle.markers[k].seconds);
+        EXPECT_EQ(again.clips[0].markers[k].name, clip.markers[k].name);
+        EXPECT_EQ(again.clips[0].markers[k].seconds, clip.markers[k].seconds);
     }
-    EXPECT_TRUE(again.cycles[1].markers.empty());
+    EXPECT_TRUE(again.clips[1].markers.empty());
 }
 
-TEST(ExportGltf, MarkersMoveWithACycleThatBeginsBeforeZero) {
+TEST(ExportGltf, MarkersMoveWithAClipThatBeginsBeforeZero) {
     Scene scene = triangle();
-    Cycle cycle;
-    cycle.tracks.push_back(
+    Clip clip;
+    clip.tracks.push_back(
         {TrackPath::scale, Interpolation::step, 0, 3, {-2.1f, 1.0f}, {1.0f, 1.0f, 1.0f, 2.0f, 2.0f, 2.0f}});
-    cycle.markers = {{-2.1f, "first"}, {0.0f, "middle"}, {1.0f, "last"}};
-    scene.cycles.push_back(cycle);
+    clip.markers = {{-2.1f, "first"}, {0.0f, "middle"}, {1.0f, "last"}};
+    scene.clips.push_back(clip);
     const Scene again = import_again(export_scene(scene).asset);
-    ASSERT_EQ(again.cycles[0].markers.size(), 3u);
-    EXPECT_EQ(again.cycles[0].markers[0].seconds, 0.0f);
-    EXPECT_EQ(again.cycles[0].markers[1].seconds, 2.1f);
-    EXPECT_EQ(again.cycles[0].markers[2].seconds, again.cycles[0].tracks[0].times[1]);
+    ASSERT_EQ(again.clips[0].markers.size(), 3u);
+    EXPECT_EQ(again.clips[0].markers[0].seconds, 0.0f);
+    EXPECT_EQ(again.clips[0].markers[1].seconds, 2.1f);
+    EXPECT_EQ(again.clips[0].markers[2].seconds, again.clips[0].tracks[0].times[1]);
 }
 
 TEST(ExportGltf, MeshesOfOneJointShareItsNodeOnlyIfTheyCan) {
@@ -284,7 +284,7 @@ TEST(ExportGltf, ATargetThatTouchesLittleIsSparse) {
     Scene scene = triangle();
     Mesh& mesh = scene.meshes[0];
     mesh.positions.resize(100, glm::vec3(1.0f));
-    Target target;
+    MorphTarget target;
     target.name = "smile";
     target.rest_weight = 0.25f;
     target.positions.assign(100, glm::vec3(0.0f));
@@ -392,12 +392,12 @@ TEST(ExportGltf, ASplineThroughNoRotationIsRefusedWithItsPlace) {
     Track still{TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 0.0f, 0.0f}};
     Track spline{TrackPath::rotation, Interpolation::cubic, 0, 4, {0.0f, 1.0f}, std::vector<float>(24, 0.0f)};
     spline.values[7] = 1.0f;  // the first key's w; the second's stays 0
-    scene.cycles.emplace_back().tracks = {still, spline};
+    scene.clips.emplace_back().tracks = {still, spline};
     Report report;
     const Buffer file(build_chunks(scene, "test", report));
     const auto asset = export_gltf(file, {}, report);
     ASSERT_FALSE(asset);
-    EXPECT_EQ(asset.error().place, "cycles[0].tracks[1]");
+    EXPECT_EQ(asset.error().place, "clips[0].tracks[1]");
     EXPECT_EQ(asset.error().message, "rotation key 1 is (0, 0, 0, 0), which glTF cannot hold");
 }
 
@@ -425,11 +425,11 @@ TEST(ExportGltf, RandomCharactersComeBack) {
         ASSERT_EQ(again.meshes.size(), scene.meshes.size());
         for (std::size_t i = 0; i < scene.meshes.size(); ++i)
             EXPECT_EQ(again.meshes[i].positions, scene.meshes[i].positions);
-        ASSERT_EQ(again.cycles.size(), scene.cycles.size());
-        for (std::size_t i = 0; i < scene.cycles.size(); ++i) {
-            ASSERT_EQ(again.cycles[i].tracks.size(), scene.cycles[i].tracks.size());
-            for (std::size_t t = 0; t < scene.cycles[i].tracks.size(); ++t)
-                EXPECT_EQ(again.cycles[i].tracks[t].times, scene.cycles[i].tracks[t].times);
+        ASSERT_EQ(again.clips.size(), scene.clips.size());
+        for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+            ASSERT_EQ(again.clips[i].tracks.size(), scene.clips[i].tracks.size());
+            for (std::size_t t = 0; t < scene.clips[i].tracks.size(); ++t)
+                EXPECT_EQ(again.clips[i].tracks[t].times, scene.clips[i].tracks[t].times);
         }
     }
 }

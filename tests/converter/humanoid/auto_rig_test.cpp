@@ -22,16 +22,16 @@ struct Rigged {
     Report report;
 
     [[nodiscard]] std::uint32_t joint(const std::string& name) const { return joint_named(scene, name); }
-    [[nodiscard]] const LimitRecord& limit(const std::string& name) const {
-        static const LimitRecord kNothing;
+    [[nodiscard]] const ConstraintRecord& constraint(const std::string& name) const {
+        static const ConstraintRecord kNothing;
         const Joint& joint = scene.joints[joint_named(scene, name)];
-        if (joint.limits.size() == 1) return joint.limits[0];
-        ADD_FAILURE() << name << " has " << joint.limits.size() << " limits";
+        if (joint.constraints.size() == 1) return joint.constraints[0];
+        ADD_FAILURE() << name << " has " << joint.constraints.size() << " limits";
         return kNothing;
     }
     [[nodiscard]] std::size_t limited() const {
         std::size_t count = 0;
-        for (const Joint& joint : scene.joints) count += joint.limits.size();
+        for (const Joint& joint : scene.joints) count += joint.constraints.size();
         return count;
     }
     [[nodiscard]] bool proposes(std::string_view line) const {
@@ -47,9 +47,9 @@ Rigged rig(Scene scene, const std::vector<bool>& claimed = {}) {
     auto_rig(result.scene, claimed, result.report);
     EXPECT_TRUE(validate(build_chunks(result.scene, "test", result.report)).empty());
     for (const Joint& joint : result.scene.joints) {
-        for (const LimitRecord& limit : joint.limits) {
-            EXPECT_EQ(limit.flags, kProposed) << joint.name;
-            EXPECT_TRUE(holds_rest(limit)) << joint.name;
+        for (const ConstraintRecord& constraint : joint.constraints) {
+            EXPECT_EQ(constraint.flags, kProposed) << joint.name;
+            EXPECT_TRUE(holds_rest(constraint)) << joint.name;
         }
     }
     return result;
@@ -61,14 +61,14 @@ Rigged rig(const HumanoidGltf& character) {
     return rig(character.build());
 }
 
-double low(const LimitRecord& limit, std::size_t axis) {
-    return static_cast<double>(limit.rotation_min[axis]) / kTestDegree;
+double low(const ConstraintRecord& constraint, std::size_t axis) {
+    return static_cast<double>(constraint.rotation_min[axis]) / kTestDegree;
 }
-double high(const LimitRecord& limit, std::size_t axis) {
-    return static_cast<double>(limit.rotation_max[axis]) / kTestDegree;
+double high(const ConstraintRecord& constraint, std::size_t axis) {
+    return static_cast<double>(constraint.rotation_max[axis]) / kTestDegree;
 }
-bool is_hinge(const LimitRecord& limit) {
-    return limit.model == static_cast<std::uint8_t>(LimitModel::hinge);
+bool is_hinge(const ConstraintRecord& constraint) {
+    return constraint.model == static_cast<std::uint8_t>(ConstraintModel::hinge);
 }
 
 TEST(AutoRig, ProposesChainsAndLimits) {
@@ -101,16 +101,17 @@ TEST(AutoRig, LimbsBendAsAHumansDo) {
                 };
                 return glm::conjugate(about_y) * (at(degrees) - at(0));
             };
-            const auto& elbow = rigged.limit(side + "LowerArm");
-            const auto& knee = rigged.limit(side + "LowerLeg");
+            const auto& elbow = rigged.constraint(side + "LowerArm");
+            const auto& knee = rigged.constraint(side + "LowerLeg");
             ASSERT_TRUE(is_hinge(elbow) && is_hinge(knee));
             EXPECT_LT(glm::distance(goes("Hand", "LowerArm", 0, 90), {-0.25 * out, 0, 0.25}), 1e-5);  // forward
             EXPECT_LT(glm::distance(goes("Foot", "LowerLeg", 0, 90), {0, 0.4, -0.4}), 1e-5);          // backward
-            EXPECT_LT(glm::distance(goes("Toes", "Foot", 1, high(rigged.limit(side + "Foot"), 1)), {0, 0, 0}), 0.2);
-            EXPECT_LT(goes("Toes", "Foot", 1, high(rigged.limit(side + "Foot"), 1)).y, -0.05);  // to the ground
-            EXPECT_NEAR(high(rigged.limit(side + "Foot"), 1), 50, 1e-3);
+            EXPECT_LT(glm::distance(goes("Toes", "Foot", 1, high(rigged.constraint(side + "Foot"), 1)), {0, 0, 0}),
+                      0.2);
+            EXPECT_LT(goes("Toes", "Foot", 1, high(rigged.constraint(side + "Foot"), 1)).y, -0.05);  // to the ground
+            EXPECT_NEAR(high(rigged.constraint(side + "Foot"), 1), 50, 1e-3);
 
-            const auto& hip = rigged.limit(side + "UpperLeg");
+            const auto& hip = rigged.constraint(side + "UpperLeg");
             EXPECT_GT(goes("LowerLeg", "UpperLeg", 1, low(hip, 1)).y, 0.45);  // 120 degrees: the knee above the hip
             EXPECT_GT(goes("LowerLeg", "UpperLeg", 1, low(hip, 1)).z, 0.3);
             EXPECT_NEAR(low(hip, 1), -120, 1e-3);
@@ -118,14 +119,14 @@ TEST(AutoRig, LimbsBendAsAHumansDo) {
             EXPECT_NEAR(std::abs(apart), 45, 1e-3);
             EXPECT_GT(out * goes("LowerLeg", "UpperLeg", 2, apart).x, 0.3);
 
-            const auto& shoulder = rigged.limit(side + "UpperArm");
+            const auto& shoulder = rigged.constraint(side + "UpperArm");
             const double raised = side == "left" ? high(shoulder, 2) : low(shoulder, 2);
             EXPECT_NEAR(std::abs(raised), 90, 1e-3);
             EXPECT_NEAR(goes("LowerArm", "UpperArm", 2, raised).y, 0.3, 1e-5);
             EXPECT_GT(goes("LowerArm", "UpperArm", 1, low(shoulder, 1)).z, 0.2);  // 135 degrees forward
             EXPECT_NEAR(low(shoulder, 1), -135, 1e-3);
             // The palm faces down: the hand bends further to it than away.
-            const auto& wrist = rigged.limit(side + "Hand");
+            const auto& wrist = rigged.constraint(side + "Hand");
             const double to_palm = side == "left" ? low(wrist, 2) : high(wrist, 2);
             EXPECT_NEAR(std::abs(to_palm), 80, 1e-3);
             EXPECT_NEAR(low(wrist, 1), -20, 1e-3);
@@ -135,12 +136,12 @@ TEST(AutoRig, LimbsBendAsAHumansDo) {
 
 TEST(AutoRig, TheTrunkBendsForwardFurtherThanBack) {
     const Rigged rigged = rig(HumanoidGltf());
-    const LimitRecord& spine = rigged.limit("spine");
+    const ConstraintRecord& spine = rigged.constraint("spine");
     EXPECT_NEAR(low(spine, 1), -40, 1e-3);  // two joints share 80
     const glm::dvec3 bent =
         moved(rigged.scene, rigged.joint("neck"), rigged.joint("spine"), 1, low(spine, 1) * kTestDegree);
     EXPECT_GT(bent.z, 0.2);
-    EXPECT_NEAR(high(rigged.limit("neck"), 0), 30, 1e-3);  // and two share 60
+    EXPECT_NEAR(high(rigged.constraint("neck"), 0), 30, 1e-3);  // and two share 60
 }
 
 TEST(AutoRig, ABentElbowIsBentAlready) {
@@ -149,10 +150,10 @@ TEST(AutoRig, ABentElbowIsBentAlready) {
         character["leftLowerArm"].position + 0.25 * glm::dvec3(std::cos(1.0), 0, std::sin(1.0));
     character["rightHand"].position += glm::dvec3(0, 0, -0.02);  // 5 degrees the wrong way
     const Rigged rigged = rig(character);
-    EXPECT_NEAR(low(rigged.limit("leftLowerArm"), 0), -1.0 / kTestDegree, 1e-3);
-    EXPECT_NEAR(high(rigged.limit("leftLowerArm"), 0), 150 - 1.0 / kTestDegree, 1e-3);
-    EXPECT_EQ(low(rigged.limit("rightLowerArm"), 0), 0);
-    EXPECT_GT(high(rigged.limit("rightLowerArm"), 0), 150);
+    EXPECT_NEAR(low(rigged.constraint("leftLowerArm"), 0), -1.0 / kTestDegree, 1e-3);
+    EXPECT_NEAR(high(rigged.constraint("leftLowerArm"), 0), 150 - 1.0 / kTestDegree, 1e-3);
+    EXPECT_EQ(low(rigged.constraint("rightLowerArm"), 0), 0);
+    EXPECT_GT(high(rigged.constraint("rightLowerArm"), 0), 150);
 }
 
 TEST(AutoRig, TheZeroOfAnAPoseIsMoved) {
@@ -164,9 +165,9 @@ TEST(AutoRig, TheZeroOfAnAPoseIsMoved) {
         character[s + "Hand"].position = character[s + "LowerArm"].position + 0.25 * down;
     }
     const Rigged rigged = rig(character);
-    EXPECT_NEAR(low(rigged.limit("leftUpperArm"), 2), -95, 1e-3);
-    EXPECT_NEAR(high(rigged.limit("leftUpperArm"), 2), 135, 1e-3);
-    EXPECT_NEAR(high(rigged.limit("rightUpperArm"), 2), 95, 1e-3);
+    EXPECT_NEAR(low(rigged.constraint("leftUpperArm"), 2), -95, 1e-3);
+    EXPECT_NEAR(high(rigged.constraint("leftUpperArm"), 2), 135, 1e-3);
+    EXPECT_NEAR(high(rigged.constraint("rightUpperArm"), 2), 95, 1e-3);
     const glm::dvec3 hand =
         moved(rigged.scene, rigged.joint("leftHand"), rigged.joint("leftLowerArm"), 0, 90 * kTestDegree);
     EXPECT_NEAR(hand.z, 0.25, 1e-5);
@@ -176,9 +177,9 @@ TEST(AutoRig, AKneeThatIsNoHumansGetsNoLimit) {
     HumanoidGltf bird;
     bird["leftLowerLeg"].position += glm::dvec3(0, 0, -0.2);
     const Rigged rigged = rig(bird);
-    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftLowerLeg")].limits.empty());
+    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftLowerLeg")].constraints.empty());
     EXPECT_EQ(warned(rigged.report, "outside what a human can do"), 1u);
-    EXPECT_TRUE(is_hinge(rigged.limit("rightLowerLeg")));
+    EXPECT_TRUE(is_hinge(rigged.constraint("rightLowerLeg")));
 }
 
 TEST(AutoRig, AFourLeggedAnimalGetsChainsOnly) {
@@ -263,15 +264,15 @@ TEST(AutoRig, AVrmHumanoidNeedsNoNames) {
 
 TEST(AutoRig, LeavesWhatIsThere) {
     Scene scene = *HumanoidGltf().build().import();
-    LimitRecord locked;
-    locked.model = static_cast<std::uint8_t>(LimitModel::locked);
+    ConstraintRecord locked;
+    locked.model = static_cast<std::uint8_t>(ConstraintModel::locked);
     locked.flags = kProposed;
-    scene.joints[joint_named(scene, "leftLowerArm")].limits = {locked};
+    scene.joints[joint_named(scene, "leftLowerArm")].constraints = {locked};
     Chain mine;
     mine.name = "LeftArm";
     scene.chains.push_back(mine);
     const Rigged rigged = rig(scene);
-    EXPECT_EQ(rigged.limit("leftLowerArm").model, locked.model);
+    EXPECT_EQ(rigged.constraint("leftLowerArm").model, locked.model);
     EXPECT_EQ(rigged.scene.chains[0].record.effector, 0u);
     EXPECT_EQ(rigged.scene.chains.size(), 6u);
     EXPECT_EQ(rigged.report.proposals().size(), 24u);
@@ -283,7 +284,7 @@ TEST(AutoRig, ClaimedJointsStayFree) {
     claimed[joint_named(scene, "leftLowerArm")] = true;
     const Rigged rigged = rig(scene, claimed);
     EXPECT_EQ(rigged.limited(), 19u);
-    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftLowerArm")].limits.empty());
+    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftLowerArm")].constraints.empty());
 }
 
 TEST(AutoRig, AFootThatAnIkRigMovesIsTheTarget) {
@@ -295,7 +296,7 @@ TEST(AutoRig, AFootThatAnIkRigMovesIsTheTarget) {
     EXPECT_EQ(leg->record.effector, rigged.joint("leftLowerLeg"));
     EXPECT_EQ(leg->record.target, rigged.joint("leftFoot"));
     EXPECT_NEAR(std::hypot(leg->record.tip_offset[0], leg->record.tip_offset[1], leg->record.tip_offset[2]), 0.4, 1e-5);
-    EXPECT_TRUE(is_hinge(rigged.limit("leftLowerLeg")));
+    EXPECT_TRUE(is_hinge(rigged.constraint("leftLowerLeg")));
 }
 
 glm::dquat to_quaternion(const auto& q) {
@@ -314,7 +315,7 @@ void add_clip(Scene& scene, const std::string& name, const std::vector<glm::dqua
         track.times.push_back(0.1f * static_cast<float>(track.times.size()));
         for (const double number : {q.x, q.y, q.z, q.w}) track.values.push_back(static_cast<float>(number));
     }
-    scene.cycles.push_back({"clip " + std::to_string(scene.cycles.size()), false, {track}, {}});
+    scene.clips.push_back({"clip " + std::to_string(scene.clips.size()), false, {track}, {}});
 }
 
 /// Turns by these angles about an axis of model space, as the joint rests, from `low` to `high` degrees.
@@ -335,7 +336,7 @@ std::vector<glm::dquat> turns_about(const Scene& scene, const std::string& name,
 Scene with_clip(const std::string& name, int axis, double degrees) {
     const Rigged rigged = rig(HumanoidGltf());
     Scene scene = *HumanoidGltf().build().import();
-    const glm::dquat frame = to_quaternion(rigged.limit(name).frame);
+    const glm::dquat frame = to_quaternion(rigged.constraint(name).frame);
     glm::dvec3 about(0);
     about[axis] = 1;
     add_clip(scene, name, {frame * glm::angleAxis(degrees * kTestDegree, about) * glm::conjugate(frame)});
@@ -345,17 +346,17 @@ Scene with_clip(const std::string& name, int axis, double degrees) {
 /// Whether the limit allows what the clips do with its joint.
 void expect_inside(const Rigged& rigged, const std::string& name) {
     const std::uint32_t joint = rigged.joint(name);
-    LimitView view;
-    view.record = rigged.limit(name);
+    ConstraintView view;
+    view.record = rigged.constraint(name);
     const Constraint constraint = make_constraint(view);
-    for (const Cycle& cycle : rigged.scene.cycles) {
-        for (const Track& track : cycle.tracks) {
+    for (const Clip& clip : rigged.scene.clips) {
+        for (const Track& track : clip.tracks) {
             if (track.target != joint) continue;
             for (std::size_t at = 0; at < track.values.size(); at += 4) {
                 const glm::quat q(track.values[at + 3], track.values[at], track.values[at + 1], track.values[at + 2]);
                 const glm::vec4& r = rigged.scene.joints[joint].rest.rotation;
                 const double outside =
-                    violation(constraint, to_limit_space(constraint, glm::quat(r.w, r.x, r.y, r.z), q));
+                    violation(constraint, to_constraint_space(constraint, glm::quat(r.w, r.x, r.y, r.z), q));
                 EXPECT_LT(outside / kTestDegree, 1.0) << name << ", key " << at / 4;
             }
         }
@@ -364,17 +365,17 @@ void expect_inside(const Rigged& rigged, const std::string& name) {
 
 TEST(AutoRig, LimitsHoldTheCharactersOwnClips) {
     const Rigged inside = rig(with_clip("leftLowerArm", 0, 140));
-    EXPECT_NEAR(low(inside.limit("leftLowerArm"), 0), 0, 1e-3);
-    EXPECT_NEAR(high(inside.limit("leftLowerArm"), 0), 150, 1e-3);
+    EXPECT_NEAR(low(inside.constraint("leftLowerArm"), 0), 0, 1e-3);
+    EXPECT_NEAR(high(inside.constraint("leftLowerArm"), 0), 150, 1e-3);
     const Rigged near = rig(with_clip("leftLowerArm", 0, -20.5));
-    EXPECT_NEAR(low(near.limit("leftLowerArm"), 0), -21, 1e-3);
+    EXPECT_NEAR(low(near.constraint("leftLowerArm"), 0), -21, 1e-3);
     EXPECT_TRUE(
         near.proposes("left elbow, leftLowerArm: hinge about (0.00, -1.00, 0.00), -21 to 150 degrees, axis fitted "
                       "to 1 clip, 0.0 degrees off a human's, up to 21 degrees wider than a human's for 1 clip"));
-    EXPECT_NEAR(low(near.limit("rightLowerArm"), 0), -21, 1e-3);  // both sides alike
+    EXPECT_NEAR(low(near.constraint("rightLowerArm"), 0), -21, 1e-3);  // both sides alike
     const Rigged swung = rig(with_clip("leftUpperLeg", 1, 45));
-    EXPECT_NEAR(high(swung.limit("leftUpperLeg"), 1), 45, 1.01);
-    EXPECT_NEAR(high(swung.limit("rightUpperLeg"), 1), 45, 1.01);
+    EXPECT_NEAR(high(swung.constraint("leftUpperLeg"), 1), 45, 1.01);
+    EXPECT_NEAR(high(swung.constraint("rightUpperLeg"), 1), 45, 1.01);
     for (const double degrees : {-170.0, -100.0, 100.0, 170.0}) {
         for (const char* name : {"leftUpperArm", "rightUpperLeg", "spine", "neck", "leftHand"}) {
             for (const int axis : {0, 1, 2}) {
@@ -394,8 +395,8 @@ TEST(AutoRig, AKneesAxisIsThatOfItsClips) {
     add_clip(scene, "leftLowerLeg", turns_about(scene, "leftLowerLeg", axis, 0, 30));
     const Rigged rigged = rig(scene);
     EXPECT_EQ(rigged.limited(), 20u);
-    EXPECT_TRUE(is_hinge(rigged.limit("leftLowerLeg")));
-    EXPECT_TRUE(is_hinge(rigged.limit("rightLowerLeg")));
+    EXPECT_TRUE(is_hinge(rigged.constraint("leftLowerLeg")));
+    EXPECT_TRUE(is_hinge(rigged.constraint("rightLowerLeg")));
     expect_inside(rigged, "leftLowerLeg");
     EXPECT_TRUE(
         rigged.proposes("left knee, leftLowerLeg: hinge about (0.96, 0.00, 0.27), -5 to 135 degrees, axis fitted to "
@@ -414,8 +415,8 @@ TEST(AutoRig, EachSideMayHaveItsOwnAxis) {
         add_clip(scene, knee, turns_about(scene, knee, axis, 0, knee[0] == 'l' ? 120 : 140));
     const Rigged rigged = rig(scene);
     for (const char* knee : {"leftLowerLeg", "rightLowerLeg"}) {
-        EXPECT_TRUE(is_hinge(rigged.limit(knee)));
-        EXPECT_NEAR(high(rigged.limit(knee), 0), 141, 1e-3);
+        EXPECT_TRUE(is_hinge(rigged.constraint(knee)));
+        EXPECT_NEAR(high(rigged.constraint(knee), 0), 141, 1e-3);
         expect_inside(rigged, knee);
     }
 }
@@ -427,12 +428,12 @@ TEST(AutoRig, ElbowsBendAsTheClipsBendThem) {
     add_clip(scene, "rightLowerArm", turns_about(scene, "rightLowerArm", {0, -1, 0}, 0, 60));
     const Rigged rigged = rig(scene);
     for (const std::string side : {"left", "right"}) {
-        EXPECT_TRUE(is_hinge(rigged.limit(side + "LowerArm")));
+        EXPECT_TRUE(is_hinge(rigged.constraint(side + "LowerArm")));
         expect_inside(rigged, side + "LowerArm");
         const glm::dvec3 hand =
             moved(rigged.scene, rigged.joint(side + "Hand"), rigged.joint(side + "LowerArm"), 0, 90 * kTestDegree);
         EXPECT_NEAR(hand.z, -0.25, 1e-5);
-        EXPECT_NEAR(high(rigged.limit(side + "LowerArm"), 0), 150, 1e-3);
+        EXPECT_NEAR(high(rigged.constraint(side + "LowerArm"), 0), 150, 1e-3);
     }
     // The elbow, then, points forward.
     const Chain* arm = find_chain(rigged.scene, "LeftArm");
@@ -443,14 +444,14 @@ TEST(AutoRig, ElbowsBendAsTheClipsBendThem) {
 
 TEST(AutoRig, AnElbowThatTwistsIsNoHinge) {
     const Rigged rigged = rig(with_clip("leftLowerArm", 2, 60));  // about the bone
-    const LimitRecord& limit = rigged.limit("leftLowerArm");
-    EXPECT_EQ(limit.model, static_cast<std::uint8_t>(LimitModel::swing_twist_pyramid));
-    EXPECT_NEAR(high(limit, 0), 80, 1e-3);
-    EXPECT_NEAR(high(limit, 2), 150, 1e-3);
+    const ConstraintRecord& constraint = rigged.constraint("leftLowerArm");
+    EXPECT_EQ(constraint.model, static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid));
+    EXPECT_NEAR(high(constraint, 0), 80, 1e-3);
+    EXPECT_NEAR(high(constraint, 2), 150, 1e-3);
     const glm::dvec3 bent =
         moved(rigged.scene, rigged.joint("leftHand"), rigged.joint("leftLowerArm"), 2, 90 * kTestDegree);
     EXPECT_NEAR(bent.z, 0.25, 1e-5);
-    EXPECT_EQ(rigged.limit("rightLowerArm").model, limit.model);
+    EXPECT_EQ(rigged.constraint("rightLowerArm").model, constraint.model);
 }
 
 TEST(AutoRig, AnArmMayEndWithItsMesh) {
@@ -464,7 +465,7 @@ TEST(AutoRig, AnArmMayEndWithItsMesh) {
         const double out = side == "left" ? 1.0 : -1.0;
         for (const glm::dvec3 at : {glm::dvec3(0.5, 1.40, 0), glm::dvec3(0.5, 1.50, 0), glm::dvec3(0.9, 1.45, 0)})
             mesh.positions.emplace_back(*rest.point_in_space_of(mesh.joint, {out * at.x, at.y, at.z}));
-        mesh.parts.push_back({Topology::triangles, kNone, {0, 1, 2}});
+        mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2}});
         scene.meshes.push_back(std::move(mesh));
     }
     const Rigged rigged = rig(std::move(scene));
@@ -474,7 +475,7 @@ TEST(AutoRig, AnArmMayEndWithItsMesh) {
     EXPECT_EQ(arm->record.target, kNone);
     const auto& tip = arm->record.tip_offset;
     EXPECT_NEAR(std::sqrt(tip[0] * tip[0] + tip[1] * tip[1] + tip[2] * tip[2]), 0.4f, 1e-5f);
-    EXPECT_TRUE(is_hinge(rigged.limit("leftLowerArm")));
+    EXPECT_TRUE(is_hinge(rigged.constraint("leftLowerArm")));
 }
 
 TEST(AutoRig, StrangeScalesCrashNothing) {
@@ -610,7 +611,7 @@ TEST(AutoRig, TheExampleWalksInsideItsLimits) {
     EXPECT_EQ(rigged.scene.chains.size(), 6u);
     EXPECT_EQ(rigged.limited(), 21u);
     for (const Joint& joint : rigged.scene.joints) {
-        if (!joint.limits.empty()) expect_inside(rigged, joint.name);
+        if (!joint.constraints.empty()) expect_inside(rigged, joint.name);
     }
 }
 

@@ -151,7 +151,7 @@ inline glm::dvec3 moved(const Scene& scene, std::uint32_t joint, std::uint32_t t
         const Joint& at = scene.joints[j];
         glm::dquat q = quaternion(at.rest.rotation);
         if (j == turned) {
-            const glm::dquat frame = quaternion(at.limits.at(0).frame);
+            const glm::dquat frame = quaternion(at.constraints.at(0).frame);
             glm::dvec3 about(0);
             about[axis] = 1;
             q = q * frame * glm::angleAxis(angle, about) * glm::conjugate(frame);

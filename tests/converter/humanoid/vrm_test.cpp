@@ -61,7 +61,7 @@ TEST(Vrm, LimbsBecomeChains) {
             EXPECT_LT(glm::distance(pole_of(rigged.scene, *find_chain(rigged.scene, leg)), {0, 0, forward}), 1e-5);
         for (const char* arm : {"LeftArm", "RightArm"})
             EXPECT_LT(glm::distance(pole_of(rigged.scene, *find_chain(rigged.scene, arm)), {0, 0, -forward}), 1e-5);
-        for (const Joint& joint : rigged.scene.joints) EXPECT_TRUE(joint.limits.empty()) << joint.name;
+        for (const Joint& joint : rigged.scene.joints) EXPECT_TRUE(joint.constraints.empty()) << joint.name;
     }
 }
 

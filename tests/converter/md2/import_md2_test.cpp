@@ -90,7 +90,7 @@ Scene import_good(std::vector<std::string> names, Report& report) {
     return *std::move(scene);
 }
 
-TEST(ImportMd2, FramesBecomeTargetsAndCycles) {
+TEST(ImportMd2, FramesBecomeTargetsAndClips) {
     Report report;
     const Scene scene = import_good({"stand01", "stand02", "stand03", "run1"}, report);
     ASSERT_EQ(scene.joints.size(), 1u);
@@ -109,17 +109,17 @@ TEST(ImportMd2, FramesBecomeTargetsAndCycles) {
                 << "Z up is Y up here";
         }
     }
-    ASSERT_EQ(scene.cycles.size(), 2u);
-    EXPECT_EQ(scene.cycles[0].name, "stand");
-    EXPECT_TRUE(scene.cycles[0].loop);
-    EXPECT_TRUE(scene.cycles[0].tracks.empty());
-    EXPECT_EQ(scene.cycles[0].frame_rate, 10.0f);
-    const Play& stand = scene.cycles[0].plays.at(0);
+    ASSERT_EQ(scene.clips.size(), 2u);
+    EXPECT_EQ(scene.clips[0].name, "stand");
+    EXPECT_TRUE(scene.clips[0].loop);
+    EXPECT_TRUE(scene.clips[0].tracks.empty());
+    EXPECT_EQ(scene.clips[0].frame_rate, 10.0f);
+    const Play& stand = scene.clips[0].plays.at(0);
     EXPECT_EQ(stand.first, 0u);
     EXPECT_EQ(stand.frames, 3u);
     EXPECT_TRUE(stand.closed);
-    EXPECT_EQ(scene.cycles[1].name, "run");
-    EXPECT_EQ(scene.cycles[1].plays.at(0).first, 3u);
+    EXPECT_EQ(scene.clips[1].name, "run");
+    EXPECT_EQ(scene.clips[1].plays.at(0).first, 3u);
 }
 
 TEST(ImportMd2, WhatIsStoredComesBackToTheBit) {
@@ -138,7 +138,7 @@ TEST(ImportMd2, WhatIsStoredComesBackToTheBit) {
         EXPECT_EQ(here.targets[k].normals, there.targets[k].normals) << k;
         EXPECT_EQ(here.targets[k].name, there.targets[k].name) << k;
     }
-    EXPECT_FALSE(again->cycles.at(1).plays.at(0).closed) << "one dies once";
+    EXPECT_FALSE(again->clips.at(1).plays.at(0).closed) << "one dies once";
     EXPECT_EQ(build_chunks(*again, "test", report), bytes);
 }
 
@@ -181,26 +181,26 @@ TEST(ImportMd2, AxesWindingCoordinatesAndNormals) {
     Report report;
     const Scene scene = import_good({"stand01"}, report);
     const Mesh& mesh = scene.meshes.at(0);
-    EXPECT_TRUE(scene.cycles.empty()) << "one frame is no cycle";
+    EXPECT_TRUE(scene.clips.empty()) << "one frame is no clip";
     // Vertex 0 of the file: X 1, Y -1 + 8/4 = 1, Z 0; Y is to the left, which is +X here, X the front, +Z.
     EXPECT_EQ(mesh.positions[0], glm::vec3(1.0f, 0.0f, 1.0f) / 32.0f);
     EXPECT_EQ(mesh.texture_coords.at(0).values[0], 0.0f);
     EXPECT_EQ(mesh.texture_coords.at(0).values[1], 1.0f) << "T grows downwards, as here";
     for (const glm::vec3& normal : mesh.normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1)) << "outside is where it was";
-    for (std::size_t i = 0; i < mesh.parts.at(0).indices.size(); i += 3) {
-        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.parts[0].indices[i + k]]; };
+    for (std::size_t i = 0; i < mesh.submeshes.at(0).indices.size(); i += 3) {
+        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.submeshes[0].indices[i + k]]; };
         const glm::vec3 a = corner(1) - corner(0);
         const glm::vec3 b = corner(2) - corner(0);
         EXPECT_GT(a.x * b.y - a.y * b.x, 0.0f) << "counter-clockwise from +Z";
     }
     EXPECT_EQ(scene.images.at(0).uri, "models/man.pcx");
     EXPECT_EQ(scene.materials.at(0).base_colour_texture.texture, 0u);
-    EXPECT_EQ(mesh.parts.at(0).material, 0u);
+    EXPECT_EQ(mesh.submeshes.at(0).material, 0u);
     ASSERT_EQ(report.warnings().size(), 2u);
     EXPECT_EQ(report.warnings()[0].message, "units are taken as 1/32 of a metre");
 }
 
-TEST(ImportMd2, CyclesFollowTheFramesNames) {
+TEST(ImportMd2, ClipsFollowTheFramesNames) {
     const auto runs = [](const std::vector<std::string>& names) {
         std::string text;
         for (const md2::FrameRun& run : md2::find_runs(names))

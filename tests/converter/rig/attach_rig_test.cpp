@@ -13,9 +13,9 @@ using namespace test;
 std::vector<int> marks_of(const Scene& scene) {
     std::vector<int> marks;
     for (const Joint& joint : scene.joints) {
-        marks.push_back(joint.limits.empty()
+        marks.push_back(joint.constraints.empty()
                             ? -1
-                            : static_cast<int>(joint.limits[0].rotation_max[0] * 180.0f / 3.14159265f + 0.5f));
+                            : static_cast<int>(joint.constraints[0].rotation_max[0] * 180.0f / 3.14159265f + 0.5f));
     }
     return marks;
 }
@@ -37,12 +37,12 @@ TEST(AttachRig, NumberThenNameThenLastGlob) {
 
 TEST(AttachRig, AnEntryReplacesAndAnEmptyOneTakesAway) {
     Scene scene = make_row({"a", "b", "c"});
-    for (Joint& joint : scene.joints) joint.limits.resize(1);
+    for (Joint& joint : scene.joints) joint.constraints.resize(1);
     Report report;
     attach(scene, R"("joints": {"a": [], "b": [{"model": "free"}, {"model": "locked", "scope": "ik_only"}]})", report);
-    EXPECT_TRUE(scene.joints[0].limits.empty());
-    EXPECT_EQ(scene.joints[1].limits.size(), 2u);
-    EXPECT_EQ(scene.joints[2].limits.size(), 1u);
+    EXPECT_TRUE(scene.joints[0].constraints.empty());
+    EXPECT_EQ(scene.joints[1].constraints.size(), 2u);
+    EXPECT_EQ(scene.joints[2].constraints.size(), 1u);
     EXPECT_TRUE(report.warnings().empty());
 }
 
@@ -70,8 +70,8 @@ TEST(AttachRig, ARestPoseOutsideIsFlaggedAndNamed) {
            R"("joints": {"a": {"model": "hinge", "x": [10, 20]},)"
            R"( "b": {"model": "hinge", "x": [10, 20], "rest_outside": true}})",
            report);
-    EXPECT_EQ(scene.joints[0].limits[0].flags, kRestOutside);
-    EXPECT_EQ(scene.joints[1].limits[0].flags, kRestOutside);
+    EXPECT_EQ(scene.joints[0].constraints[0].flags, kRestOutside);
+    EXPECT_EQ(scene.joints[1].constraints[0].flags, kRestOutside);
     EXPECT_EQ(lines_of(report), std::vector<std::string>{"joints.a: the rest pose of joint 'a' is outside its limits"});
 }
 
@@ -103,7 +103,7 @@ TEST(AttachRig, ChainsThatCannotBeAreRefused) {
             attach(scene, R"("joints": {"root": {"model": "locked"}}, "chains": [{"name": "c", )" + members + "}]",
                    report);
         });
-        EXPECT_TRUE(scene.chains.empty() && scene.joints[0].limits.empty());
+        EXPECT_TRUE(scene.chains.empty() && scene.joints[0].constraints.empty());
         return text;
     };
     EXPECT_EQ(error(R"("start": "nobody", "effector": "left")"), "chains[0].start: there is no joint 'nobody'");
@@ -130,7 +130,7 @@ TEST(AttachRig, ManyExactEntriesAndJointsAreNoTrouble) {
     Scene scene = make_row(names);
     Report report;
     attach(scene, R"("joints": {)" + entries + "}", report);
-    EXPECT_EQ(scene.joints.back().limits.size(), 1u);
+    EXPECT_EQ(scene.joints.back().constraints.size(), 1u);
     EXPECT_TRUE(report.warnings().empty());
 }
 

@@ -1,7 +1,7 @@
 #include "rig/curves.h"
 
 #include "build_scene.h"
-#include "cycle_span.h"
+#include "clip_span.h"
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -24,17 +24,17 @@ Scene walker() {
     scene.materials.resize(2);
     scene.materials[0].name = "cloth";
     scene.materials[1].name = "skin";
-    scene.cycles.resize(2);
-    scene.cycles[0].name = "Walk";
-    scene.cycles[0].tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0, 1}, {0, 0, 0, 0, 1, 0}});
+    scene.clips.resize(2);
+    scene.clips[0].name = "Walk";
+    scene.clips[0].tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {0, 1}, {0, 0, 0, 0, 1, 0}});
     Curve curve;
     curve.path = "alphaCutoff";
     curve.kind = CurveTarget::material;
     curve.target = 1;
     curve.times = {0, 1};
     curve.values = {0.5f, 0.25f};
-    scene.cycles[0].curves.push_back(curve);
-    scene.cycles[1].name = "Run";
+    scene.clips[0].curves.push_back(curve);
+    scene.clips[1].name = "Run";
     return scene;
 }
 
@@ -66,7 +66,7 @@ TEST(RigCurves, AreAddedToTheirClips) {
                       {"clip": "#0", "path": "extras/grip", "target": {"joint": "knee"}, "times": [0.5], "values": [1, 2, 3]},
                       {"clip": "Walk", "path": "/extras/wind", "interpolation": "cubic", "times": [0, 1],
                        "values": [0, 1, 2, 3, 4, 5]}])");
-    const auto& curves = scene.cycles[0].curves;
+    const auto& curves = scene.clips[0].curves;
     ASSERT_EQ(curves.size(), 4u);
     EXPECT_EQ(curves[1].name, "FootDown");
     EXPECT_EQ(curves[1].path, "/extras/FootDown");
@@ -77,31 +77,31 @@ TEST(RigCurves, AreAddedToTheirClips) {
     EXPECT_EQ(curves[2].interpolation, Interpolation::linear);
     EXPECT_EQ(curves[3].components, 1u);
     EXPECT_EQ(curves[3].values.size(), 6u);
-    EXPECT_EQ(span_of(scene.cycles[0]), (CycleSpan{0, 1}));
+    EXPECT_EQ(span_of(scene.clips[0]), (ClipSpan{0, 1}));
 }
 
 TEST(RigCurves, ReplaceWhatAnimatesTheSame) {
     const Scene scene = with_curves(
         R"("curves": [{"clip": "Walk", "name": "fade", "path": "alphaCutoff", "target": {"material": "skin"}, "times": [0.5], "values": [9]}])");
-    ASSERT_EQ(scene.cycles[0].curves.size(), 1u);
-    EXPECT_EQ(scene.cycles[0].curves[0].name, "fade");
-    EXPECT_EQ(scene.cycles[0].curves[0].values, std::vector<float>{9});
+    ASSERT_EQ(scene.clips[0].curves.size(), 1u);
+    EXPECT_EQ(scene.clips[0].curves[0].name, "fade");
+    EXPECT_EQ(scene.clips[0].curves[0].values, std::vector<float>{9});
 }
 
 TEST(RigCurves, ACompleteRigLeavesNoOthersIfItSaysAnythingOfThem) {
-    EXPECT_EQ(with_curves(R"("complete": true, "curves": [])").cycles[0].curves.size(), 0u);
-    EXPECT_EQ(with_curves(R"("complete": true)").cycles[0].curves.size(), 1u);
-    EXPECT_EQ(with_curves(R"("curves": [])").cycles[0].curves.size(), 1u);
+    EXPECT_EQ(with_curves(R"("complete": true, "curves": [])").clips[0].curves.size(), 0u);
+    EXPECT_EQ(with_curves(R"("complete": true)").clips[0].curves.size(), 1u);
+    EXPECT_EQ(with_curves(R"("curves": [])").clips[0].curves.size(), 1u);
 }
 
 TEST(RigCurves, AClipKeepsItsLengthAndOneWithoutKeysGetsOne) {
     Scene scene = with_curves(R"("curves": [{"clip": "Run", "name": "x", "times": [1, 3], "values": [0, 1]}])");
-    EXPECT_EQ(span_of(scene.cycles[1]), (CycleSpan{1, 3}));
-    EXPECT_FALSE(scene.cycles[1].stated_span);
+    EXPECT_EQ(span_of(scene.clips[1]), (ClipSpan{1, 3}));
+    EXPECT_FALSE(scene.clips[1].stated_span);
     Report report;
     attach_to(scene, R"("complete": true, "curves": [{"clip": "Run", "name": "x", "times": [2], "values": [0]}])",
               report);
-    EXPECT_EQ(span_of(scene.cycles[1]), (CycleSpan{1, 3}));
+    EXPECT_EQ(span_of(scene.clips[1]), (ClipSpan{1, 3}));
 }
 
 TEST(RigCurves, AClipThatDoesNotExistIsNamed) {

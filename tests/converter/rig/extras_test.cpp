@@ -21,7 +21,7 @@ namespace {
 using namespace test;
 
 constexpr double kPi = std::numbers::pi;
-constexpr float kFree = LimitRecord::kFree;
+constexpr float kFree = ConstraintRecord::kFree;
 
 Report attach_all(Scene& scene) {
     Report report;
@@ -33,7 +33,7 @@ Report attach_all(Scene& scene) {
 
 /// The constraints of one joint whose rig_joint this is, and what was said of it.
 struct Read {
-    std::vector<LimitRecord> limits;
+    std::vector<ConstraintRecord> constraints;
     std::vector<std::string> lines;
 };
 Read read(const std::string& rig_joint, glm::vec4 rotation = {0.0f, 0.0f, 0.0f, 1.0f}) {
@@ -42,19 +42,19 @@ Read read(const std::string& rig_joint, glm::vec4 rotation = {0.0f, 0.0f, 0.0f, 
     const std::string before = scene.joints[0].extras;
     const Report report = attach_all(scene);
     EXPECT_EQ(scene.joints[0].extras, before);
-    return {scene.joints[0].limits, lines_of(report)};
+    return {scene.joints[0].constraints, lines_of(report)};
 }
 
 TEST(RigExtras, SwingAndTwistOfABoneAreAboutItsOwnAxes) {
     const Read got = read(
         R"({"swing_twist": {"swing_x": [-1, 1], "twist_y": [-2, 2], "swing_z": [-3, 3]}, "stiffness": [0.1, 0.2, 0.3]})");
-    ASSERT_EQ(got.limits.size(), 1u);
+    ASSERT_EQ(got.constraints.size(), 1u);
     EXPECT_TRUE(got.lines.empty());
-    const LimitRecord& limit = got.limits[0];
-    EXPECT_EQ(static_cast<LimitModel>(limit.model), LimitModel::swing_twist_ellipse);
-    EXPECT_EQ(static_cast<LimitScope>(limit.scope), LimitScope::ik_only);
+    const ConstraintRecord& constraint = got.constraints[0];
+    EXPECT_EQ(static_cast<ConstraintModel>(constraint.model), ConstraintModel::swing_twist_ellipse);
+    EXPECT_EQ(static_cast<ConstraintScope>(constraint.scope), ConstraintScope::ik_only);
     // Whatever the frame: its X, Y and Z are axes of the bone, and what is said about them is said about those.
-    const Rotation frame = to_rotation(limit.frame);
+    const Rotation frame = to_rotation(constraint.frame);
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 unit(0.0);
         unit[axis] = 1.0;
@@ -63,64 +63,65 @@ TEST(RigExtras, SwingAndTwistOfABoneAreAboutItsOwnAxes) {
             if (std::abs(in_bone[bone_axis]) < 0.5) continue;
             EXPECT_NEAR(in_bone[bone_axis], 1.0, 1e-12);
             const auto at = static_cast<std::size_t>(axis);
-            EXPECT_EQ(limit.rotation_max[at], static_cast<float>(bone_axis + 1));
-            EXPECT_EQ(limit.rotation_min[at], static_cast<float>(-bone_axis - 1));
-            EXPECT_EQ(limit.stiffness[at], 0.1f * static_cast<float>(bone_axis + 1));
+            EXPECT_EQ(constraint.rotation_max[at], static_cast<float>(bone_axis + 1));
+            EXPECT_EQ(constraint.rotation_min[at], static_cast<float>(-bone_axis - 1));
+            EXPECT_EQ(constraint.stiffness[at], 0.1f * static_cast<float>(bone_axis + 1));
         }
     }
     EXPECT_NEAR((frame * glm::dvec3(1, 0, 0)).y, 1.0, 1e-12);  // the twist is about Y, along the bone
 }
 
 TEST(RigExtras, WhatIsMissingIsFree) {
-    const LimitRecord limit = read(R"({"swing_twist": {"swing_z": [-1, 1]}})").limits.at(0);
-    EXPECT_EQ(limit.rotation_min, (std::array{-kFree, -1.0f, -kFree}));
-    const LimitRecord stiff = read(R"({"stiffness": [0.5, 0, 0]})").limits.at(0);
-    EXPECT_EQ(static_cast<LimitModel>(stiff.model), LimitModel::free);
-    EXPECT_EQ(static_cast<LimitScope>(stiff.scope), LimitScope::ik_only);
+    const ConstraintRecord constraint = read(R"({"swing_twist": {"swing_z": [-1, 1]}})").constraints.at(0);
+    EXPECT_EQ(constraint.rotation_min, (std::array{-kFree, -1.0f, -kFree}));
+    const ConstraintRecord stiff = read(R"({"stiffness": [0.5, 0, 0]})").constraints.at(0);
+    EXPECT_EQ(static_cast<ConstraintModel>(stiff.model), ConstraintModel::free);
+    EXPECT_EQ(static_cast<ConstraintScope>(stiff.scope), ConstraintScope::ik_only);
     EXPECT_EQ(stiff.stiffness, (std::array{0.5f, 0.0f, 0.0f}));
-    EXPECT_TRUE(
-        read(R"({"stiffness": [0, 0, 0], "locks": {"rotation": [true, true, true]}, "length": 1})").limits.empty());
+    EXPECT_TRUE(read(R"({"stiffness": [0, 0, 0], "locks": {"rotation": [true, true, true]}, "length": 1})")
+                    .constraints.empty());
 }
 
 TEST(RigExtras, NoRoomOnAnyAxisIsLocked) {
-    const auto limits = read(R"({"swing_twist": {"swing_x": [0, 0], "twist_y": [0, 0], "swing_z": [0, 0]}})").limits;
-    EXPECT_EQ(static_cast<LimitModel>(limits.at(0).model), LimitModel::locked);
+    const auto limits =
+        read(R"({"swing_twist": {"swing_x": [0, 0], "twist_y": [0, 0], "swing_z": [0, 0]}})").constraints;
+    EXPECT_EQ(static_cast<ConstraintModel>(limits.at(0).model), ConstraintModel::locked);
     EXPECT_EQ(limits[0].rotation_max[0], kFree);
 }
 
 TEST(RigExtras, LimitRotationIsABox) {
     const Read alone = read(R"({"euler_limits": [{"space": "rest", "order": "YXZ", "x": [-1, 2], "z": [0, 0]}]})");
-    ASSERT_EQ(alone.limits.size(), 1u);
-    const LimitRecord& box = alone.limits[0];
-    EXPECT_EQ(static_cast<LimitModel>(box.model), LimitModel::euler_box);
+    ASSERT_EQ(alone.constraints.size(), 1u);
+    const ConstraintRecord& box = alone.constraints[0];
+    EXPECT_EQ(static_cast<ConstraintModel>(box.model), ConstraintModel::euler_box);
     EXPECT_EQ(static_cast<EulerOrder>(box.euler_order), EulerOrder::yxz);
-    EXPECT_EQ(static_cast<LimitScope>(box.scope), LimitScope::every_pose);
+    EXPECT_EQ(static_cast<ConstraintScope>(box.scope), ConstraintScope::every_pose);
     EXPECT_EQ(box.flags, 0);
-    EXPECT_EQ(box.frame, LimitRecord{}.frame);
+    EXPECT_EQ(box.frame, ConstraintRecord{}.frame);
     EXPECT_EQ(box.rotation_min, (std::array{-1.0f, -kFree, 0.0f}));
     EXPECT_EQ(box.rotation_max, (std::array{2.0f, kFree, 0.0f}));
-    const auto both = read(R"({"euler_limits": [{"x": [0, 1]}], "stiffness": [0, 0, 0.5]})").limits;
+    const auto both = read(R"({"euler_limits": [{"x": [0, 1]}], "stiffness": [0, 0, 0.5]})").constraints;
     ASSERT_EQ(both.size(), 2u);
-    EXPECT_EQ(static_cast<LimitScope>(both[0].scope), LimitScope::all_but_ik);
-    EXPECT_EQ(static_cast<LimitScope>(both[1].scope), LimitScope::ik_only);
+    EXPECT_EQ(static_cast<ConstraintScope>(both[0].scope), ConstraintScope::all_but_ik);
+    EXPECT_EQ(static_cast<ConstraintScope>(both[1].scope), ConstraintScope::ik_only);
 }
 
 TEST(RigExtras, SeveralBoxesOfOneKindAreWhatAllAllow) {
     const Read got =
         read(R"({"euler_limits": [{"x": [-1, 2]}, {"x": [-3, 1], "y": [0, 1]}, {"influence": 0, "x": [0, 0]}]})");
-    EXPECT_EQ(got.limits.at(0).rotation_min, (std::array{-1.0f, 0.0f, -kFree}));
-    EXPECT_EQ(got.limits[0].rotation_max, (std::array{1.0f, 1.0f, kFree}));
-    EXPECT_EQ(got.limits[0].flags, 0);
+    EXPECT_EQ(got.constraints.at(0).rotation_min, (std::array{-1.0f, 0.0f, -kFree}));
+    EXPECT_EQ(got.constraints[0].rotation_max, (std::array{1.0f, 1.0f, kFree}));
+    EXPECT_EQ(got.constraints[0].flags, 0);
     const Read other = read(R"({"euler_limits": [{"x": [-1, 2]}, {"order": "ZYX", "x": [0, 0]}, {"x": [3, 4]}]})");
-    EXPECT_EQ(other.limits.at(0).rotation_max[0], 2.0f);
-    EXPECT_EQ(other.limits[0].flags, kApproximated);
+    EXPECT_EQ(other.constraints.at(0).rotation_max[0], 2.0f);
+    EXPECT_EQ(other.constraints[0].flags, kApproximated);
     ASSERT_EQ(other.lines.size(), 1u);
     EXPECT_NE(other.lines[0].find("the first counts (2 times)"), std::string::npos);
 }
 
 TEST(RigExtras, PartOfTheInfluenceIsAnApproximation) {
     const Read got = read(R"({"euler_limits": [{"x": [-1, 2], "influence": 0.5}]})");
-    EXPECT_EQ(got.limits.at(0).flags, kApproximated);
+    EXPECT_EQ(got.constraints.at(0).flags, kApproximated);
     EXPECT_EQ(got.lines.size(), 1u);
 }
 
@@ -144,14 +145,15 @@ TEST(RigExtras, EulerAnglesComeBackInEveryOrder) {
 }
 
 /// True where R = conj(C) * rotation * C is in the box.
-bool is_inside(const LimitRecord& limit, const Rotation& rotation) {
-    const Rotation frame = to_rotation(limit.frame);
-    const auto angles = to_euler(glm::conjugate(frame) * rotation * frame, static_cast<EulerOrder>(limit.euler_order));
+bool is_inside(const ConstraintRecord& constraint, const Rotation& rotation) {
+    const Rotation frame = to_rotation(constraint.frame);
+    const auto angles =
+        to_euler(glm::conjugate(frame) * rotation * frame, static_cast<EulerOrder>(constraint.euler_order));
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bool holds = false;
         for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
             const double value = angles[axis] + turn;
-            holds = holds || (limit.rotation_min[axis] <= value && value <= limit.rotation_max[axis]);
+            holds = holds || (constraint.rotation_min[axis] <= value && value <= constraint.rotation_max[axis]);
         }
         if (!holds) return false;
     }
@@ -168,7 +170,7 @@ TEST(RigExtras, ABoxInTheArmaturesSpaceCountsTheRestRotation) {
     // exactly if the bone rests turned about the first and the last axis only.
     std::mt19937 random(2);
     std::uniform_real_distribution<double> angle(-1.2, 1.2);
-    LimitRecord source;
+    ConstraintRecord source;
     source.rotation_min = {-0.5f, -0.7f, -1.0f};
     source.rotation_max = {0.9f, 0.3f, 0.4f};
     int inside = 0;
@@ -180,13 +182,13 @@ TEST(RigExtras, ABoxInTheArmaturesSpaceCountsTheRestRotation) {
                                   R"(", "zero": )" + text_of(zero) +
                                   R"(, "order": "XYZ", "x": [-0.5, 0.9], "y": [-0.7, 0.3], "z": [-1, 0.4]}]})",
                               glm::vec4(rest.x, rest.y, rest.z, rest.w));
-        const LimitRecord& limit = got.limits.at(0);
-        EXPECT_NE(limit.flags & kApproximated, 0);
+        const ConstraintRecord& constraint = got.constraints.at(0);
+        EXPECT_NE(constraint.flags & kApproximated, 0);
         for (int k = 0; k < 50; ++k) {
             const Rotation local =
                 glm::normalize(Rotation(1.0, 0.5 * angle(random), 0.5 * angle(random), 0.5 * angle(random)));
             const bool is_legal = is_inside(source, glm::normalize(rest * local * glm::conjugate(zero)));
-            EXPECT_EQ(is_inside(limit, local), is_legal);
+            EXPECT_EQ(is_inside(constraint, local), is_legal);
             inside += is_legal ? 1 : 0;
         }
     }
@@ -196,22 +198,22 @@ TEST(RigExtras, ABoxInTheArmaturesSpaceCountsTheRestRotation) {
 TEST(RigExtras, OtherSpacesAreApproximatedOrLeftOut) {
     const Read with_parent =
         read(R"({"euler_limits": [{"space": "rest_with_parent", "x": [-1, 1]}]})", {0.6f, 0, 0, 0.8f});
-    EXPECT_EQ(with_parent.limits.at(0).flags, kApproximated);
-    EXPECT_EQ(with_parent.limits[0].frame, LimitRecord{}.frame);
-    EXPECT_EQ(with_parent.limits[0].rotation_max[0], 1.0f);
+    EXPECT_EQ(with_parent.constraints.at(0).flags, kApproximated);
+    EXPECT_EQ(with_parent.constraints[0].frame, ConstraintRecord{}.frame);
+    EXPECT_EQ(with_parent.constraints[0].rotation_max[0], 1.0f);
     EXPECT_EQ(with_parent.lines.size(), 1u);
     const Read custom = read(R"({"euler_limits": [{"space": "custom", "x": [-1, 1]}]})");
-    EXPECT_TRUE(custom.limits.empty());
+    EXPECT_TRUE(custom.constraints.empty());
     EXPECT_EQ(custom.lines.size(), 1u);
     const auto half = static_cast<float>(std::sqrt(0.5));
     const Read across = read(R"({"euler_limits": [{"space": "armature", "zero": [0, 0, 0, 1], "x": [-1, 1]}]})",
                              {0.0f, half, 0.0f, half});
-    EXPECT_TRUE(across.limits.empty());
+    EXPECT_TRUE(across.constraints.empty());
     EXPECT_EQ(across.lines.size(), 2u);
     // A bone that rests with its armature's axes, as Blender has them.
     const Read plain = read(R"({"euler_limits": [{"space": "armature", "x": [-0.5, 1]}]})", {-half, 0.0f, 0.0f, half});
-    EXPECT_NEAR(plain.limits.at(0).rotation_min[0], -0.5, 1e-6);
-    EXPECT_NEAR(plain.limits[0].rotation_max[0], 1.0, 1e-6);
+    EXPECT_NEAR(plain.constraints.at(0).rotation_min[0], -0.5, 1e-6);
+    EXPECT_NEAR(plain.constraints[0].rotation_max[0], 1.0, 1e-6);
 }
 
 TEST(RigExtras, TheArmatureIsAboveTheTopmostJointOfASkin) {
@@ -223,51 +225,51 @@ TEST(RigExtras, TheArmatureIsAboveTheTopmostJointOfASkin) {
     scene.joints[3].extras =
         R"({"rig_joint": {"euler_limits": [{"space": "armature", "zero": [0, 0, 0, 1], "z": [-0.5, 1]}]}})";
     attach_all(scene);
-    EXPECT_NEAR(scene.joints[3].limits.at(0).rotation_min[2], -0.5, 1e-6);
-    scene.joints[3].limits.clear();
+    EXPECT_NEAR(scene.joints[3].constraints.at(0).rotation_min[2], -0.5, 1e-6);
+    scene.joints[3].constraints.clear();
     scene.joints[3].extras.replace(scene.joints[3].extras.find("armature"), 8, "world");
     attach_all(scene);
-    EXPECT_NEAR(scene.joints[3].limits.at(0).rotation_min[2], -0.5 - kPi / 2, 1e-6);
+    EXPECT_NEAR(scene.joints[3].constraints.at(0).rotation_min[2], -0.5 - kPi / 2, 1e-6);
 }
 
 TEST(RigExtras, WhatTheExporterNotesIsPassedOn) {
     const Read got = read(R"({"stiffness": [0, 0.5, 0], "approximated": true, "notes": ["it is\nmuted", 3]})");
-    EXPECT_EQ(got.limits.at(0).flags, kApproximated);
+    EXPECT_EQ(got.constraints.at(0).flags, kApproximated);
     EXPECT_EQ(got.lines, std::vector<std::string>{"nodes.Bone.extras.rig_joint: it is muted"});
 }
 
 TEST(RigExtras, LimitLocationGoesWithTheBoxOrAlone) {
     const std::string location = R"("location_limits": [{"space": "rest", "y": [-0.5, null]}, {"y": [null, 2]}])";
     const Read alone = read("{" + location + "}");
-    ASSERT_EQ(alone.limits.size(), 1u);
-    EXPECT_EQ(static_cast<LimitModel>(alone.limits[0].model), LimitModel::free);
-    EXPECT_EQ(alone.limits[0].translation_min, (std::array{-kFree, -0.5f, -kFree}));
-    EXPECT_EQ(alone.limits[0].translation_max, (std::array{kFree, 2.0f, kFree}));
+    ASSERT_EQ(alone.constraints.size(), 1u);
+    EXPECT_EQ(static_cast<ConstraintModel>(alone.constraints[0].model), ConstraintModel::free);
+    EXPECT_EQ(alone.constraints[0].translation_min, (std::array{-kFree, -0.5f, -kFree}));
+    EXPECT_EQ(alone.constraints[0].translation_max, (std::array{kFree, 2.0f, kFree}));
     const Read boxed = read(R"({"euler_limits": [{"x": [0, 1]}], )" + location + "}");
-    ASSERT_EQ(boxed.limits.size(), 1u);
-    EXPECT_EQ(boxed.limits[0].translation_max[1], 2.0f);
+    ASSERT_EQ(boxed.constraints.size(), 1u);
+    EXPECT_EQ(boxed.constraints[0].translation_max[1], 2.0f);
     const Read apart =
         read(R"({"euler_limits": [{"space": "world", "x": [-1, 1]}], "stiffness": [0, 0.5, 0], )" + location + "}",
              {0.6f, 0.0f, 0.0f, 0.8f});
-    ASSERT_EQ(apart.limits.size(), 3u);
-    EXPECT_EQ(static_cast<LimitScope>(apart.limits[2].scope), LimitScope::every_pose);
-    EXPECT_EQ(apart.limits[2].frame, LimitRecord{}.frame);
+    ASSERT_EQ(apart.constraints.size(), 3u);
+    EXPECT_EQ(static_cast<ConstraintScope>(apart.constraints[2].scope), ConstraintScope::every_pose);
+    EXPECT_EQ(apart.constraints[2].frame, ConstraintRecord{}.frame);
     const Read world = read(R"({"location_limits": [{"space": "world", "y": [0, 1]}]})");
-    EXPECT_TRUE(world.limits.empty());
+    EXPECT_TRUE(world.constraints.empty());
     EXPECT_EQ(world.lines.size(), 1u);
 }
 
 TEST(RigExtras, LimitsAsInARigFileAreInRadians) {
     const Read got = read(R"({"limits": {"model": "hinge", "x": [0, 1.5]}, "stiffness": [1, 1, 1]})");
-    ASSERT_EQ(got.limits.size(), 1u);
-    EXPECT_EQ(got.limits[0].rotation_max[0], 1.5f);
-    EXPECT_TRUE(read(R"({"limits": []})").limits.empty());
+    ASSERT_EQ(got.constraints.size(), 1u);
+    EXPECT_EQ(got.constraints[0].rotation_max[0], 1.5f);
+    EXPECT_TRUE(read(R"({"limits": []})").constraints.empty());
 }
 
 TEST(RigExtras, AJsonStringIsAsGood) {
-    EXPECT_EQ(read(R"("{\"limits\": {\"model\": \"locked\"}}")").limits.size(), 1u);
+    EXPECT_EQ(read(R"("{\"limits\": {\"model\": \"locked\"}}")").constraints.size(), 1u);
     const Read bad = read(R"("{\"limits\": ")");
-    EXPECT_TRUE(bad.limits.empty());
+    EXPECT_TRUE(bad.constraints.empty());
     ASSERT_EQ(bad.lines.size(), 1u);
     EXPECT_EQ(bad.lines[0].substr(0, 65), "nodes.Bone.extras.rig_joint: extras left out: invalid JSON at lin");
 }
@@ -275,7 +277,7 @@ TEST(RigExtras, AJsonStringIsAsGood) {
 TEST(RigExtras, WhatIsWrongIsNamedAndLeftOut) {
     const auto line = [](const std::string& rig_joint) {
         const Read got = read(rig_joint);
-        EXPECT_TRUE(got.limits.empty());
+        EXPECT_TRUE(got.constraints.empty());
         return got.lines.empty() ? "nothing" : got.lines[0];
     };
     EXPECT_EQ(line("7"), "nodes.Bone.extras.rig_joint: constraints left out: it must be an object, not 7");
@@ -292,7 +294,7 @@ TEST(RigExtras, WhatIsWrongIsNamedAndLeftOut) {
 
 TEST(RigExtras, ARestPoseOutsideIsFlaggedAndNamed) {
     const Read got = read(R"({"euler_limits": [{"x": [0.5, 1]}]})");
-    EXPECT_EQ(got.limits.at(0).flags, kRestOutside);
+    EXPECT_EQ(got.constraints.at(0).flags, kRestOutside);
     ASSERT_EQ(got.lines.size(), 1u);
     EXPECT_NE(got.lines[0].find("the rest pose of joint 'Bone' is outside"), std::string::npos);
 }
@@ -314,15 +316,15 @@ TEST(RigExtras, LimitsAreTurnedBackWhereAToolTurnedTheBone) {
         scene.joints[1].extras = R"({"rig_joint": {"rest_orientation": )" + text_of(then) + ", " + limits + "}";
         const Report report = attach_all(scene);
         ASSERT_EQ(report.warnings().size(), 1u);
-        ASSERT_EQ(scene.joints[1].limits.size(), 2u);
-        const auto written = read("{" + limits).limits;
+        ASSERT_EQ(scene.joints[1].constraints.size(), 2u);
+        const auto written = read("{" + limits).constraints;
         // One motion in the old axes and in the new ones is the same R.
         const Rotation turn = glm::conjugate(then) * now;
         const Rotation motion = any();
         const Rotation motion_now = glm::conjugate(turn) * motion * turn;
         for (std::size_t k = 0; k < 2; ++k) {
             const Rotation old_frame = to_rotation(written[k].frame);
-            const Rotation frame = to_rotation(scene.joints[1].limits[k].frame);
+            const Rotation frame = to_rotation(scene.joints[1].constraints[k].frame);
             const Rotation a = glm::conjugate(old_frame) * motion * old_frame;
             const Rotation b = glm::conjugate(frame) * motion_now * frame;
             EXPECT_NEAR(std::abs(glm::dot(a, b)), 1.0, 1e-5);
@@ -332,7 +334,7 @@ TEST(RigExtras, LimitsAreTurnedBackWhereAToolTurnedTheBone) {
 
 TEST(RigExtras, SmallDifferencesOfTheRestOrientationAreRounding) {
     const Read got = read(R"({"rest_orientation": [0.0004, 0, 0, 1], "limits": {"model": "locked"}})");
-    EXPECT_EQ(got.limits.at(0).frame, LimitRecord{}.frame);
+    EXPECT_EQ(got.constraints.at(0).frame, ConstraintRecord{}.frame);
     EXPECT_TRUE(got.lines.empty());
 }
 

@@ -11,10 +11,10 @@ using namespace test;
 using Kind = JointKey::Kind;
 
 bool does_fit(std::string_view glob, std::string_view name) {
-    Effort effort;
+    WorkBudget budget;
     const JointKey key = parse_joint_key(glob, "key");
     EXPECT_EQ(key.kind, Kind::glob) << glob;
-    return fits(key.glob, characters_of(name), effort);
+    return fits(key.glob, characters_of(name), budget);
 }
 
 TEST(RigJointKey, NamesNumbersAndGlobsAreToldApart) {
@@ -97,8 +97,8 @@ TEST(RigJointKey, AnEscapedNameMeansItself) {
 TEST(RigJointKey, EndlessWorkIsRefused) {
     const JointKey key = parse_joint_key('*' + std::string(100'000, 'a') + 'b', {});
     const std::u32string name(1'000'000, U'a');
-    Effort effort;
-    EXPECT_EQ(failure_of([&] { fits(key.glob, name, effort); }),
+    WorkBudget budget;
+    EXPECT_EQ(failure_of([&] { fits(key.glob, name, budget); }),
               "its keys, chains and weights take too long to match with so many joints");
 }
 

@@ -16,12 +16,12 @@ namespace {
 
 using namespace test;
 
-/// A cycle with keys from `start` to `end`, seconds.
-Cycle cycle_of(const std::string& name, float start, float end) {
-    Cycle cycle;
-    cycle.name = name;
-    cycle.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {start, end}, {0, 0, 0, 0, 1, 0}});
-    return cycle;
+/// A clip with keys from `start` to `end`, seconds.
+Clip clip_of(const std::string& name, float start, float end) {
+    Clip clip;
+    clip.name = name;
+    clip.tracks.push_back({TrackPath::translation, Interpolation::linear, 0, 3, {start, end}, {0, 0, 0, 0, 1, 0}});
+    return clip;
 }
 
 /// One joint; Walk from 0 to 1 s, Run from 0.5 to 2 s, another Run, one without a name.
@@ -29,13 +29,13 @@ Scene walker() {
     Scene scene = make_row({"hip"});
     for (const auto& [name, start, end] :
          {std::tuple("Walk", 0.0f, 1.0f), {"Run", 0.5f, 2.0f}, {"Run", 0.0f, 1.0f}, {"", 0.0f, 4.0f}})
-        scene.cycles.push_back(cycle_of(name, start, end));
+        scene.clips.push_back(clip_of(name, start, end));
     return scene;
 }
 
-std::string text_of(const Cycle& cycle) {
+std::string text_of(const Clip& clip) {
     std::string text;
-    for (const Marker& marker : cycle.markers) text += marker.name + '@' + std::to_string(marker.seconds) + ' ';
+    for (const Marker& marker : clip.markers) text += marker.name + '@' + std::to_string(marker.seconds) + ' ';
     return text;
 }
 
@@ -49,7 +49,7 @@ std::string attach_error(const std::string& members) {
 
 Scene with_markers(const std::string& members, Report& report) {
     Scene scene = walker();
-    scene.cycles[3].markers.push_back({1.0f, "mine"});
+    scene.clips[3].markers.push_back({1.0f, "mine"});
     attach_markers(scene, parse(members), report);
     return scene;
 }
@@ -60,32 +60,32 @@ TEST(RigMarkers, AListOrAnObject) {
         R"("markers": {"Walk": [{"time": 0.75, "name": "right"}, {"name": "left", "time": 0.25}, {"time": 0.25, "name": ""}],
                        "Run": {"step": [2, 0.5], "hit\u00e9": 1}})",
         report);
-    EXPECT_EQ(text_of(scene.cycles[0]), "left@0.250000 @0.250000 right@0.750000 ");
-    EXPECT_EQ(text_of(scene.cycles[1]), "step@0.500000 hit\xc3\xa9@1.000000 step@2.000000 ");
-    EXPECT_EQ(text_of(scene.cycles[2]), "");
-    EXPECT_EQ(text_of(scene.cycles[3]), "mine@1.000000 ");
+    EXPECT_EQ(text_of(scene.clips[0]), "left@0.250000 @0.250000 right@0.750000 ");
+    EXPECT_EQ(text_of(scene.clips[1]), "step@0.500000 hit\xc3\xa9@1.000000 step@2.000000 ");
+    EXPECT_EQ(text_of(scene.clips[2]), "");
+    EXPECT_EQ(text_of(scene.clips[3]), "mine@1.000000 ");
     EXPECT_TRUE(report.warnings().empty());
 }
 
-TEST(RigMarkers, CyclesByNumber) {
+TEST(RigMarkers, ClipsByNumber) {
     Report report;
     const Scene scene = with_markers(R"("markers": {"#2": {"a": 0}, "#3": []})", report);
-    EXPECT_EQ(text_of(scene.cycles[2]), "a@0.000000 ");
-    EXPECT_EQ(text_of(scene.cycles[3]), "");
+    EXPECT_EQ(text_of(scene.clips[2]), "a@0.000000 ");
+    EXPECT_EQ(text_of(scene.clips[3]), "");
 }
 
 TEST(RigMarkers, ACompleteFileLeavesNoOthersIfItSpeaksOfAny) {
     Report report;
-    EXPECT_EQ(text_of(with_markers(R"("complete": true)", report).cycles[3]), "mine@1.000000 ");
-    EXPECT_EQ(text_of(with_markers(R"("complete": true, "markers": {})", report).cycles[3]), "");
-    EXPECT_EQ(text_of(with_markers(R"("markers": {})", report).cycles[3]), "mine@1.000000 ");
+    EXPECT_EQ(text_of(with_markers(R"("complete": true)", report).clips[3]), "mine@1.000000 ");
+    EXPECT_EQ(text_of(with_markers(R"("complete": true, "markers": {})", report).clips[3]), "");
+    EXPECT_EQ(text_of(with_markers(R"("markers": {})", report).clips[3]), "mine@1.000000 ");
 }
 
 TEST(RigMarkers, TimesThatAreRoundedAreMovedInside) {
     Report report;
     const Scene scene = with_markers(R"("markers": {"Run": {"a": 0.4995, "b": 2.0005}})", report);
-    EXPECT_EQ(scene.cycles[1].markers[0].seconds, 0.5f);
-    EXPECT_EQ(scene.cycles[1].markers[1].seconds, 2.0f);
+    EXPECT_EQ(scene.clips[1].markers[0].seconds, 0.5f);
+    EXPECT_EQ(scene.clips[1].markers[1].seconds, 2.0f);
 }
 
 TEST(RigMarkers, WhatIsWrongIsSaidWithItsPath) {
@@ -106,32 +106,32 @@ TEST(RigMarkers, WhatIsWrongIsSaidWithItsPath) {
     EXPECT_EQ(rig_error(R"("markers": {"Walk": {}, "Walk": {}})"), "markers.Walk: it stands twice");
 }
 
-TEST(RigMarkers, OutsideTheirCycleTheyAreRefused) {
+TEST(RigMarkers, OutsideTheirClipTheyAreRefused) {
     EXPECT_EQ(attach_error(R"("markers": {"Run": [{"time": 1, "name": "a"}, {"time": 2.5, "name": "b"}]})"),
-              "markers.Run[1]: 2.5 s is outside the cycle, which lasts from 0.5 s to 2.0 s");
+              "markers.Run[1]: 2.5 s is outside the clip, which lasts from 0.5 s to 2.0 s");
     EXPECT_EQ(attach_error(R"("markers": {"Run": {"a": [0.25]}})"),
-              "markers.Run.a[0]: 0.25 s is outside the cycle, which lasts from 0.5 s to 2.0 s");
-    EXPECT_EQ(attach_error(R"("markers": {"Walk": {}, "#0": {}})"), "markers.'#0': cycle '#0' has an earlier entry");
+              "markers.Run.a[0]: 0.25 s is outside the clip, which lasts from 0.5 s to 2.0 s");
+    EXPECT_EQ(attach_error(R"("markers": {"Walk": {}, "#0": {}})"), "markers.'#0': clip '#0' has an earlier entry");
 }
 
-TEST(RigMarkers, CyclesThatAreNotThereAreNamed) {
+TEST(RigMarkers, ClipsThatAreNotThereAreNamed) {
     Report report;
     (void)with_markers(R"("markers": {"Fly": {"a": 0}, "#4": {"a": 0}, "#99999999999999999999": {}})", report);
     EXPECT_EQ(lines_of(report),
-              (std::vector<std::string>{"markers.Fly: no cycle takes 'Fly'", "markers.'#4': no cycle takes '#4'",
-                                        "markers.'#99999999999999999999': no cycle takes '#99999999999999999999'"}));
+              (std::vector<std::string>{"markers.Fly: no clip takes 'Fly'", "markers.'#4': no clip takes '#4'",
+                                        "markers.'#99999999999999999999': no clip takes '#99999999999999999999'"}));
 }
 
 /// Everything that names and floats may be comes back from the rig file.
 TEST(RigMarkers, AreWrittenAsTheyWere) {
     Scene scene = walker();
-    scene.cycles.push_back(cycle_of("#1", 0.0f, 1.0f));
-    scene.cycles.push_back(cycle_of("\"quoted\"\n", -1.0f, 1.0f));
-    scene.cycles[0].markers = {{0.0f, "step"}, {0.1f, "step"}, {0.1f, ""}, {std::nextafter(1.0f, 0.0f), "\xc3\xa9\""}};
-    scene.cycles[2].markers = {{1.0f / 3.0f, "second run"}};
-    scene.cycles[3].markers = {{1e-40f, "tiny"}, {3.9999f, "late"}};
-    scene.cycles[4].markers = {{0.5f, "a"}};
-    scene.cycles[5].markers = {{-0.7f, std::string("a\0b", 3)}};
+    scene.clips.push_back(clip_of("#1", 0.0f, 1.0f));
+    scene.clips.push_back(clip_of("\"quoted\"\n", -1.0f, 1.0f));
+    scene.clips[0].markers = {{0.0f, "step"}, {0.1f, "step"}, {0.1f, ""}, {std::nextafter(1.0f, 0.0f), "\xc3\xa9\""}};
+    scene.clips[2].markers = {{1.0f / 3.0f, "second run"}};
+    scene.clips[3].markers = {{1e-40f, "tiny"}, {3.9999f, "late"}};
+    scene.clips[4].markers = {{0.5f, "a"}};
+    scene.clips[5].markers = {{-0.7f, std::string("a\0b", 3)}};
     Report report;
     const std::vector<std::byte> bytes = build_chunks(scene, "test", report);
     ASSERT_TRUE(validate(bytes).empty());
@@ -145,7 +145,7 @@ TEST(RigMarkers, AreWrittenAsTheyWere) {
         << rig;
 
     Scene bare = scene;
-    for (Cycle& cycle : bare.cycles) cycle.markers = {{0.5f, "goes"}};
+    for (Clip& clip : bare.clips) clip.markers = {{0.5f, "goes"}};
     attach_markers(bare, parse_rig(rig, report), report);
     EXPECT_TRUE(report.warnings().empty());
     EXPECT_EQ(build_chunks(bare, "test", report), bytes);

@@ -13,14 +13,14 @@ namespace {
 
 using namespace test;
 
-constexpr float kFree = LimitRecord::kFree;
+constexpr float kFree = ConstraintRecord::kFree;
 constexpr float kPi = std::numbers::pi_v<float>;
 
-LimitRecord limit_of(const std::string& constraint) {
-    return parse(R"("joints": {"j": )" + constraint + "}").joints.at(0).limits.at(0);
+ConstraintRecord constraint_record_of(const std::string& constraint) {
+    return parse(R"("joints": {"j": )" + constraint + "}").joints.at(0).constraints.at(0);
 }
 
-std::string limit_error(const std::string& constraint) {
+std::string constraint_error(const std::string& constraint) {
     return rig_error(R"("joints": {"j": )" + constraint + "}");
 }
 
@@ -37,18 +37,18 @@ TEST(ParseRig, TheExampleOfTheSpecification) {
     EXPECT_FALSE(rig.complete);
     ASSERT_EQ(rig.joints.size(), 4u);
     EXPECT_EQ(rig.joints[0].key.kind, JointKey::Kind::glob);
-    EXPECT_EQ(rig.joints[0].limits.at(0).rotation_max[0], 150.0f / 180.0f * kPi);
-    EXPECT_EQ(rig.joints[2].limits.size(), 2u);
-    EXPECT_TRUE(rig.joints[3].limits.empty());
+    EXPECT_EQ(rig.joints[0].constraints.at(0).rotation_max[0], 150.0f / 180.0f * kPi);
+    EXPECT_EQ(rig.joints[2].constraints.size(), 2u);
+    EXPECT_TRUE(rig.joints[3].constraints.empty());
     ASSERT_EQ(rig.chains.size(), 1u);
     EXPECT_EQ(rig.chains[0].weights.at(0).second, 0.5f);
 }
 
 TEST(ParseRig, LeftOutKeysAreDefaults) {
-    const LimitRecord limit = limit_of(R"({"model": "euler_box"})");
-    LimitRecord usual;
-    usual.model = static_cast<std::uint8_t>(LimitModel::euler_box);
-    EXPECT_EQ(std::memcmp(&limit, &usual, sizeof limit), 0);
+    const ConstraintRecord constraint = constraint_record_of(R"({"model": "euler_box"})");
+    ConstraintRecord usual;
+    usual.model = static_cast<std::uint8_t>(ConstraintModel::euler_box);
+    EXPECT_EQ(std::memcmp(&constraint, &usual, sizeof constraint), 0);
     const RigChain chain = parse(R"("chains": [{"name": "c", "start": "s", "effector": "e"}])").chains.at(0);
     const ChainRecord plain;
     EXPECT_EQ(std::memcmp(&chain.record, &plain, sizeof plain), 0);
@@ -56,24 +56,25 @@ TEST(ParseRig, LeftOutKeysAreDefaults) {
 }
 
 TEST(ParseRig, EveryKeyOfAConstraint) {
-    const LimitRecord limit = limit_of(
+    const ConstraintRecord constraint = constraint_record_of(
         R"({"model": "euler_box", "order": "ZXY", "scope": "all_but_ik", "frame": [0, 0, 2, 0], "x": [-90, null],)"
         R"( "y": [null, 180], "z": [-45.5, 0], "translation": {"y": [-1, null]}, "stiffness": [0, 0.5, 1],)"
         R"( "preferred": [360, 0, -90], "soft_zone": 18, "approximated": true, "proposed": true, "rest_outside": true})");
-    EXPECT_EQ(limit.model, 5);
-    EXPECT_EQ(limit.euler_order, 4);
-    EXPECT_EQ(limit.scope, 2);
-    EXPECT_EQ(limit.flags, 7);
-    EXPECT_EQ(limit.frame, (std::array{0.0f, 0.0f, 1.0f, 0.0f}));
-    EXPECT_EQ(limit.rotation_min, (std::array{-kPi / 2, -kFree, static_cast<float>(-45.5 / 180 * std::numbers::pi)}));
-    EXPECT_EQ(limit.rotation_max, (std::array{kFree, kPi, 0.0f}));
-    EXPECT_EQ(limit.translation_min, (std::array{-kFree, -1.0f, -kFree}));
-    EXPECT_EQ(limit.translation_max, (std::array{kFree, kFree, kFree}));
-    EXPECT_EQ(limit.stiffness, (std::array{0.0f, 0.5f, 1.0f}));
-    EXPECT_EQ(limit.preferred, (std::array{2 * kPi, 0.0f, -kPi / 2}));
-    EXPECT_EQ(limit.soft_zone, kPi / 10);
-    EXPECT_EQ(limit_of(R"({"model": "largest_angle", "angle": 30})").rotation_max[0], kPi / 6);
-    EXPECT_EQ(limit_of(R"({"model": "largest_angle", "angle": null})").rotation_max[0], kFree);
+    EXPECT_EQ(constraint.model, 5);
+    EXPECT_EQ(constraint.euler_order, 4);
+    EXPECT_EQ(constraint.scope, 2);
+    EXPECT_EQ(constraint.flags, 7);
+    EXPECT_EQ(constraint.frame, (std::array{0.0f, 0.0f, 1.0f, 0.0f}));
+    EXPECT_EQ(constraint.rotation_min,
+              (std::array{-kPi / 2, -kFree, static_cast<float>(-45.5 / 180 * std::numbers::pi)}));
+    EXPECT_EQ(constraint.rotation_max, (std::array{kFree, kPi, 0.0f}));
+    EXPECT_EQ(constraint.translation_min, (std::array{-kFree, -1.0f, -kFree}));
+    EXPECT_EQ(constraint.translation_max, (std::array{kFree, kFree, kFree}));
+    EXPECT_EQ(constraint.stiffness, (std::array{0.0f, 0.5f, 1.0f}));
+    EXPECT_EQ(constraint.preferred, (std::array{2 * kPi, 0.0f, -kPi / 2}));
+    EXPECT_EQ(constraint.soft_zone, kPi / 10);
+    EXPECT_EQ(constraint_record_of(R"({"model": "largest_angle", "angle": 30})").rotation_max[0], kPi / 6);
+    EXPECT_EQ(constraint_record_of(R"({"model": "largest_angle", "angle": null})").rotation_max[0], kFree);
 }
 
 TEST(ParseRig, EveryKeyOfAChain) {
@@ -109,44 +110,47 @@ TEST(ParseRig, EveryKeyOfAChain) {
 }
 
 TEST(ParseRig, BadConstraintsNameTheirPlace) {
-    EXPECT_EQ(limit_error("7"), "joints.j: it must be an object, not 7");
-    EXPECT_EQ(limit_error("{}"), "joints.j.model: it is required and missing");
-    EXPECT_EQ(limit_error(R"({"model": "hing"})"),
+    EXPECT_EQ(constraint_error("7"), "joints.j: it must be an object, not 7");
+    EXPECT_EQ(constraint_error("{}"), "joints.j.model: it is required and missing");
+    EXPECT_EQ(constraint_error(R"({"model": "hing"})"),
               "joints.j.model: 'hing' is none of free, locked, hinge, swing_twist_ellipse, swing_twist_pyramid, "
               "euler_box, largest_angle");
-    EXPECT_EQ(limit_error(R"({"model": 2})"),
+    EXPECT_EQ(constraint_error(R"({"model": 2})"),
               "joints.j.model: 2 is none of free, locked, hinge, swing_twist_ellipse, swing_twist_pyramid, euler_box, "
               "largest_angle");
     EXPECT_EQ(rig_error(R"("joints": {"*Knee*": {"model": "hinge", "x": ["a", 1]}})"),
               "joints.'*Knee*'.x[0]: a number is due, not 'a'");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "x": [1]})"), "joints.j.x: it has 1 element, 2 are due");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "x": 1})"), "joints.j.x: it must be a list, not 1");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "x": [30, 20.5]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [1]})"), "joints.j.x: it has 1 element, 2 are due");
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": 1})"), "joints.j.x: it must be a list, not 1");
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [30, 20.5]})"),
               "joints.j.x: the minimum 30.0 is above the maximum 20.5");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "x": [-1e300, 0]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [-1e300, 0]})"),
               "joints.j.x[0]: -1e+300 does not fit a 32-bit float");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "y": [0, 1]})"), "joints.j.y: it means nothing for model hinge");
-    EXPECT_EQ(limit_error(R"({"model": "free", "x": [0, 1]})"), "joints.j.x: it means nothing for model free");
-    EXPECT_EQ(limit_error(R"({"model": "largest_angle", "x": [0, 1]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "y": [0, 1]})"), "joints.j.y: it means nothing for model hinge");
+    EXPECT_EQ(constraint_error(R"({"model": "free", "x": [0, 1]})"), "joints.j.x: it means nothing for model free");
+    EXPECT_EQ(constraint_error(R"({"model": "largest_angle", "x": [0, 1]})"),
               "joints.j.x: it means nothing for model largest_angle");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "angle": 1})"), "joints.j.angle: it means nothing for model hinge");
-    EXPECT_EQ(limit_error(R"({"model": "hinge", "order": "XYZ"})"), "joints.j.order: it means nothing for model hinge");
-    EXPECT_EQ(limit_error(R"({"model": "largest_angle", "angle": -1})"), "joints.j.angle: it is less than 0");
-    EXPECT_EQ(limit_error(R"({"model": "swing_twist_ellipse", "z": [10, 20]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "angle": 1})"),
+              "joints.j.angle: it means nothing for model hinge");
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "order": "XYZ"})"),
+              "joints.j.order: it means nothing for model hinge");
+    EXPECT_EQ(constraint_error(R"({"model": "largest_angle", "angle": -1})"), "joints.j.angle: it is less than 0");
+    EXPECT_EQ(constraint_error(R"({"model": "swing_twist_ellipse", "z": [10, 20]})"),
               "joints.j.z: a swing's range must hold 0");
-    EXPECT_EQ(limit_error(R"({"model": "free", "frame": [0, 0, 0, 0]})"), "joints.j.frame: 0 0 0 0 is no rotation");
-    EXPECT_EQ(limit_error(R"({"model": "free", "frame": [0, 0, 0, null]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, 0]})"),
+              "joints.j.frame: 0 0 0 0 is no rotation");
+    EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, null]})"),
               "joints.j.frame[3]: a number is due, not null");
-    EXPECT_EQ(limit_error(R"({"model": "free", "stiffness": [0, 0, 1.5]})"),
+    EXPECT_EQ(constraint_error(R"({"model": "free", "stiffness": [0, 0, 1.5]})"),
               "joints.j.stiffness[2]: 1.5 is not between 0.0 and 1.0");
-    EXPECT_EQ(limit_error(R"({"model": "free", "soft_zone": -1})"), "joints.j.soft_zone: it is less than 0");
-    EXPECT_EQ(limit_error(R"({"model": "free", "proposed": "yes"})"),
+    EXPECT_EQ(constraint_error(R"({"model": "free", "soft_zone": -1})"), "joints.j.soft_zone: it is less than 0");
+    EXPECT_EQ(constraint_error(R"({"model": "free", "proposed": "yes"})"),
               "joints.j.proposed: it must be true or false, not 'yes'");
-    EXPECT_EQ(limit_error(R"({"model": "free", "translation": {"w": [0, 1]}})"),
+    EXPECT_EQ(constraint_error(R"({"model": "free", "translation": {"w": [0, 1]}})"),
               "joints.j.translation.w: there is no such key; there are x, y, z");
-    EXPECT_EQ(limit_error(R"([{"model": "free"}, {"model": "locked"}])"),
+    EXPECT_EQ(constraint_error(R"([{"model": "free"}, {"model": "locked"}])"),
               "joints.j[1]: there is a second constraint of scope every_pose");
-    EXPECT_EQ(limit_error(R"({"model": "free", "stifness": [0, 0, 0]})").substr(0, 46),
+    EXPECT_EQ(constraint_error(R"({"model": "free", "stifness": [0, 0, 0]})").substr(0, 46),
               "joints.j.stifness: there is no such key; there");
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-constexpr float kFree = LimitRecord::kFree;
+constexpr float kFree = ConstraintRecord::kFree;
 
 std::string written(const Scene& scene) {
     Report report;
@@ -34,7 +34,7 @@ std::string written(const Scene& scene) {
 Scene round_trip(const Scene& scene) {
     Scene bare = scene;
     bare.chains.clear();
-    for (Joint& joint : bare.joints) joint.limits.clear();
+    for (Joint& joint : bare.joints) joint.constraints.clear();
     Report report;
     const Rig rig = parse_rig(written(scene), report);
     EXPECT_TRUE(rig.complete);
@@ -82,27 +82,28 @@ private:
     std::mt19937 engine_;
 };
 
-LimitRecord any_limit(Random& random, unsigned scope) {
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(random.below(kLimitModels));
-    const auto model = static_cast<LimitModel>(limit.model);
-    if (model == LimitModel::euler_box) limit.euler_order = static_cast<std::uint8_t>(random.below(kEulerOrders));
-    limit.scope = static_cast<std::uint8_t>(scope);
-    limit.flags = static_cast<std::uint8_t>(random.below(4) | kRestOutside);
-    limit.soft_zone = random.below(2) == 0 ? 0.0f : std::abs(random.number());
-    limit.frame = random.rotation();
+ConstraintRecord any_limit(Random& random, unsigned scope) {
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(random.below(kConstraintModels));
+    const auto model = static_cast<ConstraintModel>(constraint.model);
+    if (model == ConstraintModel::euler_box)
+        constraint.euler_order = static_cast<std::uint8_t>(random.below(kEulerOrders));
+    constraint.scope = static_cast<std::uint8_t>(scope);
+    constraint.flags = static_cast<std::uint8_t>(random.below(4) | kRestOutside);
+    constraint.soft_zone = random.below(2) == 0 ? 0.0f : std::abs(random.number());
+    constraint.frame = random.rotation();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        limit.stiffness[axis] = random.share();
-        limit.preferred[axis] = random.number();
-        limit.translation_max[axis] = random.above(0.0f);
-        limit.translation_min[axis] = random.below(2) == 0 ? -kFree : -std::abs(random.number());
+        constraint.stiffness[axis] = random.share();
+        constraint.preferred[axis] = random.number();
+        constraint.translation_max[axis] = random.above(0.0f);
+        constraint.translation_min[axis] = random.below(2) == 0 ? -kFree : -std::abs(random.number());
         const bool counts = axis < limited_axes(model);
         if (!counts) continue;
-        limit.rotation_max[axis] = random.above(0.0f);
-        if (model != LimitModel::largest_angle)
-            limit.rotation_min[axis] = random.below(2) == 0 ? -kFree : -std::abs(random.number());
+        constraint.rotation_max[axis] = random.above(0.0f);
+        if (model != ConstraintModel::largest_angle)
+            constraint.rotation_min[axis] = random.below(2) == 0 ? -kFree : -std::abs(random.number());
     }
-    return limit;
+    return constraint;
 }
 
 TEST(WriteRig, AnyRigComesBackToTheBit) {
@@ -111,8 +112,8 @@ TEST(WriteRig, AnyRigComesBackToTheBit) {
     for (int round = 0; round < 200; ++round) {
         Scene scene = make_row(names);
         for (Joint& joint : scene.joints) {
-            for (unsigned scope = 0; scope < kLimitScopes; ++scope) {
-                if (random.below(2) == 0) joint.limits.push_back(any_limit(random, scope));
+            for (unsigned scope = 0; scope < kConstraintScopes; ++scope) {
+                if (random.below(2) == 0) joint.constraints.push_back(any_limit(random, scope));
             }
         }
         for (unsigned number = 0; number < 3; ++number) {

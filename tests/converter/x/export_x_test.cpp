@@ -71,9 +71,10 @@ void expect_same_skeleton(const Trip& trip) {
         EXPECT_EQ(after.rest.translation, before.rest.translation);
         EXPECT_NEAR(std::abs(glm::dot(after.rest.rotation, before.rest.rotation)), 1.0f, kRounding);
         EXPECT_LE(glm::length(after.rest.scale - before.rest.scale), kRounding * glm::length(before.rest.scale));
-        ASSERT_EQ(after.limits.size(), before.limits.size()) << before.name;
-        for (std::size_t k = 0; k < before.limits.size(); ++k)
-            EXPECT_EQ(std::memcmp(&after.limits[k], &before.limits[k], sizeof(LimitRecord)), 0) << before.name;
+        ASSERT_EQ(after.constraints.size(), before.constraints.size()) << before.name;
+        for (std::size_t k = 0; k < before.constraints.size(); ++k)
+            EXPECT_EQ(std::memcmp(&after.constraints[k], &before.constraints[k], sizeof(ConstraintRecord)), 0)
+                << before.name;
     }
     ASSERT_EQ(trip.after.chains.size(), trip.before.chains.size());
     for (std::size_t i = 0; i < trip.before.chains.size(); ++i) {
@@ -103,8 +104,9 @@ void expect_same_mesh(const Mesh& before, const Mesh& after) {
     EXPECT_EQ(after.joint, before.joint);
     EXPECT_EQ(after.positions, before.positions);
     EXPECT_EQ(after.normals, before.normals);
-    ASSERT_EQ(after.parts.size(), before.parts.size());
-    for (std::size_t i = 0; i < before.parts.size(); ++i) EXPECT_EQ(after.parts[i].indices, before.parts[i].indices);
+    ASSERT_EQ(after.submeshes.size(), before.submeshes.size());
+    for (std::size_t i = 0; i < before.submeshes.size(); ++i)
+        EXPECT_EQ(after.submeshes[i].indices, before.submeshes[i].indices);
     ASSERT_EQ(after.texture_coords.size(), std::min<std::size_t>(1, before.texture_coords.size()));
     if (!after.texture_coords.empty()) {
         EXPECT_EQ(after.texture_coords[0].values, before.texture_coords[0].values);
@@ -119,7 +121,7 @@ void expect_same_mesh(const Mesh& before, const Mesh& after) {
         EXPECT_EQ(after.palette.inverse_bind[i], offsets.at(after.palette.joints[i]));
 }
 
-void expect_same_cycle(const Cycle& before, const Cycle& after) {
+void expect_same_clip(const Clip& before, const Clip& after) {
     EXPECT_EQ(after.name, before.name);
     EXPECT_EQ(after.loop, before.loop);
     std::map<std::pair<std::uint32_t, TrackPath>, const Track*> tracks;
@@ -150,9 +152,9 @@ TEST(ExportX, ExamplesComeBack) {
         ASSERT_EQ(trip.after.meshes.size(), trip.before.meshes.size());
         for (std::size_t i = 0; i < trip.before.meshes.size(); ++i)
             expect_same_mesh(trip.before.meshes[i], trip.after.meshes[i]);
-        ASSERT_EQ(trip.after.cycles.size(), trip.before.cycles.size());
-        for (std::size_t i = 0; i < trip.before.cycles.size(); ++i)
-            expect_same_cycle(trip.before.cycles[i], trip.after.cycles[i]);
+        ASSERT_EQ(trip.after.clips.size(), trip.before.clips.size());
+        for (std::size_t i = 0; i < trip.before.clips.size(); ++i)
+            expect_same_clip(trip.before.clips[i], trip.after.clips[i]);
         EXPECT_EQ(losses_of(trip).count("key time rounded to a tick of the file"), 0u);
     }
 }
@@ -168,30 +170,30 @@ Scene small_scene() {
     Mesh& mesh = scene.meshes.emplace_back();
     mesh.joint = 0;
     mesh.positions = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-    mesh.parts.push_back({Topology::triangles, kNone, {0, 1, 2}});
+    mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2}});
     return scene;
 }
 
 TEST(ExportX, EveryFieldOfARigComesBack) {
     Scene scene = small_scene();
-    LimitRecord limit;
-    limit.model = static_cast<std::uint8_t>(LimitModel::euler_box);
-    limit.euler_order = 4;
-    limit.scope = 1;
-    limit.flags = kApproximated;
-    limit.soft_zone = 0.125f;
-    limit.frame = {0.5f, 0.5f, -0.5f, 0.5f};
-    limit.rotation_min = {-0.1f, -LimitRecord::kFree, -0.3f};
-    limit.rotation_max = {0.1f, 0.2f, LimitRecord::kFree};
-    limit.translation_min = {-1.0f, -2.0f, -LimitRecord::kFree};
-    limit.translation_max = {0.0f, 0.1f, 3e-12f};
-    limit.stiffness = {0.0f, 0.5f, 1.0f};
-    limit.preferred = {0.01f, 0.02f, 0.03f};
-    scene.joints[1].limits.push_back(limit);
-    limit.scope = 2;
-    limit.model = static_cast<std::uint8_t>(LimitModel::locked);
-    limit.euler_order = 0;
-    scene.joints[1].limits.push_back(limit);
+    ConstraintRecord constraint;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::euler_box);
+    constraint.euler_order = 4;
+    constraint.scope = 1;
+    constraint.flags = kApproximated;
+    constraint.soft_zone = 0.125f;
+    constraint.frame = {0.5f, 0.5f, -0.5f, 0.5f};
+    constraint.rotation_min = {-0.1f, -ConstraintRecord::kFree, -0.3f};
+    constraint.rotation_max = {0.1f, 0.2f, ConstraintRecord::kFree};
+    constraint.translation_min = {-1.0f, -2.0f, -ConstraintRecord::kFree};
+    constraint.translation_max = {0.0f, 0.1f, 3e-12f};
+    constraint.stiffness = {0.0f, 0.5f, 1.0f};
+    constraint.preferred = {0.01f, 0.02f, 0.03f};
+    scene.joints[1].constraints.push_back(constraint);
+    constraint.scope = 2;
+    constraint.model = static_cast<std::uint8_t>(ConstraintModel::locked);
+    constraint.euler_order = 0;
+    scene.joints[1].constraints.push_back(constraint);
     Chain chain;
     chain.name = "reach \"{far}; // 100%\" \xc3\xa4";
     chain.record.start = 0;
@@ -232,11 +234,11 @@ TEST(ExportX, NamesThatAreNoIdentifiersAndNamesThatAreDoubledComeBack) {
     Material material;
     material.name = "Same";
     scene.materials.push_back(material);
-    scene.meshes[0].parts[0].material = 0;
+    scene.meshes[0].submeshes[0].material = 0;
     const Trip trip = travel(scene);
     expect_same_skeleton(trip);
     EXPECT_EQ(trip.after.materials.at(0).name, "Same");
-    EXPECT_EQ(trip.after.meshes.at(0).parts[0].material, 0u);
+    EXPECT_EQ(trip.after.meshes.at(0).submeshes[0].material, 0u);
 }
 
 Track moving(Interpolation interpolation, std::vector<float> times, std::vector<float> values) {
@@ -246,33 +248,33 @@ Track moving(Interpolation interpolation, std::vector<float> times, std::vector<
 TEST(ExportX, FramesOf24And30AndOddTimesComeBackToTheBit) {
     for (const float rate : {24.0f, 30.0f, 60.0f}) {
         Scene scene = small_scene();
-        Cycle& cycle = scene.cycles.emplace_back();
-        cycle.name = "Walk";
-        cycle.loop = true;
+        Clip& clip = scene.clips.emplace_back();
+        clip.name = "Walk";
+        clip.loop = true;
         std::vector<float> times;
         std::vector<float> values;
         for (int frame = 0; frame < 200; ++frame) {
             times.push_back(static_cast<float>(frame) / rate);
             values.insert(values.end(), {static_cast<float>(frame), 0.1f, -0.2f});
         }
-        cycle.tracks.push_back(moving(Interpolation::linear, times, values));
+        clip.tracks.push_back(moving(Interpolation::linear, times, values));
         const Trip trip = travel(scene);
-        expect_same_cycle(trip.before.cycles.at(0), trip.after.cycles.at(0));
+        expect_same_clip(trip.before.clips.at(0), trip.after.clips.at(0));
     }
     Scene scene = small_scene();
-    Cycle& cycle = scene.cycles.emplace_back();
-    cycle.tracks.push_back(moving(Interpolation::linear, {0.0f, 0.1234567f, 1.7654321f}, {0, 0, 0, 1, 1, 1, 2, 2, 2}));
+    Clip& clip = scene.clips.emplace_back();
+    clip.tracks.push_back(moving(Interpolation::linear, {0.0f, 0.1234567f, 1.7654321f}, {0, 0, 0, 1, 1, 1, 2, 2, 2}));
     const Trip trip = travel(scene);
-    expect_same_cycle(trip.before.cycles.at(0), trip.after.cycles.at(0));
+    expect_same_clip(trip.before.clips.at(0), trip.after.clips.at(0));
     EXPECT_EQ(losses_of(trip), (std::map<std::string, std::uint64_t>{}));
 }
 
 TEST(ExportX, WhatIsNotLinearIsSampledAndSaid) {
     Scene scene = small_scene();
-    Cycle& cycle = scene.cycles.emplace_back();
-    cycle.name = "Jump";
-    cycle.tracks.push_back(moving(Interpolation::step, {0.0f, 1.0f}, {0, 0, 0, 1, 2, 3}));
-    Cycle& bow = scene.cycles.emplace_back();
+    Clip& clip = scene.clips.emplace_back();
+    clip.name = "Jump";
+    clip.tracks.push_back(moving(Interpolation::step, {0.0f, 1.0f}, {0, 0, 0, 1, 2, 3}));
+    Clip& bow = scene.clips.emplace_back();
     bow.name = "Bow";
     // From 0 to 1 without speed at either end: 3 t^2 - 2 t^3.
     bow.tracks.push_back(
@@ -281,13 +283,13 @@ TEST(ExportX, WhatIsNotLinearIsSampledAndSaid) {
     EXPECT_EQ(losses_of(trip), (std::map<std::string, std::uint64_t>{
                                    {"track that jumps gets two keys for each jump, a tick apart", 1},
                                    {"cubic track is sampled, 60 times a second: X-files have linear keys only", 1}}));
-    ASSERT_EQ(trip.after.cycles.size(), 2u);
-    const Track& jump = trip.after.cycles[0].tracks.at(0);
+    ASSERT_EQ(trip.after.clips.size(), 2u);
+    const Track& jump = trip.after.clips[0].tracks.at(0);
     ASSERT_EQ(jump.times.size(), 3u);
     EXPECT_EQ(jump.times[2], 1.0f);
     EXPECT_GT(jump.times[1], 0.95f);
     EXPECT_EQ(jump.values, (std::vector<float>{0, 0, 0, 0, 0, 0, 1, 2, 3}));
-    const Track& curve = trip.after.cycles[1].tracks.at(0);
+    const Track& curve = trip.after.clips[1].tracks.at(0);
     EXPECT_GE(curve.times.size(), 20u);
     for (std::size_t key = 0; key < curve.times.size(); ++key) {
         const double t = curve.times[key];
@@ -299,8 +301,8 @@ TEST(ExportX, ASplineThroughNoRotationTurnsNothingThere) {
     Scene scene = small_scene();
     Track spline{TrackPath::rotation, Interpolation::cubic, 0, 4, {0.0f, 1.0f}, std::vector<float>(24, 0.0f)};
     spline.values[4] = 1.0f;  // half a turn about X, then nothing
-    scene.cycles.emplace_back().tracks = {spline};
-    const Track back = travel(scene).after.cycles.at(0).tracks.at(0);
+    scene.clips.emplace_back().tracks = {spline};
+    const Track back = travel(scene).after.clips.at(0).tracks.at(0);
     ASSERT_GE(back.values.size(), 8u);
     EXPECT_EQ(std::abs(back.values[0]), 1.0f);
     EXPECT_EQ((std::vector<float>(back.values.end() - 4, back.values.end())), (std::vector<float>{0, 0, 0, 1}));
@@ -314,17 +316,17 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
         mesh.texture_coords.push_back({"", set, 2, std::vector<float>(6, 0.5f)});
     for (std::uint32_t set = 0; set < 2; ++set) mesh.colours.push_back({"", set, 4, std::vector<float>(12, 0.5f)});
     mesh.attributes.push_back({"_HEAT", 0, 1, {1, 2, 3}});
-    mesh.parts.push_back({Topology::lines, kNone, {0, 1}});
+    mesh.submeshes.push_back({Topology::lines, kNone, {0, 1}});
     mesh.targets.push_back({"smile", 0.5f, {{2, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {}, {}});
     mesh.targets.push_back({"frown", 0.0f, {{9, 9, 9}, {0, 0, 0}, {0, 0, 0}}, {}, {}});
-    Cycle& cycle = scene.cycles.emplace_back();
-    cycle.tracks.push_back({TrackPath::weights, Interpolation::linear, 0, 2, {0, 1}, {0, 0, 1, 1}});
+    Clip& clip = scene.clips.emplace_back();
+    clip.tracks.push_back({TrackPath::weights, Interpolation::linear, 0, 2, {0, 1}, {0, 0, 1, 1}});
     Material material;
     material.metallic = 0.5f;
     material.double_sided = true;
     material.base_colour_texture.texture = 0;
     scene.materials.push_back(material);
-    mesh.parts[0].material = 0;
+    mesh.submeshes[0].material = 0;
     Texture& texture = scene.textures.emplace_back();
     texture.min_filter = Filter::linear;
     texture.images = {0};
@@ -333,7 +335,7 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
     const Trip trip = travel(scene);
     const std::string no_place = " left out: X-files have no place for it";
     EXPECT_EQ(losses_of(trip), (std::map<std::string, std::uint64_t>{
-                                   {"inbetweening target" + no_place, 2},
+                                   {"morph target" + no_place, 2},
                                    {"tangents of a mesh" + no_place, 1},
                                    {"further set of texture coordinates" + no_place, 2},
                                    {"further set of vertex colours" + no_place, 1},
@@ -342,8 +344,8 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
                                    {"how a texture is sampled is left out", 1},
                                    {"what the file says of its source left out: author, copyright, generator", 1},
                                    {"lines and points left out: X-files have triangles only", 1},
-                                   {"weights of inbetweening targets left out of a cycle", 1},
-                                   {"a cycle that moves no joint is left out", 1},
+                                   {"weights of morph targets left out of a clip", 1},
+                                   {"a clip that moves no joint is left out", 1},
                                    {"metallic and roughness are written as specular colour and power, which only "
                                     "resemble them",
                                     1}}));
@@ -366,7 +368,7 @@ TEST(ExportX, EmbeddedImagesBecomeFiles) {
         material.metallic = 0.0f;
         scene.materials.push_back(material);
     }
-    scene.meshes[0].parts[0].material = 1;
+    scene.meshes[0].submeshes[0].material = 1;
     const Trip trip = travel(scene);
     ASSERT_EQ(trip.asset.images.size(), 1u);
     EXPECT_EQ(trip.asset.images[0].name, "image_0.png");
@@ -404,7 +406,7 @@ TEST(ExportX, ColoursAreThoseOfTheScreen) {
     material.base_colour = {0.21404114f, 1.0f, 0.0f, 0.5f};
     material.emissive = {0.21404114f, 0.0f, 4.0f};
     material.metallic = 0.0f;
-    scene.meshes[0].parts[0].material = 0;
+    scene.meshes[0].submeshes[0].material = 0;
     scene.meshes[0].colours.push_back({"", 0, 4, std::vector<float>(12, 0.21404114f)});
     const Trip trip = travel(scene);
     const std::string& text = trip.asset.text;
@@ -426,7 +428,7 @@ TEST(ExportX, OwnLightIsSeenThroughTheTexture) {
         material.emissive = {0.5f, 0.25f, 0.0f};
         material.base_colour_texture.texture = 0;
         if (is_same) material.emissive_texture.texture = 0;
-        scene.meshes[0].parts[0].material = 0;
+        scene.meshes[0].submeshes[0].material = 0;
         const Trip trip = travel(scene);
         EXPECT_EQ(losses_of(trip).contains("that the texture has no part in a material's own light" + no_place),
                   !is_same);

@@ -86,10 +86,10 @@ TEST(ImportX, FacesBecomeTrianglesThatShowTheSameSide) {
     const Mesh& mesh = file.scene.meshes[0];
     EXPECT_EQ(mesh.joint, 0u);
     EXPECT_EQ(mesh.positions[2], glm::vec3(1, 1, -1));
-    ASSERT_EQ(mesh.parts.size(), 1u);
-    EXPECT_EQ(mesh.parts[0].indices, (std::vector<std::uint32_t>{0, 2, 3, 0, 1, 2}));
+    ASSERT_EQ(mesh.submeshes.size(), 1u);
+    EXPECT_EQ(mesh.submeshes[0].indices, (std::vector<std::uint32_t>{0, 2, 3, 0, 1, 2}));
     for (std::size_t i = 0; i < 6; i += 3) {
-        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.parts[0].indices[i + k]]; };
+        const auto corner = [&](std::size_t k) { return mesh.positions[mesh.submeshes[0].indices[i + k]]; };
         const glm::vec3 a = corner(1) - corner(0);
         const glm::vec3 b = corner(2) - corner(0);
         EXPECT_GT(a.x * b.y - a.y * b.x, 0.0f) << "its front shows to +Z";
@@ -106,7 +106,7 @@ TEST(ImportX, CornersWithOtherNormalsBecomeVerticesOfTheirOwn) {
 })");
     const Mesh& mesh = file.scene.meshes.at(0);
     ASSERT_EQ(mesh.positions.size(), 6u);
-    EXPECT_EQ(mesh.parts[0].indices, (std::vector<std::uint32_t>{0, 2, 1, 3, 5, 4}));
+    EXPECT_EQ(mesh.submeshes[0].indices, (std::vector<std::uint32_t>{0, 2, 1, 3, 5, 4}));
     EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, -1));
     EXPECT_EQ(mesh.normals[3], glm::vec3(0, 1, 0));
     EXPECT_EQ(mesh.positions[4], mesh.positions[2]);  // position 2 with each normal
@@ -147,7 +147,7 @@ TEST(ImportX, MaterialsByReferenceAndInPlace) {
     EXPECT_EQ(file.scene.materials[0].emissive_texture.texture, kNone);
     EXPECT_EQ(green.alpha_mode, AlphaMode::blend);
     EXPECT_FLOAT_EQ(green.roughness, 0.5f);  // 2 / 0.5^4 - 2 = 30
-    EXPECT_EQ(file.scene.meshes[0].parts[0].material, 1u);
+    EXPECT_EQ(file.scene.meshes[0].submeshes[0].material, 1u);
     EXPECT_EQ(file.scene.images.at(0).uri, "skin%20one.bmp");
 }
 
@@ -159,16 +159,16 @@ AnimationSet Turn {
  Animation { { A } AnimationKey { 0; 2; 0;4;-1,0,0,0;;, 50;4;-0.70710678,0,0.70710678,0;;; } }
  Animation { { B } AnimationKey { 4; 2; 0;16; 1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1;;, 50;16; 0,0,-1,0, 0,1,0,0, 1,0,0,0, 2,3,4,1;;; } }
 })");
-    ASSERT_EQ(file.scene.cycles.size(), 1u);
-    const Cycle& cycle = file.scene.cycles[0];
-    EXPECT_EQ(cycle.name, "Turn");
-    EXPECT_FALSE(cycle.loop);
+    ASSERT_EQ(file.scene.clips.size(), 1u);
+    const Clip& clip = file.scene.clips[0];
+    EXPECT_EQ(clip.name, "Turn");
+    EXPECT_FALSE(clip.loop);
     const auto track = [&](std::uint32_t target, TrackPath path) -> const Track& {
-        for (const Track& each : cycle.tracks) {
+        for (const Track& each : clip.tracks) {
             if (each.target == target && each.path == path) return each;
         }
         ADD_FAILURE() << "no such track";
-        return cycle.tracks.front();
+        return clip.tracks.front();
     };
     const Track& by_quaternion = track(0, TrackPath::rotation);
     const Track& by_matrix = track(1, TrackPath::rotation);
@@ -181,13 +181,13 @@ AnimationSet Turn {
     EXPECT_EQ(std::vector<float>(moved.values.begin() + 3, moved.values.end()), (std::vector<float>{2, 3, -4}));
 }
 
-TEST(ImportX, OptionsSayThatACycleRepeats) {
+TEST(ImportX, OptionsSayThatAClipRepeats) {
     const Read file = read_good(kHeader + R"(Frame A { } AnimationSet Walk { Animation { { A }
  AnimationOptions { 0; 1; } AnimationKey { 2; 2; 0;3;0,0,0;;, 4800;3;1,2,3;;; } AnimationKey { 1; 1; 0;3;1,1,1;;; } } })");
-    ASSERT_EQ(file.scene.cycles.size(), 1u);
-    EXPECT_TRUE(file.scene.cycles[0].loop);
-    ASSERT_EQ(file.scene.cycles[0].tracks.size(), 1u) << "a scale that only rests is no track";
-    EXPECT_EQ(file.scene.cycles[0].tracks[0].times[1], 1.0f) << "4800 ticks in a second if nothing is said";
+    ASSERT_EQ(file.scene.clips.size(), 1u);
+    EXPECT_TRUE(file.scene.clips[0].loop);
+    ASSERT_EQ(file.scene.clips[0].tracks.size(), 1u) << "a scale that only rests is no track";
+    EXPECT_EQ(file.scene.clips[0].tracks[0].times[1], 1.0f) << "4800 ticks in a second if nothing is said";
 }
 
 TEST(ImportX, QuirksOfWritersAreRead) {
@@ -374,7 +374,7 @@ const std::string kWalk = R"(Frame A { } AnimationSet Walk { Animation { { A }
 
 TEST(ImportX, AMissingRateIsNamedAndCanBeSet) {
     const Read assumed = read_good(kHeader + kWalk);
-    EXPECT_EQ(assumed.scene.cycles.at(0).tracks.at(0).times.at(1), 0.01f);
+    EXPECT_EQ(assumed.scene.clips.at(0).tracks.at(0).times.at(1), 0.01f);
     EXPECT_EQ(warnings_of(assumed),
               (std::vector<std::string>{
                   ": AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the "
@@ -383,7 +383,7 @@ TEST(ImportX, AMissingRateIsNamedAndCanBeSet) {
         Report report;
         const auto set = import_x(kHeader + rate + kWalk, "walk.x", {.ticks_per_second = 24.0}, report);
         ASSERT_TRUE(set);
-        EXPECT_EQ(set->cycles.at(0).tracks.at(0).times.at(1), 2.0f);
+        EXPECT_EQ(set->clips.at(0).tracks.at(0).times.at(1), 2.0f);
         EXPECT_TRUE(report.warnings().empty());
     }
     EXPECT_TRUE(read_good(kHeader + "AnimTicksPerSecond { 4800; }" + kWalk).report.warnings().empty());
@@ -399,7 +399,7 @@ AnimTicksPerSecond { 10; }
 AnimationSet { Animation { { Away } AnimationKey { 2; 1; 5;3;0,0,0;;; } } })");
     ASSERT_EQ(file.scene.meshes.size(), 1u);
     EXPECT_EQ(file.scene.meshes[0].palette.joints, (std::vector<std::uint32_t>{0}));
-    EXPECT_EQ(file.scene.meshes[0].parts.at(0).material, kNone);
+    EXPECT_EQ(file.scene.meshes[0].submeshes.at(0).material, kNone);
     EXPECT_EQ(warnings_of(file),
               (std::vector<std::string>{"line 11, column 16: animation left out: its frame 'Away' does not exist",
                                         "line 7, column 29: faces are left without a material: 'None' does not exist",

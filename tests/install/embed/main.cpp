@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     }
     bendy::Pose pose(*model);
     std::vector<glm::vec3> positions(model->vertex_count());
-    if (!model->cycles().empty()) (void)bendy::sample(pose, &model->cycles()[0], 0.0f);
+    if (!model->clips().empty()) (void)bendy::sample(pose, &model->clips()[0], 0.0f);
     if (!bendy::skin(pose, {.out = {.positions = positions}}) || positions.empty()) return 1;
     std::printf("%zu joints, first vertex at %g %g %g\n", model->joints().size(), double{positions[0].x},
                 double{positions[0].y}, double{positions[0].z});

@@ -19,7 +19,7 @@ struct CharacterDifference {
         distance  ///< something is `metres` away from where it should be
     };
     Kind kind = Kind::value;
-    std::string place;    ///< what is meant: joint "Hips"; mesh "Body", vertex 3, cycle "Walk" at 0.250 s; as A has it
+    std::string place;    ///< what is meant: joint "Hips"; mesh "Body", vertex 3, clip "Walk" at 0.250 s; as A has it
     std::string what;     ///< one line, or empty
     double metres = 0.0;  ///< of a distance
 };
@@ -43,9 +43,9 @@ struct CharacterComparison {
     bool gave_up = false;
 };
 
-/// Compares what two files mean, however it is stored: the same joints by name, at rest; the same cycles by name; the
+/// Compares what two files mean, however it is stored: the same joints by name, at rest; the same clips by name; the
 /// same polygons of each material, in whatever order and with whatever vertices. Every corner of a polygon is compared
-/// where it is drawn: at rest, with every inbetweening target at full weight, and in every cycle as measure_error
+/// where it is drawn: at rest, with every morph target at full weight, and in every clip as measure_error
 /// plays it. Normals, tangents, texture coordinates, colours and other attributes have limits of their own:
 /// 2 degrees, 1/1024 of the range (colours: 1/128). Not compared: levels of detail, rigs, extras, vertices that nothing
 /// is drawn of.

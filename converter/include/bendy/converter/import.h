@@ -45,7 +45,7 @@ struct XOptions {
 };
 
 /// Reads a DirectX X-file, text or binary, compressed or not, and fills a Scene: frames become joints, SkinWeights
-/// influences, AnimationSets cycles, and our own templates (spec/xfile.md) constraints and IK chains. The left-handed
+/// influences, AnimationSets clips, and our own templates (spec/xfile.md) constraints and IK chains. The left-handed
 /// space is mirrored along Z, numbers are taken for metres. Errors come with `line 3, column 7`, or the byte in binary
 /// files. What the Scene cannot hold is named in `report`. Throws nothing; every number in the result is finite and
 /// every index in range. The lines of a compressed file are those of the text in it.
@@ -56,10 +56,10 @@ Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesyste
                                     Report& report);
 
 /// Reads a Quake II model and fills a Scene: the first frame is the mesh, every other one a target of its own shape
-/// (Target::is_frame) with the frame's name, and frames that are numbered on (stand01, stand02, ...) are a clip of 10
-/// frames a second; which clips repeat, their names say. Z up becomes Y up, the front +Z; 32 units are a metre. Normals
-/// are the table's that the file's numbers mean, the skins' names are kept as URIs. Errors name the byte. Throws
-/// nothing; every number in the result is finite and every index in range.
+/// (MorphTarget::is_frame) with the frame's name, and frames that are numbered on (stand01, stand02, ...) are a clip of
+/// 10 frames a second; which clips repeat, their names say. Z up becomes Y up, the front +Z; 32 units are a metre.
+/// Normals are the table's that the file's numbers mean, the skins' names are kept as URIs. Errors name the byte.
+/// Throws nothing; every number in the result is finite and every index in range.
 Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report);
 
 /// The same of a file's bytes. \param name  of the one joint

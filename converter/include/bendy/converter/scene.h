@@ -36,11 +36,11 @@ struct Joint {
     std::string name;              ///< UTF-8, may be empty or doubled
     std::uint32_t parent = kNone;  ///< always smaller than the joint's own index; kNone: a root
     Transform rest;
-    std::vector<LimitRecord> limits;  ///< at most one of each scope, that pass check_limit
-    std::string extras;               ///< JSON text or empty
-    std::string extensions;           ///< JSON object: the node's extensions that are kept as they came; or empty
-    std::string more;                 ///< JSON object: see Scene::more
-    bool in_skin = false;             ///< a skin of the source names it, used or not; not written
+    std::vector<ConstraintRecord> constraints;  ///< at most one of each scope, that pass check_constraint
+    std::string extras;                         ///< JSON text or empty
+    std::string extensions;  ///< JSON object: the node's extensions that are kept as they came; or empty
+    std::string more;        ///< JSON object: see Scene::more
+    bool in_skin = false;    ///< a skin of the source names it, used or not; not written
 };
 
 /// An IK chain. A joint on the path from record.effector up to record.start may have a weight of its own in it.
@@ -56,7 +56,7 @@ struct Chain {
 };
 
 /// A list of vertex indices with one material; strips, fans and loops are resolved into lists by the importer.
-struct Part {
+struct Submesh {
     Topology topology = Topology::triangles;
     std::uint32_t material = kNone;      ///< index into Scene::materials
     std::vector<std::uint32_t> indices;  ///< into the mesh's vertices; 3, 2 or 1 per primitive, the source's order
@@ -78,7 +78,7 @@ struct FrameGrid {
 };
 
 /// A morph target: displacements per vertex; an empty vector means: this stream is not displaced.
-struct Target {
+struct MorphTarget {
     std::string name;
     float rest_weight = 0.0f;
     std::vector<glm::vec3> positions;
@@ -98,7 +98,7 @@ struct Palette {
     std::vector<glm::mat4> inverse_bind;  ///< as many
 };
 
-/// Vertices that share one set of streams, one palette and one set of targets: what becomes a VECT pool.
+/// Vertices that share one set of streams, one palette and one set of targets: what becomes a VECT chunk.
 struct Mesh {
     std::string name;
     std::uint32_t joint = kNone;         ///< the joint that carries the mesh; moves it when it is rigid
@@ -112,11 +112,11 @@ struct Mesh {
     std::vector<std::uint32_t> bones;    ///< vertex count * influences, into the palette
     std::vector<float> weights;          ///< as many; sum 1 per vertex, never negative
     Palette palette;
-    std::vector<Target> targets;  ///< frames come last
+    std::vector<MorphTarget> targets;  ///< frames come last
     /// Where `positions` lie on one: they are stored so, and the normals by number in a list, which the frames share.
     /// It holds 256: frames should have no more different ones, those past it become the nearest.
     std::optional<FrameGrid> grid;
-    std::vector<Part> parts;
+    std::vector<Submesh> submeshes;
     /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
     /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
     std::vector<std::uint32_t> collapse;
@@ -158,41 +158,41 @@ struct Curve {
     std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
 };
 
-/// A named time of a cycle: a footstep, a hit, a sound.
+/// A named time of a clip: a footstep, a hit, a sound.
 struct Marker {
-    float seconds = 0.0f;  ///< between the cycle's first and last key
+    float seconds = 0.0f;  ///< between the clip's first and last key
     std::string name;      ///< UTF-8, may be empty or doubled
 };
 
 /// When a clip begins and ends, seconds on its time line.
-struct CycleSpan {
+struct ClipSpan {
     float start = 0.0f;
     float end = 0.0f;
 
     /// At a share of the way, 0 to 1; seconds.
     [[nodiscard]] double at(double share) const { return start + share * (double{end} - start); }
-    friend bool operator==(const CycleSpan&, const CycleSpan&) = default;
+    friend bool operator==(const ClipSpan&, const ClipSpan&) = default;
 };
 
 /// Frames of a mesh, one after another. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
 struct Play {
     std::uint32_t mesh = 0;
     std::uint32_t first = 0;
-    std::uint32_t frames = 1;  ///< 1 or more; frame k of them is at Cycle::frame_start + k / Cycle::frame_rate
+    std::uint32_t frames = 1;  ///< 1 or more; frame k of them is at Clip::frame_start + k / Clip::frame_rate
     bool closed = false;       ///< the first frame follows on the last one
 };
 
-struct Cycle {
+struct Clip {
     std::string name;
     bool loop = false;          ///< repeats; glTF has no such field, the animation's extras may say {"loop": true}
     std::vector<Track> tracks;  ///< at most one per target and path; may be empty
     std::string extras;
-    std::vector<std::byte> packed = {};  ///< a PACK payload (packed_cycle.h) with tracks that `tracks` lacks, or empty
+    std::vector<std::byte> packed = {};  ///< a PACK payload (packed_clip.h) with tracks that `tracks` lacks, or empty
     std::vector<Marker> markers = {};    ///< times ascend, and may be equal
     std::string more = {};               ///< JSON object: see Scene::more
     /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
     /// the last key. Never shorter than the keys.
-    std::optional<CycleSpan> stated_span = {};
+    std::optional<ClipSpan> stated_span = {};
     std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
     float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
     float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
@@ -252,7 +252,7 @@ struct Scene {
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence
-    std::vector<Cycle> cycles;     ///< the source's order and number
+    std::vector<Clip> clips;       ///< the source's order and number
     std::vector<Material> materials;
     std::vector<Image> images;
     std::vector<Texture> textures;

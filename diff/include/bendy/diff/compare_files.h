@@ -12,10 +12,10 @@ namespace bendy::diff {
 struct ReadFile {
     ChunkTree tree;
     Document document;
-    std::vector<UnpackedTrack> unpacked;              ///< what the document's packed cycles hold, as tracks of theirs
+    std::vector<UnpackedTrack> unpacked;              ///< what the document's packed clips hold, as tracks of theirs
     std::vector<std::unique_ptr<StreamView>> frames;  ///< streams of FRMS, all frames together
     std::vector<const StreamView*> streams;           ///< by chunk number; null: no stream
-    std::vector<const CycleView*> cycles;             ///< by chunk number; null: no cycle
+    std::vector<const ClipView*> clips;               ///< by chunk number; null: no clip
     std::vector<const ObjectView*> objects;           ///< by chunk number; null: no object
 };
 

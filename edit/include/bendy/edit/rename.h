@@ -13,7 +13,7 @@
 namespace bendy::edit {
 
 /// What has a name.
-enum class Named : std::uint8_t { joint, cycle, chain, mesh, target, material, texture, object };
+enum class Named : std::uint8_t { joint, clip, chain, mesh, target, material, texture, object };
 
 /// Names of one kind: each name that a pair's first matches becomes its second. The first pair that matches counts, and
 /// all are looked up in the names as the file has them, so two names can be swapped. A `*` in the first (one at most)
@@ -27,7 +27,7 @@ struct Rename {
 
 /// "OLD=NEW" as a pair. The first `=` parts them.
 Result<std::pair<std::string, std::string>, Problem> parse_pair(std::string_view text);
-/// "joint", "cycle", ...
+/// "joint", "clip", ...
 Result<Named, Problem> parse_named(std::string_view word);
 
 /// The file with other names, in NAME chunks or JNAM. A name that would become empty is a problem; two things of one

@@ -11,21 +11,21 @@ namespace bendy::edit {
 
 /// What can be taken out of a file.
 enum class Part : std::uint8_t {
-    textures,    ///< TEXT; materials do without
-    materials,   ///< MATE, local ones too; polygons have none
-    meshes,      ///< VECT, with polygons, weights tracks and levels of detail
-    targets,     ///< TARG, with their weights in cycles
-    cycles,      ///< CYCL
-    markers,     ///< MARK
-    chains,      ///< IKCH and PULL
-    limits,      ///< LIMT; by name: of a joint
-    lod,         ///< LODD
-    tangents,    ///< TANG, of targets too
-    colours,     ///< COLR
-    attributes,  ///< USER
-    extras,      ///< EXTR and MORE
-    extensions,  ///< EXTN
-    unknown      ///< chunks that this version has no page for; by name: with this id
+    textures,     ///< TEXT; materials do without
+    materials,    ///< MATE, local ones too; polygons have none
+    meshes,       ///< VECT, with polygons, weights tracks and levels of detail
+    targets,      ///< TARG, with their weights in clips
+    clips,        ///< CYCL
+    markers,      ///< MARK
+    chains,       ///< IKCH and PULL
+    constraints,  ///< LIMT; by name: of a joint
+    lod,          ///< LODD
+    tangents,     ///< TANG, of targets too
+    colours,      ///< COLR
+    attributes,   ///< USER
+    extras,       ///< EXTR and MORE
+    extensions,   ///< EXTN
+    unknown       ///< chunks that this version has no page for; by name: with this id
 };
 
 struct Strip {
@@ -33,7 +33,7 @@ struct Strip {
     std::string name;  ///< see find_named; empty: all of them
 };
 
-/// "cycles", "cycle:Run", "mesh:Hat*": the part's name in one of its two numbers, and which of them. A part that stands
+/// "clips", "clip:Run", "mesh:Hat*": the part's name in one of its two numbers, and which of them. A part that stands
 /// alone (markers, lod, tangents, colours, attributes, extras, extensions) takes no name.
 Result<Strip, Problem> parse_strip(std::string_view text);
 /// The words that parse_strip takes, for help and errors: "textures, materials, ...".

@@ -22,7 +22,7 @@ enum class Codec : std::uint8_t {
     vertices_zstd = 3,  ///< the same under zstd
     indices = 4,        ///< triangle list: meshoptimizer's index codec
     indices_zstd = 5,   ///< the same under zstd
-    cycle = 6,          ///< packed cycle: see packed_cycle.h
+    clip = 6,           ///< packed clip: see packed_clip.h
     sums = 7,           ///< rows of u16 that sum to the same number, by planes under zstd
 };
 inline constexpr unsigned kCodecs = 8;

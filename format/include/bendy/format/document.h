@@ -1,11 +1,11 @@
 #pragma once
 
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/ik_chain.h>
 #include <bendy/format/joint.h>
 #include <bendy/format/lod.h>
 #include <bendy/format/material.h>
-#include <bendy/format/pool.h>
+#include <bendy/format/mesh.h>
 #include <bendy/format/public.h>
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct ObjectView {
     std::string_view name;
     SkeletonView skeleton;
     std::vector<ChainView> chains;
-    std::vector<PoolView> pools;
+    std::vector<MeshView> meshes;
     std::optional<CollapseView> collapse;  ///< LODD
-    std::vector<CycleView> cycles;
+    std::vector<ClipView> clips;
     std::string_view extras;
     std::string_view more;  ///< JSON object, or empty
 };

@@ -12,19 +12,19 @@
 // SKIN: a joint, nested as the skeleton is nested; PIVO: what belongs to the joint itself; POLY: its polygons.
 namespace BENDY_PUBLIC bendy {
 
-/// A range of a pool's index list that belongs to a joint.
-struct PolygonView {
+/// A range of a mesh's index list that belongs to a joint.
+struct SubmeshView {
     std::uint32_t chunk = 0;
     std::uint32_t joint = 0;
-    std::uint32_t pool = 0;
-    std::uint32_t material = kNone;  ///< as in the file: see PolygonRecord
+    std::uint32_t mesh = 0;
+    std::uint32_t material = kNone;  ///< as in the file: see SubmeshRecord
     Topology topology = Topology::triangles;
-    std::uint32_t first = 0;  ///< in the pool's INDX
+    std::uint32_t first = 0;  ///< in the mesh's INDX
     std::uint32_t count = 0;
 };
 
 /// The weight of a joint in an IK chain (not yet held against the chains).
-struct PullView {
+struct ChainWeightView {
     std::uint32_t chunk = 0;
     std::uint32_t joint = 0;
     std::uint32_t chain = 0;
@@ -42,13 +42,13 @@ struct JointView {
 };
 
 /// The joints of an OBJE in pre-order, which is joint order, with what belongs to them, ordered by joint; the polygon
-/// ranges are not yet held against the pools.
+/// ranges are not yet held against the meshes.
 struct SkeletonView {
     std::vector<JointView> joints;
     std::uint32_t table = kNone;  ///< JNTS
-    std::vector<PolygonView> polygons;
-    std::vector<LimitView> limits;
-    std::vector<PullView> pulls;
+    std::vector<SubmeshView> submeshes;
+    std::vector<ConstraintView> constraints;
+    std::vector<ChainWeightView> chain_weights;
     std::vector<std::uint32_t> local_materials;       ///< MATE chunks inside SKIN, in file order
     std::vector<std::uint32_t> first_local_material;  ///< of each joint, into local_materials
 };
@@ -57,7 +57,7 @@ struct SkeletonView {
 SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& faults);
 
 /// Faults of meaning: rest transforms that are not finite, rotations that are not unit quaternions, constraints
-/// (check_limit) and weights in IK chains that cannot be.
+/// (check_constraint) and weights in IK chains that cannot be.
 void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults);
 
 }  // namespace bendy

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-// MARK: named times of a cycle.
+// MARK: named times of a clip.
 namespace BENDY_PUBLIC bendy {
 
-/// A footstep, a hit, a sound to be played: what happens at a time of a cycle.
+/// A footstep, a hit, a sound to be played: what happens at a time of a clip.
 struct Marker {
-    float seconds = 0.0f;   ///< on the cycle's own time, between its start and end
+    float seconds = 0.0f;   ///< on the clip's own time, between its start and end
     std::string_view name;  ///< UTF-8; may be empty, may be doubled
 };
 

@@ -85,7 +85,7 @@ struct RecordLayout {
 /// All records in the table's order.
 std::span<const RecordLayout> record_layouts();
 
-/// The record of this name, JointPolygons among them; nothing if there is none.
+/// The record of this name, JointSubmesh among them; nothing if there is none.
 const RecordLayout* find_layout(std::string_view record);
 
 /// The unsigned integer in a field of a record at `base`; 0 past the payload's end.

@@ -15,7 +15,7 @@ namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 0x59, 0x0d, 0x0a, 0x1a};
 
-/// A material number of PolygonRecord with this bit set counts among the joint's own MATE chunks.
+/// A material number of SubmeshRecord with this bit set counts among the joint's own MATE chunks.
 inline constexpr std::uint32_t kLocalMaterial = 0x8000'0000u;
 
 struct VersionRecord {
@@ -24,9 +24,9 @@ struct VersionRecord {
     std::uint16_t minor = kVersionMinor;
     std::uint32_t objects = 0;
     std::uint32_t joints = 0;
-    std::uint32_t pools = 0;
+    std::uint32_t meshes = 0;
     std::uint64_t vertices = 0;
-    std::uint32_t cycles = 0;
+    std::uint32_t clips = 0;
     std::uint32_t materials = 0;
     std::uint32_t textures = 0;
     std::uint32_t reserved = 0;
@@ -86,7 +86,7 @@ struct RestRecord {
     std::array<float, 3> shear{};
 };
 
-struct LimitRecord {
+struct ConstraintRecord {
     static constexpr float kFree = std::numeric_limits<float>::infinity();
 
     std::uint8_t model = 0;
@@ -103,7 +103,7 @@ struct LimitRecord {
     std::array<float, 3> preferred{};
 };
 
-struct PullRecord {
+struct ChainWeightRecord {
     std::uint32_t chain = 0;
     float weight = 1.0f;
 };
@@ -130,8 +130,8 @@ struct ChainRecord {
     float compress = 0.0f;
 };
 
-struct PolygonRecord {
-    std::uint32_t pool = 0;
+struct SubmeshRecord {
+    std::uint32_t mesh = 0;
     std::uint32_t material = kNone;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -141,27 +141,27 @@ struct PolygonRecord {
 
 struct JointsRecord {
     std::uint32_t joints = 0;
-    std::uint32_t polygons = 0;
+    std::uint32_t submeshes = 0;
     std::array<std::uint32_t, 2> reserved{};
 };
 
-/// JNTS: a range of polygons, and the joint to which it belongs.
-struct JointPolygons {
+/// JNTS: a submesh, and the joint to which it belongs.
+struct JointSubmesh {
     std::uint32_t joint = 0;
-    PolygonRecord polygons;
+    SubmeshRecord submesh;
 };
-static_assert(sizeof(JointPolygons) == 24);
+static_assert(sizeof(JointSubmesh) == 24);
 
-struct PoolRecord {
+struct MeshRecord {
     std::uint32_t vertices = 0;
     std::uint32_t joint = kNone;
 };
 
-struct TargetRecord {
+struct MorphTargetRecord {
     float rest_weight = 0.0f;
 };
 
-struct CycleRecord {
+struct ClipRecord {
     float start = 0.0f;
     float end = 0.0f;
     float frame_rate = 0.0f;
@@ -205,7 +205,7 @@ struct CurveRecord {
 };
 
 struct PlayRecord {
-    std::uint32_t pool = 0;
+    std::uint32_t mesh = 0;
     std::uint32_t first = 0;
     std::uint32_t frames = 0;
     std::uint8_t closed = 0;
@@ -237,15 +237,15 @@ struct PaletteRecord {
     std::array<std::uint32_t, 2> reserved{};
 };
 
-struct PoolCollapseRecord {
-    std::uint32_t pool = 0;
+struct MeshCollapseRecord {
+    std::uint32_t mesh = 0;
     std::uint32_t base = 0;
     std::uint8_t target_type = 0;
     std::array<std::uint8_t, 7> reserved{};
 };
 
 struct CollapseRecord {
-    std::uint32_t pools = 0;
+    std::uint32_t meshes = 0;
     std::uint32_t levels = 0;
     std::array<std::uint32_t, 2> reserved{};
 };
@@ -286,7 +286,7 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 inline constexpr unsigned kAlphaModes = 3;
 enum class MediaType : std::uint8_t { other, png, jpeg, ktx2, webp, avif };
 inline constexpr unsigned kMediaTypes = 6;
-enum class LimitModel : std::uint8_t {
+enum class ConstraintModel : std::uint8_t {
     free,
     locked,
     hinge,
@@ -295,19 +295,19 @@ enum class LimitModel : std::uint8_t {
     euler_box,
     largest_angle
 };
-inline constexpr unsigned kLimitModels = 7;
+inline constexpr unsigned kConstraintModels = 7;
 enum class EulerOrder : std::uint8_t { xyz, xzy, yxz, yzx, zxy, zyx };
 inline constexpr unsigned kEulerOrders = 6;
-enum class LimitScope : std::uint8_t { every_pose, ik_only, all_but_ik };
-inline constexpr unsigned kLimitScopes = 3;
+enum class ConstraintScope : std::uint8_t { every_pose, ik_only, all_but_ik };
+inline constexpr unsigned kConstraintScopes = 3;
 enum class Solver : std::uint8_t { any, pull, two_bone, ccd, fabrik, aim, least_squares };
 inline constexpr unsigned kSolvers = 7;
 
-/// Bits of LimitRecord::flags and ChainRecord::flags.
+/// Bits of ConstraintRecord::flags and ChainRecord::flags.
 inline constexpr std::uint8_t kApproximated = 1;  ///< the source says more, or otherwise, than the record can
 inline constexpr std::uint8_t kProposed = 2;      ///< guessed from the joints' names: nobody has authored it
 inline constexpr std::uint8_t kRestOutside = 4;   ///< of a limit: its author knows that the rest pose is not legal
-inline constexpr unsigned kLimitFlags = 8;
+inline constexpr unsigned kConstraintFlags = 8;
 inline constexpr unsigned kChainFlags = 4;
 
 /// Bytes of one number of the type.

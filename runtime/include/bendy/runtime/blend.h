@@ -14,15 +14,15 @@
 // an error, and changes nothing, for poses of different models, a mask of another size or a weight that is not finite.
 namespace BENDY_PUBLIC bendy {
 
-/// Moves `pose` towards `other`: 0 leaves it, 1 makes it the other. Translations, scales and target weights are mixed,
-/// rotations too, the short way round, and normalised ("nlerp"). To mix several poses evenly, blend in the second by
-/// 1/2, the third by 1/3 and so on; for a cross-fade or a layer, one call with its weight.
+/// Moves `pose` towards `other`: 0 leaves it, 1 makes it the other. Translations, scales and morph target weights are
+/// mixed, rotations too, the short way round, and normalised ("nlerp"). To mix several poses evenly, blend in the
+/// second by 1/2, the third by 1/3 and so on; for a cross-fade or a layer, one call with its weight.
 [[nodiscard]] Result<void, CallError> blend(Pose& pose, const Pose& other, float weight,
                                             std::span<const float> mask = {});
 
 /// Turns `pose` into its difference from `reference`, which add() takes: a breath, a recoil, a lean. Rotations: what
-/// turns the reference into the pose, in the joint's own axes; translations and target weights: the difference; scales:
-/// the quotient, 1 where the reference has none. The difference is no pose to show.
+/// turns the reference into the pose, in the joint's own axes; translations and morph target weights: the difference;
+/// scales: the quotient, 1 where the reference has none. The difference is no pose to show.
 [[nodiscard]] Result<void, CallError> make_additive(Pose& pose, const Pose& reference);
 
 /// Adds a difference to `pose`, so much of it: 0 leaves it, 1 on the reference gives what make_additive was given.

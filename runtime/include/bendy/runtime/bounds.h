@@ -42,7 +42,7 @@ public:
     explicit Bounds(const Model& model);
 
     [[nodiscard]] const Model& model() const { return model_; }
-    /// In joint space, of the vertices that the joint moves, with target weights 0; empty if it moves none.
+    /// In joint space, of the vertices that the joint moves, with morph target weights 0; empty if it moves none.
     [[nodiscard]] const Box& joint(std::uint32_t joint) const { return joints_[joint].box; }
 
     // Of a pose of the model, in model space.
@@ -60,7 +60,7 @@ private:
     };
     /// Displacements by one target of what one joint moves, in joint space, and the place of those it leaves alone.
     struct Shift {
-        std::uint32_t target = 0;  // of all pools
+        std::uint32_t target = 0;  // of all meshes
         Box box;
     };
     struct Builder;

@@ -9,7 +9,7 @@ namespace BENDY_PUBLIC bendy {
 /// Why a call of the runtime failed. Functions return it in a Result<..., CallError>: no memory is allocated, whether
 /// they succeed or not.
 enum class CallError : std::uint8_t {
-    missing,           ///< a cycle or chain is null, or a Crossfade plays nothing
+    missing,           ///< a clip or chain is null, or a Crossfade plays nothing
     not_finite,        ///< a number is not finite
     other_model,       ///< two arguments belong to different models
     out_of_range,      ///< the model has no mesh of that number

@@ -19,8 +19,9 @@ namespace BENDY_PUBLIC bendy {
 [[nodiscard]] double violation(const Constraint& constraint, const glm::dquat& R);
 
 /// R of a joint: conj(C) * conj(rest) * local * C. And back.
-[[nodiscard]] glm::dquat to_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::quat& local);
-[[nodiscard]] glm::quat from_limit_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
+[[nodiscard]] glm::dquat to_constraint_space(const Constraint& constraint, const glm::quat& rest,
+                                             const glm::quat& local);
+[[nodiscard]] glm::quat from_constraint_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
 
 /// A joint's translation held to the constraint, metres: each component of d in its range, where
 /// translation = rest.translation + rest.rotation * C * d.

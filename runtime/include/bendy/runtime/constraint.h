@@ -35,9 +35,9 @@ struct LimitShape {
 /// q = q_rest * C * R * conj(C).
 struct Constraint {
     std::uint32_t joint = 0;
-    LimitModel model = LimitModel::free;
+    ConstraintModel model = ConstraintModel::free;
     EulerOrder euler_order = EulerOrder::xyz;
-    LimitScope scope = LimitScope::every_pose;
+    ConstraintScope scope = ConstraintScope::every_pose;
     std::uint8_t flags = 0;  ///< kApproximated, kProposed, kRestOutside
     bool limits_translation = false;
     glm::dquat frame{1, 0, 0, 0};  ///< C
@@ -45,10 +45,10 @@ struct Constraint {
     bool has_soft_zone = false;
     LimitShape inner;         ///< the shape without its soft zone
     glm::dvec3 stiffness{0};  ///< 0 to 1 about the frame's axes
-    LimitRecord record;       ///< as in the file
+    ConstraintRecord record;  ///< as in the file
 };
 
 /// Makes a constraint ready. Numbers that are not possible (the file may hold any) are taken as the nearest that are.
-[[nodiscard]] Constraint make_constraint(const LimitView& view);
+[[nodiscard]] Constraint make_constraint(const ConstraintView& view);
 
 }  // namespace bendy

@@ -38,28 +38,28 @@ private:
     Easing easing_ = Easing::smooth;
 };
 
-/// One of the cycles of a Crossfade.
+/// One of the clips of a Crossfade.
 struct Playing {
-    const Cycle* cycle = nullptr;
+    const Clip* clip = nullptr;
     Playback playback;
-    Fade fade;           ///< how much of it covers what began before it
-    Walk walk;           ///< by the last advance: for markers and root motion
-    float share = 0.0f;  ///< of the result; all shares add up to 1
+    Fade fade;              ///< how much of it covers what began before it
+    PlayedInterval played;  ///< by the last advance: for markers and root motion
+    float share = 0.0f;     ///< of the result; all shares add up to 1
 };
 
-/// Cycles that follow one another, each fading in over those before. One that is interrupted goes on beneath the next,
+/// Clips that follow one another, each fading in over those before. One that is interrupted goes on beneath the next,
 /// so nothing jumps. Small, and allocates nothing.
 class Crossfade {
 public:
     /// Of more at a time, the oldest goes at once; what is left of its share jumps.
     static constexpr std::size_t kMost = 4;
 
-    /// From now on this one; the first one covers all at once. The cycle must outlive its playing.
-    void play(const Cycle& cycle, float fade_seconds, Easing easing = Easing::smooth) {
-        play(cycle, Playback(cycle), fade_seconds, easing);
+    /// From now on this one; the first one covers all at once. The clip must outlive its playing.
+    void play(const Clip& clip, float fade_seconds, Easing easing = Easing::smooth) {
+        play(clip, Playback(clip), fade_seconds, easing);
     }
     /// With a clock of the caller's: at another speed, in step with what plays now.
-    void play(const Cycle& cycle, const Playback& playback, float fade_seconds, Easing easing = Easing::smooth);
+    void play(const Clip& clip, const Playback& playback, float fade_seconds, Easing easing = Easing::smooth);
 
     /// Moves every clock and every fade on; what is wholly covered afterwards is gone, with its walk.
     void advance(double seconds);

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-// Many characters of one model, on as many threads as the caller has. There are no threads in here: a thread pool of
+// Many characters of one model, on as many threads as the caller has. There are no threads in here: a thread mesh of
 // the caller's splits the members into ranges and plays each range as one of `workers`, two ranges at a time never as
 // the same one. With TBB:
 //
@@ -27,17 +27,17 @@ namespace BENDY_PUBLIC bendy {
 
 /// One character of a crowd: what it plays and where that is to be written. Members must not share what is written.
 struct CrowdMember {
-    const Cycle* cycle = nullptr;      ///< of the crowd's model; null: the rest pose
-    float seconds = 0.0f;              ///< on the cycle's own time line, as for sample
+    const Clip* clip = nullptr;        ///< of the crowd's model; null: the rest pose
+    float seconds = 0.0f;              ///< on the clip's own time line, as for sample
     const Lod* lod = nullptr;          ///< vertices of that level only; members may share one; null: all
-    VertexBuffer out;                  ///< all pools' vertices, as for skin; empty: not wanted
+    VertexBuffer out;                  ///< all meshes' vertices, as for skin; empty: not wanted
     std::span<PaletteMatrix> palette;  ///< Crowd::palette_size() matrices, for skinning elsewhere; empty: not wanted
 };
 
 /// The work memory of a crowd: a Pose for each worker, and nothing for each member. Playing allocates nothing.
 class Crowd {
 public:
-    /// \param workers  how many ranges are played at a time at most: the pool's threads; at least 1
+    /// \param workers  how many ranges are played at a time at most: the mesh's threads; at least 1
     explicit Crowd(const Model& model, std::size_t workers = 1);
 
     [[nodiscard]] const Model& model() const { return model_; }
@@ -48,8 +48,8 @@ public:
     /// such error is returned. \param worker  0 to workers() - 1, and no other call's at the same time
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker = 0);
 
-    /// The same where the caller poses: blends cycles, lets chains reach. pose_member(member, pose) sets the whole
-    /// pose, which is as the worker's last member left it; the members' cycles and times are the caller's to read.
+    /// The same where the caller poses: blends clips, lets chains reach. pose_member(member, pose) sets the whole
+    /// pose, which is as the worker's last member left it; the members' clips and times are the caller's to read.
     template <class PoseMember>
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker,
                                                const PoseMember& pose_member) {
@@ -63,10 +63,10 @@ public:
         return result;
     }
 
-    /// Matrices of all pools together, pool after pool, and where a pool's begin: its bind palette's entries, in order;
-    /// of a rigid pool one, that of the joint which moves its first vertex.
+    /// Matrices of all meshes together, mesh after mesh, and where a mesh's begin: its bind palette's entries, in
+    /// order; of a rigid mesh one, that of the joint which moves its first vertex.
     [[nodiscard]] std::size_t palette_size() const { return first_entry_.back(); }
-    [[nodiscard]] std::size_t first_entry(std::uint32_t pool) const { return first_entry_[pool]; }
+    [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const { return first_entry_[mesh]; }
 
 private:
     Result<void, CallError> write(const CrowdMember& member, Pose& pose) const;
@@ -74,7 +74,7 @@ private:
 
     Model model_;
     std::vector<Pose> poses_;               // of each worker
-    std::vector<std::size_t> first_entry_;  // of each pool; one more than pools
+    std::vector<std::size_t> first_entry_;  // of each mesh; one more than meshes
 };
 
 }  // namespace bendy

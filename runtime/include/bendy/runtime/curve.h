@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/cycle.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/public.h>
 
 #include <cstdint>
@@ -21,9 +21,9 @@ bool sample_curve(const Curve& curve, double seconds, std::span<float> value);
 
 /// The clip's first curve of that name; if none has the name, the first of that path. Null if there is none. Takes time
 /// linear in the number of curves: keep the pointer, which is valid as long as the clip's model is.
-const Curve* find_curve(const CycleView& clip, std::string_view name_or_path);
+const Curve* find_curve(const ClipView& clip, std::string_view name_or_path);
 
 /// The curve of a property of one joint, material, mesh or texture; null if there is none.
-const Curve* find_curve(const CycleView& clip, CurveTarget kind, std::uint32_t target, std::string_view path);
+const Curve* find_curve(const ClipView& clip, CurveTarget kind, std::uint32_t target, std::string_view path);
 
 }  // namespace bendy

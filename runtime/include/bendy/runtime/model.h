@@ -23,25 +23,25 @@ struct ModelData;  // the library's own
 namespace BENDY_PUBLIC bendy {
 
 // The format's views are the runtime's data: they lie in the mapped file.
-using Cycle = CycleView;
-using Pool = PoolView;
+using Clip = ClipView;
+using Mesh = MeshView;
 using Material = MaterialView;
 using Texture = TextureView;
 
 struct Joint {
     std::uint32_t parent = kNone;  ///< smaller than the joint's own number; kNone: a root
     JointTransform rest;           ///< relative to the parent
-    glm::vec3 shear{0.0f};         ///< part of the local matrix that no cycle changes: see transform.h
+    glm::vec3 shear{0.0f};         ///< part of the local matrix that no clip changes: see transform.h
     std::string_view name;         ///< UTF-8; may be empty, may be doubled
     std::string_view extras;       ///< JSON of the author's, or empty
 };
 
-/// A range of a pool's index list with one material: what one draw call draws.
-struct Draw {
-    std::uint32_t pool = 0;
+/// A range of a mesh's index list with one material: what one draw call draws.
+struct Submesh {
+    std::uint32_t mesh = 0;
     std::uint32_t material = kNone;  ///< into Model::materials(), or kNone
     Topology topology = Topology::triangles;
-    std::uint32_t first = 0;  ///< in Pool::indices
+    std::uint32_t first = 0;  ///< in Mesh::indices
     std::uint32_t count = 0;
 };
 
@@ -101,24 +101,24 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> parents() const;
     /// Whether some joint has shear.
     [[nodiscard]] bool is_sheared() const;
-    [[nodiscard]] std::span<const Pool> pools() const;
-    [[nodiscard]] std::span<const Cycle> cycles() const;
+    [[nodiscard]] std::span<const Mesh> meshes() const;
+    [[nodiscard]] std::span<const Clip> clips() const;
     [[nodiscard]] std::span<const Material> materials() const;
     [[nodiscard]] std::span<const Texture> textures() const;
-    [[nodiscard]] std::span<const Draw> draws() const;
+    [[nodiscard]] std::span<const Submesh> submeshes() const;
     /// The sequence in which vertices are collapsed; null if the file has none. Lod plays it.
     [[nodiscard]] const CollapseView* collapse() const;
     /// Each joint's own polygons: for hits, severed limbs, culling.
-    [[nodiscard]] std::span<const PolygonView> polygons() const;
+    [[nodiscard]] std::span<const SubmeshView> joint_submeshes() const;
 
     /// The joints' constraints, ordered by joint.
     [[nodiscard]] std::span<const Constraint> constraints() const;
     [[nodiscard]] std::span<const Chain> chains() const;
     /// Weights of joints in chains, ordered by chain, then joint; a joint without one has weight 1.
-    [[nodiscard]] std::span<const PullView> chain_weights(const Chain& chain) const;
+    [[nodiscard]] std::span<const ChainWeightView> chain_weights(const Chain& chain) const;
 
-    /// The first cycle, chain or joint of that name; null or kNone if there is none.
-    [[nodiscard]] const Cycle* cycle(std::string_view name) const;
+    /// The first clip, chain or joint of that name; null or kNone if there is none.
+    [[nodiscard]] const Clip* clip(std::string_view name) const;
     [[nodiscard]] const Chain* chain(std::string_view name) const;
     [[nodiscard]] std::uint32_t joint(std::string_view name) const;
     /// What a joint must obey in a pose, and what in an IK solver; null if nothing.
@@ -129,18 +129,18 @@ public:
     /// Links of the longest chain.
     [[nodiscard]] std::uint32_t longest_chain() const;
 
-    /// Vertices of all pools together, pool after pool; and where a pool's begin.
+    /// Vertices of all meshes together, mesh after mesh; and where a mesh's begin.
     [[nodiscard]] std::uint64_t vertex_count() const;
-    [[nodiscard]] std::uint64_t first_vertex(std::uint32_t pool) const;
-    /// Inbetweening targets of all pools together, pool after pool; and where a pool's begin.
-    [[nodiscard]] std::uint32_t target_count() const;
-    [[nodiscard]] std::uint32_t first_target(std::uint32_t pool) const;
+    [[nodiscard]] std::uint64_t first_vertex(std::uint32_t mesh) const;
+    /// Morph targets of all meshes together, mesh after mesh; and where a mesh's begin.
+    [[nodiscard]] std::uint32_t morph_target_count() const;
+    [[nodiscard]] std::uint32_t first_morph_target(std::uint32_t mesh) const;
     /// Entries of the largest bind palette.
     [[nodiscard]] std::uint32_t largest_palette() const;
-    /// The joint that moves a vertex of a rigid pool, or kNone.
-    [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t pool, std::uint32_t vertex) const;
-    /// Whether that is the same for all vertices of the pool.
-    [[nodiscard]] bool has_one_mover(std::uint32_t pool) const;
+    /// The joint that moves a vertex of a rigid mesh, or kNone.
+    [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const;
+    /// Whether that is the same for all vertices of the mesh.
+    [[nodiscard]] bool has_one_mover(std::uint32_t mesh) const;
 
 private:
     friend struct ModelData;

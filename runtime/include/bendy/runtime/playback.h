@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// A cycle's clock: where it stands, and what it has walked on its time line since it was last asked.
+// A clip's clock: where it stands, and what it has walked on its time line since it was last asked.
 namespace BENDY_PUBLIC bendy {
 
 enum class LoopMode : std::uint8_t {
@@ -15,10 +15,10 @@ enum class LoopMode : std::uint8_t {
 };
 
 /// A part of the time line, walked without a turn or a jump; backwards where `to` is smaller.
-struct Stretch {
-    double from = 0.0;  ///< seconds, on the cycle's own time line
+struct TimeSpan {
+    double from = 0.0;  ///< seconds, on the clip's own time line
     double to = 0.0;    ///< seconds
-    /// What stands at `to` belongs to it: the start or end of the cycle, where it jumps or stops. Otherwise it belongs
+    /// What stands at `to` belongs to it: the start or end of the clip, where it jumps or stops. Otherwise it belongs
     /// to the stretch that begins there, so that nothing is met twice. What stands at `from` always does.
     bool has_end = false;
 
@@ -26,32 +26,32 @@ struct Stretch {
 };
 
 /// What one step has walked, in order: a first stretch, whole passes from end to end, a last stretch. Any may be empty.
-struct Walk {
-    Stretch first;
-    Stretch pass;              ///< the first whole pass
+struct PlayedInterval {
+    TimeSpan first;
+    TimeSpan pass;             ///< the first whole pass
     std::uint64_t passes = 0;  ///< so many, each as `pass`; if `turns`, every second one the other way
     bool turns = false;
-    Stretch last;
+    TimeSpan last;
 
     /// The k-th whole pass, from 0.
-    [[nodiscard]] Stretch whole(std::uint64_t k) const {
-        return turns && k % 2 == 1 ? Stretch{pass.to, pass.from, pass.has_end} : pass;
+    [[nodiscard]] TimeSpan whole(std::uint64_t k) const {
+        return turns && k % 2 == 1 ? TimeSpan{pass.to, pass.from, pass.has_end} : pass;
     }
     [[nodiscard]] bool is_empty() const { return passes == 0 && first.is_empty() && last.is_empty(); }
 };
 
-/// Time does not drift: it is kept inside one pass, in doubles, so each step rounds by less than 2e-16 of the cycle's
-/// length however many passes there have been. A cycle without length stands still and walks nothing.
+/// Time does not drift: it is kept inside one pass, in doubles, so each step rounds by less than 2e-16 of the clip's
+/// length however many passes there have been. A clip without length stands still and walks nothing.
 class Playback {
 public:
     Playback() = default;
-    /// From the cycle's start; repeats if the cycle says that it loops.
-    explicit Playback(const Cycle& cycle);
-    /// \param start, end  seconds on the cycle's time line; without length if end is not after start, or not finite
+    /// From the clip's start; repeats if the clip says that it loops.
+    explicit Playback(const Clip& clip);
+    /// \param start, end  seconds on the clip's time line; without length if end is not after start, or not finite
     Playback(float start, float end, LoopMode mode);
 
     /// Walks on by so many seconds times the speed; back if that is negative. A step that is not finite walks nothing.
-    Walk advance(double seconds);
+    PlayedInterval advance(double seconds);
 
     /// 1: as authored; 0: stands; negative: backwards.
     void set_speed(double speed) { speed_ = speed; }
@@ -68,7 +68,7 @@ public:
 
     [[nodiscard]] double start() const { return start_; }
     [[nodiscard]] double end() const { return end_; }
-    /// Seconds, on the cycle's own time line: what `sample` takes.
+    /// Seconds, on the clip's own time line: what `sample` takes.
     [[nodiscard]] float seconds() const { return static_cast<float>(time_at(inside_, is_back())); }
     /// Of the length, 0 to 1; 0 without length.
     [[nodiscard]] double share() const;
@@ -80,11 +80,11 @@ public:
 private:
     [[nodiscard]] bool is_back() const { return mode_ == LoopMode::ping_pong && pass_ % 2 != 0; }
     [[nodiscard]] double time_at(double inside, bool is_back) const;
-    [[nodiscard]] Stretch stretch(double from, double to, bool has_end) const;
-    Walk walk_once(double step);
-    Walk walk_forth(double step);
-    Walk walk_back(double step);
-    [[nodiscard]] Stretch whole_pass(bool forth) const;
+    [[nodiscard]] TimeSpan span_between(double from, double to, bool has_end) const;
+    PlayedInterval advance_once(double step);
+    PlayedInterval advance_forward(double step);
+    PlayedInterval advance_backward(double step);
+    [[nodiscard]] TimeSpan whole_pass(bool forth) const;
 
     double start_ = 0.0, end_ = 0.0, length_ = 0.0;  // seconds
     double inside_ = 0.0;  // seconds from where the pass begins: [0, length), once: [0, length]

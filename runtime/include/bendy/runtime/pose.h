@@ -19,7 +19,7 @@ struct PoseState;  // the library's own
 
 namespace BENDY_PUBLIC bendy {
 
-/// A model in one position: the joints' local transforms, the inbetweening targets' weights, and what follows from
+/// A model in one position: the joints' local transforms, the morph targets' weights, and what follows from
 /// them. Allocates all that posing and skinning need when it is made (but see prepare_skin). It shares the model's
 /// character, so the Model that it was made from may be moved or destroyed. One thread at a time.
 ///
@@ -41,16 +41,16 @@ public:
     [[nodiscard]] std::span<const JointTransform> local() const;
     /// The same to be written: what is written after the next call on the pose may go unnoticed.
     [[nodiscard]] std::span<JointTransform> change_local();
-    /// One per inbetweening target, all pools: see Model::first_target.
-    [[nodiscard]] std::span<const float> target_weights() const;
-    [[nodiscard]] std::span<float> change_target_weights();
+    /// One per morph target, all meshes: see Model::first_morph_target.
+    [[nodiscard]] std::span<const float> morph_weights() const;
+    [[nodiscard]] std::span<float> change_morph_weights();
     /// Joint space to model space, one per joint: of the local transforms as they are now, computed if they have
     /// changed. Valid until the pose changes.
     [[nodiscard]] std::span<const glm::mat4> model_space();
-    /// What each bone of a skinned pool does to its vertices, for skinning elsewhere: model space * inverse bind
-    /// matrix, one for each entry of the pool's palette; empty for a rigid pool. Of the local transforms as they are
-    /// now. Valid until the pose changes, is skinned or is asked for another pool's.
-    [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t pool);
+    /// What each bone of a skinned mesh does to its vertices, for skinning elsewhere: model space * inverse bind
+    /// matrix, one for each entry of the mesh's palette; empty for a rigid mesh. Of the local transforms as they are
+    /// now. Valid until the pose changes, is skinned or is asked for another mesh's.
+    [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t mesh);
 
 private:
     friend struct PoseState;

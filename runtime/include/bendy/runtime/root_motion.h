@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-// Root motion: what a cycle's root joint does on the ground is taken out of the pose and moves the character instead,
+// Root motion: what a clip's root joint does on the ground is taken out of the pose and moves the character instead,
 // through walls and slopes as the game has them. In doubles, since it adds up over hours.
 namespace BENDY_PUBLIC bendy {
 
@@ -23,8 +23,8 @@ struct RootMotion {
     [[nodiscard]] glm::dmat4 matrix() const;
 };
 
-/// `motion` in the axes of `before`, after it: character = then(character, motion) each frame.
-[[nodiscard]] RootMotion then(const RootMotion& before, const RootMotion& motion);
+/// `motion` in the axes of `before`, after it: character = compose(character, motion) each frame.
+[[nodiscard]] RootMotion compose(const RootMotion& before, const RootMotion& motion);
 /// What undoes it.
 [[nodiscard]] RootMotion inverse(const RootMotion& motion);
 /// A share of the way from one to the other, 0 to 1, the short way round: for crossfades.
@@ -44,30 +44,30 @@ struct RootAxes {
     RootTurn turn = RootTurn::yaw;
 };
 
-/// The joint that carries a character over the ground: a root joint, or hips. Reads cycles of its model only; any
+/// The joint that carries a character over the ground: a root joint, or hips. Reads clips of its model only; any
 /// number of threads may share one. Made once; nothing else allocates.
 class RootPath {
 public:
     /// \param joint  of the model; one that it does not have never moves
     RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes = {});
 
-    /// From where the rest pose stands to where the cycle has the root at that time, in model space: the position along
+    /// From where the rest pose stands to where the clip has the root at that time, in model space: the position along
     /// the chosen axes, and the chosen turn. Yaw is the twist of the turn since rest; a root upside down has none.
-    [[nodiscard]] RootMotion at(const Cycle& cycle, double seconds) const;
+    [[nodiscard]] RootMotion at(const Clip& clip, double seconds) const;
     /// The movement from one time to another, in the axes that the character has at `from`.
-    [[nodiscard]] RootMotion between(const Cycle& cycle, double from, double to) const;
+    [[nodiscard]] RootMotion between(const Clip& clip, double from, double to) const;
     /// The movement of a whole walk of a Playback: over ends it goes on as if the next pass began where the last one
     /// ended. As quick for thousands of passes as for one.
-    [[nodiscard]] RootMotion over(const Cycle& cycle, const Walk& walk) const;
+    [[nodiscard]] RootMotion over(const Clip& clip, const PlayedInterval& played) const;
 
     /// Takes the movement out of a pose and gives it back: along the chosen axes the root then stands as at rest, so
-    /// that cycles fit one another when they are mixed. What hangs below the root comes along; joints above it stay. If
+    /// that clips fit one another when they are mixed. What hangs below the root comes along; joints above it stay. If
     /// one of those is scaled unevenly, the turn is not quite taken out; if one is flat, nothing is.
-    RootMotion take_out(Pose& pose) const;
+    RootMotion extract(Pose& pose) const;
 
 private:
     [[nodiscard]] RootMotion motion_of(const glm::dmat4& root) const;
-    [[nodiscard]] RootMotion along(const Cycle& cycle, const Stretch& stretch) const;
+    [[nodiscard]] RootMotion along(const Clip& clip, const TimeSpan& span) const;
 
     Model model_;
     RootAxes axes_;

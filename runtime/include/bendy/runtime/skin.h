@@ -40,8 +40,8 @@ struct SkinRequest {
     VertexBuffer out{};  ///< room for the mesh (for the vertices alive), or for all: Model::vertex_count()
 };
 
-/// Writes the vertices of a pose: inbetweening with its target weights, then skinning; the vertices of a rigid mesh
-/// move with their joint. Normals go by the inverse transpose. On an error nothing is written.
+/// Writes the vertices of a pose: inbetweening with its morph target weights, then skinning; the vertices of a rigid
+/// mesh move with their joint. Normals go by the inverse transpose. On an error nothing is written.
 ///
 ///     skin(pose, {.out = {.positions = positions, .normals = normals}})
 [[nodiscard]] Result<void, CallError> skin(Pose& pose, const SkinRequest& request);

@@ -31,8 +31,8 @@ public:
 
     /// \param open   opens the file once more, or the bytes that were piped in
     /// \param model  the file opened
-    /// \param cycle  what is played; null: the rest pose, and nothing is sampled
-    Stages(const Open& open, const Model& model, const Cycle* cycle);
+    /// \param clip  what is played; null: the rest pose, and nothing is sampled
+    Stages(const Open& open, const Model& model, const Clip* clip);
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
     Stages(Stages&&) = delete;
@@ -46,7 +46,7 @@ private:
     void add_opening(const Open& open);
     void add_posing();
     void add_skinning();
-    void add_inbetweening();
+    void add_morphing();
     void add_reaching();
     void add_levels();
     void next_frame();
@@ -54,14 +54,14 @@ private:
     void skin_attributes(std::size_t attributes);
 
     const Model& model_;
-    const Cycle* cycle_;
+    const Clip* clip_;
     Pose pose_, other_;
     Lod lod_;
     float seconds_ = 0.0f;
     std::mt19937 random_{1};
     std::vector<glm::vec3> positions_, normals_;
     std::vector<glm::vec4> tangents_;
-    std::vector<float> weights_;      // of inbetweening targets
+    std::vector<float> weights_;      // of morph targets
     std::vector<glm::vec3> targets_;  // two for each chain
     std::size_t turn_ = 0;            // which of two
     std::vector<Stage> list_;

@@ -46,21 +46,21 @@ struct DrawnTarget {
 };
 
 struct RenderOptions {
-    std::uint32_t width = 1024;    ///< pixels, 1 to kMostPixels
-    std::uint32_t height = 768;    ///< likewise
-    const Cycle* cycle = nullptr;  ///< null: the rest pose
-    float lod = 1.0f;              ///< share of the triangles
+    std::uint32_t width = 1024;  ///< pixels, 1 to kMostPixels
+    std::uint32_t height = 768;  ///< likewise
+    const Clip* clip = nullptr;  ///< null: the rest pose
+    float lod = 1.0f;            ///< share of the triangles
     CameraOptions camera;
     DrawOptions draw;
     std::filesystem::path folder;  ///< of images that the file only names
-    /// Changes every pose after the cycle: limits, IK. May be empty.
+    /// Changes every pose after the clip: limits, IK. May be empty.
     std::function<void(Pose&)> adjust;
     std::vector<DrawnTarget> targets;
 };
 
 inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 
-/// Draws one character, or the skeleton of one without a surface; the camera is fitted to the whole cycle and stays.
+/// Draws one character, or the skeleton of one without a surface; the camera is fitted to the whole clip and stays.
 /// The model must outlive it.
 class PictureMaker {
 public:
@@ -72,7 +72,7 @@ public:
     PictureMaker& operator=(PictureMaker&&) = delete;
     ~PictureMaker();
 
-    /// The character at a time of the cycle, seconds.
+    /// The character at a time of the clip, seconds.
     Picture draw(float time);
     /// The background alone.
     Picture draw_nothing();

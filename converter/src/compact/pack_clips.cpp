@@ -1,0 +1,182 @@
+#include "compact/pack_clips.h"
+
+#include "compact/grid.h"
+#include "compact/quantise_clip.h"
+#include "frame_shapes.h"
+
+#include <bendy/format/codec.h>
+#include <bendy/format/packed_clip.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+struct Packed {
+    std::vector<std::byte> bytes;
+    std::uint64_t stored = 0;
+    WorstError worst;
+};
+
+/// The payload with the segments that make it smallest.
+std::vector<std::byte> smallest_payload(PackedSamples samples) {
+    std::vector<std::byte> smallest;
+    for (const std::uint32_t frames : {0u, 16u, 24u, 32u, 48u, 64u, 96u, 128u}) {
+        if (frames != 0 && frames + 1 >= samples.frames) break;
+        samples.segment_frames = frames;
+        auto written = write_packed(samples);
+        if (written && (smallest.empty() || written->size() < smallest.size())) smallest = *std::move(written);
+    }
+    return smallest;
+}
+
+std::uint64_t stored_size(Bytes payload) {
+    const auto encoded = encode_payload(Codec::clip, payload, 0, 0);
+    return encoded && encoded->size() < payload.size() ? encoded->size() : payload.size();
+}
+
+/// The clip's tracks, packed within the bound; nothing if that cannot be.
+/// \param share  of the bound that frames may take; the rest is for what lies between them
+std::optional<Packed> pack(const Scene& scene, const Clip& clip, const GridTracks& tracks,
+                           const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
+                           double max_error, double share, bool corrects) {
+    constexpr int kAttempts = 6;
+    double aim =
+        0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        Packed packed;
+        packed.bytes = smallest_payload(quantise(scene, clip, tracks, probes, {aim, corrects}));
+        Faults faults;
+        const auto joints = static_cast<std::uint32_t>(scene.joints.size());
+        const auto view = read_packed(packed.bytes, joints, 0, faults);
+        if (!view) return std::nullopt;
+        packed.worst = measure_packed(scene, clip, is_replaced, *view, probes, 8.0 * max_error);
+        if (packed.worst.metres <= max_error) {
+            packed.stored = stored_size(packed.bytes);
+            return packed;
+        }
+        constexpr double kHopeless = 4.0;
+        if (packed.worst.metres > kHopeless * max_error) return std::nullopt;
+        aim *= 0.97 * max_error / packed.worst.metres;
+    }
+    return std::nullopt;
+}
+
+std::uint64_t key_bytes(const Clip& clip, const std::vector<bool>* only = nullptr) {
+    std::set<std::vector<float>> times;
+    std::uint64_t numbers = 0;
+    for (std::size_t k = 0; k < clip.tracks.size(); ++k) {
+        if (only != nullptr && !(*only)[k]) continue;
+        const Track& track = clip.tracks[k];
+        if (times.insert(track.times).second) numbers += track.times.size();
+        numbers += track.values.size();
+    }
+    return numbers * sizeof(float);
+}
+
+/// Memory and disk count alike.
+bool is_smaller(const Packed& a, const Packed& b) {
+    return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
+}
+
+/// The smaller one of the two ways to quantise.
+std::optional<Packed> pack_best(const Scene& scene, const Clip& clip, const GridTracks& tracks,
+                                const std::vector<bool>& is_replaced,
+                                const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share) {
+    std::optional<Packed> best;
+    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
+    const bool is_large = std::uint64_t{tracks.grid.frames} * scene.joints.size() > kLarge;
+    for (const bool corrects : {true, false}) {
+        if (is_large && best) break;
+        auto packed = pack(scene, clip, tracks, is_replaced, probes, max_error, share, corrects);
+        if (packed && (!best || is_smaller(*packed, *best))) best = std::move(packed);
+    }
+    return best;
+}
+
+using Progress = std::function<void(double)>;
+
+/// Takes fewer and fewer frames while that makes the clip smaller: it does where motion is smooth and long.
+void pack_thinner(const Scene& scene, const Clip& clip, const GridTracks& tracks, const std::vector<bool>& is_replaced,
+                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, Packed& best,
+                  const Progress& progress) {
+    constexpr double kMost = 0.7;  // of the bound, for lines between frames: more leaves steps too fine
+    constexpr std::array kFewer{2u, 3u, 4u, 6u, 8u, 12u};
+    for (std::size_t k = 0; k < kFewer.size(); ++k) {
+        const std::optional<ThinGrid> thin = thin_grid(scene, clip, tracks, kFewer.at(k), probes, kMost * max_error);
+        if (!thin) return;
+        const GridTracks thinner{thin->grid, tracks.tracks};
+        auto packed = pack_best(scene, clip, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
+        if (!packed || !is_smaller(*packed, best)) return;
+        best = *std::move(packed);
+        if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(kFewer.size()));
+    }
+}
+
+/// The clip's span; a little longer where the first frame's time is rounded down.
+ClipSpan with_frames(ClipSpan span, Bytes payload) {
+    PackRecord record;
+    std::memcpy(&record, payload.data(), sizeof record);
+    return {std::min(span.start, record.start), span.end};
+}
+
+PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::vector<glm::dvec3>>& probes,
+                       double max_error, const Progress& progress) {
+    constexpr double kPackedOnce = 0.5;  // of the work, about
+    PackedReport report;
+    report.name = clip.name;
+    report.source_bytes = report.kept_bytes = key_bytes(clip);
+    const std::optional<GridTracks> tracks = find_grid(clip);
+    if (!tracks) return report;
+    std::vector<bool> is_replaced(clip.tracks.size());
+    for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
+    std::optional<Packed> best = pack_best(scene, clip, *tracks, is_replaced, probes, max_error, 1.0);
+    if (progress) progress(kPackedOnce);
+    if (best) {
+        pack_thinner(
+            scene, clip, *tracks, is_replaced, probes, max_error, *best,
+            progress ? Progress([&](double done) { progress(kPackedOnce + (1.0 - kPackedOnce) * done); }) : Progress());
+    }
+    if (!best || best->bytes.size() >= key_bytes(clip, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
+        return report;
+    clip.stated_span = with_frames(span_of(clip), best->bytes);  // tracks that stand still may not be written
+    std::size_t number = 0;
+    std::erase_if(clip.tracks, [&](const Track&) { return is_replaced[number++]; });
+    report.packed_bytes = best->bytes.size();
+    report.stored_bytes = best->stored;
+    report.kept_bytes = key_bytes(clip);
+    report.worst_error = best->worst.metres;
+    report.worst_joint = best->worst.joint;
+    report.worst_time = best->worst.seconds;
+    clip.packed = std::move(best->bytes);
+    return report;
+}
+
+}  // namespace
+
+std::vector<PackedReport> pack_clips(Scene& scene, double max_error, const std::function<void(double)>& progress,
+                                     Probes kind) {
+    const auto probes = find_probes(scene, kind);
+    // A clip takes about as long as it has keys.
+    double all = 0.0;
+    for (const Clip& clip : scene.clips) all += 1.0 + static_cast<double>(key_bytes(clip));
+    double before = 0.0;
+    std::vector<PackedReport> reports;
+    for (Clip& clip : scene.clips) {
+        const double own = 1.0 + static_cast<double>(key_bytes(clip));
+        reports.push_back(pack_clip(
+            scene, clip, probes, max_error,
+            !progress ? Progress() : [&](double done) { progress((before + own * done) / all); }));
+        before += own;
+        if (progress) progress(before / all);
+    }
+    return reports;
+}
+
+}  // namespace bendy::converter

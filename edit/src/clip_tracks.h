@@ -1,0 +1,40 @@
+#pragma once
+
+#include "rewrite.h"
+
+#include <bendy/edit/outcome.h>
+#include <bendy/format/document.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bendy::edit {
+
+/// What becomes of a mesh's weights tracks.
+struct WeightMap {
+    std::uint32_t mesh = kNone;       ///< kNone: they go
+    std::vector<std::uint32_t> from;  ///< for each target there: which target here; kNone: none
+    std::vector<float> at_rest;       ///< the weight where there is none
+    std::uint32_t first_frame = 0;    ///< MeshView::first_frame, here; and there
+    std::uint32_t first_frame_there = 0;
+};
+
+/// Where the tracks of a clip go: by the joints and meshes of the object that it stands in now.
+struct TrackMap {
+    std::vector<std::uint32_t> joints;  ///< kNone: its tracks go
+    std::uint32_t joint_count = 0;      ///< of the object that they go to
+    std::vector<bool> decoded;          ///< joints whose packed tracks become ordinary ones; empty: none
+    std::vector<WeightMap> weights;     ///< by mesh
+};
+
+struct TrackCounts {
+    std::uint32_t stay = 0, go = 0, decoded = 0;
+};
+
+/// Changes the clip's TRAK, PACK, PLAY, TIME and KEYV so that its tracks go there. Chunks that need no change keep
+/// their bytes. A problem if tracks share their values in a way that would make the file much larger.
+Result<TrackCounts, Problem> remap_tracks(const ChunkTree& tree, const ObjectView& object, const ClipView& clip,
+                                          const TrackMap& map, Rewrite& rewrite);
+
+}  // namespace bendy::edit

@@ -1,0 +1,413 @@
+#include <bendy/edit/merge_clips.h>
+
+#include "clip_tracks.h"
+#include "finish.h"
+#include "renumber.h"
+#include "rest_difference.h"
+#include "source.h"
+
+#include <bendy/edit/names.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace bendy::edit {
+namespace {
+
+/// For each of `there` the one here that has its name; of several with one name, in turn; kNone: none.
+std::vector<std::uint32_t> pair_names(std::span<const std::string_view> there, std::span<const std::string_view> here) {
+    std::map<std::string_view, std::vector<std::uint32_t>> by_name;
+    for (auto k = static_cast<std::uint32_t>(here.size()); k-- > 0;)
+        by_name[here[k]].push_back(k);  // the first one last: it is taken first
+    std::vector<std::uint32_t> pairs(there.size(), kNone);
+    for (std::size_t k = 0; k < there.size(); ++k) {
+        const auto found = by_name.find(there[k]);
+        if (there[k].empty() || found == by_name.end() || found->second.empty()) continue;
+        pairs[k] = found->second.back();
+        found->second.pop_back();
+    }
+    return pairs;
+}
+
+/// For each joint there the one of its name here. Names that only one joint has decide alone; of others it is the one
+/// whose parent is the parent's too, and what is left goes in turn if there are as many on both sides.
+std::vector<std::uint32_t> pair_joints(const SkeletonView& there, const SkeletonView& here) {
+    struct Same {
+        std::vector<std::uint32_t> there, here;
+    };
+    std::map<std::string_view, Same> by_name;
+    std::map<std::pair<std::string_view, std::uint32_t>, std::vector<std::uint32_t>> by_parent;  // the first one last
+    for (auto k = static_cast<std::uint32_t>(here.joints.size()); k-- > 0;) {
+        const JointView& joint = here.joints[k];
+        by_name[joint.name].here.push_back(k);
+        by_parent[{joint.name, joint.parent}].push_back(k);
+    }
+    for (auto k = static_cast<std::uint32_t>(there.joints.size()); k-- > 0;)
+        by_name[there.joints[k].name].there.push_back(k);
+    // Joints without a name go in turn where their parents have as many of them.
+    std::map<std::uint32_t, std::size_t> nameless_here, nameless_there;  // by parent
+    for (const JointView& joint : here.joints) nameless_here[joint.parent] += joint.name.empty() ? 1 : 0;
+    for (const JointView& joint : there.joints) nameless_there[joint.parent] += joint.name.empty() ? 1 : 0;
+    std::vector<std::uint32_t> pairs(there.joints.size(), kNone);
+    std::vector<bool> is_taken(here.joints.size());
+    const auto pair = [&](std::uint32_t k, std::uint32_t with) {
+        pairs[k] = with;
+        is_taken[with] = true;
+    };
+    for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+        const JointView& joint = there.joints[k];
+        const Same& same = by_name[joint.name];
+        if (!joint.name.empty() && same.there.size() == 1 && same.here.size() == 1) {
+            pair(k, same.here.front());
+            continue;
+        }
+        if (joint.parent != kNone && pairs[joint.parent] == kNone) continue;
+        const auto found = by_parent.find({joint.name, joint.parent == kNone ? kNone : pairs[joint.parent]});
+        if (found == by_parent.end() || found->second.empty()) continue;
+        if (joint.name.empty() && nameless_there[joint.parent] != nameless_here[found->first.second]) continue;
+        pair(k, found->second.back());
+        found->second.pop_back();
+    }
+    for (auto& [name, same] : by_name) {
+        if (name.empty()) continue;
+        std::erase_if(same.there, [&](std::uint32_t k) { return pairs[k] != kNone; });
+        std::erase_if(same.here, [&](std::uint32_t k) { return is_taken[k]; });
+        if (same.there.size() != same.here.size()) continue;
+        for (std::size_t k = 0; k < same.there.size(); ++k) pair(same.there[k], same.here[k]);
+    }
+    return pairs;
+}
+
+template <class T>
+std::vector<std::string_view> names_of(std::span<const T> things) {
+    std::vector<std::string_view> names;
+    names.reserve(things.size());
+    for (const T& thing : things) names.push_back(thing.name);
+    return names;
+}
+
+template <class T>
+std::vector<std::string_view> names_of(const std::vector<T>& things) {
+    return names_of(std::span<const T>(things));
+}
+
+bool are_equal(const RestRecord& a, const RestRecord& b) {
+    return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale && a.shear == b.shear;
+}
+
+WeightMap pair_targets(const MeshView& there, const MeshView& here, std::uint32_t mesh) {
+    WeightMap map;
+    map.mesh = mesh;
+    const auto names_there = names_of(there.targets);
+    const auto names_here = names_of(here.targets);
+    auto pairs = pair_names(names_here, names_there);
+    const auto has_name = [](std::string_view name) { return !name.empty(); };
+    const bool any_named = std::any_of(names_there.begin(), names_there.end(), has_name) ||
+                           std::any_of(names_here.begin(), names_here.end(), has_name);
+    if (!any_named && names_there.size() == names_here.size()) {
+        for (std::uint32_t k = 0; k < pairs.size(); ++k) pairs[k] = k;
+    }
+    const bool fits = std::any_of(pairs.begin(), pairs.end(), [](std::uint32_t k) { return k != kNone; });
+    if (!fits) return {};
+    map.from = std::move(pairs);
+    map.first_frame = there.first_frame;
+    map.first_frame_there = here.first_frame;
+    for (const MorphTargetView& target : here.targets) map.at_rest.push_back(target.rest_weight);
+    return map;
+}
+
+/// Where the tracks of an object's clips go in another object.
+class Pairing {
+public:
+    Pairing(const ObjectView& there, const ObjectView& here) : there_(there), here_(here) {
+        map_.joints = pair_joints(there.skeleton, here.skeleton);
+        map_.joint_count = static_cast<std::uint32_t>(here.skeleton.joints.size());
+        map_.decoded.resize(map_.joints.size());
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (map_.joints[j] == kNone) continue;
+            const RestRecord& rest = here.skeleton.joints[map_.joints[j]].rest;
+            map_.decoded[j] = !are_equal(rest, there.skeleton.joints[j].rest);
+        }
+        auto meshes = pair_names(names_of(there.meshes), names_of(here.meshes));
+        if (there.meshes.size() == 1 && here.meshes.size() == 1) meshes[0] = 0;
+        for (std::size_t p = 0; p < meshes.size(); ++p) {
+            map_.weights.push_back(
+                meshes[p] == kNone ? WeightMap{} : pair_targets(there.meshes[p], here.meshes[meshes[p]], meshes[p]));
+        }
+    }
+
+    [[nodiscard]] const TrackMap& map() const { return map_; }
+
+    /// Joints and meshes that clips animate and that there are not here; joints whose rest poses differ.
+    void warn(std::span<const bool> is_animated, Log& log) const {
+        std::vector<std::size_t> missing;
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (is_animated[j] && map_.joints[j] == kNone) missing.push_back(j);
+        }
+        if (!missing.empty()) {
+            log.warnings.push_back("there is no joint here for the tracks of " + std::to_string(missing.size()) +
+                                   (missing.size() == 1 ? " joint: " : " joints: ") +
+                                   list_names(names_of(there_.skeleton.joints), missing, 20) +
+                                   explain(missing.front()));
+        }
+        warn_of_rests(log);
+    }
+
+    /// A suggestion if the names of joints differ by more than chance.
+    [[nodiscard]] std::string explain(std::size_t animated) const {
+        const std::string_view name = there_.skeleton.joints[animated].name;
+        const std::string_view nearest = nearest_name(names_of(here_.skeleton.joints), name);
+        return nearest.empty() ? ""
+                               : " (is its \"" + std::string(name) + "\" the \"" + std::string(nearest) +
+                                     "\" here? renaming fixes that)";
+    }
+
+private:
+    void warn_of_rests(Log& log) const {
+        RestDifference most;
+        std::size_t differing = 0;
+        std::size_t worst = 0;
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (map_.joints[j] == kNone || !map_.decoded[j]) continue;
+            const RestDifference difference =
+                rest_difference(there_.skeleton.joints[j].rest, here_.skeleton.joints[map_.joints[j]].rest);
+            if (!difference.is_noticeable()) continue;
+            ++differing;
+            if (differing == 1 || difference.weight() > most.weight()) {
+                most = difference;
+                worst = j;
+            }
+        }
+        if (differing == 0) return;
+        log.warnings.push_back("the rest poses of " + std::to_string(differing) +
+                               (differing == 1 ? " joint differ" : " joints differ") + ", most that of \"" +
+                               std::string(there_.skeleton.joints[worst].name) + "\": " + describe(most));
+    }
+
+    const ObjectView& there_;
+    const ObjectView& here_;
+    TrackMap map_;
+};
+
+std::span<const MaterialView> head_materials(const Source& source) {
+    return std::span(source.document.materials).first(source.document.global_materials);
+}
+
+/// Marks what the clips of an object animate.
+void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<std::uint32_t>& meshes) {
+    for (const ClipView& clip : object.clips) {
+        for (const TrackView& track : clip.tracks) {
+            if (track.path == TrackPath::weights) {
+                meshes.insert(track.target);
+            } else {
+                joints[track.target] = true;
+            }
+        }
+        for (const PlayView& play : clip.plays) meshes.insert(play.mesh);
+        if (!clip.packed) continue;
+        for (std::uint32_t j = 0; j < clip.packed->record.joints; ++j) {
+            joints[j] = joints[j] || clip.packed->animates(j, TrackPath::rotation) ||
+                        clip.packed->animates(j, TrackPath::translation) || clip.packed->animates(j, TrackPath::scale);
+        }
+    }
+}
+
+/// A name that nothing has yet: "Run.001", as Blender does.
+std::string numbered(std::string_view name, const std::set<std::string, std::less<>>& taken, unsigned& last) {
+    std::string numbered;
+    do {
+        std::array<char, 16> digits{};
+        std::snprintf(digits.data(), digits.size(), ".%03u", ++last);
+        numbered = std::string(name) + digits.data();
+    } while (taken.contains(numbered));
+    return numbered;
+}
+
+class Merger {
+public:
+    Merger(const Source& here, const Source& there, const ObjectView& from, SameName same_name, Log& log)
+        : here_(here),
+          there_(there),
+          from_(from),
+          to_(here.document.objects.front()),
+          same_name_(same_name),
+          log_(log),
+          pairing_(from, to_),
+          rewrite_(here.tree),
+          sending_(there.tree) {
+        for (const ClipView& clip : to_.clips) {
+            taken_.emplace(clip.name);
+            places_.try_emplace(std::string(clip.name), clip.chunk);
+        }
+        meshes_.reserve(from.meshes.size());
+        for (const WeightMap& weights : pairing_.map().weights) meshes_.push_back(weights.mesh);
+        materials_ = pair_names(names_of(head_materials(there)), names_of(head_materials(here)));
+        textures_ = pair_names(names_of(there.document.textures), names_of(here.document.textures));
+        numbers_.of(Entity::joint) = pairing_.map().joints;
+        numbers_.of(Entity::mesh) = meshes_;
+        numbers_.of(Entity::material) = materials_;
+        numbers_.of(Entity::texture) = textures_;
+    }
+
+    Edited merge() {
+        std::vector<std::size_t> useless;
+        for (std::size_t k = 0; k < from_.clips.size(); ++k) {
+            const ClipView& clip = from_.clips[k];
+            const auto counts = remap_tracks(there_.tree, from_, clip, pairing_.map(), sending_);
+            if (!counts) return counts.error();
+            renumber_leaves(
+                there_.tree, clip.chunk, numbers_, nullptr,
+                [this](std::uint32_t chunk, const Renumbered& now) {
+                    const std::string leaf = name_of_leaf(there_.tree, chunk);
+                    if (now.payload || now.lost.empty() || leaf.empty()) return;
+                    log_.warnings.push_back(leaf + " is left out: there is no " +
+                                            std::string(name_of(now.lost.back().entity)) + " of that name here");
+                },
+                sending_);
+            const bool has_more = has_references_left(there_.tree, clip.chunk, sending_);
+            if (counts->stay == 0 && counts->go != 0 && !has_more) {
+                useless.push_back(k);
+                continue;
+            }
+            if (const auto put = put_clip(clip, *counts); !put) return put.error();
+        }
+        if (useless.size() == from_.clips.size()) return nothing_fits();
+        if (!useless.empty()) {
+            log_.warnings.push_back("clips that animate nothing that is here are left out: " +
+                                    list_names(names_of(from_.clips), useless));
+        }
+        tell();
+        put_bound();
+        return finish(rewrite_);
+    }
+
+private:
+    void tell() {
+        const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        std::set<std::uint32_t> meshes;
+        const std::span<bool> joints(animated.get(), from_.skeleton.joints.size());
+        mark_animated(from_, joints, meshes);
+        pairing_.warn(joints, log_);
+        for (const std::uint32_t mesh : meshes) {
+            const WeightMap& map = pairing_.map().weights[mesh];
+            const std::string name = '"' + std::string(from_.meshes[mesh].name) + '"';
+            if (map.from.empty()) {
+                log_.warnings.push_back("no mesh and targets here fit the weights of mesh " + name);
+                continue;
+            }
+            std::vector<std::size_t> lost;
+            for (std::uint32_t t = 0; t < from_.meshes[mesh].targets.size(); ++t) {
+                if (std::find(map.from.begin(), map.from.end(), t) == map.from.end()) lost.push_back(t);
+            }
+            if (!lost.empty()) {
+                log_.warnings.push_back("mesh " + name + " has no targets here for the weights of " +
+                                        list_names(names_of(from_.meshes[mesh].targets), lost));
+            }
+        }
+    }
+
+    [[nodiscard]] Problem nothing_fits() const {
+        std::vector<std::size_t> missing;
+        const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        std::set<std::uint32_t> meshes;
+        mark_animated(from_, std::span(animated.get(), from_.skeleton.joints.size()), meshes);
+        for (std::size_t j = 0; j < from_.skeleton.joints.size(); ++j) {
+            if (animated[j]) missing.push_back(j);
+        }
+        if (missing.empty()) return {"its clips animate nothing that is here"};
+        return {"its clips animate " + std::to_string(missing.size()) +
+                (missing.size() == 1 ? " joint, which is not here: " : " joints and none of them is here: ") +
+                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front())};
+    }
+
+    Result<void, Problem> put_clip(const ClipView& clip, const TrackCounts& counts) {
+        std::string name(clip.name);
+        const bool is_taken = !name.empty() && taken_.contains(name);
+        if (is_taken && same_name_ == SameName::refuse) return Problem{"there is a clip \"" + name + "\" already"};
+        const auto place = places_.find(name);
+        const bool replaces = is_taken && same_name_ == SameName::replace && place != places_.end();
+        if (is_taken && !replaces) {
+            name = numbered(name, taken_, last_numbers_[name]);
+            sending_.replace(there_.tree.find(clip.chunk, FourCC("NAME")), as_byte_span(name));
+        }
+        if (!name.empty()) taken_.insert(name);
+        Buffer chunk = sending_.write(clip.chunk);
+        if (replaces) {
+            rewrite_.replace_whole(place->second, std::move(chunk));
+            places_.erase(place);  // a second one of the name gets one of its own
+        } else if (to_.clips.empty()) {
+            rewrite_.append(to_.chunk, std::move(chunk));
+        } else {
+            rewrite_.insert_after(to_.clips.back().chunk, std::move(chunk));
+        }
+        log_.done.push_back(
+            (replaces ? "replaced clip \"" : "merged clip \"") + name + "\": " + std::to_string(counts.stay) +
+            (counts.stay == 1 ? " track" : " tracks") +
+            (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
+            (counts.decoded == 0 ? "" : ", " + std::to_string(counts.decoded) + " decoded, for another rest pose"));
+        return {};
+    }
+
+    /// A file with clips that are not exact is not exact.
+    void put_bound() {
+        const auto& theirs = there_.document.bound;
+        if (!theirs) return;
+        const std::uint32_t chunk = here_.tree.find(0, FourCC("BNDS"));
+        log_.warnings.emplace_back(
+            "its clips are encoded for size; the error that is stated was measured on its own skin");
+        if (chunk == kNone) {
+            BoundRecord bound = *theirs;
+            rewrite_.insert_after(here_.tree.find(0, FourCC("VERS")), whole_leaf(FourCC("BNDS"), bytes_of(bound)));
+            return;
+        }
+        BoundRecord bound = *here_.document.bound;
+        bound.max_error = std::max(bound.max_error, theirs->max_error);
+        bound.measured_error = std::max(bound.measured_error, theirs->measured_error);
+        const Bytes before = here_.tree.payload(chunk);
+        Buffer payload(before.begin(), before.end());
+        std::memcpy(payload.data(), &bound, sizeof bound);
+        rewrite_.replace(chunk, payload);
+    }
+
+    const Source& here_;
+    const Source& there_;
+    const ObjectView& from_;
+    const ObjectView& to_;
+    SameName same_name_;
+    Log& log_;
+    Pairing pairing_;
+    std::vector<std::uint32_t> meshes_, materials_, textures_;  // by their numbers there: those here
+    NewNumbers numbers_;
+    Rewrite rewrite_, sending_;
+    std::set<std::string, std::less<>> taken_;
+    std::map<std::string, std::uint32_t, std::less<>> places_;  // of the clips that are here, by name
+    std::map<std::string, unsigned, std::less<>> last_numbers_;
+};
+
+}  // namespace
+
+Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log) {
+    const auto here = open_source(file);
+    if (!here) return here.error();
+    const auto there = open_source(other);
+    if (!there) return Problem{"what is to be merged: " + there.error().message};
+    if (here->document.objects.empty()) return Problem{"there is no object that could have clips"};
+    const auto& objects = there->document.objects;
+    const auto has_clips = [](const ObjectView& object) { return !object.clips.empty(); };
+    const auto from = std::find_if(objects.begin(), objects.end(), has_clips);
+    if (from == objects.end()) return Problem{"what is to be merged has no clips"};
+    if (std::any_of(std::next(from), objects.end(), has_clips))
+        log.warnings.emplace_back("only the clips of its first object that has some are merged");
+    return Merger(*here, *there, *from, same_name, log).merge();
+}
+
+}  // namespace bendy::edit

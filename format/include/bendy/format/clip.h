@@ -1,0 +1,72 @@
+#pragma once
+
+#include <bendy/format/curve.h>
+#include <bendy/format/faults.h>
+#include <bendy/format/marker.h>
+#include <bendy/format/mesh.h>
+#include <bendy/format/packed_clip.h>
+#include <bendy/format/public.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// CYCL: a clip, with tracks of timed keys or of fixed frames.
+namespace BENDY_PUBLIC bendy {
+
+/// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values
+/// are keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each
+/// key.
+struct TrackView {
+    TrackPath path = TrackPath::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::uint32_t target = 0;  ///< joint; for weights: mesh
+    std::uint32_t components = 0;
+    std::uint32_t keys = 0;
+    std::span<const float> times;  ///< seconds, ascending; empty for fixed frames
+    std::span<const float> values;
+};
+
+/// Frames of a mesh, one after another: frame k has all the weight at start + k / frame_rate, between two frames they
+/// share it.
+struct PlayView {
+    std::uint32_t mesh = 0;
+    std::uint32_t first = 0;   ///< among MeshView::frames(): first + frames are no more than these
+    std::uint32_t frames = 0;  ///< 1 or more
+    bool closed = false;       ///< the first frame follows on the last one
+};
+
+struct ClipView {
+    std::uint32_t chunk = 0;
+    std::string_view name;
+    float start = 0.0f;       ///< seconds
+    float end = 0.0f;         ///< seconds
+    float frame_rate = 0.0f;  ///< of `plays` and of tracks with fixed frames, per second
+    bool loop = false;
+    bool has_info = false;  ///< CINF could be read
+    std::vector<TrackView> tracks;
+    std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
+    std::vector<PlayView> plays;       ///< fixed frames
+    std::string_view extras;
+    std::string_view more;        ///< JSON object, or empty
+    std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_clip_values
+    std::vector<CurveView> curves;
+};
+
+/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `counts`
+/// and `meshes`, components as the target has them. Faults go to `faults`; a track or a curve with a fault is left out.
+/// \param counts  its `meshes` is the number of `meshes`
+ClipView read_clip(const ChunkTree& tree, std::uint32_t chunk, const TargetCounts& counts,
+                   std::span<const MeshView> meshes, Faults& faults);
+
+/// Faults of meaning that do not endanger memory: key times and markers that do not ascend or lie outside [start, end],
+/// numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one
+/// property or with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
+void check_clip_values(const ChunkTree& tree, const ClipView& clip, Faults& faults);
+
+inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1
+
+}  // namespace bendy

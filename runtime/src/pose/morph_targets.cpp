@@ -1,0 +1,73 @@
+#include <bendy/runtime/morph_targets.h>
+
+#include "model/frame_shape.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+
+namespace bendy {
+namespace {
+
+/// Decodes a stream's vectors, or zeros if the mesh has none.
+template <class Vector>
+void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::span<Vector> out) {
+    if (out.empty()) return;
+    if (!stream) {
+        std::fill_n(out.begin(), vertices, Vector(0.0f));
+        return;
+    }
+    stream->decode(out.first(vertices));
+}
+
+template <class Vector>
+void displace(const MorphTargetView& target, const std::optional<StreamView>& stream, float weight,
+              std::uint32_t vertices, std::span<Vector> out) {
+    if (!stream || out.empty()) return;
+    if (target.is_frame()) return add_frame(*target.places, *stream, weight, 0, out.first(vertices));
+    const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
+    const bool is_plain = stream->type == ComponentType::f32;
+    for (std::uint32_t entry = 0; entry < stream->elements; ++entry) {
+        const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
+        if (vertex >= vertices) return;  // they ascend
+        const glm::vec3 displacement = is_plain ? displacements[entry] : stream->vec3(entry);
+        Vector& vector = out[vertex];
+        vector.x += weight * displacement.x;
+        vector.y += weight * displacement.y;
+        vector.z += weight * displacement.z;
+    }
+}
+
+}  // namespace
+
+Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const float> weights, const Vertices& out) {
+    return apply_morph_targets(mesh, weights, mesh.vertices, out);
+}
+
+Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const float> weights, std::uint32_t vertices,
+                                            const Vertices& out) {
+    assert(vertices <= mesh.vertices);
+    const auto too_short = [&](const auto& span) { return !span.empty() && span.size() < vertices; };
+    if (too_short(out.positions) || too_short(out.normals) || too_short(out.tangents))
+        return CallError::output_too_short;
+    if (weights.size() < mesh.targets.size()) return CallError::wrong_size;
+
+    fill<glm::vec3>(mesh.positions, vertices, out.positions);
+    fill<glm::vec3>(mesh.normals, vertices, out.normals);
+    fill<glm::vec4>(mesh.tangents, vertices, out.tangents);
+    const float share = rest_share(mesh, weights);
+    if (have_frames(mesh, &MorphTargetView::positions) && !out.positions.empty())
+        lighten(share, out.positions.first(vertices));
+    if (have_frames(mesh, &MorphTargetView::normals) && mesh.normals && !out.normals.empty())
+        lighten(share, out.normals.first(vertices));
+    for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
+        if (weights[k] == 0.0f) continue;
+        const MorphTargetView& target = mesh.targets[k];
+        displace(target, target.positions, weights[k], vertices, out.positions);
+        if (mesh.normals) displace(target, target.normals, weights[k], vertices, out.normals);
+        if (mesh.tangents) displace(target, target.tangents, weights[k], vertices, out.tangents);
+    }
+    return {};
+}
+
+}  // namespace bendy
