@@ -140,7 +140,7 @@ types:
     seq:
       - {id: record, type: joints_record}
       - {id: rests, type: rest_record, size: 52, repeat: expr, repeat-expr: record.joints, doc: "rest transform of each joint, all 52 bytes"}
-      - {id: ranges, type: joint_submesh, repeat: expr, repeat-expr: record.submeshes, doc: "a joint, and polygons that it owns"}
+      - {id: ranges, type: joint_submesh, repeat: expr, repeat-expr: record.submeshes, doc: "a joint, and a submesh that belongs to it"}
   jnam_list:
     seq:
       - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
@@ -191,7 +191,7 @@ types:
       - {id: record, type: curve_record}
       - {id: box, type: f4, repeat: expr, repeat-expr: 2 * record.components, if: record.packed == 1, doc: "smallest value of each component, then the largest of each"}
       - {id: times, type: f4, repeat: expr, repeat-expr: record.keys, doc: "seconds of each key"}
-      - id: values
+      - id: key_values
         repeat: expr
         repeat-expr: record.values
         doc: "values of each key; if cubic in-tangent, value, out-tangent"

@@ -303,16 +303,15 @@ ordered_json levels_as_json(const Summary& summary) {
 }  // namespace
 
 std::string kind_in_words(const std::string& kind) {
-    constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{{"PALT", "palettes"},
-                                                                      {"POSI", "positions"},
-                                                                      {"NORM", "normals"},
-                                                                      {"TANG", "tangents"},
-                                                                      {"TEXC", "texture coordinates"},
-                                                                      {"COLR", "colours"},
-                                                                      {"BONE", "influences"},
-                                                                      {"WGHT", "weights"},
-                                                                      {"targets", "morph targets"},
-                                                                      {"clips", "clips"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 9> kWords{{{"PALT", "palettes"},
+                                                                     {"POSI", "positions"},
+                                                                     {"NORM", "normals"},
+                                                                     {"TANG", "tangents"},
+                                                                     {"TEXC", "texture coordinates"},
+                                                                     {"COLR", "colours"},
+                                                                     {"BONE", "influences"},
+                                                                     {"WGHT", "weights"},
+                                                                     {"targets", "morph targets"}}};
     for (const auto& [id, words] : kWords) {
         if (kind == id) return std::string(words);
     }

@@ -103,7 +103,7 @@ private:
     [[nodiscard]] bool mend_range(std::uint32_t chunk, const RecordLayout& layout, std::span<std::byte> record) const {
         const bool is_table_row = layout.name == "JointSubmesh";
         if (!is_table_row && layout.name != "SubmeshRecord") return true;
-        const std::size_t at = is_table_row ? offsetof(JointSubmesh, polygons) : 0;
+        const std::size_t at = is_table_row ? offsetof(JointSubmesh, submesh) : 0;
         SubmeshRecord range;
         std::memcpy(&range, record.data() + at, sizeof range);
         std::uint32_t joint = 0;

@@ -130,19 +130,19 @@ constexpr RecordLayout kLayouts[] = {
 };
 
 /// JNTS: a joint and the fields of a SubmeshRecord, as one record.
-constexpr auto kJointPolygonsFields = [] {
+constexpr auto kJointSubmeshFields = [] {
     constexpr std::span<const RecordField> kRange = fields_of("SubmeshRecord");
     std::array<RecordField, 1 + kRange.size()> fields{};
     fields[0] = make_field("JointSubmesh", "joint", "u32", 1, 0);
     fields[0].reference.entity = Entity::joint;
     for (std::size_t k = 0; k < kRange.size(); ++k) {
         fields[k + 1] = kRange[k];
-        fields[k + 1].offset += offsetof(JointSubmesh, polygons);
+        fields[k + 1].offset += offsetof(JointSubmesh, submesh);
     }
     return fields;
 }();
-constexpr RecordLayout kJointPolygons{"JointSubmesh", FourCC("JNTS"), sizeof(JointSubmesh), sizeof(JointSubmesh),
-                                      kJointPolygonsFields};
+constexpr RecordLayout kJointSubmesh{"JointSubmesh", FourCC("JNTS"), sizeof(JointSubmesh), sizeof(JointSubmesh),
+                                      kJointSubmeshFields};
 
 }  // namespace
 
@@ -181,7 +181,7 @@ std::span<const RecordLayout> record_layouts() {
 }
 
 const RecordLayout* find_layout(std::string_view record) {
-    if (record == kJointPolygons.name) return &kJointPolygons;
+    if (record == kJointSubmesh.name) return &kJointSubmesh;
     const auto* found = std::find_if(std::begin(kLayouts), std::end(kLayouts),
                                      [&](const RecordLayout& layout) { return layout.name == record; });
     return found == std::end(kLayouts) ? nullptr : found;

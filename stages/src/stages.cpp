@@ -30,7 +30,7 @@ Stages::Stages(const Open& open, const Model& model, const Clip* clip)
       positions_(model.vertex_count()),
       normals_(has_attribute(model, 1) ? model.vertex_count() : 0),
       tangents_(has_attribute(model, 2) ? model.vertex_count() : 0),
-      weights_(model.target_count(), 0.5f) {
+      weights_(model.morph_target_count(), 0.5f) {
     add_opening(open);
     add_posing();
     add_skinning();

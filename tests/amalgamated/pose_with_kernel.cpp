@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     if (argc != 3) return 2;
     bool is_set = false;
     for (const bendy::Kernel kernel : bendy::kernels()) {
-        if (bendy::kernel_name(kernel) == argv[1]) is_set = bendy::set_kernel(kernel);
+        if (bendy::kernel_name(kernel) == argv[1]) is_set = bendy::set_kernel(kernel).has_value();
     }
     if (!is_set) {
         std::printf("no kernel %s on this machine\n", argv[1]);

@@ -299,7 +299,7 @@ function check_curve(file, chunk, clip, info, rig, meshes) {
     const path = payload.subarray(name_at - record.pathSize, name_at);
     if (!is_utf8(path) || !is_utf8(payload.subarray(name_at))) return add('NOT_UTF8');
     const body = file.body(chunk);
-    const numbers = [record.maxError, ...(body.box ?? []), ...body.times, ...(record.packed === 1 ? [] : body.values)];
+    const numbers = [record.maxError, ...(body.box ?? []), ...body.times, ...(record.packed === 1 ? [] : body.keyValues)];
     if (!all_finite(numbers)) add('NOT_FINITE');
     if (record.maxError < 0) add('BELOW_ZERO');
     if (body.times.some((time, k) => k > 0 && !(time > body.times[k - 1]))) add('CURVE_ORDER');

@@ -320,6 +320,8 @@ def check_leaves(check, chunks, records):
             words = set(re.findall(r'[a-z]\w*', count.replace('rest', '') + ' ' + when + ' ' + row))
             check.same('leaf_parts.def', 'fields that %s of %s needs' % (name or 'record', leaf), words - fields, set())
             is_type = kind in records or kind in fields or kind in (*SIZES, 'i8', 'i16', 'i32', 'JointSubmesh')
+            if leaf != 'MARK':  # whose record is not in the text form
+                check.same('leaf_parts.def', 'fields of %s that are called as a part' % leaf, fields & {name}, set())
             check.same('leaf_parts.def', 'type of %s of %s is known' % (name or 'record', leaf), is_type, True)
 
 

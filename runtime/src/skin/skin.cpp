@@ -52,7 +52,7 @@ public:
         : state_(state), data_(*state.data), method_(request.method), out_(request.out) {}
 
     /// The first `vertices` of a mesh, vertex 0 at `at` of the output.
-    void skin_mesh(std::uint32_t mesh, std::uint32_t vertices, std::uint64_t at);
+    void skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std::uint64_t at);
 
 private:
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
@@ -92,30 +92,30 @@ void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock&
     }
 }
 
-void Skinning::skin_mesh(std::uint32_t number, std::uint32_t vertices, std::uint64_t at) {
-    const Mesh& mesh = data_.object.meshes[number];
+void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std::uint64_t at) {
+    const Mesh& mesh = data_.object.meshes[mesh_number];
     if (vertices == 0) return;
     SkinBlock wanted{};
     wanted.vertices = vertices;
     wanted.out_positions = output_at(out_.positions, at);
     wanted.out_normals = output_at(out_.normals, at);
     wanted.out_tangents = output_at(out_.tangents, at);
-    const auto weights =
-        std::span<const float>(state_.morph_weights).subspan(data_.first_morph_target[number], mesh.targets.size());
+    const auto weights = std::span<const float>(state_.morph_weights)
+                             .subspan(data_.first_morph_target[mesh_number], mesh.targets.size());
     if (method_ == SkinningMethod::dual_quaternion && !mesh.is_rigid() &&
-        skin_by_dual_quaternions(state_, number, motions_of_, weights, wanted)) {
+        skin_by_dual_quaternions(state_, mesh_number, motions_of_, weights, wanted)) {
         return;
     }
     wanted.palette = state_.palette.data();
     wanted.streams = vertices >= kManyVertices;
     if (mesh.is_rigid()) {
         Staging staging(mesh, nullptr, weights, wanted);
-        skin_rigid(number, staging, wanted);
+        skin_rigid(mesh_number, staging, wanted);
         return;
     }
     // Lanes multiply by weights that are zero, too.
-    const Kernel chosen = state_.make_palette(number) ? kernel() : Kernel::plain;
-    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[number] : nullptr, weights, wanted);
+    const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
+    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights, wanted);
     run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
 }
 

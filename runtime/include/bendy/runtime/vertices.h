@@ -19,15 +19,15 @@ struct StridedFloats {
 
     StridedFloats() = default;
     StridedFloats(std::span<float> numbers, std::size_t floats_each) : floats(numbers), stride(floats_each) {}
+    // NOLINTBEGIN(google-explicit-constructor,bugprone-forwarding-reference-overload): such vectors are one
     /// All of an array, a vector or a span of vec3 or vec4.
     template <class Vectors>
-    requires std::constructible_from<std::span<glm::vec3>, Vectors&> StridedFloats(
-        Vectors&& vectors)  // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
+    requires std::constructible_from<std::span<glm::vec3>, Vectors&> StridedFloats(Vectors&& vectors)
         : StridedFloats(without_gaps(std::span<glm::vec3>(vectors))) {}
     template <class Vectors>
-    requires std::constructible_from<std::span<glm::vec4>, Vectors&> StridedFloats(
-        Vectors&& vectors)  // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
+    requires std::constructible_from<std::span<glm::vec4>, Vectors&> StridedFloats(Vectors&& vectors)
         : StridedFloats(without_gaps(std::span<glm::vec4>(vectors))) {}
+    // NOLINTEND(google-explicit-constructor,bugprone-forwarding-reference-overload)
 
 private:
     template <class Vector>
