@@ -97,7 +97,6 @@ private:
 
 using converter::FileStamp;
 using converter::SourceFile;
-using nlohmann::json;
 
 /// The same for a file however its folder was written. Not what a link names: other files are looked for beside the
 /// link.
@@ -107,11 +106,11 @@ std::filesystem::path in_plain_folder(const std::filesystem::path& file) {
     return std::filesystem::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
 }
 
-json as_json(const FileStamp& stamp) {
-    return stamp.is_there ? json::array({stamp.size, stamp.modified}) : json();
+nlohmann::json as_json(const FileStamp& stamp) {
+    return stamp.is_there ? nlohmann::json::array({stamp.size, stamp.modified}) : nlohmann::json();
 }
 
-FileStamp as_stamp(const json& numbers) {
+FileStamp as_stamp(const nlohmann::json& numbers) {
     if (numbers.is_null()) return {};
     return {true, numbers.at(0).get<std::uint64_t>(), numbers.at(1).get<std::int64_t>()};
 }
@@ -128,7 +127,7 @@ BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder
 BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(file_in(folder)) {
     try {
         read();
-    } catch (const json::exception&) {
+    } catch (const nlohmann::json::exception&) {
         entries_.clear();  // damaged, or of another version: all is made again
     }
 }
@@ -146,10 +145,10 @@ void BatchRecord::read() {
     if (!mapped) return;
     const Bytes bytes = mapped->bytes();
     const auto* text = reinterpret_cast<const char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
-    const json record = json::parse(text, text + bytes.size());
+    const nlohmann::json record = nlohmann::json::parse(text, text + bytes.size());
     for (const auto& [output, members] : record.at("outputs").items()) {
         Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
-        for (const json& source : members.at("sources"))
+        for (const nlohmann::json& source : members.at("sources"))
             entry.sources.push_back({source.at(0).get<std::string>(), as_stamp(source.at(1))});
         entries_.emplace(output, std::move(entry));
     }
@@ -172,17 +171,18 @@ void BatchRecord::note(const BatchFile& file, const std::string& recipe, const s
 }
 
 std::string BatchRecord::write() const {
-    json outputs = json::object();
+    nlohmann::json outputs = nlohmann::json::object();
     for (const auto& [output, entry] : entries_) {
         if (!converter::stamp_of(folder_ / output).is_there) continue;
-        json sources = json::array();
+        nlohmann::json sources = nlohmann::json::array();
         for (const SourceFile& source : entry.sources)
-            sources.push_back(json::array({source.file.string(), as_json(source.stamp)}));
+            sources.push_back(nlohmann::json::array({source.file.string(), as_json(source.stamp)}));
         outputs[output] = {
             {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
     }
     // A name that is no UTF-8 is not found again, and its file made again.
-    const std::string text = json{{"outputs", std::move(outputs)}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::string text =
+        nlohmann::json{{"outputs", std::move(outputs)}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const auto written = write_file(file_, std::as_bytes(std::span(text)));
     return written ? std::string() : bendy::describe(written.error());
 }

@@ -142,7 +142,7 @@ constexpr auto kJointSubmeshFields = [] {
     return fields;
 }();
 constexpr RecordLayout kJointSubmesh{"JointSubmesh", FourCC("JNTS"), sizeof(JointSubmesh), sizeof(JointSubmesh),
-                                      kJointSubmeshFields};
+                                     kJointSubmeshFields};
 
 }  // namespace
 
