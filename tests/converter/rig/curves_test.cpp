@@ -1,7 +1,7 @@
 #include "rig/curves.h"
 
 #include "build_scene.h"
-#include "clip_span.h"
+#include "frame_shapes.h"
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
