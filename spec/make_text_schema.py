@@ -72,7 +72,10 @@ def leaf_form(parts, records):
     members = {}
     for part in parts:
         if part.kind not in ("record", "odd"):
-            members.setdefault(part.name, part_form(part))
+            forms = members.setdefault(part.name, [])
+            if part_form(part) not in forms:
+                forms.append(part_form(part))
+    members = {name: forms[0] if len(forms) == 1 else {"anyOf": forms} for name, forms in members.items()}
     if parts[0].kind == "record":
         return record(records, parts[0].type, members)
     return {"type": "object", "properties": {**members, "more": ref("digits")}, "required": list(members), "additionalProperties": False}

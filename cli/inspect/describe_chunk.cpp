@@ -57,7 +57,7 @@ std::string constraints_text(const ChunkTree& tree, std::uint32_t pivot) {
     if (pivot == kNone) return text;
     for (const std::uint32_t child : tree.children(pivot)) {
         if (!(tree[child].id == FourCC("LIMT"))) continue;
-        text += text.empty() ? "limits: " : " | ";
+        text += text.empty() ? "constraint: " : " | ";
         text += tree.encoding_fault(child) ? "encoded" : constraint_text(record_at<ConstraintRecord>(tree, child));
     }
     return text;

@@ -53,7 +53,7 @@ Json links_of(const SkeletonView& skeleton, const ChainRecord& chain) {
 Json page_joints(const ObjectView& object) {
     const auto& joints = object.skeleton.joints;
     const std::size_t count = std::min(joints.size(), kMostJoints);
-    const std::vector<std::string> limits = constraint_texts(object.skeleton, count);
+    const std::vector<std::string> constraints = constraint_texts(object.skeleton, count);
     std::vector<glm::dmat4> model_space(count);
     Json parents = Json::array();
     Json names = Json::array();
@@ -79,7 +79,7 @@ Json page_joints(const ObjectView& object) {
     }
     return {{"total", joints.size()},     {"parent", std::move(parents)}, {"name", std::move(names)},
             {"chunk", std::move(chunks)}, {"t", std::move(translations)}, {"r", std::move(rotations)},
-            {"s", std::move(scales)},     {"place", std::move(places)},   {"limits", limits}};
+            {"s", std::move(scales)},     {"place", std::move(places)},   {"constraints", constraints}};
 }
 
 Json page_chains(const ObjectView& object, const RigIndex& rigs) {

@@ -1,6 +1,7 @@
 #include "compact/pack_curve.h"
 
 #include "compact/leaf_writer.h"
+#include "curve_property.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,13 +72,13 @@ std::optional<PackedCurve> pack_curve(const Curve& curve) {
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
         const double range = range_of(i);
         const double share = range > 0.0 ? (double{curve.values[i]} - packed.box[i % curve.components]) / range : 0.0;
-        packed.values.push_back(static_cast<std::uint16_t>(std::lround(share * kPackedSteps)));
+        packed.values.push_back(static_cast<std::uint16_t>(std::lround(share * kPackedCurveSteps)));
     }
     const CurveView view = packed.view(curve);
     double largest = 0.0;
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
         const double error = std::abs(double{view.value(i)} - curve.values[i]);
-        if (error > kMostSteps * range_of(i) / kPackedSteps) return std::nullopt;
+        if (error > kMostSteps * range_of(i) / kPackedCurveSteps) return std::nullopt;
         largest = std::max(largest, error);
         if (error > 0.0) packed.share = std::max(packed.share, error / range_of(i));
     }

@@ -9,9 +9,6 @@
 
 namespace bendy::converter {
 
-/// A packed value is a whole number of so many steps, from the smallest of its component to the largest.
-inline constexpr double kPackedSteps = 65'535.0;
-
 /// A curve for write_curve, with its values as they are. It refers to the curve's memory.
 CurveView view_of(const Curve& curve);
 

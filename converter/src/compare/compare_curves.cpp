@@ -1,6 +1,5 @@
 #include "compare/compare_curves.h"
 
-#include "compact/pack_curve.h"
 #include "curve_property.h"
 #include "evaluate.h"
 
@@ -131,7 +130,7 @@ private:
             evaluate_track(there, seconds, other);
             for (std::size_t c = 0; c < a.components; ++c) {
                 const double apart = std::abs(value[c] - other[c]);
-                const double allowed = ranges[c] / kPackedSteps;
+                const double allowed = ranges[c] / kPackedCurveSteps;
                 if (!(apart > allowed)) continue;
                 const double share = allowed > 0.0 ? apart / allowed : INFINITY;
                 if (share < worst || (share == worst && apart <= worst_apart)) continue;

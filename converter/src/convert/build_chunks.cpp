@@ -1,6 +1,6 @@
 #include <bendy/converter/build_chunks.h>
 
-#include "build_curves.h"
+#include "convert/build_curves.h"
 #include "convert/build_meshes.h"
 #include "frame_shapes.h"
 #include "passes/mesh_order.h"

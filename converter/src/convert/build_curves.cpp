@@ -1,4 +1,4 @@
-#include "build_curves.h"
+#include "convert/build_curves.h"
 
 #include "compact/pack_curve.h"
 
