@@ -32,7 +32,7 @@ function compare_leaf(said, body) {
         return said.markers.flatMap(({ seconds, name }, k) =>
             same_number(seconds, body.markers[k].seconds) && name === body.names[k].value ? [] : [`marker ${k}`]);
     }
-    return same_fields(said, body.record ?? body);
+    return same_fields(said, { ...body, ...body.record });
 }
 
 /** Lines about what differs between inspect's report of a conforming file and our reading. `count` counts fields. */
