@@ -142,9 +142,10 @@ void check_constraint(const ConstraintRecord& constraint, std::uint32_t joint, s
     if (std::isfinite(constraint.soft_zone) && constraint.soft_zone < 0.0f)
         faults.add({ErrorCode::kBelowZero, offset, offsetof(ConstraintRecord, soft_zone)});
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!(constraint.stiffness[axis] >= 0.0f && constraint.stiffness[axis] <= 1.0f))
+        if (!(constraint.stiffness[axis] >= 0.0f && constraint.stiffness[axis] <= 1.0f)) {
             faults.add(
                 {ErrorCode::kFractionRange, offset, offsetof(ConstraintRecord, stiffness) + axis * sizeof(float)});
+        }
     }
     check_ranges(constraint, offset, faults);
     const bool is_sound = faults.count() == before;

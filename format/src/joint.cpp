@@ -214,9 +214,10 @@ void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, 
     for (const ConstraintView& constraint : skeleton.constraints)
         check_constraint(constraint.record, constraint.joint, tree[constraint.chunk].offset, faults);
     for (const ChainWeightView& chain_weight : skeleton.chain_weights) {
-        if (!(chain_weight.weight >= 0.0f && chain_weight.weight <= 1.0f))
+        if (!(chain_weight.weight >= 0.0f && chain_weight.weight <= 1.0f)) {
             faults.add(
                 {ErrorCode::kFractionRange, tree[chain_weight.chunk].offset, offsetof(ChainWeightRecord, weight)});
+        }
     }
 }
 

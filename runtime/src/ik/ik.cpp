@@ -126,9 +126,10 @@ private:
             // Joint numbers ascend along the chain.
             const auto link = std::lower_bound(links_.begin(), links_.end(), chain_weight.joint,
                                                [](const IkLink& l, std::uint32_t joint) { return l.joint < joint; });
-            if (link != links_.end() && link->joint == chain_weight.joint)
+            if (link != links_.end() && link->joint == chain_weight.joint) {
                 link->freedom *=
                     std::isnan(chain_weight.weight) ? 1.0 : std::clamp(double{chain_weight.weight}, 0.0, 1.0);
+            }
         }
         for (IkLink& link : links_) {
             const bool is_locked = link.constraint != nullptr && link.constraint->model == ConstraintModel::locked;

@@ -54,8 +54,8 @@ std::vector<Paths> find_paths(const Clip& clip, std::size_t joints) {
 
 }  // namespace
 
-Binding::Binding(const Model& animated, const Model& posed, const BindingOptions& options)
-    : animated_(animated), posed_(posed), sampled_(animated) {
+Binding::Binding(const Model& animated, Model posed, const BindingOptions& options)
+    : animated_(animated), posed_(std::move(posed)), sampled_(animated) {
     match_joints();
     match_targets();
     const bool has_all = options.translations == BoundTranslations::all;

@@ -39,7 +39,7 @@ class Binding {
 public:
     /// \param animated  has the clips
     /// \param posed     has the skeleton that is to move
-    Binding(const Model& animated, const Model& posed, const BindingOptions& options = {});
+    Binding(const Model& animated, Model posed, const BindingOptions& options = {});
 
     [[nodiscard]] const Model& animated() const { return animated_; }
     [[nodiscard]] const Model& posed() const { return posed_; }
