@@ -268,9 +268,10 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("VECT"))
         return grouped(record_at<MeshRecord>(tree, tree.find(number, FourCC("VINF"))).vertices) + " vertices";
     if (chunk.id == FourCC("PALT")) return grouped(record_at<PaletteRecord>(tree, number).entries) + " joints";
-    if (chunk.id == FourCC("TARG"))
-        return "rest weight " +
-               brief(record_at<MorphTargetRecord>(tree, tree.find(number, FourCC("TINF"))).rest_weight);
+    if (chunk.id == FourCC("TARG")) {
+        const auto target = record_at<MorphTargetRecord>(tree, tree.find(number, FourCC("TINF")));
+        return "rest weight " + brief(target.rest_weight);
+    }
     if (chunk.id == FourCC("LODD")) return collapse_text(tree, number);
     if (chunk.id == FourCC("CYCL")) return clip_text(tree, number);
     if (chunk.id == FourCC("PACK")) return packed_text(tree, number);

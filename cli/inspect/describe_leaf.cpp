@@ -41,13 +41,22 @@ void for_each_field(const RecordLayout& layout, Bytes payload, std::uint64_t bas
     }
 }
 
+/// Of a record inside a record, which holds numbers only.
+Json inner_record_json(const RecordLayout& layout, Bytes payload, std::uint64_t base) {
+    Json fields = Json::object();
+    for_each_field(layout, payload, base, [&](const RecordField& field) {
+        fields[std::string(field.name)] = field_json(field, payload, base);
+    });
+    return fields;
+}
+
 Json record_json(const RecordLayout& layout, Bytes payload, std::uint64_t base) {
     Json fields = Json::object();
     for_each_field(layout, payload, base, [&](const RecordField& field) {
-        Json& value = fields[std::string(field.name)];
-        value = field_json(field, payload, base);
-        if (field.type == FieldType::record)
-            value = record_json(*find_layout(field.type_name), payload, base + field.offset);
+        fields[std::string(field.name)] =
+            field.type == FieldType::record
+                ? inner_record_json(*find_layout(field.type_name), payload, base + field.offset)
+                : field_json(field, payload, base);
     });
     return fields;
 }

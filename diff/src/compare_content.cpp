@@ -210,9 +210,9 @@ void ContentComparer::compare_tracks(ChunkPair clips, const std::string& name, c
     take(std::uint64_t{a.times.size()} + a.values.size() + b.times.size() + b.values.size());
     const bool are_timed = !a.times.empty() && !b.times.empty();
     if (a.interpolation != b.interpolation) {
-        const std::array<std::string, kInterpolations> kNames{"step", "linear", "cubic"};
-        add_value(clips, name + ": interpolation", Scalar{kNames[static_cast<std::size_t>(a.interpolation)]},
-                  Scalar{kNames[static_cast<std::size_t>(b.interpolation)]});
+        const std::array<std::string, kInterpolations> names{"step", "linear", "cubic"};
+        add_value(clips, name + ": interpolation", Scalar{names[static_cast<std::size_t>(a.interpolation)]},
+                  Scalar{names[static_cast<std::size_t>(b.interpolation)]});
     }
     if (a.components != b.components)
         add_value(clips, name + ": components", count_of(a.components), count_of(b.components));

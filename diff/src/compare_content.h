@@ -34,6 +34,7 @@ private:
     // Of every other kind, as leaf_parts.def describes it: compare_parts.cpp.
     void compare_parts(ChunkPair leaves);
     void compare_fields(ChunkPair leaves, const std::string& prefix, const RecordLayout& layout, Bytes a, Bytes b);
+    void compare_field(ChunkPair leaves, const std::string& prefix, const RecordField& field, Bytes a, Bytes b);
     void compare_records(ChunkPair leaves, const LocatedPart& a, const LocatedPart& b);
     void compare_number_parts(ChunkPair leaves, const LocatedPart& a, const LocatedPart& b);
     void compare_names(ChunkPair leaves, const LeafPart& part, Bytes a, Bytes b);

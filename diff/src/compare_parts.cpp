@@ -118,9 +118,10 @@ void ContentComparer::compare_parts(ChunkPair leaves) {
                 compare_number_parts(leaves, here, *there);
                 break;
             case PartKind::text:
-                if (as_text(bytes_a) != as_text(bytes_b))
+                if (as_text(bytes_a) != as_text(bytes_b)) {
                     add_value(leaves, std::string(here.part->name), text_value(as_text(bytes_a)),
                               text_value(as_text(bytes_b)));
+                }
                 break;
             case PartKind::names:
                 compare_names(leaves, *here.part, bytes_a, bytes_b);
@@ -136,19 +137,25 @@ void ContentComparer::compare_parts(ChunkPair leaves) {
 void ContentComparer::compare_fields(ChunkPair leaves, const std::string& prefix, const RecordLayout& layout, Bytes a,
                                      Bytes b) {
     for (const RecordField& field : layout.fields) {
-        if (field.is_reserved()) continue;
-        const std::string name = prefix + std::string(field.name);
-        if (field.type == FieldType::record) {
-            const auto rest = [&](Bytes record) {
-                return record.subspan(std::min<std::uint64_t>(field.offset, record.size()));
-            };
-            compare_fields(leaves, name + ".", *find_layout(field.type_name), rest(a), rest(b));
+        if (field.type != FieldType::record) {
+            compare_field(leaves, prefix, field, a, b);
             continue;
         }
-        Value here = field_value(field, a);
-        Value there = field_value(field, b);
-        if (!are_equal(here, there)) add_value(leaves, name, std::move(here), std::move(there));
+        const auto rest = [&](Bytes record) {
+            return record.subspan(std::min<std::uint64_t>(field.offset, record.size()));
+        };
+        for (const RecordField& inner : find_layout(field.type_name)->fields)
+            compare_field(leaves, prefix + std::string(field.name) + '.', inner, rest(a), rest(b));
     }
+}
+
+/// A field of numbers.
+void ContentComparer::compare_field(ChunkPair leaves, const std::string& prefix, const RecordField& field, Bytes a,
+                                    Bytes b) {
+    if (field.is_reserved()) return;
+    Value here = field_value(field, a);
+    Value there = field_value(field, b);
+    if (!are_equal(here, there)) add_value(leaves, prefix + std::string(field.name), std::move(here), std::move(there));
 }
 
 /// "joint 3 \"Hips\": " where each row belongs to a joint, else "ranges 3: ".

@@ -13,10 +13,17 @@ void store(std::span<std::byte> bytes, std::uint64_t at, std::uint32_t number) {
     std::memcpy(bytes.data() + at, &number, sizeof number);
 }
 
+bool has_references(const RecordLayout& layout) {
+    return std::any_of(layout.fields.begin(), layout.fields.end(),
+                       [](const RecordField& field) { return field.reference.is_any(); });
+}
+
+/// Records inside a record hold no further ones.
 bool refers(const RecordLayout& layout) {
-    return std::any_of(layout.fields.begin(), layout.fields.end(), [](const RecordField& field) {
-        return field.reference.is_any() || (field.type == FieldType::record && refers(*find_layout(field.type_name)));
+    const bool inside = std::any_of(layout.fields.begin(), layout.fields.end(), [](const RecordField& field) {
+        return field.type == FieldType::record && has_references(*find_layout(field.type_name));
     });
+    return inside || has_references(layout);
 }
 
 class LeafRenumberer {
@@ -111,16 +118,21 @@ private:
 
     /// False: the record goes.
     bool renumber(const RecordLayout& layout, std::span<std::byte> record, std::vector<Lost>* lost) {
+        for (const RecordField& field : layout.fields) {
+            if (field.type != FieldType::record) continue;
+            const RecordLayout& inner = *find_layout(field.type_name);
+            if (field.offset + inner.size > record.size()) continue;
+            if (!renumber_fields(inner, record.subspan(field.offset, inner.size), lost)) return false;
+        }
+        return renumber_fields(layout, record, lost);
+    }
+
+    /// The same for its fields that are numbers.
+    bool renumber_fields(const RecordLayout& layout, std::span<std::byte> record, std::vector<Lost>* lost) {
         const Buffer copy(record.begin(), record.end());  // selectors are read as they were
         if (rule_ && !rule_(layout, record)) return false;
         for (const RecordField& field : layout.fields) {
             if (field.offset + field.count * field_type_size(field.type) > record.size()) continue;
-            if (field.type == FieldType::record) {
-                const RecordLayout& inner = *find_layout(field.type_name);
-                if (field.offset + inner.size > record.size()) continue;
-                if (!renumber(inner, record.subspan(field.offset, inner.size), lost)) return false;
-                continue;
-            }
             if (field.type != FieldType::u32 || !field.reference.is_any()) continue;
             const auto before = static_cast<std::uint32_t>(field_number(field, copy, 0));
             const Entity entity = referred_entity(layout, field, copy, 0);

@@ -32,6 +32,8 @@ public:
     LeafSteps() = default;
     LeafSteps(const LeafSteps&) = delete;
     LeafSteps& operator=(const LeafSteps&) = delete;
+    LeafSteps(LeafSteps&&) = delete;
+    LeafSteps& operator=(LeafSteps&&) = delete;
     virtual ~LeafSteps() = default;
 
     /// The record at the payload's start.

@@ -132,9 +132,10 @@ std::string write_constraint(const ConstraintRecord& constraint) {
             line.add_range(kAxisNames[axis], constraint.rotation_min[axis], constraint.rotation_max[axis], degrees);
     }
     Line translation;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         translation.add_range(kAxisNames[axis], constraint.translation_min[axis], constraint.translation_max[axis],
                               plain);
+    }
     if (!translation.empty()) line.add("translation", translation.text());
     line.add_list("stiffness", constraint.stiffness, usual.stiffness, plain);
     line.add_list("preferred", constraint.preferred, usual.preferred, degrees);
