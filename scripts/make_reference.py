@@ -20,8 +20,8 @@ from reference.write_markdown import write_markdown
 from reference.write_zsh import write_zsh
 
 EXIT_STATUS = [
-    (0, "All went well"),
-    (1, "It failed, or bendy validate or bendy diff found something"),
+    (0, "Success"),
+    (1, "Failure; or `bendy validate` or `bendy diff` found something"),
     (2, "The command line is wrong; of bendy diff also: a file is bad"),
 ]
 

@@ -63,7 +63,7 @@ BENDY_API const char* bendy_version_string(void);
 
 /* ---- Errors ---------------------------------------------------------------------------------------------- */
 
-/* "No such thing" wherever an index is meant. */
+/* "None", wherever a function takes or returns an index. */
 #define BENDY_NONE 0xffffffffu
 
 typedef enum bendy_status {

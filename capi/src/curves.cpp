@@ -4,7 +4,6 @@
 
 #include <bendy/runtime/curve.h>
 
-#include <cmath>
 #include <span>
 #include <string>
 
@@ -72,8 +71,6 @@ bendy_status bendy_sample_curve(const bendy_model* model, uint32_t clip, uint32_
         if (const bendy_status status = check_pointer(values, "values", error)) return status;
         const bendy::Curve& view = model->get().clips()[clip].curves[curve];
         if (const bendy_status status = check_room(count, view.components, "values", error)) return status;
-        if (std::isnan(seconds)) return fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number");
-        bendy::sample_curve(view, seconds, std::span(values, count));
-        return BENDY_OK;
+        return from_call(bendy::sample_curve(view, seconds, std::span(values, count)), error);
     });
 }

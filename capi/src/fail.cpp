@@ -82,8 +82,9 @@ bendy_status check_index(std::uint32_t index, std::size_t count, const char* kin
     if (index == BENDY_NONE)
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(kind) + " is BENDY_NONE: there is none of the name that was looked for");
-    return fail(error, BENDY_BAD_ARGUMENT,
-                std::string(kind) + ' ' + std::to_string(index) + " is meant, the model has " + counted(count, kind));
+    return fail(
+        error, BENDY_BAD_ARGUMENT,
+        std::string(kind) + ' ' + std::to_string(index) + " does not exist: the model has " + counted(count, kind));
 }
 
 bendy_status check_range(std::uint32_t first, std::uint32_t count, std::size_t all, const char* kind,

@@ -61,7 +61,7 @@ void run(AssembleArguments arguments) {
     const Faults faults = validate(*bytes);
     if (!faults.empty() && !arguments.allow_invalid) {
         print_fault_lines(std::cerr, arguments.file, faults, *bytes);
-        fail(arguments.file, "would be a file with faults, and is not written; --allow-invalid writes it all the same");
+        fail(arguments.file, "the result would be invalid and is not written; --allow-invalid writes it anyway");
     }
     outputs.write(arguments.output, *bytes);
     if (!faults.empty()) {
@@ -74,15 +74,16 @@ void run(AssembleArguments arguments) {
 
 void add_assemble(CLI::App& program) {
     const auto arguments = std::make_shared<AssembleArguments>();
-    CLI::App* command = program.add_subcommand("assemble", "Make a bendy file of the JSON that `bendy dump` writes");
+    CLI::App* command = program.add_subcommand("assemble", "Build a bendy file from the JSON that `bendy dump` writes");
     command->add_option("FILE", arguments->file, "a text: FILE.bendy.json")->required();
     command->add_option("-o,--output", arguments->output, "where to write; FILE.bendy if not given");
     command->add_flag("--force", arguments->force, "replace FILE.bendy even if bendy did not write it");
     command->add_flag("--allow-invalid", arguments->allow_invalid,
-                      "write a file with faults too, for tests of readers; else they are listed, and the exit is 1");
+                      "write the file even if it is invalid, to test readers; otherwise the errors are listed and the "
+                      "exit status is 1");
     command->footer(
-        "The form is described in spec/text.md, with a JSON Schema beside it.\n"
-        "Example: bendy assemble fox.bendy.json -o edited.bendy");
+        "spec/text.md describes the text form; spec/text.schema.json is its JSON Schema.\nExample: bendy assemble "
+        "fox.bendy.json -o edited.bendy");
     command->callback([arguments] { run(*arguments); });
 }
 

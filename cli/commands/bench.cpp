@@ -162,18 +162,17 @@ void run(const BenchArguments& arguments) {
 void add_bench(CLI::App& program) {
     const auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command =
-        program.add_subcommand("bench", "Say what each step costs, from opening a file to its vertices");
+        program.add_subcommand("bench", "Measure the cost of each step, from opening a file to its vertices");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command
-        ->add_option(
-            "--kernel", arguments->kernels,
-            "measure with this arithmetic, if the machine has it; may be repeated, and they then run by turns; "
-            "the quickest if not given")
+        ->add_option("--kernel", arguments->kernels,
+                     "the kernel to measure, if the machine supports it; may be repeated, and the kernels then run in "
+                     "turn; the fastest if not given")
         ->check(CLI::IsMember(kernel_names()))
         ->check(check_kernel)
         ->allow_extra_args(false);
     command->add_option("--clip", arguments->clip, "the clip to play, by number or name; the first if not given");
-    command->add_option("--rounds", arguments->rounds, "turns of about 2 ms for each step")
+    command->add_option("--rounds", arguments->rounds, "measurements of about 2 ms per step")
         ->check(CLI::Range(1, 100'000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "print a JSON report, in nanoseconds");

@@ -40,8 +40,8 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
     }
     print_line("total", before, after);
     constexpr double kMillimetres = 1e3;
-    out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres << " mm; worst met "
-        << report.measured_error * kMillimetres << " mm";
+    out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres
+        << " mm; worst measured " << report.measured_error * kMillimetres << " mm";
     if (!report.place.empty()) out << ": " << printable(report.place);
     out << '\n';
     if (report.curves == 0) return;
@@ -177,52 +177,53 @@ void add_convert(CLI::App& program) {
                         "have in it; beside each input if not given");
     command
         ->add_option("-j,--jobs", arguments->jobs,
-                     "of several inputs, how many at a time; one for each processor if not given")
+                     "with several inputs, how many to convert at a time; one per processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
-                      "replace outputs that bendy did not write, unless -o names the one file; and of several inputs, "
-                      "convert all, not only what has changed since it was converted to the same place");
+                      "overwrite outputs that bendy did not write (with -o FILE that is always allowed); with several "
+                      "inputs, also convert files that have not changed");
     command->add_flag("--json", arguments->json,
-                      "print a JSON object for each input, on a line of its own, instead of the summary and warnings");
+                      "print one JSON object per input, each on one line, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
-                        "of one input: write which files were read, as a rule for Make or Ninja");
+                        "for a single input: write the files that were read as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,
-                        "the scene of a glTF file to take, by name or number; the file's default if not given");
+                        "the scene of a glTF file to convert, by name or number; the file's default if not given");
     command
         ->add_option("--images", arguments->images,
-                     "of glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
+                     "for glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
                      "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     command
-        ->add_option(
-            "--ticks-per-second", arguments->ticks_per_second,
-            "of X-files: what the key times count, where the file does not say or is wrong (30 for frames); the "
-            "file's AnimTicksPerSecond, or 4800, if not given")
+        ->add_option("--ticks-per-second", arguments->ticks_per_second,
+                     "for X-files: key time units per second, for files that state none or a wrong number (30 if keys "
+                     "are numbered by frame); default: the file's AnimTicksPerSecond, or 4800")
         ->check(CLI::PositiveNumber);
     command->add_flag("--merge-clips", arguments->merge_clips,
-                      "clips that move different joints become one, as for files with a clip for each joint");
+                      "merge clips that move different joints into one, for files that have one clip per joint");
     command->add_flag("--instances", arguments->instances,
-                      "of glTF files: make a joint and a mesh of every instance of EXT_mesh_gpu_instancing; else their "
-                      "numbers are kept, and the mesh is drawn once");
-    command->add_option("--rig", arguments->rig,
-                        "a rig file: joint constraints and IK chains, see spec/rig.md; `bendy rig` writes one");
+                      "for glTF files: make a joint and a mesh for every instance of EXT_mesh_gpu_instancing; without "
+                      "this option their numbers are kept and the mesh is drawn once");
+    command->add_option(
+        "--rig", arguments->rig,
+        "a rig file with joint constraints, IK chains, markers and curves (spec/rig.md); `bendy rig` writes one");
     CLI::Option* exact =
-        command->add_flag("--exact", arguments->exact, "every number as the source has it; this is the default");
+        command->add_flag("--exact", arguments->exact, "keep every number exactly; this is the default");
     command->add_flag("--auto-rig", arguments->auto_rig,
                       "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
                       "the clips, and list them");
-    command->add_flag("--auto-skin", arguments->auto_skin,
-                      "bind each vertex of meshes without a skin to the nearest bone of the file's skins; where it has "
-                      "none, of all joints that carry no mesh and have none below. A mesh on a bone stays as it is");
-    command->add_option("--skeleton", arguments->skeleton,
-                        "for --auto-skin, which it implies: the bones are this joint and all below it; a name, or #12");
-    CLI::Option* compact =
-        command
-            ->add_flag(
-                "--compact", arguments->compact,
-                "encode for size; the error is measured and printed. 0.005% if --max-error does not say otherwise")
-            ->excludes(exact);
+    command->add_flag(
+        "--auto-skin", arguments->auto_skin,
+        "bind each vertex of a mesh without a skin to the nearest bone of the file's skins; if the file has no skin, "
+        "to the nearest joint with no mesh on it or below it. A mesh attached to a bone is left unchanged");
+    command->add_option(
+        "--skeleton", arguments->skeleton,
+        "for --auto-skin, which it implies: use only this joint and its descendants as bones; a name, or #12");
+    CLI::Option* compact = command
+                               ->add_flag("--compact", arguments->compact,
+                                          "minimise file size within an error bound, 0.005% unless --max-error is "
+                                          "given; the measured error is printed")
+                               ->excludes(exact);
     CLI::Option* max_error =
         command
             ->add_option("--max-error", arguments->max_error,
@@ -232,23 +233,21 @@ void add_convert(CLI::App& program) {
                 const auto bound = converter::parse_error_bound(text);
                 return bound ? std::string() : bound.error();
             });
-    CLI::Option* lod = command->add_flag(
-        "--lod", arguments->lod,
-        "compute levels of detail: the sequence in which vertices are collapsed; vertices are put in its order");
+    CLI::Option* lod =
+        command->add_flag("--lod", arguments->lod,
+                          "compute levels of detail: the order in which vertices collapse; vertices are sorted by it");
     command
-        ->add_flag(
-            "--sort-vertices", arguments->sort_vertices,
-            "put vertices that follow the same bones beside one another: less work in every frame. Else they keep "
-            "the source's order; --lod and --compact have orders of their own")
+        ->add_flag("--sort-vertices", arguments->sort_vertices,
+                   "group vertices that follow the same bones, which saves work in every frame. By default vertices "
+                   "keep the source's order; --lod and --compact use their own")
         ->excludes(lod)
         ->excludes(compact)
         ->excludes(max_error);
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
-        "Everything is kept exactly, but with --compact; what the format cannot hold is named in a warning.\n"
-        "Example: bendy convert fox.glb -o build/fox.bendy\n"
-        "         bendy convert *.glb\n"
-        "         bendy convert models/ -o build/models --compact");
+        "Everything is kept exactly, unless you use --compact. A warning names what the format cannot store.\nExample: "
+        "bendy convert fox.glb -o build/fox.bendy\n         bendy convert *.glb\n         bendy convert models/ -o "
+        "build/models --compact");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -102,7 +102,7 @@ std::string what_text(const Difference& difference) {
         case Kind::only_in_b:
             return text + "only in B";
         case Kind::order:
-            return text + "stands in another order";
+            return text + "is in another order";
         case Kind::value:
             return text + value_text(difference.a_value) + " -> " + value_text(difference.b_value);
         case Kind::numbers:
@@ -238,19 +238,19 @@ void add_diff(CLI::App& program) {
     const auto arguments = std::make_shared<DiffArguments>();
     const auto tolerance = std::make_shared<std::string>();
     CLI::App* command = program.add_subcommand(
-        "diff", "Say in what two bendy files differ, chunk by chunk, or in what the characters in them do");
+        "diff", "Show the differences between two bendy files, chunk by chunk, or between the characters in them");
     command->add_option("A", arguments->files[0], "a bendy file")->required();
     command->add_option("B", arguments->files[1], "another")->required();
-    CLI::Option* given = command->add_option(
-        "--tolerance", *tolerance,
-        "compare the characters instead, as an exact file and its compact version: a length (0.1mm) "
-        "or a share of the height "
-        "(0.005%); no point of the skin may be so far from where it should be, in any clip");
+    CLI::Option* given =
+        command->add_option("--tolerance", *tolerance,
+                            "compare the characters instead of the chunks, for example an exact file with its compact "
+                            "version: the largest distance by which a point of the skin may differ in any clip, as a "
+                            "length (0.1mm) or a share of the height (0.005%)");
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
-        "Exits with 0 if the files are the same, with 1 if they differ, with 2 if one is bad or the command line is.\n"
-        "Example: bendy diff fox.bendy build/fox.bendy\n"
-        "Example: bendy diff fox.bendy compact.bendy --tolerance 0.005%");
+        "Exits with 0 if the files are the same, 1 if they differ, and 2 if a file is invalid or the command line is "
+        "wrong.\nExample: bendy diff fox.bendy build/fox.bendy\nExample: bendy diff fox.bendy compact.bendy "
+        "--tolerance 0.005%");
     command->callback([arguments, tolerance, given] {
         if (given->count() != 0) {
             const auto bound = converter::parse_error_bound(*tolerance);

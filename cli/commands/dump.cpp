@@ -35,9 +35,8 @@ void run(const DumpArguments& arguments) {
     check_sums(*tree, faults);
     if (!faults.empty()) {
         const std::string what = describe_with_place(faults.list().front(), bytes);
-        if (!arguments.ignore_sums)
-            fail(arguments.file, what + "; with --ignore-sums the text is written all the same");
-        warn(arguments.file, what + "; the text does not tell");
+        if (!arguments.ignore_sums) fail(arguments.file, what + "; --ignore-sums writes the text anyway");
+        warn(arguments.file, what + "; the text will not show it");
     }
     decode_leaves(*tree);
     text_form::DumpOptions options;
@@ -52,17 +51,15 @@ void run(const DumpArguments& arguments) {
 void add_dump(CLI::App& program) {
     const auto arguments = std::make_shared<DumpArguments>();
     CLI::App* command = program.add_subcommand(
-        "dump", "Write a file as JSON to read and edit; `bendy assemble` makes the same bytes of it again");
+        "dump", "Write a file as JSON to read and edit; `bendy assemble` turns it back into the same bytes");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");
-    command->add_flag("--decode", arguments->decode,
-                      "write encoded chunks as plain ones: shorter text, that assembles to the same content without "
-                      "encodings");
+    command->add_flag(
+        "--decode", arguments->decode,
+        "write encoded chunks decoded: the text is shorter, and assembles to the same content without encodings");
     command->add_flag("--ignore-sums", arguments->ignore_sums,
-                      "also of a file whose integrity sums are wrong; assembling puts them right");
-    command->footer(
-        "The form is described in spec/text.md.\n"
-        "Example: bendy dump fox.bendy -o fox.bendy.json");
+                      "accept a file with wrong checksums; assembling corrects them");
+    command->footer("spec/text.md describes the text form.\nExample: bendy dump fox.bendy -o fox.bendy.json");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -207,28 +207,27 @@ void add_edit(CLI::App& program) {
     CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
     command->add_option("FILE", arguments->input, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");
-    command->add_flag("-i,--in-place", arguments->in_place, "replace FILE by the result, instead of --output");
+    command->add_flag("-i,--in-place", arguments->in_place, "replace FILE with the result; use instead of --output");
     const auto add = [&](const char* name, auto& values, const std::string& help) {
         command->add_option(name, values, help)->allow_extra_args(false);
     };
     add("--strip", arguments->strips,
         "take out all " + edit::strip_words() +
             "; or one: texture:NAME, clip:Run, mesh:Hat, target:Smile, chain:Arm, constraint:JOINT, chunk:ID");
-    add("--rename-joint", arguments->joint_renames,
-        "OLD=NEW; a * stands for anything: 'mixamorig:*=*' takes a prefix away");
+    add("--rename-joint", arguments->joint_renames, "OLD=NEW; * matches anything: 'mixamorig:*=*' removes a prefix");
     add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
     add("--rename", arguments->renames,
-        "KIND:OLD=NEW, KIND being joint, clip, chain, mesh, target, material, texture or object");
+        "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
     add("--merge", arguments->merges,
         "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
     command
         ->add_option("--same-name", arguments->same_name,
-                     "what --merge does where a clip's name is taken: error; replace the one that is there; number "
-                     "the new one, as in Run.001")
+                     "what --merge does if a clip of that name exists: error; replace the existing clip; or number the "
+                     "new one, as in Run.001")
         ->check(CLI::IsMember({"error", "replace", "number"}))
         ->capture_default_str();
     add("--extract", arguments->extracts,
-        "a joint and all below it as a character of its own; it stays where it was, in every clip");
+        "make a character of this joint and its descendants; it keeps its place in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Names may have * and ?, or be a number: clip:#0. Options are applied in their order; renames of one kind "

@@ -141,13 +141,12 @@ void add_export(CLI::App& program) {
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; the input's name with .glb if not given");
     command->add_flag("--force", arguments->force,
-                      "replace files that bendy did not write where -o does not name them: the default output, and "
-                      "what goes beside one");
+                      "overwrite files that bendy did not write and -o does not name: the default output, and files "
+                      "written next to an output");
     command
-        ->add_option(
-            "--format", arguments->format,
-            "glb: one file; gltf: JSON, and the numbers in a .bin file beside it; x: a DirectX X-file in text, images "
-            "beside it; by the output's name if not given")
+        ->add_option("--format", arguments->format,
+                     "glb: one file; gltf: JSON with a .bin file next to it; x: a DirectX X-file in text form, with "
+                     "images next to it; from the output's name if not given")
         ->check(CLI::IsMember({"glb", "gltf", "x"}));
     add_lod(*command, arguments->lod);
     command->add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");

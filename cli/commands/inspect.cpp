@@ -262,12 +262,12 @@ void add_inspect(CLI::App& program) {
         "inspect", "Show what is in a file: a summary, then the chunk tree with ids, offsets, sizes");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     CLI::Option* chunk =
-        command->add_option("--chunk", arguments->chunk, "only this chunk and what it holds: a path, or @OFFSET");
+        command->add_option("--chunk", arguments->chunk, "only this chunk and its contents: a path, or @OFFSET");
     CLI::Option* json = command->add_flag("--json", arguments->json,
                                           "print JSON: the summary by name, and every chunk with its record's fields");
     CLI::Option* hex = command->add_flag("--hex", arguments->hex, "print the chunk's bytes")->excludes(json);
     CLI::Option* all =
-        command->add_flag("--all", arguments->all, "also the chunks that are folded into their parent's line");
+        command->add_flag("--all", arguments->all, "also show the chunks that are folded into their parent's line");
     CLI::Option* summary = command
                                ->add_flag("--summary", arguments->summary,
                                           "only what the character consists of: joints, rig, meshes, clips, materials, "

@@ -26,7 +26,7 @@ const Clip& find_clip(const std::string& clip, const std::filesystem::path& file
 void add_lod(CLI::App& command, float& share) {
     command
         .add_option("--lod", share,
-                    "one level of detail: about this share of the triangles, 0 to 1, and only their vertices")
+                    "one level of detail: about this fraction of the triangles, 0 to 1, and only their vertices")
         ->check([](const std::string& text) {
             float number = 0.0f;
             const bool is_good = CLI::detail::lexical_cast(text, number) && number >= 0.0f && number <= 1.0f;

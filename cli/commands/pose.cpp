@@ -80,7 +80,7 @@ std::vector<PosedCurve> sample_curves(const Clip& clip, float seconds) {
         posed.target_kind = kKinds.at(static_cast<std::size_t>(curve.kind));
         posed.target = curve.target;
         posed.value.resize(curve.components);
-        sample_curve(curve, seconds, posed.value);
+        (void)sample_curve(curve, seconds, posed.value);  // the time is finite, and there is room
     }
     return curves;
 }
@@ -152,7 +152,7 @@ void add_pose(CLI::App& program) {
         ->required();
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
-    command->add_option("--time", arguments->time, "seconds on the clip's time line; held at its ends")
+    command->add_option("--time", arguments->time, "seconds on the clip's time line; clamped to its ends")
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
         ->needs(clip);
@@ -162,7 +162,7 @@ void add_pose(CLI::App& program) {
                         "OUT.obj, OUT.ply or OUT.json; standard output if not given, or for -");
     command
         ->add_option("--format", arguments->format,
-                     "obj, ply or json, where no name says it; to standard output: obj if not given")
+                     "the format, if the output's name does not determine it; obj by default on standard output")
         ->check(CLI::IsMember({"obj", "ply", "json"}));
     command->footer(
         "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "

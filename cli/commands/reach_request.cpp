@@ -135,17 +135,18 @@ ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file,
 }  // namespace
 
 void add_reach(CLI::App& command, ReachRequest& request) {
-    command.add_flag("--constrain", request.constrain, "bring the clip's pose inside the joints' constraints");
+    command.add_flag("--constrain", request.constrain, "apply the joints' constraints to the clip's pose");
     CLI::Option* reach =
         command.add_option("--reach", request.targets,
                            "after the clip, move an IK chain's tip to a point: CHAIN=X,Y,Z in metres; or "
                            "with an orientation, CHAIN=X,Y,Z,QX,QY,QZ,QW; may be repeated. A chain that falls short of "
                            "its target is reported with what is left, and is not an error");
-    command.add_option("--solver", request.solver, "for --reach; chain: what the file says")
+    command.add_option("--solver", request.solver, "for --reach; chain: the solver that the file names")
         ->check(CLI::IsMember(solver_names()))
         ->capture_default_str()
         ->needs(reach);
-    command.add_flag("--ignore-constraints", request.ignore_constraints, "reach without the joints' constraints")
+    command
+        .add_flag("--ignore-constraints", request.ignore_constraints, "ignore the joints' constraints while reaching")
         ->needs(reach);
 }
 

@@ -277,7 +277,7 @@ void run(RenderArguments arguments) {
 
 void add_render(CLI::App& program) {
     const auto arguments = std::make_shared<RenderArguments>();
-    CLI::App* command = program.add_subcommand("render", "Make a picture or an animation, without a display");
+    CLI::App* command = program.add_subcommand("render", "Render a picture or an animation, without a display");
     command
         ->add_option("FILE", arguments->file,
                      "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
@@ -288,15 +288,16 @@ void add_render(CLI::App& program) {
         ->required();
     command
         ->add_option("--format", arguments->format,
-                     "png, gif or webp, where no name says it; to standard output: png if not given")
+                     "the format, if the output's name does not determine it; png by default on standard output")
         ->check(CLI::IsMember({"png", "gif", "webp"}));
     CLI::Option* clip =
         command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
     add_reach(*command, arguments->reach);
     command
-        ->add_option("--frames", arguments->frames,
-                     "so many pictures over the clip: in rows in OUT.png, or one after another in an animation")
+        ->add_option(
+            "--frames", arguments->frames,
+            "number of pictures, spread over the clip: as a sheet in OUT.png, or as the frames of an animation")
         ->check(CLI::Range(1, 1000));
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,
@@ -308,12 +309,11 @@ void add_render(CLI::App& program) {
     command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
     add_lod(*command, arguments->render.lod);
     command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
-    command->add_flag("-v,--verbose", arguments->verbose, "say which OpenGL draws");
+    command->add_flag("-v,--verbose", arguments->verbose, "print the OpenGL driver in use");
     command->footer(
-        "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, with a line to what is to "
-        "reach them.\n"
-        "Example: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n"
-        "         bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
+        "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, each with a line from the "
+        "tip that should reach it.\nExample: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n        "
+        " bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
     command->callback([arguments, clip, time] {
         arguments->has_clip = clip->count() != 0;
         arguments->has_time = time->count() != 0;

@@ -105,14 +105,13 @@ void run(const ValidateArguments& arguments) {
 
 void add_validate(CLI::App& program) {
     const auto arguments = std::make_shared<ValidateArguments>();
-    CLI::App* command = program.add_subcommand("validate", "Say everything that is wrong with files, and where");
+    CLI::App* command = program.add_subcommand("validate", "Report every error in files, with its place");
     command->add_option("FILE", arguments->files, "bendy files")->required();
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
-        "Prints nothing and exits with 0 when all is well; else a line a fault, and 1. A link to an image that does "
-        "not "
-        "exist is a warning, on standard error or in the report's \"warnings\": the exit status stays 0.\n"
-        "Example: bendy validate fox.bendy");
+        "Prints nothing and exits with 0 if the files are valid; otherwise prints one line per error and exits with 1. "
+        "A link to an image that does not exist is only a warning, on standard error or in the report's "
+        "\"warnings\".\nExample: bendy validate fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }
 

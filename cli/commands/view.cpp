@@ -55,7 +55,7 @@ void add_view(CLI::App& program) {
     CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
     command->add_option("FILE", arguments->file,
                         "a bendy file, or one that `bendy convert` reads, which is converted on the fly");
-    command->add_flag("-v,--verbose", arguments->view.verbose, "say which OpenGL draws");
+    command->add_flag("-v,--verbose", arguments->view.verbose, "print the OpenGL driver in use");
     // For tests, see viewer/src/window.h.
     command->add_option("--script", arguments->view.script)->group("");
     command->add_flag("--trace", arguments->view.trace)->group("");

@@ -129,11 +129,11 @@ Json facts_json(const Document& document) {
     std::uint64_t meshes = 0;
     std::uint64_t vertices = 0;
     std::uint64_t chains = 0;
-    std::uint64_t limits = 0;
+    std::uint64_t constraints = 0;
     std::uint64_t clips = 0;
     for (const ObjectView& object : document.objects) {
         joints += object.skeleton.joints.size();
-        limits += object.skeleton.constraints.size();
+        constraints += object.skeleton.constraints.size();
         chains += object.chains.size();
         clips += object.clips.size();
         meshes += object.meshes.size();
@@ -141,7 +141,7 @@ Json facts_json(const Document& document) {
     }
     return {{"objects", document.objects.size()},
             {"joints", joints},
-            {"constraints", limits},
+            {"constraints", constraints},
             {"IK chains", chains},
             {"meshes", meshes},
             {"vertices", vertices},

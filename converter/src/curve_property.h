@@ -9,9 +9,6 @@
 
 namespace bendy::converter {
 
-/// A packed value of CURV is a whole number of so many steps, from the smallest of its component to the largest.
-inline constexpr double kPackedCurveSteps = 65'535.0;
-
 /// What a curve animates: no two curves of a clip have the same. Those without a path differ by name.
 using CurveProperty = std::tuple<CurveTarget, std::uint32_t, std::string_view, std::string_view>;
 

@@ -87,11 +87,13 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
 
 TEST_F(CArguments, IndicesOutOfRangeAreErrors) {
     auto joint = sized<bendy_joint>();
-    EXPECT_EQ(message(bendy_get_joint(model_.get(), 4, &joint, &error_)), "joint 4 is meant, the model has 4 joints");
+    EXPECT_EQ(message(bendy_get_joint(model_.get(), 4, &joint, &error_)),
+              "joint 4 does not exist: the model has 4 joints");
     EXPECT_EQ(joint.name, nullptr) << "nothing is written";
     auto mesh = sized<bendy_mesh>();
-    EXPECT_EQ(message(bendy_get_mesh(model_.get(), 2, &mesh, &error_)), "mesh 2 is meant, the model has 2 meshes");
-    EXPECT_EQ(message(bendy_sample(pose_.get(), 1, 0, &error_)), "clip 1 is meant, the model has 1 clip");
+    EXPECT_EQ(message(bendy_get_mesh(model_.get(), 2, &mesh, &error_)),
+              "mesh 2 does not exist: the model has 2 meshes");
+    EXPECT_EQ(message(bendy_sample(pose_.get(), 1, 0, &error_)), "clip 1 does not exist: the model has 1 clip");
     EXPECT_EQ(message(bendy_sample(pose_.get(), BENDY_NONE, 0, &error_)),
               "clip is BENDY_NONE: there is none of the name that was looked for");
     auto submesh = sized<bendy_submesh>();
@@ -105,7 +107,8 @@ TEST_F(CArguments, IndicesOutOfRangeAreErrors) {
     bendy_vertices out = BENDY_VERTICES_INIT;
     bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
     options.mesh = 2;
-    EXPECT_EQ(message(bendy_skin(pose_.get(), &options, &out, &error_)), "mesh 2 is meant, the model has 2 meshes");
+    EXPECT_EQ(message(bendy_skin(pose_.get(), &options, &out, &error_)),
+              "mesh 2 does not exist: the model has 2 meshes");
     EXPECT_EQ(message(bendy_get_local(pose_.get(), 3, 2, &transform_, &error_)),
               "2 joints from number 3 on are meant, the model has 4 joints");
     message(bendy_set_local(pose_.get(), 0xffff'ffff, 2, &transform_, &error_));  // which would wrap

@@ -43,7 +43,7 @@ class Convert(Case):
         exact = self.done("convert", source, "-o", "exact.bendy")
         text = self.done("convert", source, "-o", "small.bendy", "--compact").decode()
         self.assertRegex(text, r"total +[\d,]+ +[\d,]+\n")
-        self.assertRegex(text, r"error +at most [\d.e-]+ mm; worst met [\d.e-]+ mm")
+        self.assertRegex(text, r"error +at most [\d.e-]+ mm; worst measured [\d.e-]+ mm")
         self.assertNotIn(b"at most", exact)
         sizes = {name: (self.folder / f"{name}.bendy").stat().st_size for name in ("exact", "small")}
         self.assertLess(sizes["small"], sizes["exact"] / 2)

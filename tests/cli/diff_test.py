@@ -97,7 +97,7 @@ class Diff(Case):
             places = [place for place, chunk in enumerate(children) if chunk.letters == "CYCL"]
             children[places[0]], children[places[1]] = children[places[1]], children[places[0]]
         self.assertEqual(self.differ(self.convert(), self.edited(change)),
-                         ['! HEAD/OBJE/CYCL[1] "Walk" (in B: HEAD/OBJE/CYCL): stands in another order'])
+                         ['! HEAD/OBJE/CYCL[1] "Walk" (in B: HEAD/OBJE/CYCL): is in another order'])
 
     def test_tracks_are_paired_by_what_they_animate(self):
         def change(root):
@@ -212,10 +212,10 @@ class Diff(Case):
 
     def test_a_compact_file_is_the_exact_one_within_the_printed_bound(self):
         exact, compact, text = self.exact_and_compact()
-        bound, worst = re.search(r"error +at most (\S+ mm); worst met (\S+) mm", text).groups()
+        bound, worst = re.search(r"error +at most (\S+ mm); worst measured (\S+) mm", text).groups()
         self.differ(exact, compact)
         for pair in ((exact, compact), (compact, exact)):
-            self.assertIn("; worst met ", self.done("diff", *pair, "--tolerance", bound).decode())
+            self.assertIn("; worst measured ", self.done("diff", *pair, "--tolerance", bound).decode())
         report = json.loads(self.done("diff", exact, compact, "--tolerance", "0.005%", "--json"))
         self.assertTrue(report["same"])
         self.assertAlmostEqual(1000 * report["worst"], float(worst), delta=0.01 * float(worst))

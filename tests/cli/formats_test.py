@@ -87,7 +87,7 @@ class Export(Case):
         self.done("convert", "every.glb", "-o", "every.bendy")
         result = self.bendy("diff", source, "every.bendy", "--tolerance", "0.001mm")
         # glTF hangs a mesh that no joint carries into the scene by a node.
-        self.assertEqual(result.stdout.splitlines(), [b'+ joint "wing": only in B', b"tolerance 0.001 mm; worst met 0 mm"])
+        self.assertEqual(result.stdout.splitlines(), [b'+ joint "wing": only in B', b"tolerance 0.001 mm; worst measured 0 mm"])
 
     def triangles(self, path, *arguments):
         """Of each mesh, the places of its triangles' corners in the middle of the walk, sorted."""
@@ -152,7 +152,7 @@ class XFiles(Case):
     def test_what_is_wrong_in_an_x_file_has_line_and_column(self):
         (self.folder / "bad.x").write_text("xof 0303txt 0032\nMesh {\n 1; 1;2;oops; 0;}\n")
         message = self.failed("convert", "bad.x", file="bad.x")
-        self.assertIn("line 3, column 9: a number is due here, not 'oops'", message)
+        self.assertIn("line 3, column 9: expected a number, found 'oops'", message)
         (self.folder / "packed.x").write_bytes(b"xof 0303tzip0032" + b"\x40" + bytes(31))
         self.assertIn("byte 20: a compressed block of 0 bytes", self.failed("convert", "packed.x", file="packed.x"))
         (self.folder / "other.x").write_bytes(b"solid")

@@ -83,7 +83,7 @@ class Rig(Case):
 
     def test_faults_are_told_with_their_place(self):
         self.assertEqual(self.refused({"bendy_rig": 1, "joints": {"*Knee*": {"model": "hinge", "x": ["a", 1]}}}),
-                         "joints.'*Knee*'.x[0]: a number is due, not 'a'")
+                         "joints.'*Knee*'.x[0]: expected a number, found 'a'")
         self.assertEqual(self.refused({"bendy_rig": 1, "chains": [{"name": "c", "start": "nose", "effector": "#1"}]}),
                          "chains[0].start: there is no joint 'nose'")
         self.assertRegex(self.refused('{\n  "bendy_rig" 1}'), r"^invalid JSON at line 2, column 15 \(byte \d+\): ")
@@ -298,7 +298,7 @@ class Markers(Case):
         for markers, message in (
                 ({"Walk": [{"time": 1.5, "name": "late"}]},
                  "markers.Walk[0]: 1.5 s is outside the clip, which lasts from 0.0 s to 1.0 s"),
-                ({"Walk": {"step": "soon"}}, "markers.Walk.step: a number is due, not 'soon'"),
+                ({"Walk": {"step": "soon"}}, "markers.Walk.step: expected a number, found 'soon'"),
                 ([], "markers: it must be an object, not array")):
             line = self.failed("convert", self.convert(), "--rig", self.write(markers), "-o", "x.bendy")
             self.assertEqual(line, f"bendy: error: rig.json: {message}")

@@ -165,7 +165,7 @@ void use_model(const Model& model, unsigned choice) {
             look_at(curve.path);
             std::array<float, 4> value{};
             for (const float seconds : {clip.start, 0.3f, clip.end, std::numeric_limits<float>::quiet_NaN()})
-                sample_curve(curve, seconds, value);
+                (void)sample_curve(curve, seconds, value);
         }
         const float middle = clip.start + 0.4f * (clip.end - clip.start);
         for (const float seconds : {clip.start, middle, clip.end}) {

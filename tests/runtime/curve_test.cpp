@@ -68,7 +68,9 @@ TEST(SampleCurve, LinearGoesStraightInEachComponent) {
 TEST(SampleCurve, NanSetsNothing) {
     const Keys keys{Interpolation::linear, 1, {0, 1}, {1, 2}};
     float value = 5.0f;
-    EXPECT_FALSE(sample_curve(keys.curve(), std::numeric_limits<double>::quiet_NaN(), {&value, 1}));
+    EXPECT_EQ(sample_curve(keys.curve(), std::numeric_limits<double>::quiet_NaN(), {&value, 1}).error(),
+              CallError::not_finite);
+    EXPECT_EQ(sample_curve(keys.curve(), 0.5, {&value, 0}).error(), CallError::output_too_short);
     EXPECT_EQ(value, 5.0f);
 }
 
@@ -175,7 +177,7 @@ TEST(SampleCurve, AllocatesNothing) {
     const Curve curve = keys.curve();
     std::array<float, 2> value{};
     const std::uint64_t before = test::allocations().count;
-    for (int k = 0; k < 100; ++k) sample_curve(curve, k * 0.01, value);
+    for (int k = 0; k < 100; ++k) EXPECT_TRUE(sample_curve(curve, k * 0.01, value));
     EXPECT_EQ(test::allocations().count, before);
 }
 

@@ -30,7 +30,7 @@
 namespace bendy::converter {
 namespace {
 
-using Member = std::pair<std::string_view, std::string_view>;  // key and value, as they stand in the text
+using Member = std::pair<std::string_view, std::string_view>;  // key and value, as in the text
 
 bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';

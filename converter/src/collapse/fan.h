@@ -11,7 +11,7 @@
 
 namespace bendy::converter {
 
-/// The triangles round a point of a surface, and what becomes of them when it moves onto a neighbour.
+/// The triangles around a vertex of a surface, and how they change when it collapses onto a neighbour.
 class Fan {
 public:
     struct Neighbour {

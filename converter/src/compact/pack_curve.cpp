@@ -1,7 +1,6 @@
 #include "compact/pack_curve.h"
 
 #include "compact/leaf_writer.h"
-#include "curve_property.h"
 
 #include <algorithm>
 #include <cmath>

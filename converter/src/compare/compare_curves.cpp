@@ -3,6 +3,8 @@
 #include "curve_property.h"
 #include "evaluate.h"
 
+#include <bendy/format/curve.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>

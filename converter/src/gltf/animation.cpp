@@ -299,8 +299,9 @@ private:
         const std::uint64_t count = accessors[input].count;
         const std::uint64_t found = std::uint64_t{accessors[output].count} * component_count(accessors[output]);
         if (found / per_key != count || found % per_key != 0) {
-            fail(place + ".output", at("accessors", output) + " holds " + std::to_string(found) + " numbers, but " +
-                                        std::to_string(count) + " keys of " + std::to_string(per_key) + " are due");
+            fail(place + ".output", at("accessors", output) + ": expected " + std::to_string(count) + " keys of " +
+                                        std::to_string(per_key) + " numbers, found " + std::to_string(found) +
+                                        " numbers");
         }
         keys.times = read_floats(document_, input, place + ".input");
         for (std::size_t k = 1; k < keys.times.size(); ++k) {

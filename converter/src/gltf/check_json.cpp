@@ -350,8 +350,8 @@ private:
             case Kind::numbers:
                 if (!value.is_array()) fail_type(value, "an array of numbers");
                 if (const auto size = static_cast<double>(value.size()); size < rule.low || size > rule.high) {
-                    fail(place_, "it has " + std::to_string(value.size()) + " numbers, " +
-                                     std::to_string(static_cast<std::uint64_t>(rule.low)) + " are due");
+                    fail(place_, "expected " + std::to_string(static_cast<std::uint64_t>(rule.low)) +
+                                     " numbers, found " + std::to_string(value.size()));
                 }
                 for (std::size_t i = 0; i < value.size(); ++i) {
                     if (!value[i].is_number() || !(std::abs(value[i].get<double>()) <= kMaxFloat)) {
@@ -369,7 +369,7 @@ private:
     }
 
     static void check_number(const Json& value, const std::string& place) {
-        if (!value.is_number()) fail(place, "a number is due, not " + shown(value));
+        if (!value.is_number()) fail(place, "expected a number, found " + shown(value));
         if (!(std::abs(value.get<double>()) <= kMaxFloat)) fail(place, shown(value) + " does not fit a 32-bit float");
     }
 

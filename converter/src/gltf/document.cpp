@@ -28,7 +28,7 @@ std::string_view as_text(std::span<const std::byte> bytes) {
 void split_glb(Container& container) {
     const std::span<const std::byte> file = container.bytes;
     if (file.size() < kHeaderSize) {
-        fail({}, "GLB header truncated: 12 bytes are due, the file has " + std::to_string(file.size()));
+        fail({}, "the GLB header is truncated: expected 12 bytes, found " + std::to_string(file.size()));
     }
     const std::uint32_t version = read_u32(file, 4);
     if (version != 2) {
@@ -144,7 +144,7 @@ Buffers::Buffers(const Json& root, const Container& container, const std::filesy
         }
         if (length > buffer.bytes.size()) {
             fail(place + ".byteLength",
-                 std::to_string(length) + " bytes are due, there are only " + std::to_string(buffer.bytes.size()));
+                 "expected " + std::to_string(length) + " bytes, found only " + std::to_string(buffer.bytes.size()));
         }
         buffer.bytes = buffer.bytes.first(static_cast<std::size_t>(length));
         buffer.has_data = true;

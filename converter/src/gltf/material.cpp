@@ -30,13 +30,13 @@ TextureUse read_texture_use(const Document& document, const Json* json, const st
     if (!transform->is_object()) fail(here, "it must be an object");
     const auto number = [&](const Json& value, const std::string& where) {
         constexpr double kMax = std::numeric_limits<float>::max();
-        if (!value.is_number() || !(std::abs(value.get<double>()) <= kMax)) fail(where, "a finite number is due");
+        if (!value.is_number() || !(std::abs(value.get<double>()) <= kMax)) fail(where, "expected a finite number");
         return static_cast<float>(value.get<double>());
     };
     const auto read_pair = [&](const char* name, glm::vec2& pair) {
         const Json* value = find(*transform, name);
         if (value == nullptr) return;
-        if (!value->is_array() || value->size() != 2) fail(here + '.' + name, "an array of two numbers is due");
+        if (!value->is_array() || value->size() != 2) fail(here + '.' + name, "expected an array of two numbers");
         pair = {number((*value)[0], here + '.' + name), number((*value)[1], here + '.' + name)};
     };
     read_pair("offset", use.offset);
@@ -46,7 +46,7 @@ TextureUse read_texture_use(const Document& document, const Json* json, const st
     }
     if (const Json* coords = find(*transform, "texCoord"); coords != nullptr) {
         if (!coords->is_number_unsigned() || coords->get<std::uint64_t>() >= kNone) {
-            fail(here + ".texCoord", "a set number is due");
+            fail(here + ".texCoord", "expected a set number");
         }
         use.coords = coords->get<std::uint32_t>();
     }

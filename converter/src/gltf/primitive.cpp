@@ -108,8 +108,9 @@ private:
 
     void check(const Attribute& attribute, std::size_t low, std::size_t high, const std::string& place) const {
         if (attribute.components < low || attribute.components > high) {
-            fail(place, "elements of " + std::to_string(attribute.components) + " components, " + std::to_string(low) +
-                            (low == high ? "" : " to " + std::to_string(high)) + " are due");
+            fail(place, "expected elements of " + std::to_string(low) +
+                            (low == high ? "" : " to " + std::to_string(high)) + " components, found " +
+                            std::to_string(attribute.components));
         }
         check_count(attribute.count, place);
     }
@@ -268,7 +269,7 @@ private:
                 const std::size_t components = component_count(source);
                 // Some exporters give tangents the fourth component of the base stream; it is not displaced.
                 if (components != 3 && !(name == "TANGENT" && components == 4)) {
-                    fail(place, "elements of " + std::to_string(components) + " components, 3 are due");
+                    fail(place, "expected elements of 3 components, found " + std::to_string(components));
                 }
                 check_count(source.count, place);
                 *stream = as_vec3(read_floats(document_, index, place), components);

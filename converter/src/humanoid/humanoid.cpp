@@ -105,7 +105,7 @@ struct Spelling {
     BodyPart part;
     std::uint8_t rank = 0;
 };
-/// The first that stands in the name decides: the longer names stand before their parts.
+/// The first entry found in the name is used, so longer names come before their parts.
 constexpr std::array kSpellings{
     Spelling{"thumb", BodyPart::thumb},
     Spelling{"toe", BodyPart::toes},

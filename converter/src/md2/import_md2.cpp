@@ -99,7 +99,8 @@ std::string read_name(std::span<const std::byte> file, std::size_t at, std::size
 Header read_header(std::span<const std::byte> file) {
     if (file.size() < 4 || read_integer(file, 0, 4) != 0x32504449)  // "IDP2"
         fail(place_of(0), "this is no Quake II model: it does not begin with 'IDP2'");
-    if (file.size() < kHeaderSize) fail(place_of(file.size()), "the header is truncated: 68 bytes are due");
+    if (file.size() < kHeaderSize)
+        fail(place_of(file.size()), "the header is truncated: expected 68 bytes, found " + std::to_string(file.size()));
     if (const std::uint32_t version = read_integer(file, 4, 4); version != kVersion)
         fail(place_of(4), "version " + std::to_string(version) + " is not known, only version 8 (Quake II)");
     Header header;

@@ -25,8 +25,8 @@ std::string shown(float value) {
 /// The elements of a list of so many.
 const OrderedJson& need_list_of(std::size_t size, const OrderedJson& value, const std::string& place) {
     if (need_list(value, place).size() != size) {
-        fail(place, "it has " + std::to_string(value.size()) + (value.size() == 1 ? " element, " : " elements, ") +
-                        std::to_string(size) + " are due");
+        fail(place, "expected " + std::to_string(size) + (size == 1 ? " element" : " elements") + ", found " +
+                        std::to_string(value.size()));
     }
     return value;
 }
@@ -59,7 +59,7 @@ std::string shown(const OrderedJson& value) {
 }
 
 float to_float(const OrderedJson& value, const std::string& place, AngleUnit unit) {
-    if (!value.is_number()) fail(place, "a number is due, not " + shown(value));
+    if (!value.is_number()) fail(place, "expected a number, found " + shown(value));
     const auto number = value.get<double>();
     const double converted = unit == AngleUnit::degrees ? to_radians(number) : number;
     if (!(std::abs(converted) <= static_cast<double>(std::numeric_limits<float>::max())))

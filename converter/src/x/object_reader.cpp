@@ -69,8 +69,8 @@ void ObjectReader::refuse(const std::string& message) const {
     fail(place(), message);
 }
 
-void ObjectReader::refuse_due(const char* due) const {
-    refuse(std::string(due) + " is due here, not " + shown(token_));
+void ObjectReader::refuse_unexpected(const char* what) const {
+    refuse("expected " + std::string(what) + ", found " + shown(token_));
 }
 
 std::string ObjectReader::head() {
@@ -80,7 +80,7 @@ std::string ObjectReader::head() {
         name = token_.text;
         next();
     }
-    if (token_.kind != Token::Kind::open) refuse_due("'{'");
+    if (token_.kind != Token::Kind::open) refuse_unexpected("'{'");
     return name;
 }
 
@@ -99,7 +99,7 @@ bool ObjectReader::inner(std::string_view& type, const char* of) {
             type = "{";
             return true;
         }
-        if (token_.kind != Token::Kind::word) refuse_due("a data object or '}'");
+        if (token_.kind != Token::Kind::word) refuse_unexpected("a data object or '}'");
         type = token_.text;
         return true;
     }
@@ -129,7 +129,7 @@ std::string ObjectReader::reference() {
     for (; token_.kind == Token::Kind::word || token_.kind == Token::Kind::uuid; next()) {
         if (token_.kind == Token::Kind::word && name.empty()) name = token_.text;
     }
-    if (token_.kind != Token::Kind::close) refuse_due("'}'");
+    if (token_.kind != Token::Kind::close) refuse_unexpected("'}'");
     return name;
 }
 
@@ -139,9 +139,9 @@ float ObjectReader::number() {
     if (token_.kind == Token::Kind::number) {
         value = static_cast<float>(token_.number);
     } else if (token_.kind != Token::Kind::word) {
-        refuse_due("a number");
+        refuse_unexpected("a number");
     } else if (parse(token_.text, value) == Parsed::no) {
-        if (!is_no_number(token_.text)) refuse_due("a number");
+        if (!is_no_number(token_.text)) refuse_unexpected("a number");
         report_.warn("what is no number is taken as 0", place());
         return 0.0f;
     }
@@ -155,7 +155,7 @@ double ObjectReader::exact_number() {
     if (token_.kind == Token::Kind::number) {
         value = token_.number;
     } else if (token_.kind != Token::Kind::word || parse(token_.text, value) == Parsed::no) {
-        refuse_due("a number");
+        refuse_unexpected("a number");
     }
     if (!std::isfinite(value)) refuse("the number is not finite");
     return value;
@@ -165,14 +165,14 @@ std::uint32_t ObjectReader::integer() {
     next();
     std::uint32_t value = 0;
     if (token_.kind == Token::Kind::number) {
-        if (token_.is_float) refuse("a whole number is due here");
+        if (token_.is_float) refuse("expected a whole number");
         return static_cast<std::uint32_t>(token_.number);
     }
     const std::string_view text = without_plus(token_.text);
     const char* const end = text.data() + text.size();
-    if (token_.kind != Token::Kind::word) refuse_due("a whole number");
+    if (token_.kind != Token::Kind::word) refuse_unexpected("a whole number");
     const auto read = std::from_chars(text.data(), end, value);
-    if (read.ptr != end || read.ec != std::errc()) refuse_due("a whole number of 32 bits");
+    if (read.ptr != end || read.ec != std::errc()) refuse_unexpected("a whole number of 32 bits");
     return value;
 }
 
@@ -193,7 +193,7 @@ std::uint32_t ObjectReader::index(std::uint64_t end, const char* of) {
 std::string_view ObjectReader::string() {
     next();
     // Some writers forget the quotation marks.
-    if (token_.kind != Token::Kind::string && token_.kind != Token::Kind::word) refuse_due("a string");
+    if (token_.kind != Token::Kind::string && token_.kind != Token::Kind::word) refuse_unexpected("a string");
     return token_.text;
 }
 

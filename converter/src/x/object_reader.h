@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse_due(const char* due) const;
+    [[noreturn]] void refuse_unexpected(const char* what) const;
 
     std::unique_ptr<Tokens> tokens_;
     Report& report_;

@@ -201,9 +201,10 @@ private:
     }
 
     /// The number of things of which every vertex or face has one.
-    std::uint32_t count_as(std::size_t due, std::uint32_t numbers_each, const char* what) {
+    std::uint32_t count_as(std::size_t expected, std::uint32_t numbers_each, const char* what) {
         const std::uint32_t count = in_.count(numbers_each, what);
-        if (count != due) in_.refuse(std::to_string(count) + ' ' + what + ", but " + std::to_string(due) + " are due");
+        if (count != expected)
+            in_.refuse("expected " + std::to_string(expected) + ' ' + what + ", found " + std::to_string(count));
         return count;
     }
 
@@ -267,14 +268,14 @@ private:
         in_.head();
         const std::uint32_t slots = in_.count(1, "materials");
         const std::uint32_t faces = in_.count(1, "faces' materials");
-        const std::size_t due = mesh_.face_sizes.size();
+        const std::size_t expected = mesh_.face_sizes.size();
         // Some writers give one number for all faces.
-        if (faces != due && faces != 1)
-            in_.refuse(std::to_string(faces) + " faces' materials, but " + std::to_string(due) + " are due");
+        if (faces != expected && faces != 1)
+            in_.refuse("expected " + std::to_string(expected) + " faces' materials, found " + std::to_string(faces));
         std::vector<std::uint32_t> numbers;
         for (std::uint32_t face = 0; face < faces; ++face) numbers.push_back(in_.index(slots, "materials"));
-        if (due != 0) numbers.resize(due, numbers.front());
-        if (due == 0) numbers.clear();
+        if (expected != 0) numbers.resize(expected, numbers.front());
+        if (expected == 0) numbers.clear();
         std::string_view type;
         while (in_.inner(type, "MeshMaterialList")) read_slot(type);
         if (mesh_.slots.size() < slots) {

@@ -192,7 +192,7 @@ public:
                     read_object(token.text);
                     break;
                 default:
-                    in_.refuse("a data object is due here");
+                    in_.refuse("expected a data object");
             }
         }
     }

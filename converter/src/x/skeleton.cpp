@@ -107,7 +107,7 @@ void import_joints(const XFile& file, Scene& scene, Report& report) {
     std::unordered_map<std::string_view, std::uint32_t> count;
     for (const Frame& frame : file.frames) {
         if (!frame.identifier.empty() && ++count[frame.identifier] == 2)
-            report.warn("several frames have one name: the first is meant by it", frame.place);
+            report.warn("several frames have the same name: it refers to the first of them", frame.place);
     }
 }
 

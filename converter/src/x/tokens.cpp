@@ -245,7 +245,8 @@ std::string place_of(const Token& token) {
 std::unique_ptr<Tokens> open_tokens(std::string_view file) {
     if (!file.starts_with("xof "))
         fail({}, "this is no X-file: it does not begin with 'xof ', but with " + quote(file.substr(0, 4)));
-    if (file.size() < kHeaderSize) fail({}, "the X-file's header is truncated: 16 bytes are due");
+    if (file.size() < kHeaderSize)
+        fail({}, "the X-file's header is truncated: expected 16 bytes, found " + std::to_string(file.size()));
     const std::string_view variant = file.substr(8, 4);
     const std::string_view float_size = file.substr(12, 4);
     if (variant != "txt " && variant != "bin ")

@@ -1,7 +1,6 @@
 #include <bendy/runtime/curve.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -42,10 +41,9 @@ double hermite_value(const Curve& curve, const KeyInterval& at, std::size_t comp
 
 }  // namespace
 
-bool sample_curve(const Curve& curve, double seconds, std::span<float> value) {
-    assert(curve.keys > 0);
-    assert(value.size() >= curve.components);
-    if (std::isnan(seconds)) return false;
+Result<void, CallError> sample_curve(const Curve& curve, double seconds, std::span<float> value) {
+    if (std::isnan(seconds)) return CallError::not_finite;
+    if (value.size() < curve.components) return CallError::output_too_short;
     const std::size_t n = curve.components;
     const bool is_cubic = curve.interpolation == Interpolation::cubic;
     const KeyInterval at = interval_at(curve.times, seconds);
@@ -62,7 +60,7 @@ bool sample_curve(const Curve& curve, double seconds, std::span<float> value) {
                 static_cast<float>((1.0 - at.fraction) * key_value(at.left, c) + at.fraction * key_value(at.right, c));
         }
     }
-    return true;
+    return {};
 }
 
 const Curve* find_curve(const ClipView& clip, std::string_view name_or_path) {

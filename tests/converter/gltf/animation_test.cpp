@@ -146,7 +146,7 @@ TEST(GltfAnimation, OfTwoChannelsForOneTargetTheLastIsTaken) {
 TEST(GltfAnimation, CountsMustAgree) {
     const Import import = import_keys({0, 1}, {0, 0, 0}, "VEC3", "translation");
     EXPECT_EQ(import.place(), "animations[0].samplers[0].output");
-    EXPECT_EQ(import.message(), "accessors[2] holds 3 numbers, but 2 keys of 3 are due");
+    EXPECT_EQ(import.message(), "accessors[2]: expected 2 keys of 3 numbers, found 3 numbers");
     EXPECT_FALSE(import_keys({0}, {0, 0, 0, 1}, "VEC4", "rotation", "CUBICSPLINE").result);
 }
 

@@ -72,7 +72,7 @@ TEST(GltfBuffers, MustHoldTheirByteLength) {
     write_file("short.bin", Bytes(8));
     const Import import = import_buffer(R"({"byteLength":12,"uri":"short.bin"})");
     EXPECT_EQ(import.place(), "buffers[0].byteLength");
-    EXPECT_EQ(import.message(), "12 bytes are due, there are only 8");
+    EXPECT_EQ(import.message(), "expected 12 bytes, found only 8");
 }
 
 TEST(GltfBuffers, WithoutDataAreAnErrorOnlyWhenRead) {

@@ -80,8 +80,8 @@ TEST(GltfJson, WrongTypesAndRangesNameTheirPlace) {
     EXPECT_EQ(error_of(R"("nodes":[{"children":[-1]}])"),
               "nodes[0].children[0]: nodes[-1] does not exist (there are 1)");
     EXPECT_EQ(error_of(R"("nodes":[{"children":["0"]}])"), "nodes[0].children[0]: it must be an index, not '0'");
-    EXPECT_EQ(error_of(R"("nodes":[{"matrix":[1,2,3]}])"), "nodes[0].matrix: it has 3 numbers, 16 are due");
-    EXPECT_EQ(error_of(R"("nodes":[{"scale":[1,null,1]}])"), "nodes[0].scale[1]: a number is due, not null");
+    EXPECT_EQ(error_of(R"("nodes":[{"matrix":[1,2,3]}])"), "nodes[0].matrix: expected 16 numbers, found 3");
+    EXPECT_EQ(error_of(R"("nodes":[{"scale":[1,null,1]}])"), "nodes[0].scale[1]: expected a number, found null");
     EXPECT_EQ(error_of(R"("scene":0,"nodes":[{}])"), "scene: scenes[0] does not exist (there are 0)");
     EXPECT_EQ(error_of(R"("nodes":[{}],"meshes":[{}])"), "meshes[0].primitives: it is required and missing");
     EXPECT_EQ(error_of(R"("nodes":[{}],"meshes":[{"primitives":[{"attributes":{"POSITION":1}}]}])"),

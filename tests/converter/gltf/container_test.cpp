@@ -44,7 +44,7 @@ TEST(GltfContainer, EveryPrefixIsRefused) {
 
 TEST(GltfContainer, ErrorsSayWhatIsWrong) {
     EXPECT_EQ(message_of({}), "the file is empty");
-    EXPECT_EQ(message_of(bytes_of("glTF")), "GLB header truncated: 12 bytes are due, the file has 4");
+    EXPECT_EQ(message_of(bytes_of("glTF")), "the GLB header is truncated: expected 12 bytes, found 4");
 
     Bytes old_version = make_glb({{"JSON", bytes_of(kJson)}});
     old_version[4] = std::byte{1};

@@ -177,13 +177,13 @@ TEST(GltfMesh, AttributesMustFitThePositions) {
     EXPECT_EQ(error_of("NORMAL", 2, "VEC3"),
               "meshes[0].primitives[0].attributes.NORMAL: 2 elements, but POSITION has 3");
     EXPECT_EQ(error_of("NORMAL", 3, "VEC2"),
-              "meshes[0].primitives[0].attributes.NORMAL: elements of 2 components, 3 are due");
+              "meshes[0].primitives[0].attributes.NORMAL: expected elements of 3 components, found 2");
     EXPECT_EQ(error_of("COLOR_0", 3, "VEC2"),
-              "meshes[0].primitives[0].attributes.COLOR_0: elements of 2 components, 3 to 4 are due");
+              "meshes[0].primitives[0].attributes.COLOR_0: expected elements of 3 to 4 components, found 2");
     EXPECT_EQ(error_of("TEXCOORD_0", 3, "VEC3"),
-              "meshes[0].primitives[0].attributes.TEXCOORD_0: elements of 3 components, 2 are due");
+              "meshes[0].primitives[0].attributes.TEXCOORD_0: expected elements of 2 components, found 3");
     EXPECT_EQ(error_of("POSITION", 3, "VEC4"),
-              "meshes[0].primitives[0].attributes.POSITION: elements of 4 components, 3 are due");
+              "meshes[0].primitives[0].attributes.POSITION: expected elements of 3 components, found 4");
 }
 
 // ---------------------------------------------------------------------------------------------- influences

@@ -128,7 +128,7 @@ TEST(RigCurves, WhatIsWrongIsSaidWithItsPlace) {
     EXPECT_EQ(error(R"({"clip": "Walk", "name": "x", "times": [0], "values": [0, 1, 2, 3, 4]})"),
               "curves[0].values: expected 1 numbers, or 2, 3 or 4 times as many, for 1 keys, found 5");
     EXPECT_EQ(error(R"({"clip": "Walk", "name": "x", "times": [0], "values": ["a"]})"),
-              "curves[0].values[0]: a number is due, not 'a'");
+              "curves[0].values[0]: expected a number, found 'a'");
     EXPECT_EQ(error(R"({"clip": "Walk", "name": "x", "times": [1e99], "values": [0]})"),
               "curves[0].times[0]: 1e+99 does not fit a 32-bit float");
     EXPECT_EQ(error(R"({"clip": "Walk", "name": "x", "times": [2], "values": [0]})"),

@@ -282,7 +282,7 @@ TEST(RigExtras, WhatIsWrongIsNamedAndLeftOut) {
     };
     EXPECT_EQ(line("7"), "nodes.Bone.extras.rig_joint: constraints left out: it must be an object, not 7");
     EXPECT_EQ(line(R"({"swing_twist": {"swing_x": [-1, "1"]}})"),
-              "nodes.Bone.extras.rig_joint.swing_twist.swing_x[1]: constraints left out: a number is due, not '1'");
+              "nodes.Bone.extras.rig_joint.swing_twist.swing_x[1]: constraints left out: expected a number, found '1'");
     EXPECT_EQ(line(R"({"euler_limits": [{"space": "moon"}]})").substr(0, 46),
               "nodes.Bone.extras.rig_joint.euler_limits[0].sp");
     EXPECT_EQ(line(R"({"limits": {"model": "hinge", "x": [2, 1]}})"),

@@ -95,14 +95,15 @@ TEST(RigMarkers, WhatIsWrongIsSaidWithItsPath) {
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"name": "a"}]})"), "markers.Walk[0].time: it is required and missing");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"time": 0}]})"), "markers.Walk[0].name: it is required and missing");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"time": "0", "name": "a"}]})"),
-              "markers.Walk[0].time: a number is due, not '0'");
+              "markers.Walk[0].time: expected a number, found '0'");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"time": 1e39, "name": "a"}]})"),
               "markers.Walk[0].time: 1e+39 does not fit a 32-bit float");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"time": 0, "name": 1}]})"),
               "markers.Walk[0].name: it must be a string, not 1");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": [{"time": 0, "name": "a", "foot": 1}]})"),
               "markers.Walk[0].foot: there is no such key; there are time, name");
-    EXPECT_EQ(rig_error(R"("markers": {"Walk": {"a": [0, null]}})"), "markers.Walk.a[1]: a number is due, not null");
+    EXPECT_EQ(rig_error(R"("markers": {"Walk": {"a": [0, null]}})"),
+              "markers.Walk.a[1]: expected a number, found null");
     EXPECT_EQ(rig_error(R"("markers": {"Walk": {}, "Walk": {}})"), "markers.Walk: it stands twice");
 }
 

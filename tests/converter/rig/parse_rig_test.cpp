@@ -119,8 +119,8 @@ TEST(ParseRig, BadConstraintsNameTheirPlace) {
               "joints.j.model: 2 is none of free, locked, hinge, swing_twist_ellipse, swing_twist_pyramid, euler_box, "
               "largest_angle");
     EXPECT_EQ(rig_error(R"("joints": {"*Knee*": {"model": "hinge", "x": ["a", 1]}})"),
-              "joints.'*Knee*'.x[0]: a number is due, not 'a'");
-    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [1]})"), "joints.j.x: it has 1 element, 2 are due");
+              "joints.'*Knee*'.x[0]: expected a number, found 'a'");
+    EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [1]})"), "joints.j.x: expected 2 elements, found 1");
     EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": 1})"), "joints.j.x: it must be a list, not 1");
     EXPECT_EQ(constraint_error(R"({"model": "hinge", "x": [30, 20.5]})"),
               "joints.j.x: the minimum 30.0 is above the maximum 20.5");
@@ -140,7 +140,7 @@ TEST(ParseRig, BadConstraintsNameTheirPlace) {
     EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, 0]})"),
               "joints.j.frame: 0 0 0 0 is no rotation");
     EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, null]})"),
-              "joints.j.frame[3]: a number is due, not null");
+              "joints.j.frame[3]: expected a number, found null");
     EXPECT_EQ(constraint_error(R"({"model": "free", "stiffness": [0, 0, 1.5]})"),
               "joints.j.stiffness[2]: 1.5 is not between 0.0 and 1.0");
     EXPECT_EQ(constraint_error(R"({"model": "free", "soft_zone": -1})"), "joints.j.soft_zone: it is less than 0");

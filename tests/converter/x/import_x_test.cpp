@@ -214,18 +214,18 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
     EXPECT_EQ(fault_of(""), ": there is nothing to convert: the file has neither frames nor meshes");
     EXPECT_EQ(fault_of("Frame A {"), "line 2, column 10: the file ends inside a Frame");
     EXPECT_EQ(fault_of("}"), "line 2, column 1: there is a '}' without a '{'");
-    EXPECT_EQ(fault_of("Frame A ; B"), "line 2, column 11: '{' is due here, not 'B'");
-    EXPECT_EQ(fault_of("Frame A {\n FrameTransformMatrix { 1,0,x"), "line 3, column 29: a number is due here, not 'x'");
+    EXPECT_EQ(fault_of("Frame A ; B"), "line 2, column 11: expected '{', found 'B'");
+    EXPECT_EQ(fault_of("Frame A {\n FrameTransformMatrix { 1,0,x"), "line 3, column 29: expected a number, found 'x'");
     EXPECT_EQ(fault_of("Frame A { FrameTransformMatrix { 1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1;; } }"),
               "line 2, column 1: the last column of its matrix is not 0 0 0 1: no affine transform");
     EXPECT_EQ(fault_of("Mesh { 4000000000; 1;2;3;"),
               "line 2, column 8: 4000000000 vertices do not fit into what remains of the file");
-    EXPECT_EQ(fault_of("Mesh { -1;"), "line 2, column 8: a whole number of 32 bits is due here, not '-1'");
+    EXPECT_EQ(fault_of("Mesh { -1;"), "line 2, column 8: expected a whole number of 32 bits, found '-1'");
     EXPECT_EQ(fault_of("Mesh { 1; 1e39;0;0;; 0; }"), "line 2, column 11: the number is not finite");
     EXPECT_EQ(fault_of("Mesh { 1; 0;0;0;; 1; 3;0,1,0;; }"),
               "line 2, column 26: index 1 is out of range: there are 1 vertices");
     EXPECT_EQ(fault_of(kSquare + "MeshNormals { 1; 0;0;1;; 2; 3;0,0,0;; } }"),
-              "line 5, column 26: 2 faces of normals, but 1 are due");
+              "line 5, column 26: expected 1 faces of normals, found 2");
     EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 2; 1; 0; } }"),
               "line 5, column 29: the list that begins at line 5, column 1 has 0 materials, but says 2");
     EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"),
@@ -240,7 +240,7 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
 
 TEST(ImportX, OtherVariantsAreRefusedByName) {
     EXPECT_EQ(read("<xml>").fault, ": this is no X-file: it does not begin with 'xof ', but with '<xml'");
-    EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: 16 bytes are due");
+    EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: expected 16 bytes, found 6");
     EXPECT_EQ(read("xof 0303txt 0016abc").fault,
               ": the X-file's floats have an unknown size '0016': 0032 and 0064 are read");
     EXPECT_EQ(read("xof 0303foo 0032abc").fault,

@@ -19,7 +19,7 @@ struct CharacterDifference {
         distance  ///< something is `metres` away from where it should be
     };
     Kind kind = Kind::value;
-    std::string place;    ///< what is meant: joint "Hips"; mesh "Body", vertex 3, clip "Walk" at 0.250 s; as A has it
+    std::string place;    ///< for example joint "Hips"; mesh "Body", vertex 3, clip "Walk" at 0.250 s; as A has it
     std::string what;     ///< one line, or empty
     double metres = 0.0;  ///< of a distance
 };

@@ -24,6 +24,9 @@ struct TargetCounts {
     std::uint32_t textures = 0;
 };
 
+/// A packed value is a whole number of so many steps, from the smallest of its component to the largest.
+inline constexpr double kPackedCurveSteps = 65'535.0;
+
 /// One curve. There are keys * components values; a cubic curve has three times as many: the in-tangent, value and
 /// out-tangent of each key, `components` numbers each.
 struct CurveView {
@@ -48,10 +51,9 @@ struct CurveView {
     /// Number `index` of the values in the file's order, unpacked.
     [[nodiscard]] float value(std::size_t index) const {
         if (!is_packed()) return values[index];
-        constexpr double kSteps = 65'535.0;
         const double lowest = box[index % components];
         const double highest = box[components + index % components];
-        return static_cast<float>(lowest + packed[index] * (highest - lowest) / kSteps);
+        return static_cast<float>(lowest + packed[index] * (highest - lowest) / kPackedCurveSteps);
     }
 };
 

@@ -2,6 +2,8 @@
 
 #include <bendy/format/clip.h>
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 
 #include <cstdint>
 #include <span>
@@ -13,17 +15,19 @@ namespace BENDY_PUBLIC bendy {
 
 using Curve = CurveView;
 
-/// The curve's value at `seconds` on its clip's own time line, component by component: step holds the key before,
-/// linear goes straight, cubic is Hermite's spline with tangents times the distance of the keys. Before the first and
-/// after the last key it holds their value. False for NaN, where `value` stays as it is.
-/// \param value  takes Curve::components numbers; it may have room for more
-bool sample_curve(const Curve& curve, double seconds, std::span<float> value);
+/// The curve's value at `seconds` on its clip's own time line, component by component: step holds the previous key,
+/// linear interpolates, and cubic is a Hermite spline whose tangents are multiplied by the distance between the keys.
+/// Before the first key and after the last it holds their value. Allocates nothing. On an error, not_finite if
+/// `seconds` is NaN or output_too_short, nothing is written.
+/// \param value  receives Curve::components numbers; it may have room for more
+[[nodiscard]] Result<void, CallError> sample_curve(const Curve& curve, double seconds, std::span<float> value);
 
 /// The clip's first curve of that name; if none has the name, the first of that path. Null if there is none. Takes time
 /// linear in the number of curves: keep the pointer, which is valid as long as the clip's model is.
-const Curve* find_curve(const ClipView& clip, std::string_view name_or_path);
+[[nodiscard]] const Curve* find_curve(const ClipView& clip, std::string_view name_or_path);
 
 /// The curve of a property of one joint, material, mesh or texture; null if there is none.
-const Curve* find_curve(const ClipView& clip, CurveTarget kind, std::uint32_t target, std::string_view path);
+[[nodiscard]] const Curve* find_curve(const ClipView& clip, CurveTarget kind, std::uint32_t target,
+                                      std::string_view path);
 
 }  // namespace bendy
