@@ -3,6 +3,7 @@
 #include <bendy/format/chunk_writer.h>
 #include <bendy/format/codec.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/mesh.h>
 #include <bendy/format/records.h>
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -99,6 +101,19 @@ void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t c
     record.components = static_cast<std::uint16_t>(components);
     record.elements = static_cast<std::uint32_t>(numbers.size() / components);
     const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(numbers))};
+    out.leaf(id, pieces);
+}
+
+/// A stream of vec3, each component minimum + step * integer.
+void put_boxed(ChunkWriter& out, FourCC id, const std::vector<std::int16_t>& steps, StreamBox box) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(ComponentType::i16);
+    record.normalised = static_cast<std::uint8_t>(Numbers::boxed);
+    record.components = 3;
+    record.elements = static_cast<std::uint32_t>(steps.size() / 3);
+    const std::array boxes{box, box, box};
+    const std::vector<std::byte> gap(padded(sizeof(boxes)) - sizeof(boxes));
+    const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(boxes)), gap, std::as_bytes(std::span(steps))};
     out.leaf(id, pieces);
 }
 
@@ -201,6 +216,47 @@ std::unique_ptr<const MadeModel> make_mesh(std::uint32_t vertices) {
     begin_file(out, kJoints, vertices, 0);
     put_joints(out, kJoints);
     put_mesh(out, vertices, kJoints, make_cloud(vertices, kJoints));
+    return open(end_file(std::move(out)));
+}
+
+std::unique_ptr<const MadeModel> make_face(std::uint32_t vertices, std::uint32_t targets, std::uint32_t touched,
+                                           bool is_packed) {
+    constexpr std::uint32_t kRun = 8;
+    std::mt19937 random(1);
+    ChunkWriter out;
+    begin_file(out, 1, vertices, 0);
+    begin_joint(out, 0, rest_of(0.0f, {}));
+    out.end();
+    const MeshNumbers numbers = make_sheet(vertices, 1);
+    out.begin(FourCC("VECT"));
+    out.leaf(FourCC("VINF"), bytes_of(MeshRecord{vertices, 0}));
+    put_stream(out, FourCC("POSI"), ComponentType::f32, 3, numbers.positions);
+    put_stream(out, FourCC("NORM"), ComponentType::f32, 3, numbers.normals);
+    for (std::uint32_t target = 0; target < targets; ++target) {
+        std::set<std::uint16_t> chosen;
+        while (chosen.size() < touched) {
+            const auto first = static_cast<std::uint32_t>(random() % (vertices - kRun));
+            for (std::uint32_t k = 0; k < kRun && chosen.size() < touched; ++k)
+                chosen.insert(static_cast<std::uint16_t>(first + k));
+        }
+        out.begin(FourCC("TARG"));
+        out.leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{}));
+        put_stream(out, FourCC("INDX"), ComponentType::u16, 1,
+                   std::vector<std::uint16_t>(chosen.begin(), chosen.end()));
+        for (const FourCC id : {FourCC("POSI"), FourCC("NORM")}) {
+            if (is_packed) {
+                std::vector<std::int16_t> steps(std::size_t{touched} * 3);
+                for (std::int16_t& step : steps) step = static_cast<std::int16_t>(random());
+                put_boxed(out, id, steps, StreamBox{0.0f, 1e-6f});
+            } else {
+                std::vector<float> shifts(std::size_t{touched} * 3);
+                for (float& shift : shifts) shift = 1e-6f * static_cast<float>(static_cast<std::int16_t>(random()));
+                put_stream(out, id, ComponentType::f32, 3, shifts);
+            }
+        }
+        out.end();
+    }
+    out.end();
     return open(end_file(std::move(out)));
 }
 

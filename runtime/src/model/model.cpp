@@ -163,6 +163,7 @@ Result<Model> ModelData::read(MappedFile file, Bytes bytes, const OpenOptions& o
         data->first_vertex.push_back(data->first_vertex.back() + mesh.vertices);
         data->first_morph_target.push_back(data->first_morph_target.back() +
                                            static_cast<std::uint32_t>(mesh.targets.size()));
+        data->most_targets = std::max(data->most_targets, mesh.targets.size());
         data->largest_palette = std::max(data->largest_palette, static_cast<std::uint32_t>(mesh.palette.joints.size()));
     }
     return Model(std::move(data));

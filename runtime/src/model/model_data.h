@@ -61,6 +61,7 @@ struct ModelData {
     std::vector<std::uint32_t> chain_order;
     std::vector<ChainWeightView> weights;  ///< by chain, then joint
     std::uint32_t longest_chain = 0;
+    std::size_t most_targets = 0;  ///< of a mesh
 
     mutable std::mutex making_plans;  ///< the first Pose makes them
     mutable std::unique_ptr<const PosePlan> pose_plan;

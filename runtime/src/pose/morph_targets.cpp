@@ -1,5 +1,6 @@
 #include <bendy/runtime/morph_targets.h>
 
+#include "active_target.h"
 #include "model/frame_shape.h"
 
 #include <algorithm>
@@ -18,24 +19,6 @@ void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::
         return;
     }
     stream->decode(out.first(vertices));
-}
-
-template <class Vector>
-void displace(const MorphTargetView& target, const std::optional<StreamView>& stream, float weight,
-              std::uint32_t vertices, std::span<Vector> out) {
-    if (!stream || out.empty()) return;
-    if (target.is_frame()) return add_frame(*target.places, *stream, weight, 0, out.first(vertices));
-    const auto displacements = view_at<glm::vec3>(stream->data, 0, stream->elements);
-    const bool is_plain = stream->type == ComponentType::f32;
-    for (std::uint32_t entry = 0; entry < stream->elements; ++entry) {
-        const std::uint32_t vertex = target.vertices ? target.vertices->index(entry, 0) : entry;
-        if (vertex >= vertices) return;  // they ascend
-        const glm::vec3 displacement = is_plain ? displacements[entry] : stream->vec3(entry);
-        Vector& vector = out[vertex];
-        vector.x += weight * displacement.x;
-        vector.y += weight * displacement.y;
-        vector.z += weight * displacement.z;
-    }
 }
 
 }  // namespace
@@ -63,9 +46,14 @@ Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const fl
     for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
         if (weights[k] == 0.0f) continue;
         const MorphTargetView& target = mesh.targets[k];
-        displace(target, target.positions, weights[k], vertices, out.positions);
-        if (mesh.normals) displace(target, target.normals, weights[k], vertices, out.normals);
-        if (mesh.tangents) displace(target, target.tangents, weights[k], vertices, out.tangents);
+        ActiveTarget active(target, weights[k]);
+        active.seek(0, vertices);
+        const auto add = [&](const std::optional<StreamView>& shifts, const auto& vectors) {
+            if (shifts && !vectors.empty()) active.add(*shifts, vectors.first(vertices));
+        };
+        add(target.positions, out.positions);
+        if (mesh.normals) add(target.normals, out.normals);
+        if (mesh.tangents) add(target.tangents, out.tangents);
     }
     return {};
 }

@@ -13,6 +13,7 @@ PoseState::PoseState(const Model& from)
       model_space(data->joints.size()),
       exact_model_space(data->joints.size()),
       morph_weights(from.morph_target_count()),
+      active_targets(data->most_targets),
       ik_links(data->longest_chain),
       palette(std::max(data->largest_palette, 1u)) {
     data->make_plans();

@@ -3,6 +3,7 @@
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/pose.h>
 
+#include "active_target.h"
 #include "ik_link.h"
 #include "model/model_data.h"
 #include "plan/skin_block.h"
@@ -66,9 +67,10 @@ struct alignas(64) PoseState {
     std::vector<JointMatrix> model_space;
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
     std::vector<float> morph_weights;
-    std::vector<IkLink> ik_links;        ///< of the chain that reaches
-    std::vector<PaletteMatrix> palette;  ///< of the mesh that is being skinned; never empty
-    std::uint32_t palette_mesh = kNone;  ///< whose palette is
+    std::vector<ActiveTarget> active_targets;  ///< of the mesh that is being skinned; room for any mesh's targets
+    std::vector<IkLink> ik_links;              ///< of the chain that reaches
+    std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
+    std::uint32_t palette_mesh = kNone;        ///< whose palette is
     bool is_palette_finite = false;
     bool is_exact = true;             ///< in doubles, so that rounding does not add up along deep chains
     bool is_stale = true;             ///< a local transform may have changed since find_model_space

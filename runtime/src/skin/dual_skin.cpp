@@ -154,7 +154,7 @@ bool skin_by_dual_quaternions(PoseState& state, std::uint32_t mesh, std::uint32_
     if (!dual.are_good) return false;
     SkinBlock wanted = outputs;
     wanted.palette = dual.has_kernel && dual.is_stretched ? dual.kernel_stretches.data() : nullptr;
-    Staging staging(data.object.meshes[mesh], nullptr, weights, wanted);
+    Staging staging(data.object.meshes[mesh], nullptr, weights, state.active_targets, wanted);
     DualKernel* const run = dual.has_kernel ? skin_kernels(kernel()).dual : nullptr;
     DualBlock block{wanted, dual.kernel_motions.data(), static_cast<float>(dual.scale)};
     for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {

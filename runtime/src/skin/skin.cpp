@@ -109,13 +109,14 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
     wanted.palette = state_.palette.data();
     wanted.streams = vertices >= kManyVertices;
     if (mesh.is_rigid()) {
-        Staging staging(mesh, nullptr, weights, wanted);
+        Staging staging(mesh, nullptr, weights, state_.active_targets, wanted);
         skin_rigid(mesh_number, staging, wanted);
         return;
     }
     // Lanes multiply by weights that are zero, too.
     const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
-    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights, wanted);
+    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights,
+                    state_.active_targets, wanted);
     run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
 }
 

@@ -18,33 +18,6 @@ StreamView part_of(const StreamView& stream, std::size_t first, std::size_t coun
     return part;
 }
 
-/// Adds a target's displacements to vertices [first, first + vectors).
-template <class Vector>
-void shift(const MorphTargetView& target, const StreamView& shifts, float weight, std::size_t first,
-           std::span<Vector> vectors) {
-    if (target.is_frame()) return add_frame(*target.places, shifts, weight, first, vectors);
-    auto entry = static_cast<std::uint32_t>(first);
-    if (target.vertices) {  // they ascend
-        std::uint32_t last = shifts.elements;
-        for (entry = 0; entry < last;) {
-            const std::uint32_t middle = entry + (last - entry) / 2;
-            if (target.vertices->index(middle, 0) < first) {
-                entry = middle + 1;
-            } else {
-                last = middle;
-            }
-        }
-    }
-    const auto plain = view_at<glm::vec3>(shifts.data, 0, shifts.elements);
-    const bool is_plain = shifts.type == ComponentType::f32;
-    for (; entry < shifts.elements; ++entry) {
-        const std::size_t at = (target.vertices ? target.vertices->index(entry, 0) : entry) - first;
-        if (at >= vectors.size()) return;
-        const glm::vec3 displacement = is_plain ? plain[entry] : shifts.vec3(entry);
-        for (int c = 0; c < 3; ++c) vectors[at][c] += weight * displacement[c];
-    }
-}
-
 template <class T>
 void widen(const StreamView& weights, std::size_t first, std::size_t count, std::span<float> out) {
     const std::size_t n = weights.components;
@@ -66,13 +39,13 @@ SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
 
 }  // namespace
 
-Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted)
-    : mesh_(mesh), plan_(plan), morph_weights_(weights), positions_(mesh.positions) {
-    const auto is_active = [](float weight) { return weight != 0.0f; };
-    is_shifted_ = std::any_of(weights.begin(), weights.end(), is_active);
-    rest_share_ = is_shifted_ ? rest_share(mesh, weights) : 1.0f;
+Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, std::span<ActiveTarget> room,
+                 const SkinBlock& wanted)
+    : mesh_(mesh), plan_(plan), active_(find_active_targets(mesh, weights, room)), positions_(mesh.positions) {
+    const bool is_shifted = !active_.empty();
+    rest_share_ = is_shifted ? rest_share(mesh, weights) : 1.0f;
     const auto in_place = [&](const std::optional<StreamView>& stream, const SkinOutput& out) {
-        return out.data == nullptr || (stream && stream->type == ComponentType::f32 && !is_shifted_);
+        return out.data == nullptr || (stream && stream->type == ComponentType::f32 && !is_shifted);
     };
     positions_in_place_ = in_place(positions_, wanted.out_positions);
     normals_in_place_ = in_place(mesh.normals, wanted.out_normals);
@@ -102,16 +75,16 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
         part_of(*stream, first, count).decode(vectors);
     }
     if (have_frames(mesh_, shifts)) lighten(rest_share_, vectors);
-    for (std::size_t k = 0; k < mesh_.targets.size(); ++k) {
-        const MorphTargetView& target = mesh_.targets[k];
-        if (morph_weights_[k] != 0.0f && target.*shifts)
-            shift(target, *(target.*shifts), morph_weights_[k], first, vectors);
+    for (const ActiveTarget& active : active_) {
+        const auto& stream_of_target = active.target().*shifts;
+        if (stream_of_target) active.add(*stream_of_target, vectors);
     }
     return scratch.data();
 }
 
 void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block) {
     const std::size_t count = block.vertices;
+    for (ActiveTarget& active : active_) active.seek(first, count);
     block.out_positions = moved_on(wanted.out_positions, first);
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);

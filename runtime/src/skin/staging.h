@@ -4,6 +4,7 @@
 
 #include "plan/skin_block.h"
 #include "plan/skin_plan.h"
+#include "pose/active_target.h"
 
 #include <array>
 #include <cstddef>
@@ -15,9 +16,12 @@ namespace bendy {
 /// place; else decoded and moved, a few at a time, so that they are still in the nearest cache when they are skinned.
 class Staging {
 public:
-    /// `wanted`: only its outputs are looked at. `weights`: of the mesh's targets. `plan`: null if the kernel has no
-    /// use for it.
-    Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, const SkinBlock& wanted);
+    /// \param plan     null if the kernel does not use it
+    /// \param weights  of the mesh's targets
+    /// \param room     for the active ones: as many as the mesh has targets
+    /// \param wanted   only its outputs are read
+    Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, std::span<ActiveTarget> room,
+            const SkinBlock& wanted);
 
     /// How many vertices fill() takes at most.
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
@@ -26,19 +30,17 @@ public:
     void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
 
 private:
-    static constexpr std::size_t kVertices = 128;
+    static constexpr std::size_t kVertices = 256;
     static constexpr std::size_t kNumbers = 4096;  // at least 1 vertex of kMaxInfluences
 
-    [[nodiscard]] bool is_in_place(const std::optional<StreamView>& stream, bool is_shifted) const;
     template <class Vector>
     const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
                        std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const;
 
     const Mesh& mesh_;
     const SkinPlan* plan_;
-    std::span<const float> morph_weights_;
+    std::span<ActiveTarget> active_;
     std::optional<StreamView> positions_;
-    bool is_shifted_ = false;  // some target has a weight
     float rest_share_ = 1.0f;  // of the mesh's own streams, beside its frames
     bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
     std::size_t capacity_ = 0;
