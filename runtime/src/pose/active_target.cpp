@@ -20,15 +20,6 @@ void with_indices(const StreamView& stream, const Visit& visit) {
     }
 }
 
-/// Elements [first, first + count).
-StreamView part_of(const StreamView& stream, std::size_t first, std::size_t count) {
-    StreamView part = stream;
-    const std::size_t bytes = std::size_t{stream.components} * component_size(stream.type);
-    part.data = stream.data.subspan(first * bytes, count * bytes);
-    part.elements = static_cast<std::uint32_t>(count);
-    return part;
-}
-
 /// Of successive vertices. Vectors of three numbers are one array of numbers, which suits lanes.
 inline void add_dense(std::span<const glm::vec3> shifts, float weight, std::span<glm::vec3> vectors) {
     if (shifts.empty()) return;

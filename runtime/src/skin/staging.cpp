@@ -9,15 +9,6 @@
 namespace bendy {
 namespace {
 
-/// The stream from element `first` on.
-StreamView part_of(const StreamView& stream, std::size_t first, std::size_t count) {
-    StreamView part = stream;
-    const std::size_t bytes = std::size_t{stream.components} * component_size(stream.type);
-    part.data = stream.data.subspan(first * bytes, count * bytes);
-    part.elements = static_cast<std::uint32_t>(count);
-    return part;
-}
-
 template <class T>
 void widen(const StreamView& weights, std::size_t first, std::size_t count, std::span<float> out) {
     const std::size_t n = weights.components;
