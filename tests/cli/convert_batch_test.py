@@ -145,7 +145,7 @@ class ConvertBatch(Case):
         self.assertEqual(self.outputs(), ["a.bendy", "deeper/b.bendy", "deeper/c.bendy"])
         told = sorted(line for line in errors if line.startswith("bendy: error: "))
         self.assertEqual(len(told), 2)
-        self.assertIn("in/bad.glb: GLB header truncated", told[0])
+        self.assertIn("in/bad.glb: the GLB header is truncated", told[0])
         self.assertIn("missing.glb: there is no such file", told[1])
         converted, table, _ = self.batch("in", "missing.glb", "-o", "out", status=1)  # tried again, the others not
         self.assertEqual((converted, table["up to date"], table["failed"]), ([], "3", "2"))

@@ -677,7 +677,7 @@ class Report(OutputCase):
         [report] = self.report("bad.glb", status=1)
         self.assertEqual((report["status"], report["output"]), ("failed", "bad.bendy"))
         self.assertEqual(report["error"]["file"], "bad.glb")
-        self.assertIn("GLB header truncated", report["error"]["message"])
+        self.assertIn("the GLB header is truncated", report["error"]["message"])
         self.assertIn("bendy: error: bad.glb: GLB header", self.told)
         shutil.copy(self.made["glb"], self.folder / "a.glb")
         (self.folder / "a.bendy").write_bytes(FOREIGN)

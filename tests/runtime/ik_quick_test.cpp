@@ -59,6 +59,7 @@ test::ModelSpec arm(Dice& dice, bool is_limited) {
         if (joint == 1 || joint == 2) {
             const float scale = dice.one_in(2) ? 1.0f : dice.number(0.5f, 2.0f);
             own.rest.scale = {scale, scale, scale};
+            if (dice.one_in(2)) own.rest.scale[1] = std::nextafter(scale, 3.0f);  // as rounding leaves it
         }
         constexpr std::array kModels{ConstraintModel::swing_twist_ellipse, ConstraintModel::swing_twist_pyramid,
                                      ConstraintModel::euler_box, ConstraintModel::largest_angle};
@@ -72,6 +73,7 @@ test::ModelSpec arm(Dice& dice, bool is_limited) {
     chain.effector = 3;
     if (dice.one_in(3)) chain.pole = 4;
     if (dice.one_in(3)) chain.pole_vector = {0.3f, 0.2f, 1.0f};
+    if (dice.one_in(2)) chain.pole_angle = dice.number(-3.0f, 3.0f);
     spec.chains.push_back(chain);
     chain.solver = static_cast<std::uint8_t>(Solver::aim);
     chain.effector = 1;

@@ -3,6 +3,8 @@
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
@@ -68,10 +70,25 @@ BENDY_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotatio
     return std::abs(off) < kMost;
 }
 
-/// One scale for all axes, and no shear.
+/// Whether all axes have one scale, to within what rounding leaves in files (1.00000012), and there is no shear. What
+/// turns with the bones below it is then off by a millionth at most.
 BENDY_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
-    const glm::vec3& scale = transform.scale;
-    return scale.x == scale.y && scale.x == scale.z && scale.x > 0.0f && joint.shear == glm::vec3(0.0f);
+    constexpr float kSame = 1e-6f;
+    const glm::vec3& s = transform.scale;
+    return s.x > 0.0f && std::abs(s.x - s.y) <= kSame * s.x && std::abs(s.x - s.z) <= kSame * s.x &&
+           joint.shear == glm::vec3(0.0f);
+}
+
+/// The mean of the axes' scales.
+BENDY_INLINE double mean_scale(const JointTransform& transform) {
+    const glm::dvec3 scale(transform.scale);
+    return (scale.x + scale.y + scale.z) / 3.0;
+}
+
+/// A vector at right angles to a unit axis, turned about it.
+BENDY_INLINE glm::dvec3 rolled(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+    const trig::SinCos turn = trig::sin_cos(angle);
+    return v * turn.cos + glm::cross(axis, v) * turn.sin;
 }
 
 /// The point of model space as the base's space has it; not finite where the base is flat.
@@ -270,10 +287,10 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     const glm::dvec3 origin(local[start].translation);
     const glm::dvec3 way = from_model(base, target.position) - origin;
     const double distance = squared(way);
-    const double scale = local[start].scale.x;
     Bend bend;
-    bend.bone = scale * glm::dvec3(local[middle].translation);
-    const glm::dvec3 rest = turned(lower, scale * local[middle].scale.x * glm::dvec3(local[tip].translation));
+    bend.bone = glm::dvec3(local[start].scale) * glm::dvec3(local[middle].translation);
+    const glm::dvec3 rest =
+        turned(lower, mean_scale(local[start]) * glm::dvec3(local[middle].scale) * glm::dvec3(local[tip].translation));
     Turn turn{};
     if (!find_bend(lower_limit, lower, rest, distance, bend) || !bend_middle(lower_limit, bend, lower, turn))
         return std::nullopt;
@@ -286,11 +303,11 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     } else {
         // From the tip's direction and the side of the knee to the target's direction and the side of the pole.
         glm::dvec3 from_z = -bend.axis, to_z;
-        if (chain.record.pole_angle != 0.0f || !find_normal(way, pole, to_z) ||
-            (lower_limit.is_hinge() && !find_normal(reached, bend.bone, from_z)))
+        if (!find_normal(way, pole, to_z) || (lower_limit.is_hinge() && !find_normal(reached, bend.bone, from_z)))
             return std::nullopt;
         const double unit = 1.0 / std::sqrt(distance);
         const glm::dvec3 from_x = reached * unit, to_x = way * unit;
+        if (chain.record.pole_angle != 0.0f) to_z = rolled(to_z, to_x, chain.record.pole_angle);
         const glm::dvec3 from_y = glm::cross(from_z, from_x), to_y = glm::cross(to_z, to_x);
         upper = rotation_of(to_x * from_x.x + to_y * from_y.x + to_z * from_z.x,
                             to_x * from_x.y + to_y * from_y.y + to_z * from_z.y,
@@ -338,7 +355,8 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     } else {
         glm::dvec3 aside;
         // Limits may stop the turn before the roll makes it legal.
-        if (limit.is_there() || chain.record.pole_angle != 0.0f || !find_normal(pole, way, aside)) return std::nullopt;
+        if (limit.is_there() || !find_normal(pole, way, aside)) return std::nullopt;
+        if (chain.record.pole_angle != 0.0f) aside = rolled(aside, ahead, chain.record.pole_angle);
         const glm::dquat look = rotation_of(aside, glm::cross(ahead, aside), ahead, rotation * tip);
         rotation = look * glm::conjugate(tip);
     }
