@@ -1,9 +1,9 @@
-// A foot that stays on the ground: a walk that was made for a flat floor, on uneven ground.
+// Foot placement: a walk that was animated on a flat floor, on uneven ground.
 //
 //     bendy convert mannequin.glb && foot_on_ground mannequin.bendy
 //
-// Each frame: sample the clip, lower the hips to where the lower foot can stand, then let each leg's chain reach for
-// where its ankle was in the clip, lifted by the ground under it. The legs' constraints hold: knees bend forward only.
+// Each frame: sample the clip, lower the hips until the lower foot can stand, then let each leg's chain reach for the
+// ankle's position in the clip, raised by the ground below. The legs' constraints apply: knees bend forward only.
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Height of the ground, metres: gentle waves, up to 8 cm over or under the clip's floor.
+/// Returns the height of the ground in metres: gentle waves, up to 8 cm above or below the clip's floor.
 float ground(const glm::vec3& at) {
     return 0.08f * std::sin(3.0f * at.x + 1.0f) * std::cos(2.0f * at.z);
 }

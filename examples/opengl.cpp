@@ -1,9 +1,9 @@
-// A character in a window: GLFW, OpenGL 3.3, and nothing else beside the runtime.
+// A character in a window, with only GLFW, OpenGL 3.3 and the runtime.
 //
 //     bendy convert mannequin.glb && bendy_opengl mannequin.bendy
 //
-// Up and down arrows choose the level of detail, space the next clip. With a number of frames and a file's name it
-// draws so many, a thirtieth of a second apart, keeps the last as a PPM picture, and ends.
+// The up and down arrows change the level of detail, space selects the next clip. With a number of frames and a file
+// name it draws that many frames, a thirtieth of a second apart, saves the last as a PPM picture, and exits.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -56,7 +56,7 @@ GLuint make_program() {
     return linked != 0 ? program : 0;
 }
 
-/// A camera before the character (it faces +Z) that sees all of it at rest.
+/// Returns a camera in front of the character (which faces +Z) that sees all of it at rest.
 glm::mat4 see_all(const std::vector<glm::vec3>& positions) {
     glm::vec3 low(INFINITY);
     glm::vec3 high(-INFINITY);
@@ -103,7 +103,7 @@ struct Buffers {
         const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(glm::vec3));
         glBufferData(GL_ARRAY_BUFFER, 2 * bytes, nullptr, GL_STREAM_DRAW);
         glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how OpenGL takes an offset
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
         glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(bytes));
     }
 
@@ -113,7 +113,7 @@ struct Buffers {
         glBufferSubData(GL_ARRAY_BUFFER, bytes, bytes, normals.data());
     }
 
-    /// A mesh's list; what it draws begins at the mesh's first vertex.
+    /// Uploads the index list of a mesh; indices are relative to the mesh's first vertex.
     static void send_indices(const bendy::Lod& lod, std::uint32_t mesh) {
         const auto list = lod.indices(mesh);
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size_bytes()), list.data(), GL_STREAM_DRAW);
@@ -129,7 +129,7 @@ void draw(const bendy::Model& model, const bendy::Lod& lod, GLint base) {
         const std::array colour =
             range.material == bendy::kNone ? grey : model.materials()[range.material].surface.base_colour;
         glUniform4fv(base, 1, colour.data());
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how OpenGL takes an offset
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
         const auto* first = reinterpret_cast<const void*>(std::size_t{range.first} * sizeof(std::uint32_t));
         glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT, first,
                                  static_cast<GLint>(model.first_vertex(range.mesh)));

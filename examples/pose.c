@@ -12,11 +12,11 @@ typedef struct Request {
     const char* file;
     const char* clip;
     float seconds;
-    const char* chain; /* NULL: nothing reaches */
+    const char* chain; /* NULL: no IK */
     float target[3];
 } Request;
 
-/* All a program needs to show the character; whatever is NULL was not made. */
+/* Everything that a program needs to display the character; NULL if it was not made. */
 typedef struct Character {
     bendy_model* model;
     bendy_pose* pose;

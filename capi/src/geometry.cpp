@@ -1,4 +1,4 @@
-// What a model's meshes hold that posing does not change: draws, index lists, texture coordinates, influences.
+// The data of a model's meshes that posing does not change: submeshes, index lists, texture coordinates, influences.
 #include "handles.h"
 #include "submesh.h"
 
@@ -10,7 +10,7 @@ bendy_status check_mesh(const bendy_model* model, std::uint32_t mesh, bendy_erro
     return check_index(mesh, model->get().meshes().size(), "mesh", error);
 }
 
-/// The mesh' texture coordinates of that set; null if there are none.
+/// Returns the mesh's texture coordinates of that set; null if there are none.
 const StreamView* texture_coords(const Mesh& mesh, std::uint32_t set) {
     for (const StreamView& stream : mesh.texture_coords) {
         if (stream.set == set) return &stream;

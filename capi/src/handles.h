@@ -12,32 +12,32 @@
 #include <utility>
 #include <vector>
 
-// What stands behind the handles. All of one model's share the Character, which goes with the last of them.
+// The objects behind the handles. All handles of one model share the Character, which is freed with the last of them.
 namespace bendy::capi {
 
 struct CurveNames {
     std::string name, path;
 };
 
-/// As C wants names: with a zero after them.
+/// Names as C needs them: zero-terminated.
 struct Names {
     std::string model;
     std::vector<std::string> joints, clips, chains, targets, meshes, materials;
-    std::vector<std::vector<CurveNames>> curves;  ///< of each clip
+    std::vector<std::vector<CurveNames>> curves;  ///< per clip
 };
 
-/// The bytes of a file, in one of three ways.
+/// The bytes of a file, from one of three sources.
 struct Source {
     MappedFile file;
     AlignedBytes copy;
-    Bytes bytes;  ///< of either, or the caller's
+    Bytes bytes;  ///< of one of the above, or the caller's
 };
 
 struct Character {
     Source source;
     Model model;
     Names names;
-    std::vector<std::uint32_t> target_meshes;  ///< of each target of the model
+    std::vector<std::uint32_t> target_meshes;  ///< for each target of the model, its mesh
 
     Character(Source from, Model loaded);
 };

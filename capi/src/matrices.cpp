@@ -9,13 +9,13 @@
 namespace bendy::capi {
 namespace {
 
-constexpr std::size_t kNumbers = 16;  // of a matrix
+constexpr std::size_t kNumbers = 16;  // per matrix
 
 void put_matrix(const glm::mat4& matrix, float* out) {
     std::copy_n(glm::value_ptr(matrix), kNumbers, out);
 }
 
-/// Rows of a 3x4 matrix as columns of a 4x4 one.
+/// Writes the rows of a 3x4 matrix as the columns of a 4x4 one.
 void put_matrix(const PaletteMatrix& matrix, float* out) {
     for (int column = 0; column < 4; ++column) {
         for (const auto& row : matrix.rows) *out++ = row[column];

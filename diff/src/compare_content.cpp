@@ -13,7 +13,7 @@
 namespace bendy::diff {
 namespace {
 
-/// A number as it is meant; unsigned integers without a float's rounding.
+/// Returns the value that a number represents; unsigned integers without rounding to float.
 double number_at(const StreamView& stream, std::uint64_t at) {
     const auto element = static_cast<std::uint32_t>(at / stream.components);
     const auto component = static_cast<std::uint32_t>(at % stream.components);
@@ -25,7 +25,7 @@ Value count_of(std::uint64_t count) {
     return Scalar{count};
 }
 
-/// A number as the file has it: whole ones without a point.
+/// Returns a number as stored in the file: integers without a point.
 Value number_value(double number, bool is_whole) {
     return is_whole ? Value(Scalar{static_cast<std::uint64_t>(number)}) : Value(Scalar{number});
 }
@@ -120,7 +120,7 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
     differences_.add(std::move(difference));
 }
 
-/// Numbers as they are meant, whatever their type.
+/// Compares the values that the numbers represent, whatever their type.
 void ContentComparer::compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b) {
     compare_fields(leaves, {}, *find_layout("StreamRecord"), a_.tree.payload(leaves.a), b_.tree.payload(leaves.b));
     if (a.components != b.components || a.components == 0) return;
@@ -194,7 +194,7 @@ void ContentComparer::compare_clips(ChunkPair clips) {
         differences_.add(std::move(difference));
     }
     if (differences_.count() != before) return;
-    // The same tracks; say so if their bytes are others all the same.
+    // The tracks are equal; reports if their bytes nevertheless differ.
     for (const FourCC id : {FourCC("TRAK"), FourCC("PACK"), FourCC("TIME"), FourCC("KEYV")}) {
         const ChunkPair leaves{a_.tree.find(clips.a, id), b_.tree.find(clips.b, id)};
         if (leaves.a == kNone && leaves.b == kNone) continue;

@@ -11,7 +11,7 @@
 
 namespace bendy::diff {
 
-/// Compares what is in chunks that are paired already.
+/// Compares the contents of chunks that are already paired.
 class ContentComparer {
 public:
     static constexpr std::uint64_t kMostSteps = 4'000'000'000;
@@ -20,18 +20,18 @@ public:
         : a_(a), b_(b), differences_(differences) {}
 
     void compare_leaves(ChunkPair leaves);
-    /// Compares two CYCL chunks track by track, a track being known by what it animates. Their TRAK, PACK, TIME and
-    /// KEYV are done with this.
+    /// Compares two CYCL chunks track by track; a track is identified by what it animates. This covers their TRAK,
+    /// PACK, TIME and KEYV.
     void compare_clips(ChunkPair clips);
 
 private:
-    // Of kinds whose numbers mean more than their bytes say: compare_content.cpp.
+    // For kinds whose numbers need interpretation: compare_content.cpp.
     void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
     void compare_collapses(ChunkPair leaves, const CollapseView& a, const CollapseView& b);
     void compare_markers(ChunkPair leaves, const ClipView& a, const ClipView& b);
     void compare_tracks(ChunkPair clips, const std::string& name, const TrackView& a, const TrackView& b);
 
-    // Of every other kind, as leaf_parts.def describes it: compare_parts.cpp.
+    // For all other kinds, as described by leaf_parts.def: compare_parts.cpp.
     void compare_parts(ChunkPair leaves);
     void compare_fields(ChunkPair leaves, const std::string& prefix, const RecordLayout& layout, Bytes a, Bytes b);
     void compare_field(ChunkPair leaves, const std::string& prefix, const RecordField& field, Bytes a, Bytes b);

@@ -18,7 +18,8 @@ void add_stream(ReadFile& file, const std::optional<StreamView>& stream) {
     if (stream) add_stream(file, *stream);
 }
 
-/// The streams of all frames together. \param frame  any of them
+/// Adds the streams of all frames.
+/// \param frame  any of them
 void add_frames(ReadFile& file, const MorphTargetView& frame) {
     add_stream(file, frame.places);
     for (const auto* stream : {&frame.positions, &frame.normals}) {
@@ -47,16 +48,16 @@ void add_streams(ReadFile& file, const MeshView& mesh) {
     if (mesh.frames() > 1) add_frames(file, mesh.targets.back());
 }
 
-/// Chunks whose number among their siblings says something.
+/// Returns true for chunks whose index among their siblings is meaningful.
 bool is_numbered(FourCC id) {
     constexpr std::array kNumbered{FourCC("TEXT"), FourCC("MATE"), FourCC("OBJE"), FourCC("SKIN"), FourCC("IKCH"),
                                    FourCC("VECT"), FourCC("TARG"), FourCC("CYCL"), FourCC("IMAG"), FourCC("LINK")};
     return std::find(kNumbered.begin(), kNumbered.end(), id) != kNumbered.end();
 }
 
-/// Pairs that stand before one of their id which they stood behind.
+/// Reports pairs that come before another of the same id in B, but after it in A.
 void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Differences& differences) {
-    std::map<std::uint32_t, std::uint32_t> latest;  // in B, of each id
+    std::map<std::uint32_t, std::uint32_t> latest;  // position in B, by id
     for (const ChunkPair& pair : pairs) {
         if (pair.a == kNone || pair.b == kNone || !is_numbered(a.tree[pair.a].id)) continue;
         std::uint32_t& last = latest.try_emplace(a.tree[pair.a].id.value, 0).first->second;
@@ -70,12 +71,12 @@ void compare_order(const ReadFile& a, const std::vector<ChunkPair>& pairs, Diffe
     }
 }
 
-/// Chunks that are done when the tracks of their clip have been compared: every way in which tracks are stored.
+/// Returns true for chunks that are covered when the tracks of their clip are compared: all ways of storing tracks.
 bool is_of_tracks(FourCC id) {
     return id == FourCC("TRAK") || id == FourCC("PACK") || id == FourCC("TIME") || id == FourCC("KEYV");
 }
 
-/// Gives packed clips ordinary tracks beside those that they have.
+/// Adds ordinary tracks to packed clips, beside those that they have.
 void add_unpacked(ReadFile& file) {
     struct Place {
         std::size_t object, clip, tracks;
@@ -142,7 +143,7 @@ Differences compare_files(const ReadFile& a, const ReadFile& b) {
             content.compare_leaves(pair);
             continue;
         }
-        if (a.tree[pair.a].is_container() != b.tree[pair.b].is_container()) {  // of an id that is not known
+        if (a.tree[pair.a].is_container() != b.tree[pair.b].is_container()) {  // an unknown id
             open.push_back({kNone, pair.b});
             open.push_back({pair.a, kNone});
             continue;
@@ -151,7 +152,7 @@ Differences compare_files(const ReadFile& a, const ReadFile& b) {
         if (is_clip) content.compare_clips(pair);
         std::vector<ChunkPair> children = pair_children(a.tree, pair.a, b.tree, pair.b);
         compare_order(a, children, differences);
-        std::reverse(children.begin(), children.end());  // the last that is put on the pile is looked at first
+        std::reverse(children.begin(), children.end());  // the last one on the stack is processed first
         for (const ChunkPair& child : children) {
             const FourCC id = child.a != kNone ? a.tree[child.a].id : b.tree[child.b].id;
             if (!(is_clip && is_of_tracks(id))) open.push_back(child);

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-// Comparing leaves by what leaf_parts.def says of them: field by field, record by record, number by number.
+// Compares leaves as described by leaf_parts.def: field by field, record by record, number by number.
 namespace bendy::diff {
 namespace {
 
-/// Where a record ends in a payload: a shorter one lacks its last fields.
+/// Returns false for fields beyond the end of a record: a shorter one lacks its last fields.
 bool has_field(const RecordField& field, Bytes record) {
     return field.offset < record.size();
 }
@@ -44,7 +44,7 @@ bool is_unsigned(NumberType type) {
     return type != NumberType::f32 && type != NumberType::i8 && type != NumberType::i16 && type != NumberType::i32;
 }
 
-/// A field of numbers or of text; nothing where the record is too short for it.
+/// Returns a field of numbers or of text; nothing if the record is too short for it.
 Value field_value(const RecordField& field, Bytes record) {
     if (!has_field(field, record)) return {};
     if (field.is_text()) {
@@ -67,7 +67,7 @@ Value field_value(const RecordField& field, Bytes record) {
     return value;
 }
 
-/// Equal as numbers: 0 is -0, and a NaN is a NaN.
+/// Returns true if the values are equal as numbers: 0 equals -0, and NaN equals NaN.
 bool are_equal(const Value& a, const Value& b) {
     const auto is_same = [](const Scalar& x, const Scalar& y) {
         const double* here = std::get_if<double>(&x);
@@ -78,7 +78,7 @@ bool are_equal(const Value& a, const Value& b) {
            std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), is_same);
 }
 
-/// Texts with a zero behind each.
+/// Returns the texts, each of which is followed by a zero.
 std::vector<std::string_view> names_in(Bytes payload) {
     std::vector<std::string_view> names;
     for (std::string_view text = as_text(payload); !text.empty();) {
@@ -133,7 +133,7 @@ void ContentComparer::compare_parts(ChunkPair leaves) {
     }
 }
 
-/// Fields of records inside the record are "outer.inner".
+/// Fields of nested records are called "outer.inner".
 void ContentComparer::compare_fields(ChunkPair leaves, const std::string& prefix, const RecordLayout& layout, Bytes a,
                                      Bytes b) {
     for (const RecordField& field : layout.fields) {
@@ -149,7 +149,7 @@ void ContentComparer::compare_fields(ChunkPair leaves, const std::string& prefix
     }
 }
 
-/// A field of numbers.
+/// Compares a field of numbers.
 void ContentComparer::compare_field(ChunkPair leaves, const std::string& prefix, const RecordField& field, Bytes a,
                                     Bytes b) {
     if (field.is_reserved()) return;
@@ -158,7 +158,7 @@ void ContentComparer::compare_field(ChunkPair leaves, const std::string& prefix,
     if (!are_equal(here, there)) add_value(leaves, prefix + std::string(field.name), std::move(here), std::move(there));
 }
 
-/// "joint 3 \"Hips\": " where each row belongs to a joint, else "ranges 3: ".
+/// Returns "joint 3 \"Hips\": " if each row belongs to a joint, otherwise "ranges 3: ".
 std::string ContentComparer::row_name(ChunkPair leaves, const LeafPart& part, std::uint64_t row) const {
     const std::string number = std::to_string(row);
     if (part.each == Entity::nothing) return std::string(part.name) + ' ' + number;

@@ -16,10 +16,11 @@
 namespace bendy::edit {
 namespace {
 
-/// Weights with other targets are copied: so many times the file's bytes at most.
+/// Weights tracks are copied if their targets change: the limit on the size of the copies, as a multiple of the file's
+/// size.
 constexpr std::uint64_t kMostCopies = 64;
 
-/// Parts of an array that are kept, moved together; what they share they go on sharing.
+/// The parts of an array that are kept, moved together; parts that are shared remain shared.
 class KeptRuns {
 public:
     void add(std::uint64_t first, std::uint64_t count) { runs_.push_back({first, first + count, 0}); }
@@ -66,7 +67,7 @@ std::span<const float> floats_in(const ChunkTree& tree, std::uint32_t clip, Four
     return view_at<float>(payload, 0, payload.size() / sizeof(float));
 }
 
-/// Targets that stay the same, in the same order.
+/// Returns true if the targets stay the same, in the same order.
 bool is_identity(const std::vector<std::uint32_t>& from, std::uint32_t components) {
     if (from.size() != components) return false;
     for (std::uint32_t k = 0; k < components; ++k) {
@@ -129,7 +130,7 @@ private:
         laid_anew_.push_back(is_laid_anew ? &map_.weights[before] : nullptr);
     }
 
-    /// Frames stay that follow one another there, too.
+    /// Keeps frames that are still consecutive in the other object.
     void send_plays() {
         const std::uint32_t chunk = tree_.find(clip_.chunk, FourCC("PLAY"));
         if (chunk == kNone) return;
@@ -155,11 +156,11 @@ private:
         }
         plays_ = kept.size();
         if (plays_ == records.size() && !is_changed) return;
-        if (plays_ == 0) is_rebuilt_ = true;  // the frame rate may mean nothing any more
+        if (plays_ == 0) is_rebuilt_ = true;  // the frame rate may no longer have a meaning
         put(FourCC("PLAY"), std::as_bytes(std::span(kept)));
     }
 
-    /// The frame's number there; kNone: it goes.
+    /// Returns the frame's number in the other object; kNone: it is removed.
     [[nodiscard]] std::uint32_t frame_there(const WeightMap& map, std::uint32_t frame) {
         if (frame == 0) return 0;
         std::vector<std::uint32_t>& there = targets_there_[&map];
@@ -207,7 +208,7 @@ private:
         rewrite_.replace(chunk, *payload);
     }
 
-    /// Packed tracks that cannot stay packed become linear ones.
+    /// Turns packed tracks that cannot stay packed into linear ones.
     void decode(const PackedSamples& samples) {
         const bool any = std::any_of(samples.tracks.begin(), samples.tracks.end(), [&](const PackedTrack& track) {
             return map_.joints[track.joint] != kNone && is_decoded(track.joint);
@@ -227,7 +228,7 @@ private:
         }
     }
 
-    /// TRAK, TIME and KEYV with what is used, and no more.
+    /// Rebuilds TRAK, TIME and KEYV with only what is used.
     bool rebuild() {
         KeptRuns times;
         KeptRuns values;
@@ -260,7 +261,7 @@ private:
         return new_times_.size() < kNone;
     }
 
-    /// The track's values with a number for each of the targets that it has now.
+    /// Rebuilds the track's values with one number per current target.
     bool lay_anew(TrackRecord& record, const WeightMap& map) {
         const auto key = std::make_tuple(record.first_value, record.keys, record.interpolation, &map);
         const auto [known, is_new] = laid_.try_emplace(key, new_values_.size());
@@ -285,7 +286,7 @@ private:
     }
 
     void put_decoded() {
-        std::map<std::vector<float>, std::uint32_t> known;  // frames of one clip: two lists of times, or one
+        std::map<std::vector<float>, std::uint32_t> known;  // frames of one clip: one or two lists of times
         for (const UnpackedTrack& track : decoded_) {
             const auto [times, is_new] = known.try_emplace(track.times, static_cast<std::uint32_t>(new_times_.size()));
             if (is_new) new_times_.insert(new_times_.end(), track.times.begin(), track.times.end());
@@ -302,7 +303,7 @@ private:
         }
     }
 
-    /// CINF.frame_rate is 0 where no track has fixed frames.
+    /// Sets CINF.frame_rate to 0 if no track has fixed frames.
     void forget_frame_rate() {
         if (clip_.frame_rate == 0.0f) return;
         const std::uint32_t chunk = tree_.find(clip_.chunk, FourCC("CINF"));
@@ -333,9 +334,10 @@ private:
     std::span<const TrackRecord> table_;
     std::span<const float> times_, values_;
     std::vector<TrackRecord> kept_;
-    std::vector<const WeightMap*> laid_anew_;  // of each that stays; null: its values stay as they are
-    std::size_t plays_ = 0;                    // that stay
-    std::map<const WeightMap*, std::vector<std::uint32_t>> targets_there_;  // for each target here
+    std::vector<const WeightMap*> laid_anew_;  // one per remaining track; null: its values are unchanged
+    std::size_t plays_ = 0;                    // number that remain
+    std::map<const WeightMap*, std::vector<std::uint32_t>> targets_there_;  // for each target here, the one in the
+                                                                            // other object
     std::vector<UnpackedTrack> decoded_;
     std::vector<float> new_times_, new_values_;
     std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint8_t, const WeightMap*>, std::uint64_t> laid_;

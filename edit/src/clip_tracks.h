@@ -11,19 +11,19 @@
 
 namespace bendy::edit {
 
-/// What becomes of a mesh's weights tracks.
+/// What happens to a mesh's weights tracks.
 struct WeightMap {
-    std::uint32_t mesh = kNone;       ///< kNone: they go
-    std::vector<std::uint32_t> from;  ///< for each target there: which target here; kNone: none
-    std::vector<float> at_rest;       ///< the weight where there is none
-    std::uint32_t first_frame = 0;    ///< MeshView::first_frame, here; and there
+    std::uint32_t mesh = kNone;       ///< kNone: they are removed
+    std::vector<std::uint32_t> from;  ///< for each target there, the target here; kNone: none
+    std::vector<float> at_rest;       ///< the weight if there is none
+    std::uint32_t first_frame = 0;    ///< MeshView::first_frame, here and there
     std::uint32_t first_frame_there = 0;
 };
 
-/// Where the tracks of a clip go: by the joints and meshes of the object that it stands in now.
+/// Where the tracks of a clip go, indexed by the joints and meshes of the object that contains it now.
 struct TrackMap {
-    std::vector<std::uint32_t> joints;  ///< kNone: its tracks go
-    std::uint32_t joint_count = 0;      ///< of the object that they go to
+    std::vector<std::uint32_t> joints;  ///< kNone: its tracks are removed
+    std::uint32_t joint_count = 0;      ///< of the destination object
     std::vector<bool> decoded;          ///< joints whose packed tracks become ordinary ones; empty: none
     std::vector<WeightMap> weights;     ///< by mesh
 };
@@ -32,8 +32,8 @@ struct TrackCounts {
     std::uint32_t stay = 0, go = 0, decoded = 0;
 };
 
-/// Changes the clip's TRAK, PACK, PLAY, TIME and KEYV so that its tracks go there. Chunks that need no change keep
-/// their bytes. A problem if tracks share their values in a way that would make the file much larger.
+/// Changes the clip's TRAK, PACK, PLAY, TIME and KEYV according to the map. Chunks that need no change keep their
+/// bytes. Returns a problem if tracks share their values in a way that would make the file much larger.
 Result<TrackCounts, Problem> remap_tracks(const ChunkTree& tree, const ObjectView& object, const ClipView& clip,
                                           const TrackMap& map, Rewrite& rewrite);
 

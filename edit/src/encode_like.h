@@ -4,10 +4,10 @@
 
 namespace bendy::edit {
 
-/// A whole leaf with the id and flags of one that is there, and another payload: under the same codec where that makes
-/// it smaller and gives it back to the bit, else under zstd, else raw.
+/// Returns a whole leaf with the id and flags of an existing one, and a new payload: with the same codec if that makes
+/// it smaller and is exactly reversible, otherwise with zstd, otherwise raw.
 Buffer encode_like(const ChunkTree& tree, std::uint32_t number, Bytes payload);
-/// The same for a leaf of another id, under this codec.
+/// The same for a leaf with another id, with this codec.
 Buffer encode_leaf(FourCC id, std::uint16_t flags, Codec codec, std::uint16_t head, std::uint16_t stride,
                    Bytes payload);
 

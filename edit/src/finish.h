@@ -6,7 +6,7 @@
 
 namespace bendy::edit {
 
-/// The file with its changes and with the counts of VERS renewed; a problem if it would not be valid.
+/// Returns the file with its changes and with the counts in VERS updated; a problem if it would not be valid.
 Edited finish(const Rewrite& rewrite);
 
 }  // namespace bendy::edit

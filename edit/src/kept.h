@@ -8,7 +8,7 @@
 
 namespace bendy::edit {
 
-/// What stays of a file, by the numbers that things have in it.
+/// What is kept of a file, by the numbers in the original.
 struct Kept {
     struct Mesh {
         bool stays = true;
@@ -18,20 +18,20 @@ struct Kept {
     };
     struct Object {
         bool stays = true;
-        std::vector<bool> joints;    ///< a joint that stays has a parent that stays
-        std::vector<bool> polygons;  ///< of each joint: does it keep its polygons and local materials?
+        std::vector<bool> joints;    ///< the parent of a kept joint is kept
+        std::vector<bool> polygons;  ///< per joint: whether its submeshes and local materials are kept
         std::vector<bool> chains, clips;
         std::vector<Mesh> meshes;
     };
-    std::vector<bool> textures, materials;  ///< HEAD's
+    std::vector<bool> textures, materials;  ///< of HEAD
     bool local_materials = true;
     std::vector<Object> objects;
 };
 
-/// All of it.
+/// Returns a Kept that keeps everything.
 Kept everything(const Document& document);
 
-/// The numbers of what stays, counted anew; kNone for what goes.
+/// Returns the new number of each thing that is kept; kNone for what is removed.
 inline std::vector<std::uint32_t> renumbered(const std::vector<bool>& stays) {
     std::vector<std::uint32_t> now(stays.size(), kNone);
     std::uint32_t next = 0;

@@ -5,10 +5,11 @@
 namespace bendy::edit {
 namespace {
 
-/// Adds what vertices that stay collapse to; true if that adds any.
+/// Adds the vertices that kept vertices collapse to; returns true if that adds any.
 bool add_collapse_targets(const MeshCollapseView& collapse, std::vector<bool>& stays) {
     bool adds = false;
-    for (std::uint32_t v = collapse.vertices; v-- > collapse.base;) {  // targets are below: one pass
+    for (std::uint32_t v = collapse.vertices; v-- > collapse.base;) {  // targets have smaller numbers: one pass is
+                                                                       // enough
         if (!stays[v] || stays[collapse.target(v)]) continue;
         stays[collapse.target(v)] = true;
         adds = true;

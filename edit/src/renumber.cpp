@@ -18,7 +18,7 @@ bool has_references(const RecordLayout& layout) {
                        [](const RecordField& field) { return field.reference.is_any(); });
 }
 
-/// Records inside a record hold no further ones.
+/// Returns true if the record refers to something. Nested records contain no further records.
 bool refers(const RecordLayout& layout) {
     const bool inside = std::any_of(layout.fields.begin(), layout.fields.end(), [](const RecordField& field) {
         return field.type == FieldType::record && has_references(*find_layout(field.type_name));
@@ -34,7 +34,7 @@ public:
     Renumbered run() {
         const LocatedParts parts = locate_parts(leaf_, payload_);
         for (const LocatedPart& part : parts.list) {
-            out_.resize(out_.size() + part.offset - done_);  // zeros of the part before
+            out_.resize(out_.size() + part.offset - done_);  // zeros between the parts
             done_ = part.offset + part.size;
             const std::uint64_t kept = put(part);
             if (goes_) return std::move(result_);
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// How many of its records, numbers or names stay.
+    /// Returns how many of its records, numbers or names are kept.
     std::uint64_t put(const LocatedPart& part) {
         const Bytes bytes = payload_.subspan(part.offset, part.size);
         switch (part.part->kind) {
@@ -103,7 +103,7 @@ private:
                numbers_.number(part.part->each, static_cast<std::uint32_t>(row)) != kNone;
     }
 
-    /// Numbers that are numbers of things.
+    /// Renumbers the numbers in a row that refer to things.
     [[nodiscard]] bool renumber(const LocatedPart& part, std::span<std::byte> row) const {
         if (part.part->to == Entity::nothing || part.shape.type != NumberType::u32) return true;
         for (std::uint64_t at = 0; at < row.size(); at += sizeof(std::uint32_t)) {
@@ -116,7 +116,7 @@ private:
         return true;
     }
 
-    /// False: the record goes.
+    /// Returns false if the record is to be removed.
     bool renumber(const RecordLayout& layout, std::span<std::byte> record, std::vector<Lost>* lost) {
         for (const RecordField& field : layout.fields) {
             if (field.type != FieldType::record) continue;
@@ -129,7 +129,7 @@ private:
 
     /// The same for its fields that are numbers.
     bool renumber_fields(const RecordLayout& layout, std::span<std::byte> record, std::vector<Lost>* lost) {
-        const Buffer copy(record.begin(), record.end());  // selectors are read as they were
+        const Buffer copy(record.begin(), record.end());  // selectors are read from the original
         if (rule_ && !rule_(layout, record)) return false;
         for (const RecordField& field : layout.fields) {
             if (field.offset + field.count * field_type_size(field.type) > record.size()) continue;
@@ -145,7 +145,7 @@ private:
         return true;
     }
 
-    /// The record's field that says how many there are.
+    /// Updates the field of the record that holds the count.
     void store_count(const LeafPart& part, std::uint64_t count) {
         const RecordLayout* record = leaf_.record();
         const RecordField* field = record == nullptr ? nullptr : record->find(part.count);
@@ -158,7 +158,7 @@ private:
     const NewNumbers& numbers_;
     const RecordRule& rule_;
     Buffer out_;
-    std::uint64_t done_ = 0;  // bytes of the payload
+    std::uint64_t done_ = 0;  // bytes of the payload that are processed
     bool goes_ = false;
     Renumbered result_;
 };

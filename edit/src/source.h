@@ -6,7 +6,7 @@
 
 namespace bendy::edit {
 
-/// A whole file that has been checked like `bendy validate` does, and read.
+/// A whole file, checked as by `bendy validate`, and read.
 struct Source {
     ChunkTree tree;
     Document document;

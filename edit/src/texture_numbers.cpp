@@ -10,7 +10,7 @@
 namespace bendy::edit {
 namespace {
 
-/// Where a texture info's number stands, and the member of which the info is the value: from its name to its end.
+/// The position of a texture info's number, and of the member whose value is the info: from its name to its end.
 struct TextureUse {
     std::size_t number_at = 0, number_end = 0;
     std::size_t member_at = 0, member_end = 0;
@@ -19,7 +19,8 @@ struct TextureUse {
 
 constexpr std::string_view kSpaces = " \t\r\n";
 
-/// One pass over JSON, without recursion. Knows brackets, strings and names; numbers and words are taken as they come.
+/// Scans JSON in one pass, without recursion. Recognises brackets, strings and names; numbers and words are not
+/// checked.
 class Scan {
 public:
     explicit Scan(std::string_view text) : text_(text) {}
@@ -37,11 +38,11 @@ public:
 private:
     struct Open {
         bool is_object = false;
-        std::size_t member_at = 0;        // of the member whose value is being read
+        std::size_t member_at = 0;        // start of the member whose value is being read
         std::string_view name;            // its name; empty: a name comes next
-        std::optional<TextureUse> use;    // an "index" that has been read here
+        std::optional<TextureUse> use;    // an "index" found in this object
         bool is_texture = false;          // the object is the value of a name that ends in "Texture"
-        std::size_t value_member_at = 0;  // and that name stands here
+        std::size_t value_member_at = 0;  // start of that member
     };
 
     bool step() {
@@ -111,7 +112,7 @@ private:
     std::vector<TextureUse> uses_;
 };
 
-/// Takes a comma away with the member that has just been left out: the one behind it, or else the one before it.
+/// Removes a comma with the member that has just been left out: the one after it, or else the one before it.
 std::size_t skip_comma(std::string_view json, std::size_t at, std::string& out) {
     const std::size_t next = json.find_first_not_of(kSpaces, at);
     if (next != std::string_view::npos && json[next] == ',') return next + 1;
@@ -137,7 +138,7 @@ std::optional<std::string> renumber_textures(std::string_view json, std::span<co
     std::size_t at = 0;
     for (const TextureUse& use : *uses) {
         if (use.number >= now.size()) return std::nullopt;
-        if (use.number_at < at) continue;  // inside one that has gone
+        if (use.number_at < at) continue;  // inside one that has been removed
         if (now[use.number] == kNone) {
             if (use.member_at < at) return std::nullopt;
             out += json.substr(at, use.member_at - at);

@@ -13,12 +13,12 @@ void pad(Buffer& payload) {
     payload.resize(padded(payload.size()));
 }
 
-/// A mesh's part of LODD: its vertices that stay, by the numbers that they had.
+/// A mesh's part of LODD: its kept vertices, by their original numbers.
 struct MeshCollapse {
     const MeshCollapseView* before = nullptr;
-    std::uint32_t place = 0;  // in the rows
+    std::uint32_t place = 0;  // index in the rows
     std::span<const std::uint32_t> now;
-    std::vector<std::uint32_t> kept_below;  // how many of the vertices below each number stay; empty: all
+    std::vector<std::uint32_t> kept_below;  // number of kept vertices below each vertex; empty: all
 
     [[nodiscard]] std::uint32_t count(std::uint32_t vertices) const {
         return kept_below.empty() ? vertices : kept_below[vertices];
@@ -31,7 +31,7 @@ void put_targets(const MeshCollapse& part, Buffer& payload) {
     const MeshCollapseView& before = *part.before;
     for (std::uint32_t v = before.base; v < before.vertices; ++v) {
         if (!part.stays(v)) continue;
-        const std::uint32_t target = part.number(before.target(v));  // it stays: see extract
+        const std::uint32_t target = part.number(before.target(v));  // it is kept: see extract
         if (before.type == ComponentType::u32) {
             append(payload, target);
         } else {
@@ -40,7 +40,7 @@ void put_targets(const MeshCollapse& part, Buffer& payload) {
     }
     pad(payload);
     std::vector<std::uint8_t> bits((part.count(before.vertices) - part.count(before.base) + 7) / 8);
-    bool run_has_begun = false;  // a vertex before this one, in the same run of joined ones, stays
+    bool run_has_begun = false;  // an earlier vertex of the same run of joined ones is kept
     for (std::uint32_t v = before.base, k = 0; v < before.vertices; ++v) {
         run_has_begun = run_has_begun && before.is_joined(v);
         if (!part.stays(v)) continue;

@@ -17,7 +17,7 @@ void store(Buffer& bytes, std::size_t at, const T& value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// The stream's leaf with these elements only.
+/// Returns the stream's leaf with these elements only.
 Buffer with_elements(const ChunkTree& tree, const StreamView& stream, std::span<const std::uint32_t> elements) {
     const Bytes before = tree.payload(stream.chunk);
     const Bytes head = before.first(before.size() - stream.data.size());
@@ -32,11 +32,11 @@ Buffer with_elements(const ChunkTree& tree, const StreamView& stream, std::span<
     return payload;
 }
 
-/// Changes the unsigned integers behind the head of a stream's payload: change(k, number).
+/// Changes the unsigned integers after the head of a stream's payload: change(k, number).
 template <class Change>
 void change_integers(Buffer& payload, const StreamView& stream, const Change& change) {
     const std::uint32_t size = component_size(stream.type);
-    const std::size_t head = sizeof(StreamRecord);  // integers that are numbers of things are never boxed
+    const std::size_t head = sizeof(StreamRecord);  // integers that refer to things are never boxed
     for (std::size_t at = head, k = 0; at + size <= payload.size(); at += size, ++k) {
         std::uint32_t number = 0;
         std::memcpy(&number, payload.data() + at, size);
@@ -89,7 +89,7 @@ private:
         rewrite_.replace(chunk, payload);
     }
 
-    /// Entries that no vertex which stays has weight in go, and BONE with them.
+    /// Removes palette entries without weight in any kept vertex, and updates BONE accordingly.
     void update_palette() {
         if (mesh_.is_rigid()) return;
         const std::span<const std::uint32_t> joints = mesh_.palette.joints;
@@ -107,7 +107,7 @@ private:
         if (now_.empty()) return;
         Buffer payload = with_elements(tree_, *mesh_.bones, kept_vertices_);
         change_integers(payload, *mesh_.bones, [&](std::size_t, std::uint32_t bone) {
-            return bones[bone] == kNone ? 0 : bones[bone];  // of no weight
+            return bones[bone] == kNone ? 0 : bones[bone];  // has no weight
         });
         rewrite_.replace(mesh_.bones->chunk, payload);
     }
@@ -147,7 +147,7 @@ private:
             }
         }
         if (mesh_.first_frame == mesh_.targets.size()) return;
-        const MorphTargetView& frame = mesh_.targets.back();  // they go or stay together
+        const MorphTargetView& frame = mesh_.targets.back();  // frames are kept or removed together
         if (!kept_.targets.back()) {
             rewrite_.remove(frame.chunk);
         } else if (!now_.empty()) {

@@ -28,19 +28,19 @@ constexpr std::size_t kRuleCount = std::size(kRules);
 
 static_assert(kRuleCount <= 64, "sets of rules are the bits of a number");
 
-/// A set of rules by their numbers.
+/// A set of rules; bit k is rule k.
 using RuleSet = std::uint64_t;
 constexpr RuleSet only(std::size_t rule) {
     return RuleSet{1} << rule;
 }
 
-/// Where an id is looked for first.
+/// The first slot to search for an id.
 constexpr std::size_t kSlots = 256;
 constexpr std::size_t slot_of(FourCC id) {
     return id.value * 0x9e3779b1u >> 24;
 }
 
-/// The rules by their ids, and which may or must stand in which; made when this is compiled.
+/// The rules by id, and which may or must be contained in which; computed at compile time.
 struct Grammar {
     std::array<std::uint8_t, kSlots> rule_at{};  // open addressing; kRuleCount: none
     std::array<RuleSet, kRuleCount> may_hold{};  // of each container
@@ -68,7 +68,7 @@ struct Grammar {
 
 constexpr Grammar kGrammar;
 
-/// Number of the id's rule, or kRuleCount if this version does not know it.
+/// Returns the number of the id's rule, or kRuleCount if this version does not know it.
 std::size_t find_rule(FourCC id) {
     for (std::size_t slot = slot_of(id);; slot = (slot + 1) % kSlots) {
         const std::size_t rule = kGrammar.rule_at[slot];
@@ -76,7 +76,7 @@ std::size_t find_rule(FourCC id) {
     }
 }
 
-/// Checks the children of a container whose rule is known; returns nothing, faults say it all.
+/// Checks the children of a container whose rule is known, and adds all faults.
 void check_children(const ChunkTree& tree, std::uint32_t container, std::size_t container_rule, Faults& faults) {
     RuleSet seen = 0;
     for (const std::uint32_t number : tree.children(container)) {
@@ -118,7 +118,7 @@ void check_grammar(const ChunkTree& tree, Faults& faults) {
         }
         const std::size_t rule = find_rule(chunk.id);
         if (rule == kRuleCount) {
-            number = chunk.end;  // its parent has said what there is to say of it
+            number = chunk.end;  // reported with its parent
             continue;
         }
         check_children(tree, number, rule, faults);

@@ -9,9 +9,9 @@
 namespace bendy {
 namespace {
 
-/// Adds the stored sums of a container's children, some at a time.
+/// Adds the stored sums of a container's children, in blocks.
 std::uint32_t add_children(Bytes payload, std::uint32_t sum) {
-    std::array<std::uint32_t, 64> sums;  // NOLINT(*-member-init): those that are used are set
+    std::array<std::uint32_t, 64> sums;  // NOLINT(*-member-init): only those that are set are used
     std::size_t count = 0;
     for (std::uint64_t at = 0; at < payload.size();) {
         copy_at(payload, at + kChunkSumAt, sums[count++]);
@@ -33,7 +33,7 @@ std::uint32_t chunk_sum(Bytes chunk) {
     const std::uint64_t size = size_and_flags & kMaxPayload;
     const bool is_container = (size_and_flags >> 48 & kContainerFlag) != 0;
 
-    // The id and what follows the sum, in one piece.
+    // The id and the fields after the sum, contiguously.
     std::array<std::byte, sizeof(std::uint32_t) + sizeof size_and_flags> head;
     std::memcpy(head.data(), chunk.data(), sizeof(std::uint32_t));
     std::memcpy(head.data() + sizeof(std::uint32_t), &size_and_flags, sizeof size_and_flags);

@@ -25,10 +25,10 @@ Chunk read_header(Bytes bytes, std::uint64_t offset) {
     return chunk;
 }
 
-/// Room for so many chunks from the start; files of one character mostly hold no more.
+/// Chunks to reserve room for at the start; files with one character rarely hold more.
 constexpr std::uint64_t kUsualChunks = 256;
 
-/// What a header may say by itself, whatever follows it.
+/// Checks a header by itself, regardless of what follows.
 Result<void> check_header(const Chunk& chunk) {
     if (!chunk.id.is_readable()) return Error{ErrorCode::kChunkIdNotLetters, chunk.offset};
     if ((chunk.flags & kReservedFlags) != 0) {
@@ -60,7 +60,7 @@ Result<ChunkTree> walk_chunks(Bytes bytes, std::uint64_t most_chunks) {
     std::vector<Chunk> chunks;
     chunks.reserve(std::min<std::uint64_t>(bytes.size() / kChunkHeaderSize, kUsualChunks));
     chunks.push_back(root);
-    std::vector<std::uint32_t> open{0};  // the containers that `at` is in, outermost first
+    std::vector<std::uint32_t> open{0};  // the containers around `at`, outermost first
     std::uint64_t at = kChunkHeaderSize;
     while (!open.empty()) {
         const std::uint32_t parent = open.back();
@@ -70,7 +70,7 @@ Result<ChunkTree> walk_chunks(Bytes bytes, std::uint64_t most_chunks) {
             open.pop_back();
             continue;
         }
-        const std::uint64_t left = parent_end - at;  // a multiple of 16, as all sizes on the way here are
+        const std::uint64_t left = parent_end - at;  // a multiple of 16, as all sizes so far
         assert(left >= kChunkHeaderSize);
         if (chunks.size() >= most_chunks) return Error{ErrorCode::kTooManyChunks, at, 0, most_chunks};
 

@@ -11,12 +11,13 @@
 namespace bendy {
 namespace {
 
-/// A leaf that is nothing but floats: none if there is none; nothing, and a fault, if it is there and cannot be read.
+/// Reads a leaf of floats. Returns an empty span if the leaf does not exist; returns nothing, and adds a fault, if it
+/// cannot be read.
 std::optional<std::span<const float>> read_floats(const ChunkTree& tree, std::uint32_t clip, FourCC id,
                                                   Faults& faults) {
     const std::uint32_t number = tree.find(clip, id);
     if (number == kNone) return std::span<const float>();
-    if (tree[number].is_container()) return std::nullopt;  // check_grammar says so
+    if (tree[number].is_container()) return std::nullopt;  // check_grammar reports it
     if (const auto fault = tree.encoding_fault(number)) {
         faults.add(*fault);
         return std::nullopt;
@@ -30,8 +31,8 @@ std::optional<std::span<const float>> read_floats(const ChunkTree& tree, std::ui
     return view_at<float>(payload, 0, count);
 }
 
-/// Whether the mesh has frames that could not be read, so that nobody knows how many targets there are: there is one at
-/// least where there are any.
+/// Returns true if the mesh has frames that could not be read (a mesh with frames has at least one), so that its number
+/// of targets is unknown.
 bool has_lost_frames(const ChunkTree& tree, const MeshView& mesh) {
     return mesh.frames() == 1 && tree.find(mesh.chunk, FourCC("FRMS")) != kNone;
 }
@@ -41,9 +42,9 @@ std::uint32_t components_of(TrackPath path, std::uint32_t target, std::span<cons
     return path == TrackPath::rotation ? 4 : 3;
 }
 
-/// Each track's times must ascend.
+/// Checks that the times of each track ascend.
 void check_key_order(const ClipView& clip, std::span<const float> times, std::uint64_t offset, Faults& faults) {
-    std::vector<std::size_t> run_start(times.size());  // where the ascending run that holds each time begins
+    std::vector<std::size_t> run_start(times.size());  // start of the ascending run that contains each time
     for (std::size_t k = 1; k < times.size(); ++k) run_start[k] = times[k] > times[k - 1] ? run_start[k - 1] : k;
     for (std::size_t index = 0; index < clip.tracks.size(); ++index) {
         const TrackView& track = clip.tracks[index];
@@ -53,8 +54,9 @@ void check_key_order(const ClipView& clip, std::span<const float> times, std::ui
     }
 }
 
-/// Two tracks share all their values or none, so that the shares add up to no more than the array; and a rotation's
-/// values are unit quaternions, but for cubic ones: those are normalised after interpolation.
+/// Checks that two tracks share all their values or none, so that the total of the shares does not exceed the array;
+/// and that the values of rotations are unit quaternions, except for cubic ones, which are normalised after
+/// interpolation.
 void check_shared_values(const ClipView& clip, std::uint64_t offset, Faults& faults) {
     struct Share {
         const float* first;
@@ -96,7 +98,7 @@ bool holds_frames(const ClipView& clip, const PackedView& packed) {
     return packed.record.start >= clip.start && packed.time_of(packed.record.frames - 1) <= clip.end + tolerance;
 }
 
-/// True when start and end ascend and no key lies outside them.
+/// Returns true if start does not exceed end, and no key is outside them.
 bool holds_all_keys(const ClipView& clip) {
     if (!(clip.start <= clip.end && clip.frame_rate >= 0.0f)) return false;
     if (clip.packed && !holds_frames(clip, *clip.packed)) return false;
@@ -114,7 +116,7 @@ bool holds_all_keys(const ClipView& clip) {
     });
 }
 
-/// A mesh is played once, and by no track.
+/// Checks that a mesh is played once at most, and not also animated by a track.
 void check_repeated_plays(const ClipView& clip, std::uint64_t offset, Faults& faults) {
     std::vector<std::pair<std::uint32_t, std::size_t>> meshes;
     for (std::size_t index = 0; index < clip.plays.size(); ++index) meshes.emplace_back(clip.plays[index].mesh, index);
@@ -295,7 +297,7 @@ ClipView read_clip(const ChunkTree& tree, std::uint32_t chunk, const TargetCount
         faults.add({ErrorCode::kRecordSize, offset, payload.size(), count * sizeof(TrackRecord)});
         return clip;
     }
-    if (!read_times || !read_values || !clip.has_info) return clip;  // no track can be held against them
+    if (!read_times || !read_values || !clip.has_info) return clip;  // tracks cannot be checked without them
     const std::span<const float> times = *read_times;
     const std::span<const float> values = *read_values;
     clip.tracks.reserve(count);
@@ -345,8 +347,8 @@ void check_clip_values(const ChunkTree& tree, const ClipView& clip, Faults& faul
     const std::uint64_t table_offset = offset_of(tree, clip.chunk, FourCC("TRAK"));
     check_finite(std::array{clip.start, clip.end, clip.frame_rate}, info_offset, faults);
 
-    // Many tracks may share keys, so what takes a look at each key looks at the arrays once, not at each track's share.
-    Faults unread;  // read_clip has said it
+    // Many tracks may share keys, so checks of every key run over the arrays once, not over each track's share.
+    Faults unread;  // already reported by read_clip
     constexpr std::span<const float> kNoFloats;
     const auto times = read_floats(tree, clip.chunk, FourCC("TIME"), unread).value_or(kNoFloats);
     check_finite(times, offset_of(tree, clip.chunk, FourCC("TIME")), faults);

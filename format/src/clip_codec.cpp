@@ -16,7 +16,8 @@ namespace bendy {
 namespace {
 
 constexpr int kLevel = 19;
-constexpr std::array<std::uint8_t, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};  // of every zstd frame: left out
+constexpr std::array<std::uint8_t, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};  // the start of every zstd frame, which is left
+                                                                       // out
 constexpr unsigned kPredictors = 4;
 
 // All numbers are taken modulo 2^32, so that nothing can overflow.
@@ -29,7 +30,7 @@ Word from_zigzag(Word number) {
     return (number >> 1) ^ (0u - (number & 1u));
 }
 
-/// What number k of a component is expected to be, by the ones before it: the last, or what continues them.
+/// Predicts number k of a component from those before it: as the last one, or by extrapolation.
 Word predict(unsigned predictor, std::span<const Word> numbers, std::size_t k) {
     const Word last = numbers[k - 1];
     if (predictor == 0 || k < 2) return last;
@@ -47,7 +48,7 @@ std::vector<Word> residuals(unsigned predictor, std::span<const Word> numbers) {
     return found;
 }
 
-/// Bytes that the largest of the numbers needs, at least 1.
+/// Returns the number of bytes that the largest of the numbers needs, at least 1.
 unsigned planes_for(std::span<const Word> numbers) {
     Word all = 0;
     for (const Word number : numbers) all |= number;
@@ -58,19 +59,19 @@ void put_plane(std::span<const Word> numbers, unsigned plane, std::vector<std::b
     for (const Word number : numbers) out.push_back(static_cast<std::byte>(number >> (8 * plane)));
 }
 
-/// How many planes, then the planes.
+/// Writes the number of planes, then the planes.
 void put_numbers(std::span<const Word> numbers, std::vector<std::byte>& out) {
     const unsigned planes = planes_for(numbers);
     out.push_back(static_cast<std::byte>(planes));
     for (unsigned plane = 0; plane < planes; ++plane) put_plane(numbers, plane, out);
 }
 
-/// The plain form of a clip, before zstd.
+/// Writes the plain form of a clip, before zstd.
 class Plain {
 public:
     explicit Plain(const PackedSamples& samples) : samples_(samples) {}
 
-    /// \param head  the payload's record, bits of the lists and, if it has them, times
+    /// \param head  the payload's record, the bits of the lists and, if present, the times
     std::vector<std::byte> write(Bytes head) {
         out_.assign(head.begin(), head.end());
         put_steps();
@@ -120,7 +121,7 @@ private:
         std::uint64_t least = ~std::uint64_t{0};
         for (unsigned predictor = 0; predictor < kPredictors; ++predictor) {
             std::vector<Word> tried = residuals(predictor, numbers);
-            std::uint64_t cost = 0;  // some bits
+            std::uint64_t cost = 0;  // approximate number of bits
             for (const Word residual : tried)
                 cost += residual == 0 ? 1u : 1u + 2u * static_cast<unsigned>(std::bit_width(residual));
             if (cost >= least) continue;
@@ -137,7 +138,7 @@ private:
     std::vector<std::byte> out_;
 };
 
-/// Reads the plain form; every count is held against the bytes that remain before anything is allocated.
+/// Reads the plain form; checks every count against the remaining bytes before it allocates anything.
 class PlainReader {
 public:
     explicit PlainReader(Bytes plain) : plain_(plain) {}
@@ -210,7 +211,7 @@ private:
         return true;
     }
 
-    /// Numbers in planes, after how many these are.
+    /// Reads the number of planes, then numbers in planes.
     std::vector<Word> take_numbers(std::uint64_t count) {
         const Bytes planes = take(1);
         if (!is_good_ || std::to_integer<unsigned>(planes[0]) > 4) {
@@ -270,7 +271,7 @@ private:
         }
     }
 
-    /// Residuals become numbers.
+    /// Turns residuals into numbers.
     void undo(unsigned predictor, std::span<std::int32_t> numbers) {
         words_.assign(numbers.begin(), numbers.end());
         for (std::size_t k = 1; k < words_.size(); ++k)
@@ -282,13 +283,13 @@ private:
     std::uint64_t at_ = 0;
     bool is_good_ = true;
     PackedSamples samples_;
-    std::uint64_t constant_ = 0;  // components
+    std::uint64_t constant_ = 0;  // number of components
     std::uint64_t animated_ = 0;
-    std::vector<std::span<std::int32_t>> numbers_of_;  // of each animated component
+    std::vector<std::span<std::int32_t>> numbers_of_;  // one per animated component
     std::vector<Word> words_;
 };
 
-/// The part of a payload that the plain form takes as it is.
+/// Returns the part of a payload that the plain form stores unchanged.
 std::vector<std::byte> head_of(const PackedView& view) {
     const auto first = [&](std::uint64_t size) { return view.payload.first(size); };
     std::uint64_t size = sizeof(PackRecord);
@@ -333,7 +334,7 @@ bool decode_clip(Bytes body, std::span<std::byte> out) {
     if (!take_zstd(frame, plain)) return false;
     const auto payload = PlainReader(plain).payload();
     if (!payload || payload->size() != out.size()) return false;
-    // The payload's record follows from the numbers; the stored one must be the same.
+    // The payload's record can be derived from the numbers; the stored one must be the same.
     if (!std::equal(plain.begin(), plain.begin() + sizeof(PackRecord), payload->begin())) return false;
     std::copy(payload->begin(), payload->end(), out.begin());
     return true;

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::align_val_t kAlignment{16};
 
-// BENDY_ZSTD and BENDY_MESHOPTIMIZER of CMake; of the two files that scripts/amalgamate.py makes, BENDY_WITH_ZSTD, ...
+// BENDY_ZSTD and BENDY_MESHOPTIMIZER are set by CMake; BENDY_WITH_ZSTD, ... apply to the two files that
+// scripts/amalgamate.py makes.
 #ifdef BENDY_WITHOUT_ZSTD
 constexpr bool kHasZstd = false;
 #else
@@ -27,7 +28,7 @@ constexpr bool kHasMeshoptimizer = true;
 #endif
 constexpr bool kHasBoth = kHasMeshoptimizer && kHasZstd;
 
-/// By codec: whether an encoding uses it, and this program holds what it needs.
+/// For each codec, true if it is an encoding and this program contains the libraries that it needs.
 constexpr std::array<bool, kCodecs> kBuiltIn{
     false,              // raw
     kHasZstd,           // zstd

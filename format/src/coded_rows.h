@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
-// What the codecs of rows share.
+// Helpers shared by the codecs of rows.
 namespace bendy {
 
-/// The payload's head goes as it is; false if it is not there.
+/// Copies the payload's head, which is stored unchanged; returns false if the data is too short.
 inline bool take_head(const CodecHeader& header, Bytes& body, std::span<std::byte>& out) {
     if (header.head > out.size() || header.head > body.size()) return false;
     std::copy_n(body.begin(), header.head, out.begin());
@@ -19,7 +19,7 @@ inline bool take_head(const CodecHeader& header, Bytes& body, std::span<std::byt
     return true;
 }
 
-/// A number of rows or triangles: none if the bytes are no whole number of them.
+/// Returns the number of rows or triangles; nothing if the size is not a multiple of the step.
 inline std::optional<std::size_t> count_of(std::size_t size, std::size_t step) {
     if (step == 0 || size % step != 0) return std::nullopt;
     return size / step;

@@ -13,15 +13,15 @@ namespace {
 
 using Triple = std::array<float, 3>;
 
-constexpr std::uint64_t kFirstTranslation = 3;  // axes in faults: 0 to 2 of the rotation, 3 to 5 of the translation
+constexpr std::uint64_t kFirstTranslation = 3;  // axes in faults: 0 to 2 for rotation, 3 to 5 for translation
 
-/// True when an angle on the circle is in the range: low <= angle + n turns <= high for a whole n. `half_turns` is the
-/// angle, as a multiple of what float has for pi, so that ranges written in float start where they should.
+/// Returns true if an angle on the circle is in the range: low <= angle + n turns <= high for an integer n.
+/// `half_turns` is the angle as a multiple of pi as a float, so that ranges written as floats start where they should.
 bool holds_angle(float low, double half_turns, float high) {
     constexpr double kHalfTurn = std::numbers::pi_v<float>;
     constexpr double kTurn = 2.0 * kHalfTurn;
     const double angle = half_turns * kHalfTurn;
-    const double first = std::ceil((double{low} - angle) / kTurn);  // the first n that is not below the range
+    const double first = std::ceil((double{low} - angle) / kTurn);  // the smallest n that is not below the range
     return std::isinf(low) ? low < 0.0f && high > -ConstraintRecord::kFree : angle + first * kTurn <= double{high};
 }
 
@@ -32,19 +32,19 @@ bool holds_angle_on_all_axes(const ConstraintRecord& constraint, double half_tur
     return true;
 }
 
-/// A range that some finite number lies in.
+/// Returns true if some finite number is in the range.
 bool is_possible(float low, float high) {
     return low < ConstraintRecord::kFree && high > -ConstraintRecord::kFree;
 }
 
-/// The range of an axis that counts for the model; neither end is NaN.
+/// Checks the range of an axis that the model uses; neither end is NaN.
 bool is_possible(const ConstraintRecord& constraint, std::size_t axis) {
     const float low = constraint.rotation_min[axis];
     const float high = constraint.rotation_max[axis];
     switch (static_cast<ConstraintModel>(constraint.model)) {
         case ConstraintModel::swing_twist_ellipse:
         case ConstraintModel::swing_twist_pyramid:
-            if (axis != 0) return low <= 0.0f && high >= 0.0f;  // a swing range opens on both sides of rest
+            if (axis != 0) return low <= 0.0f && high >= 0.0f;  // a swing range contains rest
             return is_possible(low, high);
         case ConstraintModel::largest_angle:
             return high >= 0.0f;
@@ -53,7 +53,8 @@ bool is_possible(const ConstraintRecord& constraint, std::size_t axis) {
     }
 }
 
-/// NaN on any axis; a minimum above its maximum on the first `axes`. `first` is the number of the X axis in faults.
+/// Checks for NaN on any axis, and for a minimum above its maximum on the first `axes`. `first` is the number of the X
+/// axis in faults.
 void check_pairs(const Triple& low, const Triple& high, std::size_t axes, std::uint64_t first, std::uint64_t offset,
                  Faults& faults) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,7 +126,7 @@ bool holds_rest(const ConstraintRecord& constraint) {
             return holds_angle(constraint.rotation_min[0], 0.0, constraint.rotation_max[0]) &&
                    constraint.rotation_min[1] <= 0.0f && constraint.rotation_max[1] >= 0.0f &&
                    constraint.rotation_min[2] <= 0.0f && constraint.rotation_max[2] >= 0.0f;
-        case ConstraintModel::euler_box:  // no rotation has two forms: three times 0, three times half a turn
+        case ConstraintModel::euler_box:  // no rotation has two forms: three times 0, and three times half a turn
             return holds_angle_on_all_axes(constraint, 0.0) || holds_angle_on_all_axes(constraint, 1.0);
         case ConstraintModel::largest_angle:
             return constraint.rotation_max[0] >= 0.0f;

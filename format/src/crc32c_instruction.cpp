@@ -18,14 +18,14 @@ namespace bendy {
 #ifdef BENDY_CRC32C
 namespace {
 
-// The instruction takes three clock ticks and a new one can start in each, so three stretches are summed side by side
-// and put together: what a sum becomes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al.,
-// "Fast CRC Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.) Long lanes first: memory is read ahead
-// along each, and that takes a while to begin.
+// The instruction has a latency of three cycles and a throughput of one, so three lanes are summed in parallel and then
+// combined: how a sum changes over n more zero bytes is linear in its bits. (Adler, crc32c.c; Gopal et al., "Fast CRC
+// Computation for iSCSI Polynomial Using CRC32 Instruction", 2011.) Long lanes come first: memory is prefetched along
+// each, and that takes a while to start.
 constexpr std::size_t kLongLane = 16384;  // bytes
 constexpr std::size_t kLane = 1024;       // bytes
 
-using Columns = std::array<std::uint32_t, 32>;  // what each bit of a sum becomes
+using Columns = std::array<std::uint32_t, 32>;  // the result for each bit of a sum
 
 constexpr std::uint32_t applied(const Columns& columns, std::uint32_t sum) {
     std::uint32_t result = 0;
@@ -43,7 +43,7 @@ constexpr Columns twice(const Columns& columns) {
 
 using LaneTables = std::array<std::array<std::uint32_t, 256>, 4>;
 
-/// Over so many zero bytes, a power of two: a table for each byte of the sum.
+/// Advances a sum over `lane` zero bytes, a power of two: one table per byte of the sum.
 constexpr LaneTables make_lane_tables(std::size_t lane) {
     Columns columns{};  // over one zero bit
     columns[0] = 0x82f63b78u;
@@ -65,7 +65,7 @@ std::uint32_t over_lane(std::uint32_t sum) {
     return tables[0][sum & 0xffu] ^ tables[1][sum >> 8 & 0xffu] ^ tables[2][sum >> 16 & 0xffu] ^ tables[3][sum >> 24];
 }
 
-/// `at` must have eight bytes.
+/// `at` must point to eight bytes.
 BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, const std::byte* at) {
     std::uint64_t word = 0;
     std::memcpy(&word, at, sizeof word);
@@ -84,7 +84,7 @@ BENDY_CRC32C inline std::uint32_t add_byte(std::uint32_t sum, std::byte byte) {
 #endif
 }
 
-/// As much of the bytes as fills three lanes again and again; they are taken off.
+/// Sums as many bytes as fill whole sets of three lanes, and removes them from `bytes`.
 template <std::size_t lane>
 BENDY_CRC32C std::uint32_t add_lanes(std::uint32_t sum, Bytes& bytes) {
     constexpr std::size_t kWord = sizeof(std::uint64_t);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-// The ways to sum that this program holds; crc32c takes the first one that the machine can run.
+// The implementations of crc32c, which uses the first one that the machine can run.
 namespace bendy {
 
 struct Crc32cKernel {
@@ -16,10 +16,10 @@ struct Crc32cKernel {
 
 std::span<const Crc32cKernel> crc32c_kernels();
 
-/// Eight bytes at once by tables; runs everywhere, the others are held against it.
+/// Eight bytes at a time by tables; runs everywhere, and is the reference for the others.
 std::uint32_t crc32c_tables(Bytes bytes, std::uint32_t before);
 
-/// The processor's own instruction (SSE 4.2, or ARMv8's CRC extension), three lanes at once. Only where it is
+/// With the processor's own instruction (SSE 4.2, or ARMv8's CRC extension), three lanes in parallel. Only if it is
 /// supported.
 bool has_crc32c_instruction();
 std::uint32_t crc32c_instruction(Bytes bytes, std::uint32_t before);

@@ -8,7 +8,7 @@ namespace {
 using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
 
 // tables[0] is the bytewise table; tables[k] advances a byte over k more zero bytes, so that eight bytes are summed at
-// once ("slicing-by-8", Kounavis and Berry, 2005).
+// a time ("slicing-by-8", Kounavis and Berry, 2005).
 constexpr Tables make_tables() {
     constexpr std::uint32_t kReflectedPolynomial = 0x82f63b78u;
     Tables tables{};

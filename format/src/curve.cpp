@@ -17,12 +17,12 @@ constexpr std::uint64_t values_of(std::uint32_t keys, std::uint32_t components, 
     return std::uint64_t{keys} * components * (interpolation == Interpolation::cubic ? 3 : 1);
 }
 
-/// Numbers of the box.
+/// Returns the number of numbers in the box.
 constexpr std::uint64_t box_size(const CurveRecord& record) {
     return record.packed != 0 ? std::uint64_t{2} * record.components : 0;
 }
 
-/// Bytes of the payload. No sum of the record's numbers overflows.
+/// Returns the size of the payload in bytes. No sum of the record's numbers overflows.
 std::uint64_t payload_size(const CurveRecord& record) {
     const std::uint64_t value = record.packed != 0 ? sizeof(std::uint16_t) : sizeof(float);
     return sizeof record + (box_size(record) + record.keys) * sizeof(float) + record.values * value + record.path_size +

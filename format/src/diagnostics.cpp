@@ -7,14 +7,14 @@
 namespace bendy {
 namespace {
 
-/// The id among its siblings, without "[0]".
+/// Returns the id with its index among its siblings; without "[0]".
 std::string step_text(FourCC id, std::uint32_t place) {
     std::string text(id.letters().data());
     if (place != 0) text += '[' + std::to_string(place) + ']';
     return text;
 }
 
-/// With slashes between them, `shown` at either end; all if there is hardly more.
+/// Joins the steps with slashes, `shown` at either end; all of them if there are hardly more.
 std::string join_steps(const std::vector<std::string>& steps, std::size_t shown) {
     std::string path;
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -30,7 +30,7 @@ std::string join_steps(const std::vector<std::string>& steps, std::size_t shown)
     return path;
 }
 
-/// What the number means where it is not simply a number.
+/// Returns the text of a value that is not simply a number.
 std::string value_text(const Error& error, std::uint64_t value) {
     if (error_class(error.code) == ErrorClass::io) return std::generic_category().message(static_cast<int>(value));
     if (error.code == ErrorCode::kChunkMissing) return FourCC(static_cast<std::uint32_t>(value)).letters().data();
@@ -42,12 +42,12 @@ std::string value_text(const Error& error, std::uint64_t value) {
     return std::to_string(value);
 }
 
-/// The steps of the path of the innermost chunk that holds `offset`.
+/// Returns the steps of the path of the innermost chunk that contains `offset`.
 std::vector<std::string> find_steps(Bytes bytes, std::uint64_t offset) {
     std::vector<std::string> steps;
     std::uint64_t at = 0;
     std::uint64_t end = bytes.size();
-    std::vector<FourCC> siblings;  // ids met so far among the present container's children
+    std::vector<FourCC> siblings;  // ids seen so far among the children of the current container
     while (end - at >= kChunkHeaderSize && offset >= at) {
         std::uint32_t id = 0;
         std::uint64_t size_and_flags = 0;
@@ -58,7 +58,7 @@ std::vector<std::string> find_steps(Bytes bytes, std::uint64_t offset) {
         const bool fits = size <= end - payload && padded(size) <= end - payload;
         const std::uint64_t chunk_end = fits ? payload + padded(size) : end;
         if (offset >= chunk_end && chunk_end < end) {
-            if (at == 0) break;  // behind the root stands no chunk, whatever the bytes are
+            if (at == 0) break;  // nothing after the root is a chunk, whatever the bytes are
             siblings.emplace_back(id);
             at = chunk_end;
             continue;

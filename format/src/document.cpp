@@ -36,15 +36,15 @@ std::size_t count_children(const ChunkTree& tree, std::uint32_t container, FourC
     return count;
 }
 
-/// Fills the palettes whose matrices follow from the rest pose. All of them together, those of other objects too, may
-/// take no more memory than encoded leaves may; `entries` counts them through the file.
+/// Computes the palettes whose matrices are derived from the rest pose. All of them together, including those of other
+/// objects, may take no more memory than encoded leaves may; `entries` counts them through the file.
 void derive_palettes(const ChunkTree& tree, ObjectView& object, std::uint64_t& entries, Faults& faults) {
     std::vector<glm::dmat4> rests;
     const std::uint64_t most = tree.bytes().size() * kMaxCodecRatio / sizeof(glm::mat4);
     for (MeshView& mesh : object.meshes) {
         PaletteView& palette = mesh.palette;
         if (!palette.is_derived) continue;
-        if (entries > most) return;  // said once
+        if (entries > most) return;  // reported once
         entries += palette.joints.size();
         if (entries > most) {
             faults.add({ErrorCode::kCodecRatio, tree[palette.chunk].offset, entries, most});
@@ -65,8 +65,8 @@ void derive_palettes(const ChunkTree& tree, ObjectView& object, std::uint64_t& e
     }
 }
 
-/// Holds the submeshes of the joints against meshes and materials, and turns local material numbers into the
-/// document's. `first_local` is where this object's local materials start in the document.
+/// Checks the submeshes of the joints against meshes and materials, and converts local material numbers to the
+/// document's. `first_local` is the index of this object's first local material in the document.
 void resolve_submeshes(const ChunkTree& tree, ObjectView& object, std::uint32_t global_materials,
                        std::uint32_t first_local, Faults& faults) {
     SkeletonView& skeleton = object.skeleton;
@@ -116,8 +116,8 @@ void check_rigid_sharing(const ChunkTree& tree, const MeshView& mesh, std::span<
     }
 }
 
-/// The ranges of a mesh may not overlap, so that walking over them all is linear in the mesh. In a rigid mesh a vertex
-/// is moved by the joint whose polygons use it, so it cannot be used by two.
+/// Checks that the ranges of a mesh do not overlap, so that iterating over all of them is linear in the mesh. In a
+/// rigid mesh a vertex is moved by the joint whose submesh uses it, so it must not be used by two.
 void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& faults) {
     std::vector<const SubmeshView*> ranges;
     for (const SubmeshView& submesh : object.skeleton.submeshes) {

@@ -48,7 +48,7 @@ bool write_all(int descriptor, Bytes bytes) {
     return true;
 }
 
-/// A pipe or a device takes the bytes as they come; it cannot be replaced.
+/// Writes directly: a pipe or a device cannot be replaced.
 Result<void> write_into(const std::filesystem::path& path, Bytes bytes) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (file.number() < 0 || !write_all(file.number(), bytes) || !file.close())
@@ -59,7 +59,7 @@ Result<void> write_into(const std::filesystem::path& path, Bytes bytes) {
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-    // O_NONBLOCK: a pipe without a writer would keep us waiting here, before we can refuse it.
+    // O_NONBLOCK: otherwise open would block on a pipe without a writer, before it can be rejected.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) return system_error(ErrorCode::kCannotOpen);
     struct stat status {};
@@ -89,19 +89,20 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
 
 MappedFile::~MappedFile() {
     if (data_ != nullptr)
-        ::munmap(const_cast<std::byte*>(data_), size_);  // NOLINT(*-const-cast): munmap's own signature
+        ::munmap(const_cast<std::byte*>(data_), size_);  // NOLINT(*-const-cast): the signature of munmap
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
     std::error_code not_there;
-    std::filesystem::path target = std::filesystem::canonical(path, not_there);  // what a link names, not the link
+    std::filesystem::path target = std::filesystem::canonical(path, not_there);  // the target of a symbolic link, not
+                                                                                 // the link
     if (not_there) target = path;
     struct stat status {};
     if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
         return write_into(target, bytes);
 
-    // The name is short, so that a target with the longest possible name can be written, and new, so that nobody's is
-    // lost.
+    // The name is short, so that a target with the longest possible name can be written, and new, so that no existing
+    // file is overwritten.
     static std::atomic<unsigned> counter{0};
     constexpr mode_t kAsTheUserHasIt = 0666;
     std::filesystem::path beside;

@@ -23,7 +23,7 @@ struct Meaning {
     int number;
 };
 
-/// What errors of Windows are called elsewhere, so that they read alike on all systems.
+/// The errno equivalents of Windows errors, so that they read the same on all systems.
 constexpr std::array<Meaning, 22> kMeanings{{
     {ERROR_FILE_NOT_FOUND, ENOENT},      {ERROR_PATH_NOT_FOUND, ENOENT},
     {ERROR_INVALID_NAME, ENOENT},        {ERROR_BAD_PATHNAME, ENOENT},
@@ -73,9 +73,9 @@ private:
     HANDLE handle_;
 };
 
-/// The whole path with the mark that takes the limit of 260 characters away; empty for none.
+/// Returns the absolute path with the prefix that lifts the limit of 260 characters; empty if there is none.
 std::wstring full_path(const std::filesystem::path& path) {
-    std::wstring full(::GetFullPathNameW(path.c_str(), 0, nullptr, nullptr), L'\0');  // with the final zero
+    std::wstring full(::GetFullPathNameW(path.c_str(), 0, nullptr, nullptr), L'\0');  // including the final zero
     full.resize(::GetFullPathNameW(path.c_str(), static_cast<DWORD>(full.size()), full.data(), nullptr));
     if (full.empty()) return full;
     const std::wstring_view start = std::wstring_view(full).substr(0, 4);
@@ -84,7 +84,7 @@ std::wstring full_path(const std::filesystem::path& path) {
     return LR"(\\?\)" + full;
 }
 
-/// What a name leads to.
+/// The target of a path.
 struct Target {
     bool is_folder = false;
     std::wstring path;
@@ -121,11 +121,11 @@ bool write_all(HANDLE file, Bytes bytes) {
     return true;
 }
 
-/// Puts a file in another's place, all of it or not at all.
+/// Replaces a file by another, completely or not at all.
 bool replace(const std::wstring& target, const std::wstring& by) {
     if (::MoveFileExW(by.c_str(), target.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) != 0) return true;
     const DWORD reason = ::GetLastError();
-    // Is it that somebody has the target open, or that we have no right to it?
+    // Distinguishes whether another program has the target open from missing rights.
     const Handle open(::CreateFileW(target.c_str(), DELETE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
                                     nullptr, OPEN_EXISTING, 0, nullptr));
     if (open.is_open() || ::GetLastError() != ERROR_SHARING_VIOLATION) ::SetLastError(reason);
@@ -135,7 +135,8 @@ bool replace(const std::wstring& target, const std::wstring& by) {
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-    // Folders are opened only to say what they are. Nobody else may write or delete while the file is mapped.
+    // Folders are opened only to report what they are. Other programs may not write or delete the file while it is
+    // mapped.
     Handle file(::CreateFileW(full_path(path).c_str(), GENERIC_READ, FILE_SHARE_READ, nullptr, OPEN_EXISTING,
                               FILE_FLAG_BACKUP_SEMANTICS, nullptr));
     if (!file.is_open()) return system_error(ErrorCode::kCannotOpen);
@@ -176,12 +177,12 @@ MappedFile::~MappedFile() {
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
-    const Target target = find_target(path);  // what a link names, not the link
+    const Target target = find_target(path);  // the target of a symbolic link, not the link
     if (target.path.empty()) return error_of(ErrorCode::kCannotWrite, ENOENT);
     if (target.is_folder) return error_of(ErrorCode::kCannotWrite, EISDIR);
 
-    // The name is short, so that a target with the longest possible name can be written, and new, so that nobody's is
-    // lost.
+    // The name is short, so that a target with the longest possible name can be written, and new, so that no existing
+    // file is overwritten.
     static std::atomic<unsigned> counter{0};
     const std::wstring folder = target.path.substr(0, target.path.find_last_of(L'\\') + 1);
     std::wstring beside;

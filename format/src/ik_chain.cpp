@@ -14,7 +14,7 @@
 namespace bendy {
 namespace {
 
-/// For each joint the first one that is not below it: in pre-order a joint's descendants are [joint, end).
+/// Returns for each joint the first one after its descendants: in pre-order these are [joint, end).
 std::vector<std::uint32_t> find_ends(const SkeletonView& skeleton) {
     const auto joints = static_cast<std::uint32_t>(skeleton.joints.size());
     std::vector<std::uint32_t> ends(joints);
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> find_ends(const SkeletonView& skeleton) {
     return ends;
 }
 
-/// Reads KINF into the view; false where it is missing or what it refers to is wrong. `ends`: see find_ends.
+/// Reads KINF into the view; returns false if it is missing or refers to something invalid. `ends`: see find_ends.
 bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std::uint32_t> ends, Faults& faults) {
     const auto record = read_child_record<ChainRecord>(tree, chain.chunk, FourCC("KINF"), faults);
     if (!record) return false;
@@ -51,7 +51,7 @@ bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std
     return is_above;
 }
 
-/// Holds the joints' weights against the chains.
+/// Checks the joints' weights against the chains.
 void check_chain_weights(const ChunkTree& tree, const SkeletonView& skeleton, std::span<const ChainView> chains,
                          std::span<const std::uint32_t> ends, Faults& faults) {
     std::vector<const ChainWeightView*> good;
@@ -64,7 +64,7 @@ void check_chain_weights(const ChunkTree& tree, const SkeletonView& skeleton, st
         const ChainRecord& chain = chains[chain_weight.chain].record;
         const bool is_link =
             chain.start <= chain_weight.joint && chain_weight.joint <= chain.effector &&
-            chain.effector < ends[chain_weight.joint];  // at or above the effector, not above the start
+            chain.effector < ends[chain_weight.joint];  // the effector or one of its ancestors, but not above the start
         if (!is_link) faults.add({ErrorCode::kChainWeightPath, offset, chain_weight.joint, chain_weight.chain});
         good.push_back(&chain_weight);
     }
@@ -85,7 +85,7 @@ std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, 
                                    Faults& faults) {
     const std::vector<std::uint32_t> ends = find_ends(skeleton);
     std::vector<ChainView> chains;
-    bool are_sound = true;  // else weights cannot be held against them
+    bool are_sound = true;  // otherwise weights cannot be checked against them
     for (const std::uint32_t child : tree.children(object)) {
         if (!(tree[child].id == FourCC("IKCH")) || !tree[child].is_container()) continue;
         ChainView& chain = chains.emplace_back();

@@ -37,7 +37,7 @@ void read_chain_weights(const ChunkTree& tree, std::uint32_t pivot, std::uint32_
     }
 }
 
-/// PIVO: the rest transform goes to the joint's view, the rest to the skeleton's lists.
+/// Reads PIVO: the rest transform into the joint's view, everything else into the skeleton's lists.
 void read_pivot(const ChunkTree& tree, std::uint32_t skin, SkeletonView& skeleton, Faults& faults) {
     const std::uint32_t pivot = tree.find(skin, FourCC("PIVO"));
     if (pivot == kNone || !tree[pivot].is_container()) return;
@@ -69,7 +69,7 @@ void read_submeshes(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t jo
     add_submesh(tree, chunk, joint, *record, submeshes, faults);
 }
 
-/// What JNTS says of all joints; a REST of a joint's own goes before it.
+/// Reads JNTS, the table of all joints; a joint's own REST takes precedence.
 void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& skeleton, Faults& faults) {
     skeleton.table = chunk;
     const std::uint64_t offset = tree[chunk].offset;
@@ -109,7 +109,7 @@ void read_joint_table(const ChunkTree& tree, std::uint32_t chunk, SkeletonView& 
                      [](const SubmeshView& a, const SubmeshView& b) { return a.joint < b.joint; });
 }
 
-/// Without JNTS, every joint must say its rest transform itself.
+/// Without JNTS, every joint must have its own rest transform.
 void want_rests(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults) {
     for (const JointView& joint : skeleton.joints) {
         const std::uint32_t pivot = tree.find(joint.chunk, FourCC("PIVO"));
@@ -121,7 +121,7 @@ void want_rests(const ChunkTree& tree, const SkeletonView& skeleton, Faults& fau
     }
 }
 
-/// JNAM: as many names as joints, a zero behind each; a NAME of a joint's own goes before it.
+/// Reads JNAM: one name per joint, each followed by a zero; a joint's own NAME takes precedence.
 void read_joint_names(const ChunkTree& tree, std::uint32_t object, SkeletonView& skeleton, Faults& faults) {
     const std::uint32_t chunk = tree.find(object, FourCC("JNAM"));
     if (chunk == kNone || tree[chunk].is_container()) return;
@@ -140,7 +140,7 @@ void read_joint_names(const ChunkTree& tree, std::uint32_t object, SkeletonView&
         faults.add({ErrorCode::kCountMismatch, tree[chunk].offset, named, skeleton.joints.size()});
 }
 
-/// Where the joint's rest transform stands: its REST, or JNTS.
+/// Returns the offset of the joint's rest transform: that of its REST, or of JNTS.
 std::uint64_t rest_offset(const ChunkTree& tree, const SkeletonView& skeleton, std::uint32_t joint) {
     const std::uint32_t skin = skeleton.joints[joint].chunk;
     const std::uint32_t pivot = tree.find(skin, FourCC("PIVO"));
@@ -172,14 +172,14 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
             read_pivot(tree, number, skeleton, faults);
             skeleton.first_local_material.push_back(static_cast<std::uint32_t>(skeleton.local_materials.size()));
             open.push_back({chunk.end, joint});
-            ++number;  // into it
+            ++number;  // continue with its children
             continue;
         }
         if (in_joint && chunk.id == FourCC("POLY") && !chunk.is_container()) {
             read_submeshes(tree, number, open.back().joint, skeleton.submeshes, faults);
         }
-        // A joint's own materials; its children's come later in the file, so a joint's are consecutive only if they
-        // stand before its first SKIN, which is where the table below needs them.
+        // A joint's own materials. Those of its children come later in the file, so a joint's materials are consecutive
+        // only if they come before its first SKIN; the table below requires that.
         if (in_joint && chunk.id == FourCC("MATE") && chunk.is_container()) {
             if (open.back().joint + 1 == skeleton.joints.size()) {
                 skeleton.local_materials.push_back(number);

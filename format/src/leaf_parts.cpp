@@ -21,7 +21,7 @@ constexpr Row kRows[] = {
 #include <bendy/format/leaf_parts.def>
 };
 
-/// The parts without the ids, so that a leaf's are a span.
+/// The parts without the ids, so that the parts of a leaf are a span.
 constexpr auto kParts = [] {
     std::array<LeafPart, std::size(kRows)> parts{};
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = kRows[k].part;
@@ -51,7 +51,7 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     return a != 0 && b > (kTheRest - 1) / a ? kTheRest - 1 : a * b;
 }
 
-/// A number, or a field of the record at the payload's start; nothing if the payload lacks it.
+/// Evaluates a number, or a field of the record at the payload's start; nothing if the payload lacks it.
 std::optional<std::uint64_t> operand(const LeafLayout& leaf, std::string_view word, Bytes payload) {
     if (is_digit(word.front())) {
         std::uint64_t number = 0;
@@ -98,7 +98,7 @@ std::optional<NumberType> number_type_of(const LeafLayout& leaf, std::string_vie
     return number_type(static_cast<ComponentType>(*said));
 }
 
-/// Bytes of the record at the payload's start; nothing if it is cut off.
+/// Returns the size in bytes of the record at the payload's start; nothing if it is cut off.
 std::optional<std::uint64_t> record_size(const RecordLayout& record, Bytes payload) {
     if (payload.size() >= record.size) return record.size;
     if (payload.size() == record.shortest) return record.shortest;

@@ -9,13 +9,13 @@
 namespace bendy {
 namespace {
 
-/// Cuts a payload into its arrays; `at` stays within it.
+/// Splits a payload into its arrays; `at` stays within it.
 class Cutter {
 public:
     explicit Cutter(Bytes payload, std::uint64_t at) : payload_(payload), at_(at) {}
 
     [[nodiscard]] std::uint64_t left() const { return payload_.size() - at_; }
-    /// The next `size` bytes, which must be there; and moves on to the 16-byte boundary after them.
+    /// Returns the next `size` bytes, which must exist, and advances to the 16-byte boundary after them.
     Bytes take(std::uint64_t size) {
         const Bytes taken = payload_.subspan(at_, size);
         const std::uint64_t next = std::min<std::uint64_t>(padded(at_ + size), payload_.size());
@@ -23,7 +23,7 @@ public:
         at_ = next;
         return taken;
     }
-    /// All bytes between the arrays, or-ed.
+    /// Returns all bytes between the arrays, combined by or.
     [[nodiscard]] std::uint64_t gaps() const { return std::to_integer<std::uint64_t>(gaps_); }
 
 private:
@@ -57,7 +57,7 @@ public:
         for (const MeshCollapseRecord& mesh : table) check_reserved(mesh.reserved, offset_, faults_);
         const bool sizes_are_known =
             std::all_of(meshes_.begin(), meshes_.end(), [](const MeshView& mesh) { return mesh.has_info; });
-        if (!sizes_are_known) return std::nullopt;  // a fault has said so
+        if (!sizes_are_known) return std::nullopt;  // a fault was added for it
         view_.meshes.reserve(record.meshes);
         for (const MeshCollapseRecord& mesh : table) {
             if (!read_mesh(mesh)) return std::nullopt;

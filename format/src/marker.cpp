@@ -17,7 +17,7 @@ constexpr std::uint64_t size_before_names(std::uint64_t markers) {
     return sizeof(MarkersRecord) + markers * sizeof(MarkerRecord);
 }
 
-/// Cuts the names, which stand one behind the other; false, and a fault, where they do not fill `names`.
+/// Splits the names, which are stored without separators; returns false, and adds a fault, if they do not fill `names`.
 bool cut_names(std::span<const MarkerRecord> records, std::string_view names, std::uint64_t offset,
                std::vector<Marker>& markers, Faults& faults) {
     markers.reserve(records.size());

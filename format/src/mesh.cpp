@@ -20,7 +20,7 @@ constexpr unsigned any_of(Types... types) {
     return ((1u << static_cast<unsigned>(types)) | ...);
 }
 
-/// Types, element widths and the meaning of integers that a kind of stream may have together.
+/// The combinations of types, element widths and interpretations of integers that a kind of stream may have.
 struct StreamForm {
     unsigned types;
     std::uint32_t fewest_components;
@@ -68,13 +68,13 @@ bool is_one_of(StreamRule rule, StreamRule a, StreamRule b) {
     return rule.data() == a.data() || rule.data() == b.data();
 }
 
-/// Bytes between a StreamRecord and the integers.
+/// Returns the number of bytes between a StreamRecord and the integers.
 std::uint64_t box_size(const StreamRecord& record) {
     const bool is_boxed = record.normalised == static_cast<std::uint8_t>(Numbers::boxed);
     return is_boxed ? padded(std::uint64_t{record.components} * sizeof(StreamBox)) : 0;
 }
 
-/// Plain enough for compilers to look at many numbers at once.
+/// Simple enough for compilers to vectorise.
 template <class T>
 std::uint32_t largest_of(const StreamView& stream) {
     T largest = 0;
@@ -82,7 +82,7 @@ std::uint32_t largest_of(const StreamView& stream) {
     return largest;
 }
 
-/// Of kBones or kIndices: u8, u16 or u32.
+/// Returns the largest index of a stream of kBones or kIndices: u8, u16 or u32.
 std::uint32_t largest_index(const StreamView& stream) {
     if (stream.type == ComponentType::u8) return largest_of<std::uint8_t>(stream);
     if (stream.type == ComponentType::u16) return largest_of<std::uint16_t>(stream);
@@ -93,7 +93,8 @@ class MeshReader {
 public:
     MeshReader(const ChunkTree& tree, Faults& faults) : tree_(tree), faults_(faults) {}
 
-    /// The stream in leaf `number`; nothing, and a fault, if it is not as `rule` and the counts have it.
+    /// Reads the stream in leaf `number`; returns nothing, and adds a fault, if it does not match `rule` and the
+    /// counts.
     std::optional<StreamView> stream(std::uint32_t number, StreamRule rule, std::optional<std::uint32_t> elements) {
         const Chunk& chunk = tree_[number];
         if (chunk.is_container()) return std::nullopt;
@@ -130,7 +131,7 @@ public:
         }
         view.is_octahedral = view.normalised && is_one_of(rule, forms::kNormals, forms::kTangents);
         if (record->normalised == static_cast<std::uint8_t>(Numbers::listed)) {
-            if (is_list_lost_) return std::nullopt;  // which has been said
+            if (is_list_lost_) return std::nullopt;  // already reported
             view.list = list_;
             const std::uint32_t largest = view.empty() ? 0 : largest_of<std::uint8_t>(view);
             if (!view.empty() && largest >= list_.size())
@@ -139,13 +140,13 @@ public:
         return view;
     }
 
-    /// Padding inside a payload must be zero.
+    /// Checks that padding inside a payload is zero.
     void check_gap(Bytes gap, std::uint64_t offset) {
         const auto used = std::find_if(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; });
         if (used != gap.end()) faults_.add({ErrorCode::kReservedField, offset, std::to_integer<std::uint64_t>(*used)});
     }
 
-    /// The one stream with this id among a container's children, if it is there.
+    /// Reads the only stream with this id among a container's children, if there is one.
     std::optional<StreamView> find(std::uint32_t container, FourCC id, StreamRule rule,
                                    std::optional<std::uint32_t> elements) {
         const std::uint32_t number = tree_.find(container, id);
@@ -157,7 +158,7 @@ public:
         return std::nullopt;
     }
 
-    /// The sets of a kind must differ.
+    /// Checks that the sets of a kind are different.
     void check_sets(std::span<const StreamView> streams) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> sets;  // with their chunks
         for (const StreamView& stream : streams) sets.emplace_back(stream.set, stream.chunk);
@@ -168,7 +169,7 @@ public:
         }
     }
 
-    /// Every index of the stream must be below `limit`.
+    /// Checks that every index of the stream is below `limit`.
     void check_indices(const std::optional<StreamView>& stream, std::uint64_t limit, ErrorCode code) {
         if (!stream) return;
         const std::uint32_t largest = largest_index(*stream);
@@ -209,7 +210,7 @@ public:
         return palette;
     }
 
-    /// NLST: what listed normals are numbers of. Read before them.
+    /// Reads NLST, the list that listed normals are indices into; before these.
     void list_of_normals(std::uint32_t mesh) {
         const std::uint32_t number = tree_.find(mesh, FourCC("NLST"));
         const auto payload = rows(number, sizeof(glm::vec3));
@@ -217,7 +218,7 @@ public:
         is_list_lost_ = number != kNone && !payload;
     }
 
-    /// A leaf that is nothing but rows of so many bytes.
+    /// Reads a leaf that consists of rows of `size` bytes.
     std::optional<Bytes> rows(std::uint32_t number, std::uint64_t size) {
         if (number == kNone || tree_[number].is_container()) return std::nullopt;
         if (const auto encoding = tree_.encoding_fault(number)) {
@@ -230,7 +231,7 @@ public:
         return std::nullopt;
     }
 
-    /// FRMS: all frames, behind the mesh's other targets.
+    /// Reads FRMS: all frames, after the mesh's other targets.
     void frames(std::uint32_t block, MeshView& mesh) {
         const std::uint32_t grid_chunk = tree_.find(block, FourCC("GRID"));
         const auto grid = rows(grid_chunk, kAxes * sizeof(StreamBox));
@@ -298,7 +299,7 @@ public:
 private:
     static constexpr std::uint64_t kAxes = 3;
 
-    /// Part `number` of a stream that is cut into parts of `size` elements.
+    /// Returns part `number` of a stream that is split into parts of `size` elements.
     static StreamView part_of(const StreamView& stream, std::uint64_t number, std::uint64_t size) {
         StreamView part = stream;
         const std::uint64_t bytes = size * stream.components * component_size(stream.type);
@@ -307,7 +308,7 @@ private:
         return part;
     }
 
-    /// FNAM: as many names as frames, a zero behind each. Empty: there is none.
+    /// Reads FNAM: one name per frame, each followed by a zero. Empty: there is none.
     std::vector<std::string_view> frame_names(std::uint32_t container, std::uint64_t count) {
         std::vector<std::string_view> names;
         const std::uint32_t chunk = tree_.find(container, FourCC("FNAM"));
@@ -329,7 +330,7 @@ private:
     const ChunkTree& tree_;
     Faults& faults_;
     std::span<const glm::vec3> list_;  // of the mesh's normals
-    bool is_list_lost_ = false;        // it is there and cannot be read
+    bool is_list_lost_ = false;        // it exists but cannot be read
 };
 
 void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>& stream, Faults& faults) {
@@ -337,11 +338,11 @@ void check_stream_values(const ChunkTree& tree, const std::optional<StreamView>&
     const std::uint64_t offset = tree[stream->chunk].offset;
     if (stream->type == ComponentType::f32) check_finite(stream->as<float>(), offset, faults);
     const float most_steps = stream->type == ComponentType::u32 ? 4294967296.0f : 65536.0f;
-    for (const StreamBox& box : stream->boxes)  // the largest number must be finite, too
+    for (const StreamBox& box : stream->boxes)  // the largest value must be finite, too
         check_finite(std::array{box.minimum, box.step, box.minimum + most_steps * box.step}, offset, faults);
 }
 
-/// Row by row of GRID, so that a fault says which frame is wrong.
+/// Checks each row of GRID separately, so that the fault identifies the frame.
 void check_frame_boxes(const MorphTargetView& frame, std::uint64_t offset, Faults& faults) {
     for (const StreamBox& box : frame.positions->boxes)
         check_finite(std::array{box.minimum, box.step, box.minimum + 65536.0f * box.step}, offset, faults);
@@ -435,7 +436,7 @@ void check_mesh_values(const ChunkTree& tree, const MeshView& mesh, Faults& faul
         check_finite(std::array{target.rest_weight}, offset_of(tree, target.chunk, FourCC("TINF")), faults);
         if (target.is_frame()) {
             check_frame_boxes(target, offset_of(tree, target.chunk, FourCC("GRID")), faults);
-            continue;  // its normals are of NLST, or directions
+            continue;  // its normals are from NLST, or directions
         }
         for (const auto& stream : {target.positions, target.normals, target.tangents})
             check_stream_values(tree, stream, faults);

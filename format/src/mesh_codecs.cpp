@@ -18,13 +18,13 @@ constexpr int kIndexVersion = 1;
 constexpr unsigned kVertexMark = 0xa0;
 constexpr unsigned kIndexMark = 0xe0;
 
-/// The library takes rows of whole 32-bit words.
+/// The library requires rows of whole 32-bit words.
 std::size_t padded_row(std::size_t stride) {
     return (stride + 3) & ~std::size_t{3};
 }
 
-/// Calls decode(bytes) with the library's bytes: the body, or what zstd makes of it, which is held against `most`
-/// before it is allocated.
+/// Calls decode(bytes) with the library's input: the body or, under zstd, its decompressed bytes, whose size is checked
+/// against `most` before they are allocated.
 template <class Decode>
 bool with_unpacked(bool is_zstd, Bytes body, std::uint64_t most, const Decode& decode) {
     if (!is_zstd) return decode(body);
@@ -34,7 +34,7 @@ bool with_unpacked(bool is_zstd, Bytes body, std::uint64_t most, const Decode& d
     return take_zstd(body, unpacked.span()) && decode(unpacked.bytes());
 }
 
-/// Appends the library's bytes, under zstd if it is asked for.
+/// Appends the library's output, compressed with zstd if requested.
 bool put_packed(bool is_zstd, std::span<const unsigned char> packed, std::vector<std::byte>& out) {
     const Bytes bytes = std::as_bytes(packed);
     if (is_zstd) return put_zstd(bytes, out);
@@ -42,7 +42,8 @@ bool put_packed(bool is_zstd, std::span<const unsigned char> packed, std::vector
     return true;
 }
 
-/// The library's bytes begin with `mark` and the version; it would take others of its versions, the format does not.
+/// Returns true if the library's bytes begin with `mark` and the version; the library would accept other versions, but
+/// the format does not.
 bool has_version(Bytes packed, unsigned mark, int version) {
     return !packed.empty() && std::to_integer<unsigned>(packed[0]) == (mark | static_cast<unsigned>(version));
 }
@@ -51,7 +52,7 @@ const unsigned char* raw(Bytes bytes) {
     return reinterpret_cast<const unsigned char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
 }
 
-/// meshoptimizer keeps the version that it writes in variables of its own: one thread at a time.
+/// meshoptimizer keeps the version to write in global variables: one thread at a time.
 std::mutex& encoding() {
     static std::mutex mutex;
     return mutex;

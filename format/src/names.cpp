@@ -20,7 +20,7 @@ std::string lowered(std::string_view text) {
     return out;
 }
 
-/// How many letters must be added, left out or changed (Levenshtein), both at most kLongest long.
+/// Returns the number of letters to insert, delete or change (Levenshtein distance); both at most kLongest long.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::array<std::size_t, kLongest + 1> row{};
     for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
@@ -36,7 +36,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// Smaller is more alike; at most kLongest, or it is not alike.
+/// Returns how different two names are; above kLongest: not similar.
 std::size_t unlikeness(const std::string& wanted, const std::string& name) {
     const bool holds = name.find(wanted) != std::string::npos || wanted.find(name) != std::string::npos;
     const std::size_t longer = std::max(name.size(), wanted.size());

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// What reading, walking and writing PACK have in common: single numbers of its payload, sizes of its parts.
+// Helpers shared by reading, decoding and writing PACK: single numbers of its payload, sizes of its parts.
 namespace bendy::packed {
 
 inline std::uint32_t byte_at(Bytes bytes, std::uint64_t at) {
@@ -31,12 +31,12 @@ inline std::uint32_t bits_at(Bytes payload, std::uint64_t bit, std::uint32_t wid
     return (word >> (bit % 8)) & ((1u << width) - 1);
 }
 
-/// Widths and bases of a list in one segment.
+/// Returns the size of the widths and bases of a list in one segment, in bytes.
 inline std::uint64_t table_bytes(const PackedList& list, const PackedKind& kind) {
     return std::uint64_t{list.count} * kind.components * (1 + list.base_bytes);
 }
 
-/// Of clips with an animated track.
+/// For clips with an animated track.
 inline std::uint32_t segment_count(const PackRecord& record) {
     if (record.segment_frames == 0 || record.frames < 2) return 1;
     return (record.frames - 2) / record.segment_frames + 1;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace packed;
 
-/// The tracks with their steps; constants with their numbers, animated ones with room for them.
+/// Returns the tracks with their steps; constants with their numbers, animated ones with room for them.
 std::vector<PackedTrack> list_tracks(const PackedView& view) {
     std::vector<PackedTrack> tracks;
     for (std::size_t k = 0; k < kPackedLists; ++k) {
@@ -39,11 +39,11 @@ std::vector<PackedTrack> list_tracks(const PackedView& view) {
 /// Reads one frame of one list.
 class FrameReader {
 public:
-    /// \param bit  where the frame starts, in the payload
+    /// \param bit  position of the frame in the payload
     FrameReader(const PackedView& view, const PackedSegment& segment, std::uint64_t bit)
         : view_(view), tables_(segment.tables), bit_(bit) {}
 
-    /// The list's tracks get their numbers of the frame; lists come one after another.
+    /// Sets the numbers of the list's tracks for the frame; must be called for one list after another.
     void read(const PackedList& list, const PackedKind& kind, PackedTrack* const* tracks, std::uint32_t frame) {
         for (std::uint32_t group = 0; group < list.count; group += kPackedGroup) {
             const std::uint32_t end = std::min(group + kPackedGroup, list.count);

@@ -12,10 +12,10 @@ namespace {
 
 using namespace packed;
 
-/// The last frame that is not after the time, by bisection.
+/// Returns the last frame that is not after the time, by bisection.
 PackedMoment uneven_moment(const PackedView& view, float seconds) {
     std::uint32_t left = 0;
-    // No branch hangs on a time: at random moments none could be foreseen.
+    // No branch depends on a time, since none could be predicted for random moments.
     for (std::uint32_t count = view.record.frames; count > 1;) {
         const std::uint32_t half = count / 2;
         float middle = 0.0f;

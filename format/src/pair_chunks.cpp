@@ -10,7 +10,7 @@
 namespace bendy {
 namespace {
 
-/// What a chunk is known by among its siblings of the same id; empty: by nothing.
+/// Returns the key that identifies a chunk among its siblings of the same id; empty: none.
 std::string_view key_of(const ChunkTree& tree, std::uint32_t number) {
     const Chunk& chunk = tree[number];
     if (chunk.is_container()) {
@@ -57,8 +57,8 @@ std::vector<Sibling*> unpaired(std::vector<Sibling>& siblings) {
     return list;
 }
 
-/// Pairs what is not paired yet and has the same key, `key(sibling)`; siblings of one key in their order, or none of
-/// them if they must be `only` ones.
+/// Pairs the unpaired siblings that have the same key, `key(sibling)`; those with equal keys in order, or, with `only`,
+/// none of them.
 template <class Key>
 void pair_by(const Key& key, bool only, std::vector<Sibling>& a, std::vector<Sibling>& b) {
     std::vector<Sibling*> list_a = unpaired(a);

@@ -8,8 +8,8 @@
 
 namespace bendy {
 
-/// Bytes of numbers of `stride` bytes, plane by plane: all first bytes, then all second ones; what is left over at the
-/// end stays as it is.
+/// Splits numbers of `stride` bytes into byte planes: all first bytes, then all second ones; the remainder at the end
+/// is unchanged.
 inline void to_planes(Bytes numbers, std::size_t stride, std::span<std::byte> planes) {
     const std::size_t count = numbers.size() / stride;
     for (std::size_t n = 0; n < count; ++n) {
@@ -19,7 +19,7 @@ inline void to_planes(Bytes numbers, std::size_t stride, std::span<std::byte> pl
               planes.begin() + static_cast<std::ptrdiff_t>(count * stride));
 }
 
-/// Back from planes of numbers whose width the compiler knows: it makes shuffles of it.
+/// Restores numbers from planes. The width is a compile-time constant, so the compiler can use shuffles.
 template <std::size_t Stride>
 void interleave(const std::byte* planes, std::size_t count, std::byte* numbers) {
     for (std::size_t n = 0; n < count; ++n) {

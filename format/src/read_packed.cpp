@@ -13,7 +13,7 @@ namespace {
 
 using namespace packed;
 
-/// Takes parts off the payload one after another; a part that does not fit ends it all.
+/// Takes one part after another off the payload; after a part that does not fit, all others fail.
 class Parts {
 public:
     explicit Parts(Bytes payload) : payload_(payload) {}
@@ -43,7 +43,7 @@ std::uint64_t all_table_bytes(const PackedView& view) {
     return bytes;
 }
 
-/// The bits of one list: as many joints as the record says, none past them.
+/// Reads the bits of one list: one per joint of the record, and none beyond.
 bool read_joints(Bytes bits, std::uint32_t joints, PackedList& list) {
     list.joints = bits;
     for (const std::byte byte : bits)
@@ -51,7 +51,8 @@ bool read_joints(Bytes bits, std::uint32_t joints, PackedList& list) {
     return joints % 8 == 0 || bits.empty() || byte_at(bits, bits.size() - 1) >> (joints % 8) == 0;
 }
 
-/// Bits of a frame of the segment whose tables start at `at`; nothing if a width is not allowed, or a track has none.
+/// Returns the number of bits in a frame of the segment whose tables start at `at`; nothing if a width is not allowed,
+/// or if all of a track's are 0.
 std::optional<std::uint64_t> frame_bits(const PackedView& view, std::uint64_t at) {
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < kPackedLists; ++k) {
@@ -73,7 +74,7 @@ std::optional<std::uint64_t> frame_bits(const PackedView& view, std::uint64_t at
     return bits;
 }
 
-/// Holds the segments' places and sizes against the payload.
+/// Checks the segments' offsets and sizes against the payload.
 bool check_segments(const PackedView& view, Parts parts, std::uint64_t offset, Faults& faults) {
     const PackRecord& record = view.record;
     const std::uint64_t tables = all_table_bytes(view);

@@ -25,7 +25,7 @@ constexpr Entity entity_of(std::string_view name) {
     return static_cast<Entity>(k);
 }
 
-/// The word of this number, with blanks between words; empty if there are fewer.
+/// Returns the word with this number in a list separated by spaces; empty if there are fewer.
 constexpr std::string_view word_of(std::string_view words, std::uint64_t number) {
     for (; number > 0; --number) {
         const std::size_t blank = words.find(' ');
@@ -35,7 +35,7 @@ constexpr std::string_view word_of(std::string_view words, std::uint64_t number)
     return words.substr(0, words.find(' '));
 }
 
-/// A row that says more of a field: the names of its values, its unit.
+/// A row with more information about a field: the names of its values, its unit.
 struct Note {
     std::string_view record, field, text;
 };
@@ -115,7 +115,7 @@ constexpr RecordField kFields[] = {
 #include <bendy/format/records.def>
 };
 
-/// A record's fields stand together in the table.
+/// The fields of a record are consecutive in the table.
 constexpr std::span<const RecordField> fields_of(std::string_view record) {
     std::size_t first = 0;
     while (first < std::size(kFields) && kFields[first].record != record) ++first;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-// Holds the structs against the table: every field where the table says, of the size that it says, and no gaps.
+// Compares the structs with the table: every field has the offset and size from the table, and there are no gaps.
 namespace bendy {
 namespace {
 namespace layout {

@@ -9,7 +9,7 @@
 namespace bendy {
 namespace {
 
-/// Adds a row's other u16 to its first, or takes them away, modulo 65536.
+/// Adds a row's other u16 to its first, or subtracts them, modulo 65536.
 void change_first(std::span<std::byte> row, bool add) {
     std::uint16_t first = 0;
     copy_at(row, 0, first);

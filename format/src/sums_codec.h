@@ -6,7 +6,7 @@
 
 namespace bendy {
 
-/// Codec 7. The first number of each row stands as the row's sum, which is the same for all weights of a mesh.
+/// Codec 7. The first number of each row is replaced by the row's sum, which is the same for all weights of a mesh.
 bool decode_sums(const CodecHeader& header, Bytes body, std::span<std::byte> out);
 bool encode_sums(const CodecHeader& header, Bytes payload, std::vector<std::byte>& out);
 

@@ -7,7 +7,7 @@
 namespace bendy {
 namespace {
 
-/// How many of the first characters are surely ASCII, eight at a time: most names are.
+/// Returns a number of leading characters that are ASCII, eight at a time: most names are.
 std::size_t skip_ascii(std::string_view text) {
     constexpr std::uint64_t kUpperBits = 0x8080808080808080u;
     std::size_t at = 0;
@@ -25,7 +25,7 @@ bool is_utf8(std::string_view text) {
     for (std::size_t at = skip_ascii(text); at < text.size();) {
         const unsigned lead = byte(at++);
         if (lead < 0x80) continue;
-        // Length, and the range of the second byte, which rules out overlong forms, surrogates and what lies past
+        // Length, and the range of the second byte, which excludes overlong forms, surrogates and anything above
         // U+10FFFF.
         std::size_t more = 0;
         unsigned low = 0x80;
@@ -57,7 +57,7 @@ std::string_view read_text(const ChunkTree& tree, std::uint32_t container, FourC
     const std::uint32_t number = tree.find(container, id);
     if (number == kNone) return {};
     const Chunk& chunk = tree[number];
-    if (chunk.is_container()) return {};  // check_grammar says so
+    if (chunk.is_container()) return {};  // check_grammar reports it
     if (const auto fault = tree.encoding_fault(number)) {
         faults.add(*fault);
         return {};

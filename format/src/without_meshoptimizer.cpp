@@ -1,4 +1,5 @@
-// What calls meshoptimizer, for a library without it: check_encoded refuses all that would be decoded here.
+// Replaces the functions that call meshoptimizer, for a library without it: check_encoded rejects everything that would
+// be decoded here.
 #include "mesh_codecs.h"
 
 namespace bendy {

@@ -1,4 +1,5 @@
-// What calls zstd, for a library without it: check_encoded refuses all that would be decoded here.
+// Replaces the functions that call zstd, for a library without it: check_encoded rejects everything that would be
+// decoded here.
 #include "clip_codec.h"
 #include "zstd_frame.h"
 

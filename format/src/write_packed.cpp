@@ -15,7 +15,7 @@ namespace {
 
 using namespace packed;
 
-/// Puts the low `width` bits of `value` at a bit of zeros.
+/// Writes the low `width` bits of `value` at a bit position that holds zeros.
 void put_bits(std::vector<std::byte>& out, std::uint64_t bit, std::uint32_t value) {
     std::uint64_t word = std::uint64_t{value} << (bit % 8);
     for (std::uint64_t at = bit / 8; word != 0; ++at, word >>= 8) out[at] |= static_cast<std::byte>(word);
@@ -91,7 +91,7 @@ private:
         return segment + 1 < segments_ ? record_.segment_frames + 1u
                                        : record_.frames - segment * record_.segment_frames;
     }
-    /// Of list k: [segment][component][track].
+    /// For list k: [segment][component][track].
     Range& range(std::size_t k, std::uint32_t segment, std::uint32_t c, std::size_t track) {
         return ranges_[k][(std::size_t{segment} * kPackedKinds[k].components + c) * lists_[k].size() + track];
     }
@@ -101,7 +101,7 @@ private:
             const PackedKind& kind = kPackedKinds[k];
             const std::uint32_t segments = kind.animated ? segments_ : 1;
             ranges_[k].resize(lists_[k].size() * kind.components * segments);
-            if (lists_[k].empty()) continue;  // or it would go through frames that have no bytes
+            if (lists_[k].empty()) continue;  // otherwise it would iterate over frames that have no bytes
             animated_ = animated_ || kind.animated;
             for (std::uint32_t s = 0; s < segments; ++s) {
                 for (std::size_t t = 0; t < lists_[k].size(); ++t) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kZstdLevel = 19;
 
-/// zstd has found no memory: goes on as any other allocation that fails does, which operator new decides, so that no
-/// file is called damaged for it.
+/// zstd has run out of memory: continues like any other failed allocation, as operator new decides, so that the file is
+/// not reported as damaged.
 void fail_as_allocation() {
     constexpr std::size_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() / 2;
     ::operator delete(::operator new(kMoreThanThereIs));
@@ -24,8 +24,8 @@ bool is_good(std::size_t result) {
     return ZSTD_isError(result) == 0;
 }
 
-/// The thread's own, kept: making one asks the processor what it is, which takes tens of microseconds in virtual
-/// machines, and a file may have hundreds of frames.
+/// One per thread, and kept: creating one queries the processor, which takes tens of microseconds in virtual machines,
+/// and a file may have hundreds of frames.
 ZSTD_DCtx* decompressor() {
     struct Free {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }

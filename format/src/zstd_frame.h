@@ -9,13 +9,13 @@
 
 namespace bendy {
 
-/// Appends the bytes as one zstd frame that states their number.
+/// Appends the bytes as one zstd frame that states their size.
 bool put_zstd(Bytes bytes, std::vector<std::byte>& out);
 
-/// True if the bytes are one zstd frame of exactly out.size() bytes.
+/// Decompresses; returns false unless the bytes are one zstd frame of exactly out.size() bytes.
 bool take_zstd(Bytes bytes, std::span<std::byte> out);
 
-/// The number of bytes that the frame claims to hold; it may lie.
+/// Returns the size that the frame claims to have; it may be wrong.
 std::optional<std::uint64_t> zstd_size(Bytes bytes);
 
 }  // namespace bendy

@@ -7,7 +7,7 @@
 namespace bendy::text_form {
 namespace {
 
-/// Writes chunk after chunk, as they stand in the file.
+/// Writes the chunks in file order.
 class Dumper {
 public:
     Dumper(const ChunkTree& tree, const DumpOptions& options, const Progress& progress)
@@ -55,7 +55,7 @@ private:
         end_chunk(number_);
     }
 
-    /// What stands behind a chunk's content.
+    /// Writes what follows a chunk's content.
     void end_chunk(std::uint32_t number) {
         const Chunk& chunk = tree_[number];
         if (chunk.is_required()) out_ += ", \"required\": true";
@@ -76,7 +76,7 @@ private:
     std::string out_;
     LeafDumper leaf_;
     std::uint32_t number_ = 0;
-    std::vector<std::uint32_t> open_;  // containers that have begun
+    std::vector<std::uint32_t> open_;  // open containers
 };
 
 }  // namespace

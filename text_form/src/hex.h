@@ -10,10 +10,11 @@
 
 namespace bendy::text_form {
 
-/// Appends two hexadecimal digits for each byte.
+/// Appends two hexadecimal digits per byte.
 void append_hex(std::string& out, Bytes bytes);
 
-/// Appends the bytes that the digits, upper or lower case, stand for. False if the text has others, or an odd number.
+/// Appends the bytes for a text of hexadecimal digits, upper or lower case. Returns false if the text contains other
+/// characters, or an odd number of digits.
 bool parse_hex(std::string_view text, std::vector<std::byte>& out);
 
 }  // namespace bendy::text_form

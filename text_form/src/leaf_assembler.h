@@ -14,13 +14,13 @@
 
 namespace bendy::text_form {
 
-/// What is wrong, and at which byte of the text.
+/// An error, and the byte of the text at which it is.
 struct FaultAt {
     std::uint64_t offset = 0;
     std::string what;
 };
 
-/// "a number", "an array", ...
+/// Returns "a number", "an array", ...
 std::string_view kind_name(ValueKind kind);
 
 /// Appends the bytes of a string of hexadecimal digits, or of an array of such strings.
@@ -29,12 +29,12 @@ std::optional<FaultAt> read_hex(const LeafValues& values, std::uint64_t value, s
 /// Turns the JSON of a leaf's content into its payload: the other side of leaf_form.h.
 class LeafAssembler final : public LeafSteps {
 public:
-    /// \param text    that the values were read from
-    /// \param tick    called now and then, with a place in the text, while a long array is read
+    /// \param text    the text that the values were read from
+    /// \param tick    called now and then with a position in the text while a long array is read
     LeafAssembler(std::string_view text, const LeafValues& values, std::function<void(std::uint64_t)> tick)
         : text_(text), values_(values), tick_(std::move(tick)) {}
 
-    /// Makes the payload of a chunk from a value; a fault if it has not the chunk's form.
+    /// Builds the payload of a chunk from a value; returns a fault if the value does not have the chunk's form.
     std::optional<FaultAt> assemble(FourCC chunk, std::uint64_t content);
 
     std::vector<std::byte> take_payload() { return std::move(payload_); }
@@ -61,7 +61,7 @@ private:
         std::uint64_t value = 0;
         bool is_used = false;
     };
-    /// Sorted by name, so that no text makes a look-up slow.
+    /// Sorted by name, so that look-ups are fast for every text.
     struct Object {
         std::uint64_t value = 0;
         std::vector<Member> members;
@@ -70,19 +70,20 @@ private:
     bool fail(std::uint64_t value, std::string what);
     bool read_object(std::uint64_t value, Object& object);
     Member* find(Object& object, std::string_view name) const;
-    /// The member of this name, or a fault at the object.
+    /// Returns the member with this name; if there is none, adds a fault at the object.
     Member* need(Object& object, std::string_view name);
     bool check_all_used(const Object& object);
-    /// A member of the content; kNowhere without a fault where "more" stands for it.
+    /// Returns a member of the content; kNowhere, without a fault, if "more" replaces it.
     std::uint64_t part(std::string_view name);
     bool fill(const RecordLayout& layout, Object& object, std::uint64_t base, std::uint64_t size);
     bool fill_record(const RecordLayout& layout, std::uint64_t value, std::uint64_t at);
-    /// The field's member, if it is there or must be; null without a fault for reserved fields that are left out.
+    /// Returns the field's member, if it exists or must exist; null, without a fault, for reserved fields that are left
+    /// out.
     Member* take_member(const RecordField& field, Object& object);
     bool fill_text(const RecordField& field, std::uint64_t value, std::uint64_t at);
     bool fill_numbers(const RecordField& field, std::uint64_t value, std::uint64_t at);
     bool read_u32(std::uint64_t value, std::string_view name, std::uint32_t& number);
-    /// The array of this name; kNowhere if it is missing, with a fault unless "more" stands for it.
+    /// Returns the array with this name; kNowhere if it is missing, with a fault unless "more" replaces it.
     std::uint64_t array_part(std::string_view name);
     bool append_number(std::uint64_t value, NumberType type, std::string_view name, std::vector<std::byte>& out);
     [[nodiscard]] std::uint64_t length(std::uint64_t array) const;
@@ -97,7 +98,7 @@ private:
     std::vector<std::byte> payload_;
     std::uint64_t content_ = 0;
     Object object_;
-    bool is_whole_ = false;  // the content is no object, and has been read
+    bool is_whole_ = false;  // the content is not an object, and has been read
 };
 
 }  // namespace bendy::text_form

@@ -15,12 +15,12 @@ namespace {
 constexpr std::uint64_t kHexBytesPerLine = 32;
 constexpr std::size_t kLongestLine = 110;
 
-/// `"name": `
+/// Appends `"name": `
 void append_key(std::string& out, std::string_view name) {
     out.append(1, '"').append(name).append("\": ");
 }
 
-/// How deep a chunk stands below HEAD, for the few levels that anybody asks about.
+/// Returns true if the chunk's ancestors are `parents`, for the few levels that are of interest.
 bool stands_in(const ChunkTree& tree, std::uint32_t number, std::span<const FourCC> parents) {
     for (const FourCC id : parents) {
         number = tree[number].parent;
@@ -87,7 +87,7 @@ void LeafDumper::finish() {
     out_ += '}';
 }
 
-/// Ends the walk over the form: what is left is "more".
+/// Ends the walk over the form: the rest is "more".
 bool LeafDumper::cut() {
     is_cut_ = true;
     return false;
@@ -97,7 +97,7 @@ void LeafDumper::new_line(std::uint64_t depth) {
     out_.append(1, '\n').append(indentation(depth), ' ');
 }
 
-/// The record's fields on one line if they are short, else a line for each.
+/// Writes the record's fields on one line if they are short, otherwise one per line.
 void LeafDumper::write_members() {
     std::size_t size = 0;
     for (const std::string& member : members_) size += member.size() + 2;
@@ -156,7 +156,7 @@ bool LeafDumper::names(std::string_view name) {
     return true;
 }
 
-/// Names are what people edit, not where they end: a payload that is not all that it says has no form.
+/// Writes the names, which people edit, not the offsets of their ends: a payload with anything else has no form.
 bool LeafDumper::markers() {
     Faults unread;
     const auto markers = read_markers(payload_, 0, unread);
@@ -215,7 +215,7 @@ void LeafDumper::append_fields(const RecordLayout& layout, std::uint64_t base, s
     }
 }
 
-/// A record inside a record, which holds numbers only.
+/// Appends a nested record, which contains only numbers.
 void LeafDumper::append_record(const RecordLayout& layout, std::uint64_t base, std::string& out) {
     out += '{';
     bool is_first = true;
@@ -305,7 +305,7 @@ bool LeafDumper::records(std::string_view name, const RecordLayout& layout, std:
 }
 
 std::optional<std::uint64_t> LeafDumper::collapsed_vertices(const MeshCollapseRecord& mesh, std::string_view) {
-    is_cut_ = true;  // unless we come to the end
+    is_cut_ = true;  // unless the end is reached
     constexpr std::array kObject{FourCC("OBJE"), FourCC("HEAD")};
     if (!stands_in(tree_, leaf_, kObject)) return std::nullopt;
     const std::uint32_t object = tree_[leaf_].parent;
@@ -328,7 +328,7 @@ std::optional<std::uint64_t> LeafDumper::collapsed_vertices(const MeshCollapseRe
     return vertices_[mesh.mesh] - mesh.base;
 }
 
-/// Then read_packed has checked sizes, widths and the zeros at the end.
+/// If so, read_packed has checked sizes, widths and the zeros at the end.
 bool LeafDumper::has_packed_tracks() {
     constexpr std::uint32_t kMostJoints = 65535;
     Faults unread;
@@ -353,7 +353,7 @@ bool LeafDumper::packed_frames(std::string_view name, std::span<const std::uint3
     for (const std::uint32_t width : widths) bits += width;
     const std::uint64_t stride = (bits + 7) / 8;
     const auto number_at = [&](std::uint64_t bit, std::uint32_t width) {
-        std::uint32_t word = 0;  // a frame's end is kPackedTail bytes or more from the payload's
+        std::uint32_t word = 0;  // the end of a frame is kPackedTail bytes or more from the payload's end
         copy_at(payload_, bit / 8, word);
         return word >> (bit % 8) & ((1u << width) - 1);
     };
@@ -382,7 +382,7 @@ bool LeafDumper::packed_frames(std::string_view name, std::span<const std::uint3
     return true;
 }
 
-/// A line for each key of the tracks beside the values.
+/// Returns the rows with one line per key, as for the tracks to which the values belong.
 std::vector<LeafDumper::Rows> LeafDumper::rows_of_keys() {
     constexpr std::array kClip{FourCC("CYCL"), FourCC("OBJE"), FourCC("HEAD")};
     constexpr std::uint64_t kUsual = 12;

@@ -14,15 +14,16 @@
 
 namespace bendy::text_form {
 
-/// A line's indentation: a space for each level, up to a limit, since skeletons may be 65,000 levels deep.
+/// Returns a line's indentation: one space per level, up to a limit, since skeletons may be 65,000 levels deep.
 inline std::uint64_t indentation(std::uint64_t depth) {
     constexpr std::uint64_t kMost = 40;
     return depth < kMost ? depth : kMost;
 }
 
-/// A JSON string with its quotes. \param text  UTF-8
+/// Appends a JSON string with its quotes.
+/// \param text  UTF-8
 void append_json_string(std::string& out, std::string_view text);
-/// Hexadecimal digits: a string, or where there are many an array of strings, one on a line.
+/// Appends hexadecimal digits: a string or, if there are many, an array of strings, one per line.
 void append_json_hex(std::string& out, Bytes bytes, std::uint64_t depth);
 
 /// Writes the content of leaves: one side of leaf_form.h.
@@ -32,7 +33,8 @@ public:
     LeafDumper(const ChunkTree& tree, std::string& out, std::function<void()> tick)
         : tree_(tree), out_(out), tick_(std::move(tick)) {}
 
-    /// The leaf's payload, as JSON. \param depth  of the line on which it begins
+    /// Appends the leaf's payload as JSON.
+    /// \param depth  of the line on which it begins
     void dump(std::uint32_t leaf, std::uint64_t depth);
 
     bool record(const RecordLayout& layout) override;
@@ -51,13 +53,13 @@ public:
     std::optional<std::uint64_t> collapsed_vertices(const MeshCollapseRecord& mesh, std::string_view name) override;
 
 private:
-    /// Numbers from `first` on stand `stride` on a line.
+    /// Numbers from `first` on are written `stride` per line.
     struct Rows {
         std::uint64_t first = 0;
         std::uint64_t stride = 1;
     };
 
-    /// Fields of the record at `base` that the payload has, each as `"name": value`.
+    /// Appends the fields of the record at `base` that the payload contains, each as `"name": value`.
     void append_fields(const RecordLayout& layout, std::uint64_t base, std::uint64_t size,
                        std::vector<std::string>& out);
     void append_record(const RecordLayout& layout, std::uint64_t base, std::string& out);
@@ -81,15 +83,15 @@ private:
     std::uint32_t leaf_ = 0;
     std::uint64_t depth_ = 0;
     Bytes payload_;
-    std::uint64_t at_ = 0;              // bytes of the payload that have been written
-    std::vector<std::string> members_;  // a record's fields, before it is known whether they fit one line
-    bool is_open_ = false;              // the object's brace stands in the text
-    bool is_whole_ = false;             // the content is no object, and has been written
-    bool is_cut_ = false;               // a part of the form is not there
+    std::uint64_t at_ = 0;              // bytes of the payload written so far
+    std::vector<std::string> members_;  // a record's fields, until it is known whether they fit on one line
+    bool is_open_ = false;              // the object's opening brace has been written
+    bool is_whole_ = false;             // the content is not an object, and has been written
+    bool is_cut_ = false;               // a part of the form is missing
 
-    std::uint32_t object_ = kNone;         // whose meshes these are
-    std::vector<std::uint32_t> vertices_;  // of each mesh
-    std::uint32_t clip_ = kNone;           // whose keys have been written by their tracks
+    std::uint32_t object_ = kNone;         // the object that the meshes belong to
+    std::vector<std::uint32_t> vertices_;  // per mesh
+    std::uint32_t clip_ = kNone;           // the clip whose keys have been written by track
 };
 
 }  // namespace bendy::text_form

@@ -15,7 +15,7 @@ std::string numbered(std::string_view name, std::uint64_t number) {
     return std::string(name).append(1, '_').append(std::to_string(number));
 }
 
-/// The levels of LODD, and what each of its meshes has.
+/// The levels of LODD, and the data of each of its meshes.
 bool walk_levels(LeafSteps& steps) {
     CollapseRecord collapse;
     copy_at(steps.payload(), 0, collapse);
@@ -38,7 +38,7 @@ bool walk_levels(LeafSteps& steps) {
     return true;
 }
 
-/// What is in a row of a segment's frames: the width of each number, in the file's order.
+/// Returns the contents of a row of a segment's frames: the width of each number, in file order.
 std::vector<std::uint32_t> frame_widths(std::span<const std::byte> widths, std::uint32_t tracks,
                                         std::uint32_t components) {
     std::vector<std::uint32_t> in_order;
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> frame_widths(std::span<const std::byte> widths, std::
     return in_order;
 }
 
-/// A number of each track on a line, where there are enough.
+/// Returns the numbers per line: one of each track, if there are enough.
 std::uint64_t packed_row(std::uint32_t tracks) {
     constexpr std::uint32_t kUsual = 12;
     return tracks < kUsual ? kUsual : tracks;
@@ -85,7 +85,7 @@ bool walk_packed_segments(LeafSteps& steps, const PackRecord& packed,
     return steps.zeros(kPackedTail);
 }
 
-/// PACK behind its record: a payload that breaks the layout is bytes.
+/// PACK after its record: a payload that violates the layout is written as bytes.
 bool walk_packed(LeafSteps& steps) {
     PackRecord packed;
     copy_at(steps.payload(), 0, packed);
@@ -116,7 +116,7 @@ bool walk_odd(FourCC chunk, LeafSteps& steps) {
     return false;
 }
 
-/// Numbers on a line: a row; where these are single numbers, some.
+/// Returns the numbers per line: a row or, for single numbers, several.
 std::uint64_t line_of(const LeafPart& part, const PartShape& shape) {
     constexpr std::uint64_t kUsual = 12;
     constexpr std::uint64_t kTriangle = 3;

@@ -9,34 +9,34 @@ namespace bendy::text_form {
 
 enum class ValueKind : std::uint8_t { null, boolean, number, string, array, object };
 
-/// The JSON of one chunk as it was read, kept flat: a word for each number, so that a million of them take eight
-/// megabytes. A value is named by the place of its first word.
+/// The JSON of one chunk, stored flat: one word per number, so that a million of them take eight megabytes. A value is
+/// identified by the index of its first word.
 ///
 ///     null, boolean, number   [kind, offset in the text]
-///     string                  [kind, offset] [place among the characters] [length]
-///     array                   [kind, offset] [place after its last word] values
-///     object                  [kind, offset] [place after its last word] strings and values in turn
+///     string                  [kind, offset] [index among the characters] [length]
+///     array                   [kind, offset] [index after its last word] values
+///     object                  [kind, offset] [index after its last word] strings and values in turn
 class LeafValues {
 public:
     void clear();
 
-    // What a parser calls; `offset` is the token's place in the text.
+    // Called by a parser; `offset` is the token's position in the text.
     std::uint64_t add(ValueKind kind, std::uint64_t offset);
     std::uint64_t add_string(std::uint64_t offset, std::string_view characters);
     std::uint64_t begin(ValueKind kind, std::uint64_t offset);
     void end();
-    /// Arrays and objects that have begun and not ended.
+    /// Number of open arrays and objects.
     [[nodiscard]] std::size_t depth() const { return open_.size(); }
-    /// The array or object that has begun last.
+    /// The innermost open array or object.
     [[nodiscard]] std::uint64_t innermost() const { return open_.back(); }
 
     [[nodiscard]] ValueKind kind(std::uint64_t value) const;
-    /// In the text, bytes.
+    /// Offset in the text in bytes.
     [[nodiscard]] std::uint64_t offset(std::uint64_t value) const;
     [[nodiscard]] std::string_view characters(std::uint64_t string) const;
-    /// The value behind this one.
+    /// The value after this one.
     [[nodiscard]] std::uint64_t next(std::uint64_t value) const;
-    /// The first value, or key, of an array or object; `next` of the array or object is where they end.
+    /// The first value, or key, of an array or object; they end at `next` of the array or object.
     [[nodiscard]] static std::uint64_t first(std::uint64_t parent) { return parent + 2; }
 
 private:

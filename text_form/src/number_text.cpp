@@ -48,7 +48,7 @@ template <class T>
 NumberFault parse_as(std::string_view token, std::vector<std::byte>& out) {
     T value{};
     const char* const last = token.data() + token.size();
-    // JSON's "-0" is a whole number, also for a type without a sign.
+    // JSON's "-0" is an integer, even for an unsigned type.
     if (token.starts_with("-0")) token.remove_prefix(1);
     const auto [end, failure] = std::from_chars(token.data(), last, value);
     const bool is_whole = end == last || (*end != '.' && *end != 'e' && *end != 'E');

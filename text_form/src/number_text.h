@@ -11,17 +11,18 @@
 #include <string_view>
 #include <vector>
 
-// Numbers as the text form writes them: floats by the shortest decimal that reads back to the same bits.
+// Numbers in the text form: floats are written as the shortest decimal that reads back to the same bits.
 namespace bendy::text_form {
 
-/// Appends the number at `at`, which must be inside the bytes. A float that JSON has no number for comes as a string:
+/// Appends the number at `at`, which must be inside the bytes. A float that JSON cannot express is written as a string:
 /// "inf", "-inf", or "nan:0x7fc00000" with its bits.
 void append_number(std::string& out, NumberType type, Bytes bytes, std::uint64_t at);
 
-/// Why a text is no number of a type.
+/// Why a text is not a number of a type.
 enum class NumberFault : std::uint8_t { none, not_whole, out_of_range, no_number };
 
-/// Appends the number's bytes. \param token  starts with a number of JSON's grammar; what follows it is not looked at
+/// Appends the number's bytes.
+/// \param token  starts with a number in JSON's grammar; anything after it is ignored
 NumberFault parse_number(std::string_view token, NumberType type, std::vector<std::byte>& out);
 /// The same for the strings that append_number writes.
 NumberFault parse_special(std::string_view text, std::vector<std::byte>& out);

@@ -1,23 +1,24 @@
 #pragma once
 
-// What an embedding program needs, in the order in which it needs it:
+// The header for embedding programs. Typical use, in order:
 //
 //     auto model = bendy::Model::open("fox.bendy");                    // maps and checks the file
-//     bendy::Pose pose(*model);                                        // all the memory that posing needs
-//     if (!bendy::sample(pose, model->clip("Run"), seconds)) ...      // joints and morph target weights at a time
+//     bendy::Pose pose(*model);                                        // allocates all memory that posing needs
+//     if (!bendy::sample(pose, model->clip("Run"), seconds)) ...       // joints and morph target weights at a time
 //     if (!bendy::blend(pose, other, 0.5f)) ...                        // half of another pose of the model
-//     if (!bendy::reach(pose, model->chain("LeftArm"), target)) ...    // IK, inside the joints' constraints
+//     if (!bendy::reach(pose, model->chain("LeftArm"), target)) ...    // IK, within the joints' constraints
 //     if (!bendy::skin(pose, {.out = {.positions = positions}})) ...   // vertices into the caller's memory
 //
-// Over time: Playback (a clip's clock), Crossfade, markers.h, curve.h (named curves), RootPath (root motion), Binding
-// (clips of another file). Of a pose: Bounds, Socket.
+// For playback over time: Playback (the clock of a clip), Crossfade, markers.h, curve.h (named curves), RootPath (root
+// motion), Binding (clips of another file). Derived from a pose: Bounds, Socket.
 //
-// Parameters have one order: what the call acts on, what it is given, options, outputs. A function that can fail
-// returns a Result, which must be checked: with an Error if a file is at fault, with a CallError if an argument is.
+// Parameter order: the object that the call acts on, inputs, options, outputs. A function that can fail returns a
+// Result, which must be checked: with an Error for a fault in a file, with a CallError for a bad argument.
 //
-// Nothing here throws or logs. A frame allocates nothing: what needs memory takes it when it is made. After a Model has
-// loaded, no call on it can read or write out of bounds, whatever the file held. A Model is immutable: any number of
-// threads may share it, a Pose each. Whatever is made from a Model shares what it holds, so a Model may be moved.
+// Nothing here throws or logs. No memory is allocated per frame: objects allocate what they need when they are
+// made. Once a Model has loaded, no call on it reads or writes out of bounds, whatever the file contained. A Model is
+// immutable: any number of threads may share it, with a Pose each. Objects made from a Model share its data, so the
+// Model may be moved.
 
 #include <bendy/runtime/binding.h>
 #include <bendy/runtime/blend.h>

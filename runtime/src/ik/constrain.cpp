@@ -8,7 +8,7 @@
 namespace bendy {
 namespace {
 
-/// Radians: what a legal rotation may be off after it was stored as floats.
+/// Radians: tolerance for a legal rotation that was rounded to floats.
 constexpr double kRounding = 1e-6;
 
 }  // namespace

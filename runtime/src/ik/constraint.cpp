@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * trig::kPi;
 
-/// The number held to [low, high]; `otherwise` if it is NaN.
+/// Clamps a value to [low, high]; returns `otherwise` if it is NaN.
 double held(double value, double low, double high, double otherwise) {
     return std::isnan(value) ? otherwise : std::clamp(value, low, high);
 }
@@ -39,8 +39,8 @@ AngleRange make_range(double low, double high, double soft_zone) {
     return range;
 }
 
-/// sin(limit / 2) for a swing limit on one side; infinite where it is free. A little less than 1 at most: after half a
-/// turn of swing the twist could not be told.
+/// Returns sin(limit / 2) for a swing limit on one side; infinity if it is free. Slightly below 1 at most: after half a
+/// turn of swing the twist is undefined.
 double half_axis(double limit, double soft_zone) {
     constexpr double kLargest = 1.0 - 1e-12;
     if (limit == std::numeric_limits<double>::infinity()) return limit;

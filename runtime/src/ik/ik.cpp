@@ -22,7 +22,7 @@ namespace bendy {
 
 namespace {
 
-/// What belongs to a reach beside the problem: how to come from the model to the problem and back.
+/// One call of reach: converts between the model and the problem.
 class Reach {
 public:
     Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options)
@@ -35,7 +35,7 @@ public:
           options_(options),
           links_(std::span(PoseState::of(pose).ik_links).first(chain.links)) {}
 
-    /// Nothing, and the pose as it was, if there is something that is not a number.
+    /// Returns nothing, and leaves the pose unchanged, if a number is not finite.
     std::optional<ReachResult> run() {
         if (!gather()) return std::nullopt;
         const bool is_aim = solver() == Solver::aim;
@@ -69,7 +69,7 @@ private:
         return glm::dvec3(inverse_base_ * glm::dvec4(point, 1.0)) / problem_.scale;
     }
 
-    /// Fills links and problem from the pose. False if there is something that is not a number.
+    /// Fills the links and the problem from the pose. Returns false if a number is not finite.
     bool gather() {
         std::uint32_t joint = chain_.effector;
         for (std::size_t i = links_.size(); i-- > 0; joint = joints_[joint].parent) links_[i].joint = joint;
@@ -81,8 +81,8 @@ private:
     }
 
     void gather_links() {
-        double scale = 1.0;   // of the links so far
-        double length = 0.0;  // in the base's space
+        double scale = 1.0;   // product over the links so far
+        double length = 0.0;  // in base space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
             const JointTransform& transform = local_[link.joint];
@@ -110,7 +110,7 @@ private:
     }
 
     void find_longest() {
-        double scale = 1.0;  // of the links so far, along their longest axes
+        double scale = 1.0;  // product over the links so far, along their longest axes
         for (std::size_t i = 0; i < links_.size(); ++i) {
             const glm::vec3 axes = glm::abs(local_[links_[i].joint].scale);
             const glm::vec3 shear = glm::abs(joints_[links_[i].joint].shear);
@@ -159,7 +159,7 @@ private:
         const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
         problem_.tolerance =
             tolerance > 0.0f ? std::max(double{tolerance} / (problem_.scale * base_scale()), 1e-9) : 1e-4;
-        constexpr std::uint16_t kMostIterations = 1000;  // whatever a file says
+        constexpr std::uint16_t kMostIterations = 1000;  // limit, whatever the file asks for
         problem_.iterations =
             options_.iterations != 0 ? options_.iterations : std::min(record.iterations, kMostIterations);
         gather_pole();
@@ -176,7 +176,7 @@ private:
     void find_reach() {
         const glm::dvec3 way = wanted_ - problem_.origin;
         const double distance = std::sqrt(glm::dot(way, way));
-        constexpr double kStraight = 1e-6;  // chain lengths: no bend that would be seen
+        constexpr double kStraight = 1e-6;  // chain lengths: a bend too small to see
         is_far_ = distance > problem_.reach - kStraight;
         problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
     }
@@ -191,14 +191,14 @@ private:
         } else if (chain_.pole != kNone) {
             problem_.pole = to_base(glm::dvec3(joint_to_model(pose_, chain_.pole)[3]));
         } else if (direction != glm::dvec3(0.0)) {
-            constexpr double kFar = 1e3;  // chain lengths: a direction is a point far away
+            constexpr double kFar = 1e3;  // chain lengths: a direction becomes a distant point
             problem_.pole = problem_.origin + kFar * direction;
         } else {
             problem_.has_pole = false;
         }
     }
 
-    /// Metres of model space for one of the base's space, where its axes differ those of the longest.
+    /// Returns metres in model space per unit of base space, for the longest axis if the axes differ.
     [[nodiscard]] double base_scale() const {
         const glm::dvec3 x(base_[0]), y(base_[1]), z(base_[2]);
         const double scale = std::sqrt(std::max({glm::dot(x, x), glm::dot(y, y), glm::dot(z, z)}));
@@ -262,14 +262,15 @@ private:
         return iterations;
     }
 
-    /// Where a solver stops short of a target within reach, least squares goes on from there.
+    /// If a solver stops short of a target within reach, least squares continues from there.
     std::uint32_t finish(std::uint32_t iterations) {
         if (problem_.is_out_of_reach || problem_.is_reached()) return iterations;
         return iterations + solve_least_squares(problem_);
     }
 
-    /// Where a joint scales its axes differently, the bones below it change length as they turn, and the problem holds
-    /// only about where they are. Gives the links the bones that they have now; false if the tip is within tolerance.
+    /// If a joint scales its axes unevenly, the bones below it change length as they turn, and the problem is only
+    /// valid near the current pose. Sets the links' bones to those of the current pose; returns false if the tip is
+    /// within tolerance.
     bool correct_bones() {
         if (!is_uneven_ || problem_.is_out_of_reach) return false;
         match_bones();
@@ -308,7 +309,7 @@ private:
         return glm::dvec3(matrix * glm::dvec4(tip_offset(), 1.0)) / problem_.scale;
     }
 
-    /// Makes the bones longer or shorter, all alike, as far as the chain may.
+    /// Scales all bones by the same factor, within the range that the chain allows.
     void fit_length() {
         const glm::dvec3 way = problem_.target - problem_.origin;
         const glm::dvec3 reached = problem_.tip - problem_.origin;
@@ -317,7 +318,7 @@ private:
         const double wanted = std::sqrt(glm::dot(way, way)) / is;
         stretch_ = std::clamp(wanted, 1.0 - fraction(chain_.record.compress, 0.0),
                               1.0 + std::max(0.0, double{chain_.record.stretch}));
-        // The tip's offset is inside the effector and stays as it is.
+        // The tip's offset is inside the effector and is not scaled.
         for (std::size_t i = 0; i + 1 < links_.size(); ++i) {
             links_[i].bone *= stretch_;
             links_[i].bone_length *= stretch_;
@@ -379,9 +380,9 @@ private:
     glm::dmat4 inverse_base_{1.0};
     glm::dvec3 wanted_{0};  ///< the target, not softened
     double stretch_ = 1.0;
-    double longest_ = 0.0;    ///< of a chain that scales its axes differently: no pose is longer; chain lengths
-    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot
-    bool is_uneven_ = false;  ///< a link before the last scales its axes differently
+    double longest_ = 0.0;    ///< upper bound of the length of a chain with uneven scales, in chain lengths
+    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot reach it
+    bool is_uneven_ = false;  ///< a link before the last scales its axes unevenly
 };
 
 bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {

@@ -5,17 +5,17 @@
 
 #include <cmath>
 
-// Looking at a target: the tip's Z axis is turned towards it. Each joint does its share of what is left, the last one
-// all of it, so that a neck and a head turn together.
+// Looking at a target: turns the tip's Z axis towards it. Each joint does its share of the remaining rotation, and the
+// last one all of it, so that a neck and a head turn together.
 namespace bendy {
 namespace {
 
-/// The turn from where the tip looks to where it should.
+/// The rotation from the tip's current direction to the wanted one.
 glm::dvec3 turn_left(const IkProblem& problem) {
     return to_vector(between(problem.tip_global * glm::dvec3(0.0, 0.0, 1.0), problem.target - problem.tip));
 }
 
-/// The turn about the line of sight that brings the tip's Y axis up to the pole.
+/// The rotation about the line of sight that brings the tip's Y axis up to the pole.
 glm::dvec3 roll_left(const IkProblem& problem) {
     const glm::dvec3 forward = problem.tip_global * glm::dvec3(0.0, 0.0, 1.0);
     const auto across = [&](const glm::dvec3& v) { return v - forward * glm::dot(forward, v); };

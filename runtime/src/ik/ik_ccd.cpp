@@ -7,13 +7,13 @@
 namespace bendy {
 namespace {
 
-/// The turn of one joint that brings the tip nearest to the target, in orientation too if that counts.
+/// The rotation of one joint that brings the tip nearest to the target, including its orientation if that counts.
 glm::dquat best_turn(const IkProblem& problem, const IkLink& link, const glm::dvec3& tip,
                      const glm::dquat& tip_global) {
     const glm::dvec3 arm = tip - link.position;
     const glm::dvec3 to_target = problem.target - link.position;
     if (!problem.has_rotation) return between(arm, to_target);
-    // The least squares answer to: cross(turn, arm) = left over, turn = rotation that is left over.
+    // The least-squares solution of: cross(turn, arm) = remaining offset, turn = remaining rotation.
     const double p = problem.position_weight;
     const double r = problem.rotation_weight;
     const glm::dmat3 A = glm::dmat3(p * glm::dot(arm, arm) + r + 1e-9) - p * glm::outerProduct(arm, arm);

@@ -7,9 +7,9 @@
 #include <cmath>
 
 // Forward and backward reaching (Aristidou and Lasenby, "FABRIK: a fast, iterative solver for the inverse kinematics
-// problem", 2011). Backwards the joints move to where their bones, which keep their lengths, should begin; forwards
-// each bone is turned to where its end should be. Both passes keep to the constraints. Where those stop it short of the
-// target, least squares goes on (ik.cpp).
+// problem", 2011). The backward pass moves each joint to where its bone, which keeps its length, should begin; the
+// forward pass turns each bone to where its end should be. Both passes respect the constraints. If these stop it short
+// of the target, least squares continues (ik.cpp).
 namespace bendy {
 namespace {
 
@@ -17,7 +17,7 @@ bool turns_by_orientation(const IkProblem& problem, std::size_t link) {
     return link + 1 == problem.links.size() && problem.has_rotation && problem.rotation_weight > 0.0;
 }
 
-/// The next link that can turn, or the number of links. What is between moves with this one as if it were one bone.
+/// Returns the next link that can turn, or the number of links. The links between move with this one as a single bone.
 std::size_t next_moving(const IkProblem& problem, std::size_t link) {
     do ++link;
     while (link < problem.links.size() && problem.links[link].is_fixed);
@@ -28,7 +28,7 @@ glm::dvec3 position_of(const IkProblem& problem, std::size_t link) {
     return link < problem.links.size() ? problem.links[link].position : problem.tip;
 }
 
-/// Where each moving link should be if the tip were at the target: from the tip up to the start.
+/// Computes where each moving link should be if the tip were at the target: from the tip up to the start.
 void reach_backwards(IkProblem& problem) {
     glm::dvec3 end = problem.target;
     glm::dvec3 end_now = problem.tip;
@@ -37,7 +37,7 @@ void reach_backwards(IkProblem& problem) {
         if (link.is_fixed) continue;
         const glm::dvec3 bone = end_now - link.position;
         glm::dvec3 back = link.position - end;
-        // The last bone should lie as the target's orientation has it.
+        // The direction of the last bone follows from the target's orientation.
         if (turns_by_orientation(problem, i))
             back = -(problem.target_rotation * glm::conjugate(problem.tip_global)) * bone;
         const double length = std::sqrt(glm::dot(back, back));
@@ -47,12 +47,12 @@ void reach_backwards(IkProblem& problem) {
     }
 }
 
-/// The same inside the constraints: each link is turned towards the end of its bone, then brought back to where the
-/// link after it, which is placed already, is legal. Its orientation is the link's trial.
+/// The same within the constraints: turns each link towards the end of its bone, then back to where the next link,
+/// which is already placed, is legal. The link's orientation is stored in its trial.
 void reach_backwards_legally(IkProblem& problem) {
     glm::dvec3 end = problem.target;
     glm::dvec3 end_now = problem.tip;
-    std::size_t next = problem.links.size();  // the moving link that is placed already
+    std::size_t next = problem.links.size();  // the moving link that is already placed
     for (std::size_t i = problem.links.size(); i-- > 0;) {
         IkLink& link = problem.links[i];
         if (link.is_fixed) continue;
@@ -65,7 +65,7 @@ void reach_backwards_legally(IkProblem& problem) {
         }
         if (next < problem.links.size() && problem.links[next].constraint != nullptr) {
             const IkLink& after = problem.links[next];
-            const glm::dquat held = glm::conjugate(link.global) * problem.parent_global(next);  // by fixed links
+            const glm::dquat held = glm::conjugate(link.global) * problem.parent_global(next);  // through fixed links
             const glm::dquat legal = legal_local(after, glm::conjugate(link.trial * held) * after.trial);
             link.trial = glm::normalize(after.trial * glm::conjugate(held * legal));
         }
@@ -76,8 +76,8 @@ void reach_backwards_legally(IkProblem& problem) {
     }
 }
 
-/// A hinge, or a swing without width, bends in one plane only. Turns the bone before it about itself, until that plane
-/// holds the hinge's goal.
+/// A hinge, or a swing of zero width, bends in one plane only. Rotates the bone before it about itself until that plane
+/// contains the hinge's goal.
 void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
     if (next == problem.links.size()) return;
     const IkLink& link = problem.links[i];
@@ -92,7 +92,7 @@ void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
     const std::size_t after = next_moving(problem, next);
     const glm::dvec3 goal = after == problem.links.size() ? problem.target : problem.links[after].goal;
     const glm::dvec3 way = goal - hinged.position;
-    // The hinge's axis, turned by f, across the way: along + a cos(f) + b sin(f) = 0.
+    // The hinge's axis, rotated by f, perpendicular to the way: along + a cos(f) + b sin(f) = 0.
     const double along = glm::dot(axis, hinge) * glm::dot(axis, way);
     const glm::dvec3 side = hinge - axis * glm::dot(axis, hinge);
     const double a = glm::dot(side, way);
@@ -135,8 +135,8 @@ std::uint32_t solve_fabrik(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 100;
     const bool is_limited = std::any_of(problem.links.begin(), problem.links.end(),
                                         [](const IkLink& link) { return link.constraint != nullptr; });
-    // Inside constraints another solver finishes what goes slowly.
-    const double least_gain = is_limited ? 0.1 : 1e-6;  // of the cost
+    // With constraints, another solver takes over if progress is slow.
+    const double least_gain = is_limited ? 0.1 : 1e-6;  // relative to the cost
     const std::uint32_t patience = is_limited ? 4 : 8;
     double best = problem.cost();
     problem.save();

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
-// Damped least squares: Levenberg and Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
-// Jacobian transpose, pseudoinverse and damped least squares methods", 2004). A direction in which a joint's constraint
-// stops it is taken from that joint and the step is solved anew, so that the other joints do its part. When it is
-// stuck short of the target it begins again elsewhere, and the best end counts.
+// Damped least squares: Levenberg-Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
+// Jacobian transpose, pseudoinverse and damped least squares methods", 2004). If a constraint stops a joint in some
+// direction, that direction is removed from the joint and the step is solved again, so that the other joints make up
+// for it. If it is stuck short of the target it restarts elsewhere, and the best result counts.
 namespace bendy {
 namespace {
 
@@ -18,8 +18,8 @@ constexpr std::size_t kMost = 6;
 using Vector = std::array<double, kMost>;
 using Matrix = std::array<Vector, kMost>;
 
-/// y of (A + damping) y = e, A symmetric with no negative eigenvalue, its first `size` rows; by Cholesky's
-/// decomposition.
+/// Solves (A + damping) y = e for the first `size` rows, by Cholesky decomposition; A is symmetric with no negative
+/// eigenvalue.
 Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
     for (std::size_t j = 0; j < size; ++j) {
         double diagonal = A[j][j] + damping;
@@ -51,7 +51,7 @@ public:
           position_(std::sqrt(problem.position_weight)),
           rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {}
 
-    /// From where the links are, until it is reached or stuck. Returns the iterations.
+    /// Iterates from the current links until the target is reached or it is stuck. Returns the number of iterations.
     std::uint32_t descend(std::uint32_t most) {
         double damping = 1e-2;
         double cost = problem_.cost();
@@ -61,7 +61,7 @@ public:
             for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
             problem_.place();
             const double now = problem_.cost();
-            constexpr double kStuck = 1e-3;  // of the cost
+            constexpr double kStuck = 1e-3;  // relative to the cost
             const bool is_better = now < cost;
             const bool is_stuck = cost - now < kStuck * cost;
             if (is_better) {
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    /// Fills the links' trial with a step.
+    /// Computes a step and fills the links' trial with it.
     void try_step(double damping) {
         for (IkLink& link : problem_.links) {
             const glm::dmat3 axes = glm::mat3_cast(link.global * link.frame);
@@ -86,7 +86,7 @@ private:
             link.mobility =
                 glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
         }
-        // In a short chain few joints can do a stopped one's part, and they may be stopped in turn.
+        // In a short chain few joints can make up for a stopped one, and they may be stopped in turn.
         constexpr std::size_t kShort = 4;
         const int rounds = problem_.links.size() <= kShort ? 3 : 2;
         for (int round = 0; round < rounds; ++round) {
@@ -107,7 +107,8 @@ private:
         return e;
     }
 
-    /// J mobility J^T, J of each link: a turn w moves the tip by cross(w, arm), and turns it by w.
+    /// Returns the sum of J mobility J^T, J of each link: a rotation w moves the tip by cross(w, arm), and rotates it
+    /// by w.
     [[nodiscard]] Matrix gather() const {
         glm::dmat3 pp(0.0);
         glm::dmat3 pr(0.0);
@@ -115,11 +116,11 @@ private:
         for (const IkLink& link : problem_.links) {
             if (link.is_fixed) continue;
             const glm::dvec3 arm = problem_.tip - link.position;
-            // [arm]x, columns: cross(arm, axis); J = -[arm]x.
+            // [arm]x by columns: cross(arm, axis); J = -[arm]x.
             const glm::dmat3 cross_arm(glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x),
                                        glm::dvec3(arm.y, -arm.x, 0.0));
             const glm::dmat3 left = cross_arm * link.mobility;
-            pp -= left * cross_arm;  // [arm]x is its own transpose, negated
+            pp -= left * cross_arm;  // the transpose of [arm]x is -[arm]x
             if (size_ == 6) {
                 pr -= left;
                 rr += link.mobility;
@@ -139,8 +140,8 @@ private:
         return A;
     }
 
-    /// Turns every link by mobility J^T y into its trial. True if a constraint stopped a link in a direction in which
-    /// it was free so far: that direction is then taken from its mobility.
+    /// Applies the rotation mobility J^T y to every link's trial. Returns true if a constraint stopped a link in a
+    /// direction in which it was free so far: that direction is then removed from its mobility.
     bool apply(const Vector& y) {
         const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
         const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);
@@ -152,7 +153,7 @@ private:
                 const glm::dvec3 arm = problem_.tip - link.position;
                 glm::dvec3 turn = link.mobility * (glm::cross(arm, p) + r);
                 const double size = std::sqrt(glm::dot(turn, turn));
-                constexpr double kLongest = 1.0;  // radians: beyond it the derivative says nothing
+                constexpr double kLongest = 1.0;  // radians: beyond it the derivative is meaningless
                 if (size > kLongest) turn *= kLongest / size;
                 const glm::dquat rotation = from_vector(turn);
                 link.trial =
@@ -167,11 +168,11 @@ private:
 
     static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation) {
         const glm::dquat done = upper_half(parent * link.trial * glm::conjugate(link.global));
-        // Half the rotation vectors, nearly.
+        // Approximately half the rotation vectors.
         const glm::dvec3 turn(rotation.x, rotation.y, rotation.z);
         const glm::dvec3 stopped = turn - glm::dvec3(done.x, done.y, done.z);
         const double size = glm::dot(stopped, stopped);
-        constexpr double kPart = 0.05;  // of the turn
+        constexpr double kPart = 0.05;  // fraction of the rotation
         if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
         const glm::dvec3 moved = link.mobility * stopped;
         const double weight = glm::dot(stopped, moved);
@@ -182,10 +183,10 @@ private:
 
     IkProblem& problem_;
     std::size_t size_;
-    double position_, rotation_;  ///< roots of the weights
+    double position_, rotation_;  ///< square roots of the weights
 };
 
-/// Numbers in [-1, 1] from a counter: the same on every machine.
+/// Pseudo-random numbers in [-1, 1] from a counter: the same on every machine.
 class Dice {
 public:
     double next() {
@@ -197,9 +198,9 @@ private:
     std::uint64_t state_ = 1;
 };
 
-/// Three unit axes across each other, in base space, in which a chain and its mirror image have the same numbers for
-/// mirrored turns: made of the chain's bends at rest, what its constraints allow, its pole, and where the target lies.
-/// How the joints' own axes are laid counts nothing. Turns are axial vectors, and so is what follows.
+/// Three orthonormal axes in base space, in which a chain and its mirror image have the same numbers for mirrored
+/// rotations: derived from the chain's bends at rest, what its constraints allow, its pole, and the direction of the
+/// target. The orientation of the joints' own axes does not matter. Rotations are axial vectors, and so are these.
 glm::dmat3 turn_axes(const IkProblem& problem) {
     glm::dvec3 bends(0.0);
     glm::dquat global(1.0, 0.0, 0.0, 0.0);
@@ -229,7 +230,8 @@ glm::dmat3 turn_axes(const IkProblem& problem) {
     return {x, y, glm::cross(x, y)};
 }
 
-/// Another beginning: first the preferred pose, then that brought near by the closed form, then any legal one.
+/// Sets another starting point: first the preferred pose, then that pose improved by the closed form, then any legal
+/// one.
 void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axes, Dice& dice) {
     constexpr std::uint32_t kPreferred = 2;  // attempts
     glm::dquat parent(1.0, 0.0, 0.0, 0.0);   // at rest
@@ -243,7 +245,7 @@ void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axe
             const auto& preferred = link.constraint->record.preferred;
             turn = {preferred[0], preferred[1], preferred[2]};
         } else {
-            // One after another: in which order arguments are computed is the compiler's choice.
+            // One at a time: the evaluation order of arguments is up to the compiler.
             for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
             turn = glm::conjugate(rest) * (axes * turn);
         }
@@ -258,7 +260,8 @@ void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axe
 
 std::uint32_t solve_least_squares(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
-    constexpr std::size_t kLong = 256;  // a rope that is stuck stays so, and each restart costs as much as the first
+    constexpr std::size_t kLong = 256;  // a long rope that is stuck stays stuck, and each restart costs as much as the
+                                        // first attempt
     const bool is_hopeless = problem.is_out_of_reach || problem.links.size() > kLong;
     const std::uint32_t restarts = is_hopeless ? 0 : problem.options->restarts;
     LeastSquares method(problem);
@@ -268,13 +271,13 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     problem.save();
     const auto descend = [&] {
         iterations += method.descend(most);
-        // Of two ends as near as each other the first counts: rounding must not choose between them.
+        // Of two nearly equal results the first counts: rounding must not choose between them.
         constexpr double kNearer = 0.99;
         if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
         best = problem.cost();
         problem.save();
     };
-    // The closed form from the best place so far: it slides along a limit in one step where descending creeps.
+    // The closed form from the best result so far: it slides along a limit in one step where descent creeps.
     const auto bend_best = [&] {
         problem.restore();
         solve_two_bone(problem);

@@ -114,7 +114,7 @@ glm::dvec3 preferred_side(const Constraint& constraint) {
     const auto middle = [&](std::size_t axis) {
         return shape.angles.at(axis).half < trig::kPi ? shape.angles.at(axis).middle : 0.0;
     };
-    const auto swing = [&](std::size_t side) {  // free: infinite, and then as far as half a turn
+    const auto swing = [&](std::size_t side) {  // free: infinite; counts as half a turn
         return std::min(shape.swing_high.at(side), 1.0) - std::min(shape.swing_low.at(side), 1.0);
     };
     switch (constraint.model) {

@@ -9,80 +9,81 @@
 
 #include <span>
 
-// A chain as the solvers see it: in the space of the start's parent, lengths in chain lengths.
+// A chain as the solvers see it: in the space of the start's parent ("base space"), with lengths in chain lengths.
 namespace bendy {
 
 struct IkProblem {
     std::span<IkLink> links;
     glm::dvec3 origin{0};       ///< of the first link
     double scale = 1.0;         ///< metres per chain length
-    glm::dvec3 target{0};       ///< where the tip should be
+    glm::dvec3 target{0};       ///< wanted position of the tip
     bool has_rotation = false;  ///< whether target_rotation counts
     double position_weight = 1.0;
     double rotation_weight = 0.0;
     glm::dquat target_rotation{1, 0, 0, 0};
-    glm::dquat tip_rotation{1, 0, 0, 0};  ///< in the last link's axes
+    glm::dquat tip_rotation{1, 0, 0, 0};  ///< relative to the last link
     bool has_pole = false;
     glm::dvec3 pole{0};            ///< point to bend towards
-    double pole_angle = 0.0;       ///< radians from there to the bend
-    double reach = 1.0;            ///< the bones' lengths together: 1, or 0 for a chain without length
+    double pole_angle = 0.0;       ///< radians from the pole to the bend
+    double reach = 1.0;            ///< total length of the bones: 1, or 0 for a chain without length
     bool is_out_of_reach = false;  ///< the target is farther from the origin than that
     double tolerance = 1e-4;       ///< chain lengths; radians
-    std::uint32_t iterations = 0;  ///< at most; 0: the solver's own
+    std::uint32_t iterations = 0;  ///< maximum; 0: the solver's default
     const ReachOptions* options = nullptr;
 
-    glm::dvec3 tip{0};                  ///< by place
-    glm::dquat tip_global{1, 0, 0, 0};  ///< by place
+    glm::dvec3 tip{0};                  ///< computed by place
+    glm::dquat tip_global{1, 0, 0, 0};  ///< computed by place
 
-    /// Positions and orientations from the links' rotations, from link `first` on.
+    /// Computes positions and orientations from the links' rotations, from link `first` on.
     void place(std::size_t first = 0);
-    /// The same of the one link after `link`, or of the tip if it is the last.
+    /// The same for only the link after `link`, or the tip if `link` is the last.
     void place_next(std::size_t link);
     [[nodiscard]] glm::dquat parent_global(std::size_t link) const;
     [[nodiscard]] double distance() const;        ///< tip to target, chain lengths
-    [[nodiscard]] double rotation_error() const;  ///< radians; 0 if no rotation counts
+    [[nodiscard]] double rotation_error() const;  ///< radians; 0 if rotation does not count
     [[nodiscard]] bool is_reached() const;
-    /// What the solvers make small: weighted squares of both errors.
+    /// The quantity that the solvers minimise: the weighted sum of both errors squared.
     [[nodiscard]] double cost() const;
     void save();
     void restore();
 };
 
-/// The rotation brought inside the link's constraint.
+/// Returns the rotation moved inside the link's constraint.
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local);
-/// The same by a slower and nearer way: for where a solver begins.
+/// The same with a slower method that stays closer: for a solver's starting point.
 glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
-/// As legal_local, but a step from link.local into the soft zone goes half way only.
+/// As legal_local, but a step from link.local into the soft zone is halved.
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
-/// A turn by a rotation vector in base space, lessened by the link's freedom about its axes.
+/// Returns a rotation vector in base space, scaled by the link's freedom about each of its axes.
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
-/// Which way a joint prefers to turn, or where that is not said, to which side its constraint lets it turn farther, as
-/// a rotation vector about the frame's axes: what a mirrored joint has mirrored, whichever way its axes are laid. Zero
-/// where nothing is preferred.
+/// Returns the direction in which a joint prefers to turn or, if none is given, the side to which its constraint lets
+/// it turn farther, as a rotation vector about the frame's axes: mirrored for a mirrored joint, whatever the
+/// orientation of its axes. Zero if nothing is preferred.
 glm::dvec3 preferred_side(const Constraint& constraint);
-/// The axis, in the constraint's frame, about which alone the joint bends: a hinge's, or that of a swing which has no
-/// width. Zero if there is none.
+/// Returns the only axis, in the constraint's frame, about which the joint bends: that of a hinge, or of a swing of
+/// zero width. Zero if there is none.
 glm::dvec3 only_axis(const Constraint& constraint);
-/// Turns a placed link by a rotation vector in base space as far as it is free and legal; returns what it turned by.
-/// The links after it are not placed anew.
+/// Rotates a placed link by a rotation vector in base space, as far as it is free and legal; returns the actual
+/// rotation. Does not place the following links again.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
-/// The same by a rotation, which is quicker where the link is wholly free.
+/// The same for a rotation, which is faster if the link is completely free.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation);
 
-// The solvers. Each begins with a placed problem whose links are legal, leaves it so, and returns its iterations.
+// The solvers. Each starts with a placed problem whose links are legal, leaves it in that state, and returns its
+// iterations.
 std::uint32_t solve_pull(IkProblem& problem);
 std::uint32_t solve_two_bone(IkProblem& problem);
-/// Moves a two-bone problem's target nearer by its softness: near full reach, where a straight leg would snap, the tip
-/// slows, comes nearer and nearer, and never arrives.
+/// Moves the target of a two-bone problem nearer by its softness: near full reach, where a straight leg would snap, the
+/// tip slows down and approaches the limit asymptotically.
 void soften_target(IkProblem& problem);
-/// Of two equal turns of a straight chain's hinge, whether the one against its axis is preferred: which end of its axis
-/// the file gives says nothing. False for what is no hinge.
+/// Returns which of two equal rotations of a straight chain's hinge is preferred: true for the one against its axis.
+/// The axis's sign in the file carries no meaning. False if it is not a hinge.
 bool hinge_prefers_back(const Constraint* constraint);
 std::uint32_t solve_ccd(IkProblem& problem);
 std::uint32_t solve_fabrik(IkProblem& problem);
 std::uint32_t solve_aim(IkProblem& problem);
 std::uint32_t solve_least_squares(IkProblem& problem);
-/// Points every bone in turn at the target: what a chain does that cannot reach.
+/// Points every bone in turn at the target: for a chain that cannot reach it.
 void point_at_target(IkProblem& problem);
 
 }  // namespace bendy

@@ -5,9 +5,9 @@
 #include <cmath>
 
 // E. F. Anderson's "pull" solver, after Hugo Elias: a force F pulls the tip towards the target; for each joint from the
-// tip up, and each of its axes A, with B the way from the joint to the tip,
+// tip up, and each of its axes A, with B the vector from the joint to the tip,
 //     angle = gain * |F| * sin(A, F) * sin(B, F) * sign((A x B) . F)
-// The paper takes for B the joint's own bone; the way to the tip is the same for the last joint and right for the
+// In the paper B is the joint's own bone; the vector to the tip is the same for the last joint and correct for the
 // others.
 namespace bendy {
 

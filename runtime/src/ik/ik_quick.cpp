@@ -13,7 +13,7 @@
 namespace bendy {
 namespace {
 
-// Inlined even where a compiler finds that too much: calls cost as much as what they do.
+// Inlined even if the compiler considers the functions too large: a call costs as much as the work.
 #define BENDY_INLINE [[gnu::always_inline]] inline
 
 BENDY_INLINE double squared(const glm::dvec3& v) {
@@ -28,21 +28,21 @@ BENDY_INLINE glm::dvec3 vector_of(const glm::dquat& q) {
     return {q.x, q.y, q.z};
 }
 
-/// The vector turned by a unit quaternion.
+/// Rotates a vector by a unit quaternion.
 BENDY_INLINE glm::dvec3 turned(const glm::dquat& q, const glm::dvec3& v) {
     const glm::dvec3 u = vector_of(q);
     const glm::dvec3 across = glm::cross(u, v) * 2.0;
     return v + across * q.w + glm::cross(u, across);
 }
 
-/// The same rotation as unit x, y and z axes; the sign is that nearest to `like`.
+/// Returns the rotation with these unit x, y and z axes, with the sign nearest to `like`.
 BENDY_INLINE glm::dquat rotation_of(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z,
                                     const glm::dquat& like) {
     const glm::dquat q = glm::quat_cast(glm::dmat3(x, y, z));
     return q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0 ? -q : q;
 }
 
-/// A direction seen along another: the unit vector across both, which make a plane.
+/// Computes the unit normal of the plane through two directions; returns false if they are (nearly) parallel.
 BENDY_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dvec3& normal) {
     constexpr double kClear = 1e-12;
     normal = glm::cross(a, b);
@@ -52,7 +52,7 @@ BENDY_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dve
     return true;
 }
 
-/// False for a quaternion without a direction, and for what is no number.
+/// Normalises a quaternion. Returns false for a zero quaternion and for NaN.
 BENDY_INLINE bool normalize(glm::dquat& q) {
     const double length = squared(q);
     constexpr double kLeast = 1e-200, kMost = 1e200;
@@ -61,7 +61,7 @@ BENDY_INLINE bool normalize(glm::dquat& q) {
     return true;
 }
 
-/// A joint's rotation made unit; false if it is farther from that than rounding takes it.
+/// Reads a joint's rotation and normalises it; returns false if its length is off by more than rounding.
 BENDY_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotation) {
     const glm::dquat q(joint.rotation);
     const double off = squared(q) - 1.0;
@@ -91,7 +91,7 @@ BENDY_INLINE glm::dvec3 rolled(const glm::dvec3& v, const glm::dvec3& axis, doub
     return v * turn.cos + glm::cross(axis, v) * turn.sin;
 }
 
-/// The point of model space as the base's space has it; not finite where the base is flat.
+/// Converts a point from model space to base space; not finite if the base is flat.
 BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& point) {
     const glm::dvec3 x(base[0]), y(base[1]), z(base[2]);
     const glm::dvec3 way = point - glm::dvec3(base[3]);
@@ -100,7 +100,7 @@ BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& poi
     return glm::dvec3(glm::dot(way, across), glm::dot(way, glm::cross(z, x)), glm::dot(way, glm::cross(x, y))) * volume;
 }
 
-/// A joint's constraint while the chain is solved.
+/// A joint's constraint while its chain is solved.
 class LinkConstraint {
 public:
     BENDY_INLINE LinkConstraint(const Model& model, std::uint32_t joint, const ReachOptions& options)
@@ -110,7 +110,7 @@ public:
     BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
     [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
-    /// Whether it says nothing but which rotations there are.
+    /// True if it only restricts which rotations are legal.
     BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// The hinge's axis in the parent's space, for a unit rotation.
     [[nodiscard]] glm::dvec3 axis(const glm::dquat& local) const {
@@ -118,7 +118,7 @@ public:
     }
 
     enum class Side : std::uint8_t { inside, edge, outside };
-    /// Where a unit rotation lies; the edge is what rounding could take to either side.
+    /// Returns on which side of the limits a unit rotation is; the edge is what rounding could put on either side.
     BENDY_INLINE Side side(const glm::dquat& local) const { return is_there() ? find_side(local) : Side::inside; }
     BENDY_INLINE bool holds(const glm::dquat& local) const { return side(local) == Side::inside; }
 
@@ -143,7 +143,7 @@ private:
     const JointTransform* rest_;
 };
 
-/// What the chain bends or rolls towards, seen from its start, in the base's space; false if it has no pole.
+/// Finds the pole as seen from the chain's start, in base space; returns false if it has none.
 BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dmat4& base,
                             const glm::dvec3& origin, glm::dvec3& pole) {
     const auto& vector = chain.record.pole_vector;
@@ -158,7 +158,7 @@ BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOpt
     return true;
 }
 
-/// In lengths of the base's space, as `length` is.
+/// In units of base space, like `length`.
 BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, const glm::dmat4& base,
                                  double length) {
     const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
@@ -169,35 +169,35 @@ BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options
     return std::max(double{tolerance} / std::sqrt(scale), kLeast * length);
 }
 
-/// How long a vector of the base's space is in model space, metres.
+/// Returns the length of a base-space vector in model space, in metres.
 BENDY_INLINE float length_in_model(const glm::dmat4& base, const glm::dvec3& v) {
     return static_cast<float>(std::sqrt(squared(glm::dmat3(base) * v)));
 }
 
-/// How the middle joint bends: the rest of the chain turns about a unit axis, in the start's axes.
+/// How the middle joint bends: the rest of the chain rotates about a unit axis, relative to the start.
 struct Bend {
     glm::dvec3 bone;    ///< start to middle
-    glm::dvec3 axis;    ///< of the turn
-    glm::dvec3 across;  ///< middle to tip, what turns of it
-    glm::dvec3 along;   ///< and what stays
-    double b, c;        ///< bone on `across` as it is turned by an angle: b cos + c sin
-    double wanted;      ///< what that must be
+    glm::dvec3 axis;    ///< of the rotation
+    glm::dvec3 across;  ///< middle to tip: the part that rotates
+    glm::dvec3 along;   ///< middle to tip: the part along the axis
+    double b, c;        ///< component of the rotated `across` along the bone, at an angle: b cos + c sin
+    double wanted;      ///< the value which that must have
     double most;        ///< b^2 + c^2
-    double opening;     ///< sqrt(most - wanted^2): to either side of where the chain is straight
+    double opening;     ///< sqrt(most - wanted^2): the opening to either side of the straight chain
 };
 
 struct Turn {
     double cosine, sine;
 };
 
-/// To one side, -1 or 1.
+/// Returns the rotation to one side, -1 or 1.
 BENDY_INLINE Turn turn_to(const Bend& bend, double side) {
     const double share = 1.0 / bend.most;
     return {(bend.b * bend.wanted + side * bend.c * bend.opening) * share,
             (bend.c * bend.wanted - side * bend.b * bend.opening) * share};
 }
 
-/// False where the chain is straight or cannot be as long as `distance`, squared.
+/// Returns false if the chain is straight or cannot have the length `distance` (squared).
 BENDY_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local, const glm::dvec3& rest,
                             double distance, Bend& bend) {
     const double sizes = squared(bend.bone) * squared(rest);
@@ -229,14 +229,14 @@ BENDY_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local
     return true;
 }
 
-/// The middle joint's rotation before the turn as it is after it; false if that is half around.
+/// Computes the middle joint's rotation after the turn; returns false if the turn is half a revolution.
 BENDY_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const glm::dquat& before, glm::dquat& after) {
     after = glm::dquat(1.0 + turn.cosine, bend.axis * turn.sine) * before;
     constexpr double kHalfAround = 1e-9;
     return 1.0 + turn.cosine > kHalfAround && normalize(after);
 }
 
-/// The smaller turn, or a hinge's other one; false if the limits leave no side, or no clear one.
+/// Bends by the smaller rotation, or a hinge's other one; returns false if the limits leave no side, or no clear one.
 BENDY_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
     const glm::dquat before = local;
     turn = turn_to(bend, -1.0);
@@ -253,9 +253,10 @@ BENDY_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm
     return limit.is_hinge() && turn_middle(bend, turn, before, local) && limit.holds(local);
 }
 
-/// The start's rotation with the tip, at `reached` in the start's axes, in the way's direction by the smallest turn.
+/// Rotates the start by the smallest rotation that brings the tip, at `reached` relative to the start, into the
+/// direction of the target.
 BENDY_INLINE bool aim_start(const glm::dvec3& reached, const glm::dvec3& way, double distance, glm::dquat& rotation) {
-    const glm::dvec3 from = turned(rotation, reached);  // as long as the way
+    const glm::dvec3 from = turned(rotation, reached);  // has the length of `way`
     const glm::dquat turn(distance + glm::dot(from, way), glm::cross(from, way));
     rotation = turn * rotation;
     constexpr double kOpposite = 1e-9;
@@ -301,7 +302,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     if (!find_pole(chain, pose, options, base, origin, pole)) {
         if (!aim_start(reached, way, distance, upper)) return std::nullopt;
     } else {
-        // From the tip's direction and the side of the knee to the target's direction and the side of the pole.
+        // From the tip's direction and the knee's side to the target's direction and the pole's side.
         glm::dvec3 from_z = -bend.axis, to_z;
         if (!find_normal(way, pole, to_z) || (lower_limit.is_hinge() && !find_normal(reached, bend.bone, from_z)))
             return std::nullopt;
@@ -316,7 +317,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     if (!upper_limit.holds(upper)) return std::nullopt;
 
     const double length = std::sqrt(squared(bend.bone)) + std::sqrt(squared(rest));
-    const double left = std::abs(std::sqrt(squared(reached)) - std::sqrt(distance));  // the direction is right
+    const double left = std::abs(std::sqrt(squared(reached)) - std::sqrt(distance));  // the direction is already right
     if (!(left <= tolerance_of(chain, options, base, length)) || !(squared(upper) > 0.5)) return std::nullopt;
     const auto changed = pose.change_local();
     changed[start].rotation = glm::quat(upper);
@@ -333,7 +334,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     const auto& turned_tip = chain.record.tip_rotation;
     glm::dquat rotation;
     glm::dquat tip(turned_tip[3], turned_tip[0], turned_tip[1], turned_tip[2]);
-    constexpr double kOdd = 1e4;  // of a squared length: what is no rotation is for the long way
+    constexpr double kOdd = 1e4;  // of a squared length: invalid rotations are left to the general solver
     const bool is_plain = read_rotation(transform, rotation) && limit.is_plain() && !limit.is_hinge() &&
                           limit.holds(rotation) && squared(tip) < kOdd && kOdd * squared(tip) > 1.0 && normalize(tip);
     if (!is_plain) return std::nullopt;
@@ -345,7 +346,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     const glm::dvec3 forward = turned(rotation, turned(tip, {0.0, 0.0, 1.0}));
     const glm::dquat turn(1.0 + glm::dot(forward, ahead), glm::cross(forward, ahead));
     const double tolerance = tolerance_of(chain, options, base, 1.0);
-    // What looks at the target already stays as it is; behind the back there is no nearest way round.
+    // If it already looks at the target, nothing changes; directly behind, the shortest rotation is not unique.
     constexpr double kOpposite = 1e-4;
     if (!(squared(vector_of(turn)) > 4.0 * tolerance * tolerance && turn.w > kOpposite)) return std::nullopt;
     glm::dvec3 pole;
@@ -371,7 +372,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
 
 std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
                                          const ReachOptions& options) {
-    constexpr std::uint32_t kTwoBones = 3;  // links, the effector counted
+    constexpr std::uint32_t kTwoBones = 3;  // links, including the effector
     const Solver solver = options.solver != Solver::any ? options.solver : chain.solver;
     const bool is_aim = solver == Solver::aim && chain.links == 1;
     const bool is_two_bone = (solver == Solver::any || solver == Solver::two_bone) && chain.links == kTwoBones;

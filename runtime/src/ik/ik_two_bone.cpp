@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
-// Two bones in closed form: the middle joint turns until the tip is as far from the start as the target is, then the
-// start turns the tip to the target, and about the line between them until the bend looks to the pole.
+// Two bones in closed form: the middle joint turns until the tip is as far from the start as the target is; then the
+// start turns the tip to the target, and rolls about the line between them until the bend points to the pole.
 namespace bendy {
 namespace {
 
-constexpr double kSameTurn = 1e-6;  // radians, and cosines: what rounding could take to either side
+constexpr double kSameTurn = 1e-6;  // radians, and cosines: within rounding of one another
 
 double length_of(const glm::dvec3& v) {
     return std::sqrt(glm::dot(v, v));
 }
 
-/// The link that bends: the one that parts the chain most evenly.
+/// Returns the link that bends: the one that divides the chain most evenly.
 std::size_t find_middle(const IkProblem& problem) {
     std::size_t middle = 0;
     double best = 0.0;
@@ -31,7 +31,7 @@ std::size_t find_middle(const IkProblem& problem) {
     return middle;
 }
 
-/// The axis about which the middle joint bends, not of unit length.
+/// Returns the axis about which the middle joint bends, not of unit length.
 glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::dvec3& u, const glm::dvec3& v) {
     if (middle.constraint != nullptr && middle.constraint->model == ConstraintModel::hinge)
         return middle.global * (middle.frame * glm::dvec3(1.0, 0.0, 0.0));
@@ -43,7 +43,8 @@ glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::
         axis = glm::cross(problem.pole - problem.origin, u);
         if (length_of(axis) > kStraight * length_of(u)) return axis;
     }
-    // A straight chain bends the way its joint prefers, else about the more crosswise of its axes.
+    // A straight chain bends in the direction that its joint prefers, otherwise about the more perpendicular of its
+    // axes.
     const glm::dquat axes = middle.global * middle.frame;
     if (middle.constraint != nullptr) {
         axis = axes * preferred_side(*middle.constraint);
@@ -55,7 +56,7 @@ glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::
     return glm::dot(x, x) > glm::dot(z, z) ? glm::cross(x, u) : glm::cross(z, u);
 }
 
-/// How far a turn of the link would take it outside its constraint, radians.
+/// Returns how far a rotation of the link would take it outside its constraint, in radians.
 double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& turn) {
     const IkLink& l = problem.links[link];
     if (l.constraint == nullptr) return 0.0;
@@ -68,8 +69,8 @@ struct MiddleTurn {
     double illegality = 0.0;  ///< radians
 };
 
-/// The turn of the middle joint about `axis` that takes the tip as far from the start as `distance`, or as near to that
-/// as it gets.
+/// Returns the rotation of the middle joint about `axis` that brings the distance of the tip from the start as near as
+/// possible to `distance`.
 MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
     const IkLink& link = problem.links[middle];
     const glm::dvec3 u = link.position - problem.origin;
@@ -77,7 +78,7 @@ MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const 
     const double size = length_of(axis);
     if (size < 1e-12) return {};
     const glm::dvec3 h = axis / size;
-    // |u + turned v| = distance:  along + b cos(f) + c sin(f) = wanted, f the turn about h.
+    // |u + rotated v| = distance:  along + b cos(f) + c sin(f) = wanted, f the rotation about h.
     const double wanted = 0.5 * (distance * distance - glm::dot(u, u) - glm::dot(v, v));
     const double along = glm::dot(u, h) * glm::dot(v, h);
     const glm::dvec3 across = v - h * glm::dot(v, h);
@@ -85,16 +86,17 @@ MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const 
     const double c = glm::dot(u, glm::cross(h, across));
     const double most = std::sqrt(b * b + c * c);
     if (most < 1e-12) return {};
-    // f is the opening to one side or the other of where the chain is straight; as cosine and sine.
+    // f is the opening to either side of the straight chain, as cosine and sine.
     const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
     const double sine = std::sqrt(1.0 - open * open);
     const auto turn = [&](double side) {
         const glm::dvec2 f((b * open + side * c * sine) / most, (c * open - side * b * sine) / most);
-        // Half of it, the short way.
+        // Half of it, along the shorter arc.
         const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
         return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
     };
-    const MiddleTurn one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends the axis' way
+    const MiddleTurn one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends in the axis's
+                                                                                // direction
     const MiddleTurn other{turn(1.0), illegality(problem, middle, turn(1.0))};
     const double excess = one.illegality - other.illegality;
     const bool is_smaller = std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w
@@ -102,13 +104,13 @@ MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const 
     return excess > kSameTurn || (excess > -kSameTurn && is_smaller) ? other : one;
 }
 
-/// Turns the middle joint so that the tip is `distance` from the start, or as near to that as it gets.
+/// Turns the middle joint so that the distance of the tip from the start is as near as possible to `distance`.
 void bend(IkProblem& problem, std::size_t middle, double distance) {
     IkLink& link = problem.links[middle];
     const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
     MiddleTurn best = find_middle_turn(problem, middle, axis, distance);
     if (best.illegality > kSameTurn) {
-        // From rest the way that the constraint allows most.
+        // Starts from rest, in the direction in which the constraint allows most.
         const glm::dquat before = link.local;
         link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
         problem.place(middle);
@@ -125,7 +127,8 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
     problem.place(middle);
 }
 
-/// The turn about `axis`, the line from start to target, that takes the bend, at `knee` from the start, to the pole.
+/// Returns the rotation about `axis`, the line from start to target, that brings the bend, at `knee` from the start, to
+/// the pole.
 glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm::dvec3& axis) {
     const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(axis, v); };
     const glm::dvec3 bend = across(knee);
@@ -136,8 +139,8 @@ glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm
     return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
 }
 
-/// The turn about `axis`, of all around, that takes the start least outside its constraint: of the legal ones the
-/// smallest, to either side, so that a mirrored chain turns the other way.
+/// Returns the full-circle rotation about `axis` that takes the start least outside its constraint; of the legal ones
+/// the smallest, to either side, so that a mirrored chain turns the other way.
 glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const glm::dvec3& axis) {
     constexpr int kTurns = 24;
     constexpr double kStep = 2.0 * trig::kPi / kTurns;
@@ -151,7 +154,7 @@ glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const 
         least = here;
         best = angle;
     };
-    /// The smallest legal turn of this side, the one before `legal` on the ring being illegal.
+    /// The smallest legal rotation to this side, given that the sample before `legal` is illegal.
     const auto edge = [&](double legal) {
         double illegal = legal - std::copysign(kStep, legal);
         constexpr double kNear = 1e-6;
@@ -165,7 +168,7 @@ glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const 
         const double there = badness(kStep * i);
         const double back = badness(-kStep * i);
         if (there <= kLegal || back <= kLegal) {
-            constexpr double kMore = 4.0;  // than half a turn
+            constexpr double kMore = 4.0;  // more than half a turn
             const double one = there <= kLegal ? edge(kStep * i) : kMore;
             const double other = back <= kLegal ? edge(-kStep * i) : -kMore;
             best = one <= -other ? one : other;
@@ -204,7 +207,7 @@ void soften_target(IkProblem& problem) {
 
 std::uint32_t solve_two_bone(IkProblem& problem) {
     const std::size_t middle = find_middle(problem);
-    if (middle == 0) return solve_ccd(problem);  // there are no two bones
+    if (middle == 0) return solve_ccd(problem);  // there are not two bones
     const glm::dvec3& knee = problem.links[middle].position;
     const double distance = length_of(problem.target - problem.origin);
     bend(problem, middle, distance);

@@ -1,9 +1,9 @@
-// The body of the kernels for blending, included after lanes.h by one source for each instruction set, which also
+// The implementation of the blending kernels, included after lanes.h by one source for each instruction set, which also
 // defines roots_of(Lanes).
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// kLanes joints' rotations, a number of each in each lane.
+/// Rotations of kLanes joints, one joint per lane.
 inline void load_joint_rotations(const float* local, Lanes* to) {
     transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
               to);
@@ -37,7 +37,7 @@ inline void mix_joints(float* local, const float* other, Lanes weight) {
     normalise_four(a);
     for (std::size_t k = 0; k < kLanes; ++k) {
         const Lanes by = splat(weight[k]);
-        for (std::size_t c = 2; c < 10; c += kLanes) {  // the rotation's second half, too, until it is stored
+        for (std::size_t c = 2; c < 10; c += kLanes) {  // loads the rotation's second half too; it is stored later
             float* const to = local + 10 * k + c;
             store_lanes(to, (1.0f - by) * load_lanes(to) + by * load_lanes(other + 10 * k + c));
         }
@@ -79,7 +79,7 @@ inline void blend_group(const BlendBlock& block, std::size_t joint, float* local
     blend_joints(local, block.other + 10 * joint, block.weight * mask);
 }
 
-/// Fewer joints than lanes.
+/// For fewer joints than lanes.
 template <BlendJoints blend_joints>
 __attribute__((noinline)) void blend_few(const BlendBlock& block) {
     float local[10 * kLanes]{};
@@ -96,7 +96,7 @@ __attribute__((noinline)) void blend_few(const BlendBlock& block) {
 template <BlendJoints blend_joints>
 inline void blend_lanes(const BlendBlock& block) {
     if (block.joints < kLanes) return blend_few<blend_joints>(block);
-    // The last group, some of it twice: read before the others are written.
+    // The last group overlaps the one before it: it is read before the others are written.
     const std::size_t last = block.joints - kLanes;
     float local[10 * kLanes];
     __builtin_memcpy(local, block.local + 10 * last, sizeof local);

@@ -1,9 +1,10 @@
-// The body of the kernels for dual quaternions, included after skin_lanes.h: each vertex' matrix comes from the blended
-// motion; all else is as there.
+// The implementation of the dual quaternion kernels, included after skin_lanes.h: each vertex's matrix comes from the
+// blended motion; everything else is as there.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// To a row: sum(weight * motion), real before dual part, each on the side of the heaviest one; then the weights' sum.
+/// Stores in a row: sum(weight * motion), real part before dual part, each with the sign that matches the heaviest one;
+/// then the sum of the weights.
 struct DualSum {
     const DualMotion* motions;
 
@@ -28,7 +29,7 @@ struct DualSum {
         store_quad(to + 8, all);
     }
 
-    /// The weight, negative where the products' sum is below zero.
+    /// Returns the weight, negated where the sum of the products is negative.
     static inline Quad on_side_of(Quad products, Quad weight) {
         using Bits = decltype(Quad{} < Quad{});
         products += __builtin_shufflevector(products, products, 2, 3, 0, 1);
@@ -44,7 +45,7 @@ inline Matrix rigid_matrix(const float (*duals)[16], float scale) {
     Lanes q[4], d[4];
     turn_four(duals[0], q);
     turn_four(duals[0] + 4, d);
-    // Divided by the squared length, so the real part need not be of unit length; zero becomes a matrix of zeros.
+    // Divided by the squared length, so the real part need not be normalised; zero becomes a zero matrix.
     const Lanes share = scale / between(dot_of_four(q, q), splat(1e-30f), splat(1e30f));
     const Lanes twice = share + share;
     const Lanes xx = q[0] * q[0], yy = q[1] * q[1], zz = q[2] * q[2], ww = q[3] * q[3];
@@ -61,7 +62,7 @@ inline Matrix rigid_matrix(const float (*duals)[16], float scale) {
     m.at[2][0] = twice * (xz - yw);
     m.at[2][1] = twice * (yz + xw);
     m.at[2][2] = share * ((ww + zz) - (xx + yy));
-    // The vector of 2 * dual * conjugate(real).
+    // The vector part of 2 * dual * conjugate(real).
     m.at[0][3] = twice * (q[3] * d[0] - d[3] * q[0] - across.x);
     m.at[1][3] = twice * (q[3] * d[1] - d[3] * q[1] - across.y);
     m.at[2][3] = twice * (q[3] * d[2] - d[3] * q[2] - across.z);

@@ -16,7 +16,7 @@ struct Moved {
     glm::dvec3 translation{0.0};
 };
 
-/// Some vertices and what their bones do.
+/// Some vertices and the transforms of their bones.
 class PlainDuals {
 public:
     PlainDuals(const SkinBlock& block, std::span<const StretchedMotion> motions, double scale, bool is_stretched)
@@ -32,7 +32,8 @@ private:
         return motions_[block_.bones8 != nullptr ? block_.bones8[at] : block_.bones16[at]];
     }
 
-    /// The blended motion. q and -q are one rotation: all are taken on the side of the heaviest one.
+    /// Returns the blended motion. q and -q are the same rotation: each is taken with the sign that matches the
+    /// heaviest one.
     [[nodiscard]] Moved mix(std::size_t vertex) const {
         const std::size_t first = vertex * block_.influences;
         std::size_t heaviest = first;
@@ -58,7 +59,7 @@ private:
         }
         constexpr double kNothing = 1e-12;
         double length = glm::length(sum.real);
-        if (!(length > kNothing) || !(all > kNothing)) {  // weights below zero cancel the others
+        if (!(length > kNothing) || !(all > kNothing)) {  // negative weights cancel the others
             sum = pivot;
             length = all = 1.0;
         }

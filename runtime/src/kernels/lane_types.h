@@ -1,6 +1,6 @@
-// The types of lanes.h, for what an instruction set defines before it. Included after BENDY_LANES is defined.
+// The types of lanes.h, which the code for each instruction set needs before it. Included after BENDY_LANES is defined.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 constexpr std::size_t kLanes = BENDY_LANES;
 using Lanes = float __attribute__((vector_size(4 * BENDY_LANES)));

@@ -1,7 +1,7 @@
-// Vectors of four or eight floats, one number of several vertices or joints in each. Included by one source
-// for each instruction set, which defines BENDY_LANES (4 or 8) and includes lane_types.h.
+// Vectors of four or eight floats, each lane for another vertex or joint. Included by one source per instruction set,
+// which defines BENDY_LANES (4 or 8) and includes lane_types.h.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 struct Three {
     Lanes x, y, z;
@@ -25,7 +25,7 @@ inline void store_quad(float* to, Quad quad) {
     __builtin_memcpy(to, &quad, sizeof quad);
 }
 
-/// In each group of four lanes: numbers a and b of x, c and d of y.
+/// In each group of four lanes: elements a and b of x, c and d of y.
 template <int a, int b, int c, int d>
 inline Lanes shuffle(Lanes x, Lanes y) {
 #if BENDY_LANES == 8
@@ -35,7 +35,7 @@ inline Lanes shuffle(Lanes x, Lanes y) {
 #endif
 }
 
-/// Lanes that lie one after another.
+/// Loads consecutive numbers.
 inline Lanes load_lanes(const float* from) {
     Lanes lanes;
     __builtin_memcpy(&lanes, from, sizeof lanes);
@@ -43,7 +43,7 @@ inline Lanes load_lanes(const float* from) {
 }
 
 #if BENDY_LANES == 4
-/// Four numbers, in the upper lanes again if there are any: what has these defines it.
+/// Four numbers, repeated in the upper lanes if there are any: defined by instruction sets with upper lanes.
 inline Lanes repeat(const float* quad) {
     return load_lanes(quad);
 }
@@ -53,7 +53,7 @@ inline void store_lanes(float* to, Lanes lanes) {
     __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
-/// Four numbers at `from`; in the upper lanes, if there are any, those `apart` floats on, and so on.
+/// Loads four numbers from `from`; into the upper lanes, if there are any, those `apart` floats further on, and so on.
 inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
 #if BENDY_LANES == 8
     return __builtin_shufflevector(load_quad(from), load_quad(from + apart), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -62,7 +62,7 @@ inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
 #endif
 }
 
-/// The four lanes from 4 * part on.
+/// Returns the four lanes from 4 * part on.
 template <int part>
 inline Quad quad_of(Lanes lanes) {
 #if BENDY_LANES == 4
@@ -80,8 +80,8 @@ inline Quad high(Lanes lanes) {
 }
 #endif
 
-/// Turns four numbers of each of four vertices (and of four more in each four lanes further up): to[c] is every
-/// vertex's number c.
+/// Transposes four numbers of each of four vertices (and of four more per four upper lanes): to[c] receives number c of
+/// every vertex.
 inline void transpose(Lanes a, Lanes b, Lanes c, Lanes d, Lanes* to) {
     const Lanes ab_low = shuffle<0, 1, 0, 1>(a, b);
     const Lanes ab_high = shuffle<2, 3, 2, 3>(a, b);
@@ -93,9 +93,9 @@ inline void transpose(Lanes a, Lanes b, Lanes c, Lanes d, Lanes* to) {
     to[3] = shuffle<1, 3, 1, 3>(ab_high, cd_high);
 }
 
-/// kLanes times x, y, z.
+/// Loads x, y, z of kLanes elements.
 inline Three load_three(const float* from) {
-#if BENDY_LANES == 8  // whole vectors, since the processor loads as many of these as of halves
+#if BENDY_LANES == 8  // whole vectors, since the processor loads them as fast as halves
     const Lanes ab = load_lanes(from);
     const Lanes ca = load_lanes(from + 8);
     const Lanes bc = load_lanes(from + 16);
@@ -112,7 +112,7 @@ inline Three load_three(const float* from) {
     return {shuffle<0, 3, 0, 2>(a, xy), shuffle<0, 2, 1, 3>(yz, xy), shuffle<1, 3, 0, 3>(yz, c)};
 }
 
-/// kLanes times x, y, z, w.
+/// Loads x, y, z, w of kLanes elements.
 inline void load_four(const float* from, Lanes* to) {
     transpose(load_quads(from, 16), load_quads(from + 4, 16), load_quads(from + 8, 16), load_quads(from + 12, 16), to);
 }
@@ -121,7 +121,7 @@ inline Lanes dot_of_four(const Lanes* a, const Lanes* b) {
     return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
 }
 
-/// A number of each four, in all four places.
+/// Broadcasts one number of each group of four to all four lanes.
 template <int place>
 inline Lanes everywhere(Lanes lanes) {
     return shuffle<place, place, place, place>(lanes, lanes);

@@ -1,10 +1,10 @@
-// lanes.h for AVX2 and FMA, and what the kernels' bodies need of that instruction set. A body, too: included by each
-// source in its own namespace.
+// lanes.h for AVX2 and FMA, and what else the kernels need from that instruction set. Each source includes it in its
+// own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 8
 
-// NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): that is what this file is
+// NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
 #include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {
@@ -17,14 +17,14 @@ inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm256_min_ps(_mm256_max_ps(lanes, least), most);
 }
 inline Lanes inverse_roots_of(Lanes squares) {
-    const Lanes guess = _mm256_rsqrt_ps(squares);  // 12 bits; a step of Newton's method makes 23
+    const Lanes guess = _mm256_rsqrt_ps(squares);  // 12 bits; one step of Newton's method gives 23
     return guess + 0.5f * guess * (1.0f - squares * guess * guess);
 }
 inline void stream(float* to, Quad quad) {
     _mm_stream_ps(to, quad);
 }
 inline void stream(float* to, Lanes lanes) {
-    _mm_stream_ps(to, _mm256_castps256_ps128(lanes));  // in halves, which need to be aligned to 16 bytes only
+    _mm_stream_ps(to, _mm256_castps256_ps128(lanes));  // in halves, which only need alignment to 16 bytes
     _mm_stream_ps(to + 4, _mm256_extractf128_ps(lanes, 1));
 }
 inline void end_streams() {

@@ -1,10 +1,10 @@
-// lanes.h for WebAssembly SIMD, and what the kernels' bodies need of that instruction set. A body, too: included by
-// each source in its own namespace.
+// lanes.h for WebAssembly SIMD, and what else the kernels need from that instruction set. Each source includes it in
+// its own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 4
 
-// NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): that is what this file is
+// NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
 #include "lane_types.h"
 
 inline Lanes roots_of(Lanes squares) {

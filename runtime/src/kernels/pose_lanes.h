@@ -1,8 +1,8 @@
-// The body of the kernels for joint matrices, included after lanes.h by one source for each instruction set.
+// The implementation of the joint matrix kernels, included after lanes.h by one source for each instruction set.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// 1 in place of the last number of each four.
+/// Replaces the last number of each four by 1.
 inline Lanes with_one(Lanes lanes) {
 #if BENDY_LANES == 8
     return __builtin_shufflevector(lanes, splat(1.0f), 0, 1, 2, 11, 4, 5, 6, 15);
@@ -11,7 +11,7 @@ inline Lanes with_one(Lanes lanes) {
 #endif
 }
 
-/// Two columns of kLanes joints, each a number in each lane, to the joints' matrices; the fourth number of `d` counts.
+/// Stores two columns of kLanes joints' matrices, given with one joint per lane; the fourth number of `d` counts.
 inline void store_columns(const Three& c, const Lanes* d, float* to) {
     Lanes columns[4];
     transpose(c.x, c.y, c.z, Lanes{}, columns);
@@ -28,7 +28,7 @@ inline void store_columns(const Three& c, const Lanes* d, float* to) {
     }
 }
 
-/// Local matrices of kLanes joints: to_matrix without shear.
+/// Computes the local matrices of kLanes joints: to_matrix without shear.
 inline void make_local(const float* local, float* to) {
     Lanes q[4];
     transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
@@ -53,7 +53,7 @@ inline void make_local(const float* local, float* to) {
     store_columns({(xz + wy) * scale[3], (yz - wx) * scale[3], (1.0f - (xx + yy)) * scale[3]}, fourth, to + 8);
 }
 
-/// a * b, matrices of columns, b's last row 0 0 0 1.
+/// a * b, column-major; the last row of b is 0 0 0 1.
 inline void multiply(const float* a, const float* b, float* to) {
     const Lanes a0 = repeat(a), a1 = repeat(a + 4), a2 = repeat(a + 8);
 #if BENDY_LANES == 8
@@ -109,7 +109,7 @@ struct Product {
     Quad lower;
 };
 
-/// `column` of the joint's matrix times `row` of the bind matrix, twice.
+/// `column` of the joint's matrix times `row` of the bind matrix, for two rows.
 inline Product outer(const float* column, Lanes row) {
     const Lanes both = repeat(column);
     const Lanes upper = __builtin_shufflevector(both, both, 0, 0, 0, 0, 5, 5, 5, 5);
@@ -122,7 +122,7 @@ inline Product plus(const Product& a, const Product& b) {
 #endif
 
 inline bool palette_lanes(const PaletteBlock& block) {
-    Quad sum{};  // stays zero as long as numbers are finite
+    Quad sum{};  // remains zero if all numbers are finite
 #if BENDY_LANES == 8
     const Lanes last{0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f};
     Lanes upper_sum{};

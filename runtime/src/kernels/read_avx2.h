@@ -1,10 +1,10 @@
-// Reading a packed clip's numbers with AVX2, eight at once. Included after lanes.h.
+// Reads the numbers of a packed clip with AVX2, eight at a time. Included after lanes.h.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-constexpr std::ptrdiff_t kWindow = 16;  // bytes read at once
+constexpr std::ptrdiff_t kWindow = 16;  // bytes read at a time
 
-/// `from`, or a copy of the bytes there are before the payload's end, and zeros.
+/// Returns `from`, or a copy of the bytes up to the payload's end, padded with zeros.
 template <std::ptrdiff_t size, bool is_near_end>
 inline const unsigned char* reach(const unsigned char* from, const unsigned char* end, unsigned char* copy) {
     if (!is_near_end || end - from >= size) return from;
@@ -31,7 +31,7 @@ inline __m256i load_bytes(const std::uint8_t* bytes) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes)));
 }
 
-/// UnpackWindows, ready for use: a source byte of the window for each byte of each lane.
+/// UnpackWindows, expanded: a source byte of the window for each byte of each lane.
 struct Places {
     __m256i bytes, left, right;
 };
@@ -55,7 +55,7 @@ inline __m256i read_bits(const unsigned char* frame, const UnpackWindows& window
     return _mm256_srlv_epi32(_mm256_sllv_epi32(words, places.left), places.right);
 }
 
-/// One component of a group at both frames. Lanes past the group's tracks hold zeros.
+/// Reads one component of a group at both frames. Lanes beyond the group's tracks are zero.
 template <bool is_near_end>
 inline void read_component(const UnpackGroup& group, std::size_t component, std::size_t /*first*/,
                            const UnpackWindows& windows, const UnpackBlock& block, Lanes& left, Lanes& right) {

@@ -1,10 +1,11 @@
-// Reading a packed clip's numbers one by one, for instruction sets without shifts by lane. Included after lanes.h.
+// Reads the numbers of a packed clip one at a time, for instruction sets without shifts per lane. Included after
+// lanes.h.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 using Integers = std::int32_t __attribute__((vector_size(4 * BENDY_LANES)));
 
-/// A number of `size` bytes, little-endian as everything in the file; zeros past the payload's end.
+/// Reads a number of `size` bytes, little-endian like everything in the file; zeros beyond the payload's end.
 template <class Number, bool is_near_end>
 inline Number read_number(const unsigned char* from, const unsigned char* end) {
     Number number = 0;
@@ -25,7 +26,7 @@ inline std::uint32_t read_bits(const unsigned char* frame, const UnpackWindows& 
     return word << windows.left[lane] >> windows.right[lane];
 }
 
-/// One component of kLanes tracks at both frames. Lanes past the group's tracks hold zeros.
+/// Reads one component of kLanes tracks at both frames. Lanes beyond the group's tracks are zero.
 template <bool is_near_end>
 inline void read_component(const UnpackGroup& group, std::size_t component, std::size_t first,
                            const UnpackWindows& windows, const UnpackBlock& block, Lanes& left, Lanes& right) {

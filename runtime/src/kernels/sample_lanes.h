@@ -1,11 +1,11 @@
-// The body of the kernels for sampling, included after lanes.h by one source for each instruction set.
+// The implementation of the sampling kernels, included after lanes.h by one source for each instruction set.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 /// sin(t a) / sin(a) by Eberly's series, "A Fast and Accurate Algorithm for Computing SLERP", 2011:
 /// t (1 + k1 x (1 + k2 x (...))), x = cos(a) - 1, k_i = (t^2 / i - i) / (2 i + 1).
 struct Series {
-    static constexpr int kTerms = 24;  // at right angles a term is half the one before
+    static constexpr int kTerms = 24;  // at right angles each term is half the previous one
     static constexpr int kNearTerms = 4;
     static constexpr float kNearCosine = 0.9f;
     float t;
@@ -37,7 +37,7 @@ inline float least_of(Lanes lanes) {
     return least[0] < least[1] ? least[0] : least[1];
 }
 
-/// kLanes rotations, a number of each in each lane.
+/// Loads the rotations of kLanes tracks, one track per lane.
 inline void load_rotations(const float* const* keys, std::size_t at, Lanes* to) {
     Lanes quads[4];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -62,7 +62,7 @@ inline void store_rotations(const Lanes* numbers, const std::uint32_t* places, f
     }
 }
 
-/// The two ends' shares of an interpolated rotation.
+/// The weights of the two ends of an interpolated rotation.
 struct Shares {
     Lanes left, right;
 };
@@ -76,7 +76,7 @@ __attribute__((noinline)) Shares far_shares(const Series& left, const Series& ri
     return shares_of<Series::kTerms>(left, right, x);
 }
 
-/// Slerp, the short way round.
+/// Slerp along the shorter arc.
 inline void sample_rotations(const RotationTracks& tracks, std::size_t first, const SampleBlock& block,
                              const Series& left, const Series& right) {
     Lanes a[4];
@@ -89,7 +89,7 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
     const bool is_near = least_of(cosine) >= Series::kNearCosine;
     const Shares shares = is_near ? shares_of<Series::kNearTerms>(left, right, x) : far_shares(left, right, x);
     Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
-    if (block.fraction == 1.0f) by_b = splat(1.0f);  // the key itself, sign included
+    if (block.fraction == 1.0f) by_b = splat(1.0f);  // exactly the key, including its sign
     for (std::size_t c = 0; c < 4; ++c) a[c] = shares.left * a[c] + by_b * b[c];
     store_rotations(a, tracks.places + first, block.local);
 }

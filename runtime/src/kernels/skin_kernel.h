@@ -11,7 +11,7 @@ struct SkinKernels {
     DualKernel* dual;  ///< null for the plain one: see dual_plain
 };
 
-/// The functions of one of kernels().
+/// Returns the functions of one of kernels().
 inline SkinKernels skin_kernels(Kernel kernel) {
     switch (kernel) {
 #if defined(__x86_64__)

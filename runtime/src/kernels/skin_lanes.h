@@ -1,12 +1,12 @@
-// The body of the skinning kernels, included after lanes.h by one source for each instruction set, which also defines
-// between(lanes, least, most), inverse_roots_of(lanes) of numbers that are neither zero nor subnormal nor infinite,
-// stream(to, numbers) and end_streams(), and is compiled with that set's options.
+// The implementation of the skinning kernels, included after lanes.h by one source for each instruction set, which also
+// defines between(lanes, least, most), inverse_roots_of(lanes) for numbers that are neither zero nor subnormal nor
+// infinite, stream(to, numbers) and end_streams(), and is compiled with that set's options.
 //
-// A chunk of vertices at a time, in two steps: first the blended matrix of each group of kLanes vertices and what it
-// makes of them, a lane a vertex; then lengths, and the way back to the caller's layout. Each step is one long chain
-// for a group; in small loops the processor has several groups at work.
+// Vertices are processed in chunks, in two steps: first the blended matrix of each group of kLanes vertices and the
+// transformed attributes, one vertex per lane; then normalisation, and the conversion to the caller's layout. Each step
+// is a long dependency chain per group; in small loops the processor overlaps several groups.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 template <class Numbers>
 struct MatrixOf {
@@ -16,7 +16,7 @@ using Matrix = MatrixOf<Lanes>;
 
 constexpr std::size_t kChunk = 64;  // vertices, a multiple of kLanes
 
-/// A group's attributes on their way; directions are not of unit length yet.
+/// The attributes of a group between the two steps; directions are not normalised yet.
 struct Moved {
     Three positions, normals, tangents;
     Lanes sides;
@@ -24,7 +24,7 @@ struct Moved {
 
 using Signs = decltype(Lanes{} < Lanes{});
 
-/// The sign bit where a number is below zero.
+/// The sign bit of each negative number.
 inline Signs signs_of(Lanes lanes) {
     return (lanes < 0.0f) & reinterpret_cast<Signs>(splat(-0.0f));
 }
@@ -63,7 +63,7 @@ inline void store_packed(const Three& v, float* to) {
 #endif
 }
 
-/// `kept` of each four numbers at `stride`.
+/// Writes `kept` of each four numbers, `stride` apart.
 template <int kept, bool streams>
 inline void store_apart(Lanes x, Lanes y, Lanes z, Lanes w, float* to, std::size_t stride) {
     const auto put_vertex = [](float* vertex, Quad quad) {
@@ -84,8 +84,8 @@ inline void store_apart(Lanes x, Lanes y, Lanes z, Lanes w, float* to, std::size
     }
 }
 
-/// What is known of a block before it runs: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if that
-/// is found out as it goes), that outputs are packed, and that they go past the caches.
+/// What is known of a block at compile time: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if this
+/// is only known at run time), that outputs are packed, and that they are written past the caches.
 template <int kWanted, bool kPacked, bool kStreams>
 struct Form {
     static constexpr int wanted = kWanted;
@@ -110,7 +110,7 @@ inline bool wants(const SkinOutput& out) {
     return F::wanted != 0 ? (F::wanted & kPart) != 0 : out.data != nullptr;
 }
 
-/// Of unit length. What has no length that floats can square stays as short as it is: zero stays zero.
+/// Normalises. Vectors whose squared length underflows stay unnormalised: zero stays zero.
 inline Three normalised(const Three& v) {
     constexpr float kLeast = 1.17549435e-38f;
     constexpr float kMost = 3.40282347e+38f;
@@ -126,7 +126,7 @@ inline Lanes dot(const Lanes* a, const Three& b) {
     return a[0] * b.x + (a[1] * b.y + a[2] * b.z);
 }
 
-/// The first step of a group of kLanes vertices.
+/// The first step for a group of kLanes vertices.
 template <class F>
 inline __attribute__((always_inline)) void move(const Matrix& matrix, const SkinBlock& block, std::size_t vertex,
                                                 Moved& moved) {
@@ -141,8 +141,9 @@ inline __attribute__((always_inline)) void move(const Matrix& matrix, const Skin
     const Three area = cross(m[1], m[2]);
     const Signs signs = signs_of(dot(m[0], area));
     if (wants<F, 2>(block.out_normals)) {
-        // By the inverse transpose but for its length: the cofactors, which a matrix without an inverse has, too. Their
-        // rows are crosses of the matrix's; two of the three triple products have the cross of row 0 and the vector.
+        // Transforms by the inverse transpose except for its length: by the cofactor matrix, which also exists for a
+        // singular matrix. Its rows are cross products of the matrix's rows; two of the three triple products contain
+        // the cross product of row 0 and the vector.
         const Three v = load_three(block.normals + 3 * vertex);
         const Lanes normal[3] = {v.x, v.y, v.z};
         const Three across = cross(m[0], normal);
@@ -157,7 +158,7 @@ inline __attribute__((always_inline)) void move(const Matrix& matrix, const Skin
     }
 }
 
-/// The second step of those of the attributes `parts` (1, 2, 4) that are wanted.
+/// The second step for those of the attributes `parts` (1, 2, 4) that are wanted.
 template <class F, int parts>
 inline __attribute__((always_inline)) void finish(const Moved* moved, const SkinBlock& block, std::size_t vertex,
                                                   std::size_t count) {
@@ -174,7 +175,8 @@ inline __attribute__((always_inline)) void finish(const Moved* moved, const Skin
     }
 }
 
-/// What the chunk after the next one wants of a group. The processor foresees that by itself, but not across pages.
+/// Prefetches the input of a group in the chunk after the next one. The processor does that by itself, but not across
+/// pages.
 template <class F>
 inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
     const auto fetch = [&](const float* from, std::size_t numbers) {
@@ -186,7 +188,7 @@ inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
     if (wants<F, 4>(block.out_tangents)) fetch(block.tangents, 4);
 }
 
-/// Whole groups, `count` vertices of them from `vertex` on; matrix_of(vertex) is a group's.
+/// Processes whole groups, `count` vertices from `vertex` on; matrix_of(vertex) is the matrix of a group.
 template <class F, class Blend>
 inline __attribute__((always_inline)) void transform(const SkinBlock& block, std::size_t vertex, std::size_t count,
                                                      const Blend& matrix_of) {
@@ -196,7 +198,7 @@ inline __attribute__((always_inline)) void transform(const SkinBlock& block, std
         if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
         move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
     }
-    if constexpr (F::streams) {  // one attribute after another, so that whole cache lines are written
+    if constexpr (F::streams) {  // one attribute at a time, so that whole cache lines are written
         finish<F, 1>(moved, block, vertex, count);
         finish<F, 2>(moved, block, vertex, count);
         finish<F, 4>(moved, block, vertex, count);
@@ -205,7 +207,7 @@ inline __attribute__((always_inline)) void transform(const SkinBlock& block, std
     }
 }
 
-/// Fewer than kLanes vertices: with copies around them that are as long as a group.
+/// Processes fewer than kLanes vertices: through copies that have the size of a group.
 __attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBlock& block, std::size_t vertex) {
     const std::size_t count = block.vertices - vertex;
     float positions[3 * kLanes]{};
@@ -232,7 +234,7 @@ __attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBl
     take(tangents, block.out_tangents, 4);
 }
 
-/// All of a block's vertices.
+/// Processes all vertices of a block.
 template <class F, class Blend>
 inline __attribute__((always_inline)) void transform_all(const SkinBlock& block, const Blend& matrix_of) {
     std::size_t vertex = 0;
@@ -245,12 +247,12 @@ inline __attribute__((always_inline)) void transform_all(const SkinBlock& block,
     if (vertex < block.vertices) transform_last(matrix_of(vertex), block, vertex);
 }
 
-/// What is blended for each vertex, on a cache line of its own; matrices as rows.
+/// The blended rows of each vertex, on a cache line of its own; matrices as rows.
 struct Rows {
     alignas(64) float of[kChunk][16];
 };
 
-/// To a row: sum(weight * matrix) over `used` influences.
+/// Stores in a row: sum(weight * matrix) over `used` influences.
 struct MatrixSum {
     const PaletteMatrix* palette;
 
@@ -293,7 +295,7 @@ inline void blend_group(const Sum& sum, const Bone* bones, const float* weights,
     for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
 }
 
-/// The last of four influences, from 1, that any vertex of a group has.
+/// Returns the last of four influences, from 1, that any vertex of a group has.
 inline std::size_t last_of_four(const float* weights, std::size_t influences) {
     using Bits = unsigned __attribute__((vector_size(16)));
     Bits any{};
@@ -307,7 +309,7 @@ inline std::size_t last_of_four(const float* weights, std::size_t influences) {
     return any[1] != 0 ? 2 : 1;
 }
 
-/// A group, each vertex with as many influences as the group has.
+/// Blends a group, using as many influences for each vertex as the group needs.
 template <class Sum, class Bone>
 inline void blend_any(const Sum& sum, const Bone* bones, const float* weights, std::size_t influences,
                       float (*rows)[16]) {
@@ -335,7 +337,7 @@ inline void blend_any(const Sum& sum, const Bone* bones, const float* weights, s
     for (std::size_t k = 0; k < kLanes; ++k) sum(bones + k * influences, weights + k * influences, used, rows[k]);
 }
 
-/// The `count` vertices from `vertex` on.
+/// Blends the `count` vertices from `vertex` on.
 template <class Sum, class Bone>
 __attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& block, const Bone* bones,
                                            std::size_t vertex, std::size_t count, Rows& rows) {
@@ -351,7 +353,7 @@ __attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& bloc
     if (count % kLanes != 0) __builtin_memset(rows.of + count, 0, (kLanes - count % kLanes) * sizeof rows.of[0]);
 }
 
-/// Four numbers of each row of a group, from `from` in the first one on.
+/// Transposes four numbers of each row of a group, from `from` in the first row on.
 inline void turn_four(const float* from, Lanes* to) {
     transpose(load_quads(from, 64), load_quads(from + 16, 64), load_quads(from + 32, 64), load_quads(from + 48, 64),
               to);
@@ -363,7 +365,8 @@ inline Matrix turn(const float (*rows)[16]) {
     return matrix;
 }
 
-/// Chunk after chunk: blend(vertex, count) fills rows, and matrix_of(k) is that of the group from row k on.
+/// Processes chunk after chunk: blend(vertex, count) fills rows, and matrix_of(k) is the matrix of the group from row k
+/// on.
 template <class F, class Blend, class MatrixOfRow>
 inline __attribute__((always_inline)) void transform_chunks(const SkinBlock& block, const Blend& blend,
                                                             const MatrixOfRow& matrix_of) {
@@ -406,7 +409,7 @@ inline Eight load_eight(const float* from) {
     return eight;
 }
 
-/// sum(weight * matrix) for eight vertices at once, of `count` bones that they share.
+/// Computes sum(weight * matrix) for eight vertices at a time, from `count` bones that they share.
 inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const PaletteMatrix* palette,
                                                                    const std::uint16_t* bones, const float* weights,
                                                                    std::size_t count) {
@@ -434,7 +437,7 @@ inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const Palette
     return {{{m00, m01, m02, m03}, {m10, m11, m12, m13}, {m20, m21, m22, m23}}};
 }
 
-/// As turned from lists of single vertices: for groups that share too many bones.
+/// The same from the influences of single vertices: for groups with too many bones.
 __attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t vertex, Matrix& matrix) {
     Rows rows;
     const std::size_t count = block.vertices - vertex < kLanes ? block.vertices - vertex : kLanes;

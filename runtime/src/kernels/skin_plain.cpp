@@ -10,13 +10,13 @@
 namespace bendy {
 namespace {
 
-/// The inverse transpose times |determinant|: the same direction, and defined for matrices without an inverse.
+/// The inverse transpose times |determinant|: the same direction, and also defined for singular matrices.
 glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return determinant < 0.0 ? -cofactors : cofactors;
 }
 
-/// sum(w_i M_i) of one vertex.
+/// Returns sum(w_i M_i) for one vertex.
 glm::dmat4x3 blend(const SkinBlock& block, std::size_t vertex) {
     glm::dmat4x3 sum(0.0);
     const bool is_rigid = block.bones8 == nullptr && block.bones16 == nullptr;
@@ -53,7 +53,7 @@ void skin_plain(const SkinBlock& block) {
         if (block.out_tangents.data != nullptr) {
             const float* const tangent = block.tangents + 4 * vertex;
             put(block.out_tangents, vertex, unit_or_zero(linear * vec3_at(tangent)));
-            // A mirrored surface turns its bitangent round.
+            // Mirroring flips the bitangent.
             block.out_tangents.data[vertex * block.out_tangents.stride + 3] =
                 determinant < 0.0 ? -tangent[3] : tangent[3];
         }

@@ -1,7 +1,7 @@
-// The body of the kernels for packed clips, included after lanes.h and sample_lanes.h by one source for each
+// The implementation of the packed clip kernels, included after lanes.h and sample_lanes.h by one source for each
 // instruction set, which also defines roots_of(Lanes) and read_component<is_near_end>(...): see read_lanes.h.
 
-// NOLINTBEGIN(misc-definitions-in-headers): this is a body; it stands in a nameless namespace
+// NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 /// Coefficients of a polynomial.
 template <int terms>
@@ -9,7 +9,7 @@ struct Terms {
     float of[terms];
 };
 
-/// Taylor's series of sin(a) / 2a, if `first` is 1, and cos(a), if it is 0, by the square of a.
+/// Taylor series, in the square of a, of sin(a) / 2a if `first` is 1, and of cos(a) if it is 0.
 template <int terms>
 constexpr Terms<terms> taylor(double scale, int first) {
     Terms<terms> series{};
@@ -24,7 +24,7 @@ constexpr Terms<terms> taylor(double scale, int first) {
 constexpr Terms<10> kSine = taylor<10>(0.5, 1);
 constexpr Terms<10> kCosine = taylor<10>(1.0, 0);
 
-/// The sum of c[k] h^k: even and odd ones side by side, since each step waits for the one before.
+/// The sum of c[k] h^k: even and odd terms are computed side by side, since each step depends on the previous one.
 template <int terms>
 inline Lanes polynomial(Lanes h, Lanes square, const Terms<10>& c) {
     constexpr int kOdd = (terms - 2) / 2 * 2 + 1;
@@ -42,14 +42,14 @@ struct Rotations {
     Lanes of[4];
 };
 
-/// exp of rotation vectors v, given h = |v|^2 / 4.
+/// Returns exp of rotation vectors v, given h = |v|^2 / 4.
 inline Rotations near_exp(const Lanes* v, Lanes h) {
     const Lanes square = h * h;
     const Lanes sine = polynomial<6>(h, square, kSine);
     return {{v[0] * sine, v[1] * sine, v[2] * sine, polynomial<7>(h, square, kCosine)}};
 }
 
-/// The same, however long the vectors are.
+/// The same for vectors of any length.
 __attribute__((noinline)) Rotations far_exp(const Lanes* v, Lanes h) {
     const Lanes most = splat(UnpackBlock::kMaxHalfTurnSquare);
     const Lanes held = h < most ? h : most;
@@ -69,14 +69,14 @@ __attribute__((noinline)) Shares middle_shares(const Series& left, const Series&
     return shares_of<9>(left, right, x);
 }
 
-/// As many terms as the largest angle needs.
+/// Uses as many terms as the largest angle needs.
 inline Shares shares_at(const Series& left, const Series& right, Lanes x) {
     const float least = least_of(x);
     if (least >= 0.9f - 1.0f) return shares_of<4>(left, right, x);
     return least >= 0.55f - 1.0f ? middle_shares(left, right, x) : far_shares(left, right, x);
 }
 
-/// Between rotation vectors, relative to rest, at the group's lanes from `first` on.
+/// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
                              const Series& by_left, const Series& by_right, float* local) {
     const Lanes of_v = half_turn_square(v);
@@ -96,7 +96,7 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
                     (r[3] * q[1] + r[1] * q[3]) + (r[2] * q[0] - r[0] * q[2]),
                     (r[3] * q[2] + r[2] * q[3]) + (r[0] * q[1] - r[1] * q[0]),
                     (r[3] * q[3] - r[0] * q[0]) - (r[1] * q[1] + r[2] * q[2])};
-    const Lanes scale = 1.5f - 0.5f * dot_of_four(out, out);  // one step of Newton towards 1 / length
+    const Lanes scale = 1.5f - 0.5f * dot_of_four(out, out);  // one Newton step towards 1 / length
     for (Lanes& number : out) number = number * scale;
     Lanes quads[4];
     transpose(out[0], out[1], out[2], out[3], quads);
@@ -106,7 +106,7 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
     for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k], low(quads[k]));
 }
 
-/// rest + value, to the joints' translations or scales.
+/// Stores rest + value in the joints' translations or scales.
 inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w, float u,
                            float* local) {
     Lanes at[3];
@@ -130,7 +130,7 @@ inline void unpack_groups(const UnpackBlock& block) {
     const UnpackWindows* windows = block.windows;
     for (std::size_t number = 0; number < block.group_count; ++number) {
         const UnpackGroup& group = block.groups[number];
-        for (std::size_t first = UnpackGroup::kLanes; first > 0;) {  // the lanes past the last track first
+        for (std::size_t first = UnpackGroup::kLanes; first > 0;) {  // lanes beyond the last track come first
             first -= kLanes;
             if (first != 0 && first >= group.count) continue;
             Lanes v[3];

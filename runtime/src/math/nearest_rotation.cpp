@@ -11,10 +11,11 @@
 namespace bendy {
 namespace {
 
-/// Radians, or sines of half angles: what counts as inside, so that what was brought back stays as it is.
+/// Radians, or sines of half angles: tolerance for being inside, so that clamping an already clamped rotation changes
+/// nothing.
 constexpr double kInside = 1e-9;
 
-/// The largest y^2 + z^2 of a swing that is brought back: after half a turn of swing the twist could not be told.
+/// The largest y^2 + z^2 of a clamped swing: after half a turn of swing the twist is undefined.
 constexpr double kWidest = 1.0 - 1e-12;
 
 double dot(const glm::dquat& a, const glm::dquat& b) {
@@ -32,16 +33,16 @@ bool holds(const AngleRange& range, double angle) {
     return std::abs(wrapped(angle - range.middle)) <= range.half + kInside;
 }
 
-/// The angle of the range nearest on the circle. Measured from the middle nothing jumps at pi; the cut is at the far
-/// side.
+/// Returns the angle in the range that is nearest on the circle. Measured from the middle, so the result is continuous
+/// at pi; the discontinuity is on the opposite side.
 double nearest_angle(const AngleRange& range, double angle) {
     return range.middle + std::clamp(wrapped(angle - range.middle), -range.half, range.half);
 }
 
-/// The turn (cosine and sine of half the angle) of the range nearest to the given one, which comes back if it is
-/// inside.
+/// Returns the rotation (cosine and sine of half the angle) in the range that is nearest to the given one; the same
+/// rotation if it is inside.
 glm::dvec2 nearest_turn(const AngleRange& range, const glm::dvec2& turn) {
-    const double cosine = glm::dot(turn, range.middle_turn);  // of half the way to the middle
+    const double cosine = glm::dot(turn, range.middle_turn);  // of half the angle to the middle
     const double sine = turn.y * range.middle_turn.x - turn.x * range.middle_turn.y;
     if (std::abs(sine) <= range.sine_half + 0.5 * kInside) return turn;
     return (sine < 0.0) == (cosine < 0.0) ? range.high_turn : range.low_turn;
@@ -61,7 +62,7 @@ glm::dquat join(const Swing& swing, double twist) {
     return glm::dquat(swing.x, 0.0, swing.y, swing.z) * about(0, twist);
 }
 
-/// After half a turn of swing any twist would do: it is taken as 0.
+/// After half a turn of swing the twist is undefined: it is taken as 0.
 SwingTwist split(const glm::dquat& q) {
     const double length = std::sqrt(q.w * q.w + q.x * q.x);
     if (length < 1e-12) return {{0.0, q.y, q.z}, 0.0};
@@ -71,7 +72,7 @@ SwingTwist split(const glm::dquat& q) {
     return {{length, c * q.y - s * q.z, c * q.z + s * q.y}, wrapped(2.0 * trig::atan2(q.x, q.w))};
 }
 
-/// The half axes of the ellipse on the side where (y, z) lies.
+/// The half axes of the ellipse on the side of (y, z).
 struct HalfAxes {
     double y, z;
 };
@@ -80,7 +81,7 @@ HalfAxes half_axes(const LimitShape& shape, double y, double z) {
             std::signbit(z) ? shape.swing_low[1] : shape.swing_high[1]};
 }
 
-/// A free axis makes a band of the ellipse: |y| <= a, whatever z.
+/// A free axis turns the ellipse into a band: |y| <= a, any z.
 bool is_free(double half_axis) {
     return half_axis > 1.0;
 }
@@ -93,12 +94,13 @@ bool ellipse_holds(const LimitShape& shape, const Swing& swing) {
     return y * y + z * z <= 1.0 + kInside;
 }
 
-/// The point of a quarter of the ellipse, half axes (a, b), nearest to v on the sphere; v's w, y and z are 0 or more.
+/// Returns the point of a quarter of the ellipse with half axes (a, b) that is nearest to v on the sphere; w, y and z
+/// of v are 0 or more.
 Swing nearest_on_quarter(double a, double b, const Swing& v) {
     const auto point = [&](double y, double z) { return Swing(std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z); };
     if (is_free(a) && is_free(b)) return v;
     if (is_free(a) || is_free(b)) {
-        // On the band's edge, a circle, right across from v.
+        // On the edge of the band, a circle, perpendicular to it from v.
         const double edge = is_free(a) ? b : a;
         const double along = is_free(a) ? v.y : v.z;
         const double length = std::sqrt(v.x * v.x + along * along);
@@ -115,7 +117,7 @@ Swing nearest_on_quarter(double a, double b, const Swing& v) {
     }
     const double across = std::sqrt(v.y * v.y + v.z * v.z);
     if (std::abs(a - b) < kInside && across > kInside) return point(a * v.y / across, a * v.z / across);
-    // The slope of the distance along the ellipse (a cos f, b sin f), with cos and sin from t = tan(f / 2).
+    // The derivative of the distance along the ellipse (a cos f, b sin f), with cos and sin from t = tan(f / 2).
     struct Place {
         double y, z, slope;
     };
@@ -134,7 +136,7 @@ Swing nearest_on_quarter(double a, double b, const Swing& v) {
     if (at_low <= 0.0 && at_high <= 0.0) return point(a, 0.0);
     if (at_low >= 0.0 && at_high >= 0.0) return point(0.0, b);
     for (int step = 0; step < 60 && high - low > 1e-14; ++step) {
-        // False position, the Illinois way: the end that stays loses half its weight.
+        // Regula falsi, Illinois variant: the weight of the end that stays is halved.
         double t = (low * at_high - high * at_low) / (at_high - at_low);
         if (!(t > low && t < high)) t = 0.5 * (low + high);
         const Place here = place(t);
@@ -154,8 +156,8 @@ Swing nearest_on_quarter(double a, double b, const Swing& v) {
     return point(end.y, end.z);
 }
 
-/// A point of the whole ellipse. A quarter has t = tan(f / 2) in [0, 1]; four of them make the circle: u modulo 4,
-/// denser where the quarters meet, since narrow ellipses are most bent there.
+/// A point of the whole ellipse. A quarter has t = tan(f / 2) in [0, 1]; four quarters make the circle: u modulo 4,
+/// denser where the quarters meet, since that is where narrow ellipses have the highest curvature.
 Swing ellipse_point(const LimitShape& shape, double u) {
     const double quarter = std::floor(u);
     const double part = u - quarter;
@@ -169,7 +171,7 @@ Swing ellipse_point(const LimitShape& shape, double u) {
     const HalfAxes axes = half_axes(shape, y, z);
     const auto edge = [](double half_axis) { return std::sqrt(std::max(0.0, kWidest - half_axis * half_axis)); };
     if (is_free(axes.y) && is_free(axes.z)) {
-        y *= kWidest;  // all of the quarter is legal; its rim is the rim of the sphere's half
+        y *= kWidest;  // the whole quarter is legal; its boundary is that of the half sphere
         z *= kWidest;
     } else if (is_free(axes.y)) {
         y *= edge(axes.z);
@@ -184,7 +186,7 @@ Swing ellipse_point(const LimitShape& shape, double u) {
     return {std::sqrt(std::max(0.0, 1.0 - y * y - z * z)), y, z};
 }
 
-/// The top of f in [low, high], where it has one, by golden section.
+/// Finds the maximum of f in [low, high], if it has one there, by golden-section search.
 template <class F>
 double find_top(double low, double high, const F& f) {
     constexpr double kGolden = 0.6180339887498949;
@@ -210,8 +212,8 @@ double find_top(double low, double high, const F& f) {
     return 0.5 * (low + high);
 }
 
-/// The point of the whole ellipse where closeness(swing) is largest. A first round finds the hills; each is searched on
-/// both sides of its highest point, for there may be an edge between them.
+/// Returns the point of the whole ellipse where closeness(swing) is largest. A first pass finds the peaks; each is then
+/// searched on both sides of its highest sample, since there may be a discontinuity between them.
 template <class Closeness>
 Swing best_on_ellipse(const LimitShape& shape, const Closeness& closeness) {
     constexpr int kPoints = 64;
@@ -240,11 +242,11 @@ Swing best_on_ellipse(const LimitShape& shape, const Closeness& closeness) {
     return ellipse_point(shape, best);
 }
 
-/// The swing of the ellipse nearest to v, any unit vector (w, y, z).
+/// Returns the swing in the ellipse that is nearest to v, any unit vector (w, y, z).
 Swing nearest_in_ellipse(const LimitShape& shape, const Swing& v) {
     if (v.x < 0.0) return best_on_ellipse(shape, [&](const Swing& s) { return glm::dot(s, v); });
     if (ellipse_holds(shape, v)) return v;
-    // The nearest point lies on v's own side of both axes.
+    // The nearest point is on the same side of both axes as v.
     const double side_y = std::signbit(v.y) ? -1.0 : 1.0;
     const double side_z = std::signbit(v.z) ? -1.0 : 1.0;
     const HalfAxes axes = half_axes(shape, v.y, v.z);
@@ -252,7 +254,7 @@ Swing nearest_in_ellipse(const LimitShape& shape, const Swing& v) {
     return {s.x, side_y * s.y, side_z * s.z};
 }
 
-/// The pyramid's four planes, through the middle of the sphere: legal is n . (w, y, z) <= 0.
+/// Returns the pyramid's four planes, through the centre of the sphere: n . (w, y, z) <= 0 is legal.
 std::array<Swing, 4> pyramid_planes(const LimitShape& shape) {
     const auto plane = [](double half_axis, double sign, bool about_y) {
         const double sine = std::min(half_axis, kWidest);
@@ -268,7 +270,8 @@ bool pyramid_holds(const std::array<Swing, 4>& planes, const Swing& swing) {
                                               [&](const Swing& plane) { return glm::dot(plane, swing) <= kInside; });
 }
 
-/// The swing of the pyramid nearest to v: v itself, or the foot of v on one of the planes, or a corner.
+/// Returns the swing in the pyramid that is nearest to v: v itself, or its projection on one of the planes, or a
+/// corner.
 Swing nearest_in_pyramid(const LimitShape& shape, const Swing& v) {
     const std::array<Swing, 4> planes = pyramid_planes(shape);
     if (pyramid_holds(planes, v)) return v;
@@ -284,7 +287,7 @@ Swing nearest_in_pyramid(const LimitShape& shape, const Swing& v) {
         for (const std::size_t z : {2u, 3u}) {
             const Swing corner = glm::cross(planes[y], planes[z]);
             try_point(corner.x < 0.0 ? -corner : corner);
-            if (std::abs(corner.x) < kInside) try_point(-corner);  // on the rim, both ends are corners
+            if (std::abs(corner.x) < kInside) try_point(-corner);  // on the boundary, both ends are corners
         }
     }
     return best;
@@ -318,11 +321,11 @@ void consider_twist(ConstraintModel model, const LimitShape& shape, const glm::d
     const double length = std::sqrt(v.w * v.w + v.y * v.y + v.z * v.z);
     if (length < 1e-12) return;
     const Swing swing = Swing(v.w, v.y, v.z) / length;
-    for (const Swing& side : {swing, -swing})  // R and -R are one rotation, and two points of the sphere
+    for (const Swing& side : {swing, -swing})  // R and -R are the same rotation, but two points of the sphere
         best.consider(join(nearest_swing(model, shape, side), twist), R);
 }
 
-/// With the twist free, cos^2 of half the angle that is left after the best one.
+/// With the twist free: cos^2 of half the angle that remains after the best twist.
 struct LeftOver {
     Swing w, x;  ///< dot(w, swing), dot(x, swing): of conj(swing) * R
     explicit LeftOver(const glm::dquat& R) : w(R.w, R.y, R.z), x(R.x, -R.z, R.y) {}
@@ -333,7 +336,7 @@ struct LeftOver {
     }
 };
 
-/// The swing, on the rim of what is legal, that the best twist brings nearest to R.
+/// Considers the swing on the boundary of the legal range that, with the best twist, is nearest to R.
 void consider_rim(ConstraintModel model, const LimitShape& shape, const glm::dquat& R, Found& best) {
     const LeftOver closeness(R);
     const auto consider = [&](const Swing& swing) {
@@ -354,7 +357,7 @@ void consider_rim(ConstraintModel model, const LimitShape& shape, const glm::dqu
     }
     const std::array<Swing, 4> planes = pyramid_planes(shape);
     for (std::size_t edge = 0; edge < 4; ++edge) {
-        // Along the edge, swing = u cos f + v sin f; closeness is then largest at half the angle of (p, q).
+        // Along the edge, swing = u cos f + v sin f; closeness is largest at half the angle of (p, q).
         const Swing& plane = planes[edge];
         const Swing u = edge < 2 ? Swing(0.0, 0.0, 1.0) : Swing(0.0, 1.0, 0.0);
         const Swing v = glm::cross(plane, u);
@@ -390,8 +393,8 @@ glm::dquat nearest_swing_twist(ConstraintModel model, const LimitShape& shape, c
 // --- Euler angles: R = third * second * first
 
 struct Order {
-    std::array<int, 3> axes;  ///< the axis that turns first, first
-    double sign;              ///< 1 if X, Y, Z can be turned into them, else -1
+    std::array<int, 3> axes;  ///< in the order of rotation
+    double sign;              ///< 1 if X, Y, Z can be rotated into them, otherwise -1
 };
 Order order_of(EulerOrder order) {
     constexpr std::array<Order, kEulerOrders> kOrders{{{{0, 1, 2}, 1.0},
@@ -430,7 +433,7 @@ Angles other_form(const Angles& angles) {
 
 struct EulerBox {
     Order order;
-    std::array<AngleRange, 3> ranges;  ///< in the order of turning
+    std::array<AngleRange, 3> ranges;  ///< in the order of rotation
 };
 
 EulerBox make_box(EulerOrder order, const LimitShape& shape) {
@@ -448,7 +451,7 @@ Angles nearest_angles(const EulerBox& box, const Angles& angles) {
             nearest_angle(box.ranges[2], angles[2])};
 }
 
-/// With two angles fixed the best third has a closed form: one after another, until nothing improves.
+/// With two angles fixed the best third has a closed form: optimises one after another until nothing improves.
 glm::dquat climb_euler(const EulerBox& box, const glm::dquat& R, Angles angles) {
     constexpr int kRounds = 200;
     const auto [i, j, k] = box.order.axes;
@@ -486,7 +489,7 @@ glm::dquat nearest_in_box(const EulerBox& box, const glm::dquat& R) {
             start[n] = box.ranges[n].middle + ((corner >> n & 1) != 0 ? box.ranges[n].half : -box.ranges[n].half);
         climb_from(start);
     }
-    // Where the second angle is a quarter turn the angles are not unique: R may be legal all the same.
+    // If the second angle is a quarter turn the angles are not unique: R may still be legal.
     return angle_between(best.rotation, R) <= kInside ? R : best.rotation;
 }
 

@@ -6,11 +6,11 @@
 
 namespace bendy {
 
-/// The rotation of the shape nearest to R by angle, R itself if it is inside.
+/// Returns the rotation in the shape that is nearest to R by angle; R itself if it is inside.
 glm::dquat nearest_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R);
 
-/// A legal rotation near R, for the solvers' many small steps: as nearest_rotation, but swing and twist are brought
-/// back each by itself, and of the Euler forms only the better one is tried.
+/// Returns a legal rotation near R, for the solvers' many small steps: as nearest_rotation, but swing and twist are
+/// clamped separately, and of the Euler forms only the better one is tried.
 glm::dquat quick_legal_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R);
 
 }  // namespace bendy

@@ -8,9 +8,9 @@
 
 namespace bendy {
 
-/// The matrix' axes made unit, at right angles and right-handed, x first; what has no length is replaced.
+/// Returns the matrix's axes made orthonormal and right-handed, x first; an axis of zero length is replaced.
 inline glm::dmat3 rigid_axes(const glm::dmat3& matrix) {
-    constexpr double kShort = 1e-9;  // of the longest axis
+    constexpr double kShort = 1e-9;  // relative to the longest axis
     glm::dmat3 axes = glm::determinant(matrix) < 0.0 ? -matrix : matrix;
     const auto across = [](const glm::dvec3& v) {
         const bool is_near_x = v.x * v.x > 0.5 * glm::dot(v, v);
@@ -31,7 +31,7 @@ inline glm::dmat3 rigid_axes(const glm::dmat3& matrix) {
     return axes;
 }
 
-/// A transform without scale, shear and mirroring.
+/// Returns a transform without its scale, shear and mirroring.
 inline glm::dmat4 rigid_part(const glm::dmat4& matrix) {
     glm::dmat4 rigid(rigid_axes(glm::dmat3(matrix)));
     rigid[3] = matrix[3];

@@ -6,15 +6,15 @@
 
 #include <cmath>
 
-// Rotations as the constraints and the IK solvers need them, in double precision.
+// Rotations in double precision, for the constraints and the IK solvers.
 namespace bendy {
 
-/// The same rotation, w >= 0.
+/// Returns the same rotation with w >= 0.
 inline glm::dquat upper_half(const glm::dquat& q) {
     return q.w < 0.0 ? -q : q;
 }
 
-/// Rotation by `angle` radians about a coordinate axis, 0 to 2.
+/// Returns the rotation by `angle` radians about a coordinate axis, 0 to 2.
 inline glm::dquat about(int axis, double angle) {
     const trig::SinCos half = trig::sin_cos(0.5 * angle);
     glm::dquat q(half.cos, 0.0, 0.0, 0.0);
@@ -22,7 +22,7 @@ inline glm::dquat about(int axis, double angle) {
     return q;
 }
 
-/// Rotation by the vector's length, radians, about its direction.
+/// Returns the rotation by the vector's length, in radians, about its direction.
 inline glm::dquat from_vector(const glm::dvec3& v) {
     const double angle = std::sqrt(glm::dot(v, v));
     if (angle < 1e-12) return glm::normalize(glm::dquat(1.0, 0.5 * v));
@@ -30,7 +30,7 @@ inline glm::dquat from_vector(const glm::dvec3& v) {
     return {half.cos, v * (half.sin / angle)};
 }
 
-/// The rotation vector of q, its length 0 to pi.
+/// Returns the rotation vector of q, with length 0 to pi.
 inline glm::dvec3 to_vector(const glm::dquat& q) {
     const glm::dquat u = upper_half(q);
     const glm::dvec3 v(u.x, u.y, u.z);
@@ -39,24 +39,24 @@ inline glm::dvec3 to_vector(const glm::dquat& q) {
     return v * (2.0 * trig::atan2(sine, u.w) / sine);
 }
 
-/// The rotation a share of the way from a to b, the short way.
+/// Returns the rotation at a fraction of the way from a to b, along the shorter arc.
 inline glm::dquat between(const glm::dquat& a, const glm::dquat& b, double share) {
     return glm::normalize(a * from_vector(share * to_vector(glm::conjugate(a) * b)));
 }
 
-/// The angle between two rotations, 0 to pi. Good for small angles too.
+/// Returns the angle between two rotations, 0 to pi. Accurate for small angles too.
 inline double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
     return 2.0 * trig::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
 }
 
-/// The smallest rotation that takes the direction of `from` to that of `to`; none if one of them has no length.
+/// Returns the smallest rotation from the direction of `from` to that of `to`; identity if one of them has no length.
 inline glm::dquat between(const glm::dvec3& from, const glm::dvec3& to) {
     const double lengths = std::sqrt(glm::dot(from, from) * glm::dot(to, to));
     if (!(lengths > 1e-200)) return {1.0, 0.0, 0.0, 0.0};
     const double w = lengths + glm::dot(from, to);
     if (w > 1e-9 * lengths) return glm::normalize(glm::dquat(w, glm::cross(from, to)));
-    // Opposite: half a turn about any axis across.
+    // Opposite directions: half a turn about any perpendicular axis.
     const glm::dvec3 other = std::abs(from.x) < std::abs(from.z) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     return {0.0, glm::normalize(glm::cross(from, other))};
 }

@@ -37,7 +37,7 @@ void add(Paths& paths, TrackPath path) {
     paths.scale = paths.scale || path == TrackPath::scale;
 }
 
-/// What a clip animates of each joint.
+/// Returns the properties of each joint that a clip animates.
 std::vector<Paths> find_paths(const Clip& clip, std::size_t joints) {
     std::vector<Paths> paths(joints);
     for (const TrackView& track : clip.tracks) {
@@ -72,7 +72,7 @@ Binding::Binding(const Model& animated, Model posed, const BindingOptions& optio
 void Binding::match_joints() {
     ByName numbers;
     for (std::uint32_t joint = 0; joint < posed_.joints().size(); ++joint)
-        numbers.emplace(posed_.joints()[joint].name, joint);  // the first stays
+        numbers.emplace(posed_.joints()[joint].name, joint);  // keeps the first
     std::vector<bool> is_taken(posed_.joints().size());
     joints_.reserve(animated_.joints().size());
     for (const Joint& joint : animated_.joints()) {
@@ -103,7 +103,7 @@ void Binding::match_targets() {
     }
 }
 
-/// The joints of the posed model whose translations are taken by root_only.
+/// Returns which joints of the posed model take translations with root_only.
 std::vector<bool> Binding::find_roots(std::uint32_t root) const {
     const auto parents = posed_.parents();
     std::vector<bool> is_root(parents.size());
@@ -111,7 +111,7 @@ std::vector<bool> Binding::find_roots(std::uint32_t root) const {
         for (; root != kNone; root = parents[root]) is_root[root] = true;
         return is_root;
     }
-    std::vector<bool> has_matched(parents.size());  // it, or one above it
+    std::vector<bool> has_matched(parents.size());  // the joint, or one of its ancestors
     for (const std::uint32_t joint : joints_) {
         if (joint != kNone) has_matched[joint] = true;
     }

@@ -14,7 +14,7 @@
 namespace bendy {
 namespace {
 
-// 32 units in the last place: kernels promise 8, matrices and boxes are rounded too.
+// 32 units in the last place: kernels guarantee 8, and matrices and boxes are rounded too.
 constexpr double kKernelRounding = 4e-6;
 
 bool is_finite(const glm::dvec3& v) {
@@ -27,7 +27,7 @@ void put_in(Box& box, const glm::dvec3& point) {
     box.maximum = glm::max(box.maximum, glm::vec3(point));
 }
 
-/// The box around a box that a matrix has moved, rounding included.
+/// Returns the box around a box transformed by a matrix, including rounding.
 Box moved(const Box& box, const glm::dmat4& matrix) {
     if (box.is_empty()) return box;
     const glm::dvec3 middle = 0.5 * (glm::dvec3(box.minimum) + glm::dvec3(box.maximum));
@@ -47,7 +47,7 @@ Box moved(const Box& box, const glm::dmat4& matrix) {
     return {place - reach, place + reach};
 }
 
-/// Grown by that share of its largest number.
+/// Returns the box enlarged by that fraction of its largest number.
 Box grown(const Box& box, double share) {
     if (box.is_empty() || share == 0.0) return box;
     const glm::vec3 most = glm::max(glm::abs(box.minimum), glm::abs(box.maximum));
@@ -61,7 +61,7 @@ Box unite(const Box& a, const Box& b) {
     return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
 }
 
-/// Goes over the vertices.
+/// Collects the boxes from the vertices.
 struct Bounds::Builder {
     explicit Builder(Bounds& made) : bounds(made), model(made.model_), shifts(made.joints_.size()) {}
 
@@ -87,14 +87,15 @@ struct Bounds::Builder {
             const glm::dvec3 displacement(target.displacement(*target.positions, mesh.positions, entry));
             const std::uint32_t vertex = target.vertex(entry);
             for_each_mover(number, vertex, [&](std::uint32_t joint, const glm::dmat4& bind) {
-                // The joint's other vertices stay: no displacement is in the box as well.
+                // The box also contains zero, for the joint's other vertices, which are not displaced.
                 Box& box = shifts[joint].try_emplace(place, Box{glm::vec3(0.0f), glm::vec3(0.0f)}).first->second;
                 put_in(box, glm::dmat3(bind) * displacement);
             });
         }
     }
 
-    /// visit(joint, inverse bind matrix) for each joint that moves the vertex; a rigid mesh's are in joint space.
+    /// Calls visit(joint, inverse bind matrix) for each joint that moves the vertex; those of a rigid mesh are in joint
+    /// space.
     template <class Visit>
     void for_each_mover(std::uint32_t number, std::uint32_t vertex, const Visit& visit) const {
         const Mesh& mesh = model.meshes()[number];
@@ -110,7 +111,8 @@ struct Bounds::Builder {
         }
     }
 
-    /// With positive weights P and negative ones -N, a vertex is P times a point among its places less N times one.
+    /// With sum P of the positive weights and sum -N of the negative ones, a vertex is P times a point in the boxes
+    /// minus N times another.
     void look_at_weights(const Mesh& mesh, std::uint32_t vertex) {
         double above = 0.0;
         double below = 0.0;
@@ -137,7 +139,7 @@ struct Bounds::Builder {
 
     Bounds& bounds;
     const Model& model;
-    std::vector<std::map<std::uint32_t, Box>> shifts;  // of each joint, by target
+    std::vector<std::map<std::uint32_t, Box>> shifts;  // per joint, by target
 };
 
 Bounds::Bounds(const Model& model) : model_(model), joints_(model.joints().size() + 1) {

@@ -7,7 +7,8 @@
 namespace bendy {
 namespace {
 
-/// Lists of corners, one for each vertex that stands for others; they grow together, the shorter joining the longer.
+/// Lists of triangle corners, one for each vertex that stands in for others; when lists are merged, the shorter is
+/// appended to the longer.
 class Corners {
 public:
     Corners(std::uint32_t vertices, std::span<const std::uint32_t> indices)
@@ -21,7 +22,7 @@ public:
         for (std::uint32_t corner = 0; corner < label_.size(); ++corner) append(label_[corner], corner);
     }
 
-    /// `vertex` becomes `target`; visit(triangle) for each triangle that has both.
+    /// Merges `vertex` into `target`; calls visit(triangle) for each triangle that contains both.
     template <class Visit>
     void join(std::uint32_t vertex, std::uint32_t target, const Visit& visit) {
         std::uint32_t shorter = list_of_[vertex];

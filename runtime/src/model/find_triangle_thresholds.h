@@ -8,9 +8,9 @@
 
 namespace bendy {
 
-/// For each three of `indices` the number of vertices at which two of its corners have become one: the triangle is
-/// there while more vertices than that are alive. What has two equal corners from the start dies first, at vertices -
-/// 1; what never dies has 0. O(n log n) in triangles and vertices, whatever the targets are.
+/// Returns for each triangle of `indices` the number of vertices at which two of its corners merge: the triangle exists
+/// while more vertices than that are alive. A triangle with two equal corners from the start disappears first, at
+/// vertices - 1; one that never disappears has 0. O(n log n) in triangles and vertices, whatever the targets are.
 std::vector<std::uint32_t> find_triangle_thresholds(const MeshCollapseView& collapse,
                                                     std::span<const std::uint32_t> indices);
 

@@ -7,23 +7,23 @@
 #include <optional>
 #include <span>
 
-// Frames (FRMS) among a mesh's targets. They hold shapes, not displacements: with weights w the mesh's own streams
-// count 1 - sum w. So a frame that has all the weight is what the file holds, to the bit, whatever the mesh's own is.
+// Frames (FRMS) among a mesh's targets. They hold shapes, not displacements: with weights w the mesh's own streams have
+// weight 1 - sum w. So a frame with full weight gives exactly what the file holds, whatever the mesh's own shape is.
 namespace bendy {
 
-/// How much of the mesh's own streams is left beside the frames.
+/// Returns the weight that the frames leave to the mesh's own streams.
 inline float rest_share(const MeshView& mesh, std::span<const float> weights) {
     double frames = 0.0;
     for (std::size_t k = mesh.first_frame; k < mesh.targets.size(); ++k) frames += double{weights[k]};
     return static_cast<float>(1.0 - frames);
 }
 
-/// Whether `stream` of the mesh's targets is one that frames have.
+/// Returns true if frames have the given stream.
 inline bool have_frames(const MeshView& mesh, std::optional<StreamView> MorphTargetView::*stream) {
     return mesh.first_frame < mesh.targets.size() && (mesh.targets.back().*stream).has_value();
 }
 
-/// Makes the mesh's own vectors as light as the frames leave them.
+/// Scales the mesh's own vectors by the weight that the frames leave to them.
 template <class Vector>
 void lighten(float share, std::span<Vector> vectors) {
     if (share == 1.0f) return;
@@ -53,7 +53,7 @@ void add_frame(const StreamView& places, const StreamView& shape, float weight, 
         }
     };
     with_places([&](const auto& place) {
-        if (!shape.boxes.empty() && shape.type == ComponentType::u8) {  // as Quake II has them
+        if (!shape.boxes.empty() && shape.type == ComponentType::u8) {  // as in Quake II
             const StreamBox x = shape.boxes[0];
             const StreamBox y = shape.boxes[1];
             const StreamBox z = shape.boxes[2];

@@ -28,7 +28,7 @@ Lod::Lod(const Model& model) : model_(model), meshes_(model.meshes().size()), pl
     set_share(1.0f);
 }
 
-/// What a mesh's levels are made of. Only the triangles that are drawn are counted.
+/// Prepares the levels of a mesh. Only triangles that are drawn are counted.
 void Lod::prepare(std::uint32_t mesh) {
     const Mesh& source = model_.meshes()[mesh];
     MeshLevel& state = meshes_[mesh];
@@ -59,7 +59,8 @@ void Lod::prepare(std::uint32_t mesh) {
     std::partial_sum(state.counts.begin(), state.counts.end(), state.counts.begin());
 }
 
-/// A level is a row of the file's table, or a number between two of them; 0 full detail. Past the table, down to base.
+/// A level is a row of the file's table, or a fraction between two of them; 0: full detail. Beyond the table, down to
+/// base.
 std::uint32_t Lod::vertices_at(std::uint32_t mesh, double level) const {
     const MeshCollapseView& collapse = *meshes_[mesh].collapse;
     const CollapseView& table = *model_.collapse();
@@ -73,7 +74,7 @@ std::uint32_t Lod::vertices_at(std::uint32_t mesh, double level) const {
     const double to = row(std::min(before, table.levels) + 1);
     auto vertices = static_cast<std::uint32_t>(std::lround(from + (level - whole) * (to - from)));
     vertices = std::clamp(vertices, collapse.base, collapse.vertices);
-    // Those that go together are not parted.
+    // Vertices that belong together are not separated.
     while (vertices > collapse.base && vertices < collapse.vertices && collapse.is_joined(vertices)) ++vertices;
     return vertices;
 }
@@ -91,7 +92,7 @@ void Lod::set_share(float triangles) {
     double level = 0.0;
     const CollapseView* collapse = model_.collapse();
     if (collapse != nullptr && !std::isnan(triangles) && triangles < 1.0f) {
-        // Fewer triangles as the level rises: the first level that is not above the wanted number.
+        // Triangles decrease as the level rises: finds the first level that does not exceed the wanted number.
         const double wanted = std::max(triangles, 0.0f) * static_cast<double>(all_triangles_);
         double low = 0.0;
         double high = collapse->levels + 1.0;
@@ -119,7 +120,7 @@ void Lod::set_share(float triangles) {
     }
 }
 
-/// The index list and the draws of a mesh at its number of vertices.
+/// Builds the index list and the submeshes of a mesh for its number of vertices.
 void Lod::make_list(std::uint32_t mesh) {
     MeshLevel& state = meshes_[mesh];
     const MeshCollapseView& collapse = *state.collapse;

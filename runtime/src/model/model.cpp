@@ -27,8 +27,8 @@ Joint make_joint(const JointView& view) {
     return joint;
 }
 
-/// The submeshes in mesh order, neighbours of one material joined: writers order a mesh by material first and
-/// joint second, so each material comes out as one draw.
+/// Returns the submeshes in mesh order, with neighbours of the same material joined: writers order a mesh by material
+/// first and joint second, so each material becomes one draw call.
 std::vector<Submesh> make_submeshes(std::span<const SubmeshView> of_joints) {
     std::vector<Submesh> submeshes;
     submeshes.reserve(of_joints.size());
@@ -74,7 +74,7 @@ void build_rig(ModelData& data) {
         const auto number = static_cast<std::uint32_t>(data.constraints.size());
         data.constraints.push_back(make_constraint(constraint));
         JointConstraints& joint_constraints = data.joint_constraints[constraint.joint];
-        // What is meant for one purpose goes before what is meant for every one.
+        // A constraint for a specific scope takes precedence over one for all scopes.
         switch (data.constraints.back().scope) {
             case ConstraintScope::every_pose:
                 if (joint_constraints.in_poses == kNone) joint_constraints.in_poses = number;
@@ -169,7 +169,7 @@ Result<Model> ModelData::read(MappedFile file, Bytes bytes, const OpenOptions& o
     return Model(std::move(data));
 }
 
-// Not std::call_once: where that is pthread_once, as on Windows, it waits for ever for one that ended by an exception.
+// Not std::call_once: implementations based on pthread_once, as on Windows, wait forever if an earlier call threw.
 void ModelData::make_plans() const {
     const std::scoped_lock lock(making_plans);
     if (pose_plan) return;
@@ -199,9 +199,9 @@ Result<Model> Model::from_memory(Bytes bytes, const OpenOptions& options) {
 }
 
 Result<void> Model::check_sums() const {
-    // The tree of a good file is quickly made again; kept, it would take memory that hardly anybody asks for.
+    // The tree is quick to build again; keeping it would take memory that is rarely needed.
     const Result<ChunkTree> tree = read_chunk_tree(data_->bytes);
-    if (!tree) return tree.error();  // the file was changed after it was opened
+    if (!tree) return tree.error();  // the file was modified after it was opened
     Faults faults;
     bendy::check_sums(*tree, faults);
     if (!faults.empty()) return faults.list().front();

@@ -6,7 +6,7 @@
 
 namespace bendy {
 
-/// The upper three rows, rounded.
+/// Returns the upper three rows as floats.
 inline PaletteMatrix to_rows(const glm::dmat4& matrix) {
     PaletteMatrix entry{};
     for (int row = 0; row < 3; ++row) {

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 
-// What the kernels for joint matrices work on: plain numbers only, as in skin_block.h.
+// Input and output of the joint matrix kernels: plain data only, as in skin_block.h.
 namespace bendy {
 
 struct PoseBlock {
     std::size_t joints;
-    const float* local;            ///< ten a joint: rotation x y z w, translation, scale; no shear
+    const float* local;            ///< ten per joint: rotation x y z w, translation, scale; no shear
     const std::uint32_t* parents;  ///< of each joint; 2^32 - 1: a root
-    const std::uint32_t* order;    ///< all joints, parents before children, a joint's neighbours not of its own line
-    float* model;                  ///< sixteen a joint, columns: joint space to model space
+    const std::uint32_t* order;    ///< all joints, parents before children; neighbours are not ancestors of one another
+    float* model;                  ///< sixteen per joint, column-major: joint space to model space
 };
 
 struct PaletteBlock {

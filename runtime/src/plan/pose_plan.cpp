@@ -32,7 +32,8 @@ bool is_same(const PaletteView& a, const PaletteView& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end());
 }
 
-/// Parts of a mesh mostly follow one skeleton: each mesh is compared with the last one that had another palette.
+/// Parts of a mesh usually follow the same skeleton: each mesh is compared with the last one that had a different
+/// palette.
 void plan_palettes(std::span<const MeshView> meshes, PosePlan& plan) {
     std::uint32_t first = 0;
     for (std::uint32_t number = 0; number < meshes.size(); ++number) {
@@ -53,14 +54,14 @@ double longest_axis(const glm::dmat4& matrix) {
     return std::sqrt(square);
 }
 
-/// The box around some points.
+/// A bounding box of points.
 class Box {
 public:
     void add(const glm::dvec3& point) {
         low_ = glm::min(low_, point);
         high_ = glm::max(high_, point);
     }
-    /// Negative if there is no point.
+    /// Returns the length of the diagonal; negative if there is no point.
     [[nodiscard]] double diagonal() const { return low_.x <= high_.x ? glm::length(high_ - low_) : -1.0; }
 
 private:
@@ -68,7 +69,7 @@ private:
     glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
 };
 
-/// Of a mesh's vertices, by some hundreds of them, in mesh space.
+/// Returns the size of a mesh in mesh space, from some hundreds of its vertices.
 double length_of(const MeshView& mesh) {
     constexpr std::uint32_t kLooks = 256;
     const std::uint32_t step = mesh.vertices / kLooks + 1;
@@ -77,9 +78,10 @@ double length_of(const MeshView& mesh) {
     return box.diagonal();
 }
 
-/// Whether the rest pose's numbers are of the character's own size. Rounding is relative to the largest of them.
+/// Returns true if the numbers of the rest pose are of the character's size. Rounding is relative to the largest of
+/// them.
 bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
-    constexpr double kLargest = 8.0;  // lengths of the character: 5e-7 of one for a rounding
+    constexpr double kLargest = 8.0;  // character sizes: 5e-7 of a size per rounding
     constexpr std::uint32_t kDeepest = 64;
     const std::vector<std::uint32_t> depths = depths_of(joints);
     if (joints.empty() || *std::max_element(depths.begin(), depths.end()) > kDeepest) return false;
@@ -106,7 +108,7 @@ bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
         length = std::max(length, scale * length_of(mesh));
     }
     if (object.meshes.empty()) length = places.diagonal();
-    return largest <= kLargest * length;  // false where it is not a number
+    return largest <= kLargest * length;  // false for NaN
 }
 
 bool is_for_kernels(const TrackView& track) {
@@ -122,7 +124,7 @@ void add_rotation(const TrackView& track, SampleLine& line) {
     }
 }
 
-/// The line of a track's times: one of the last few, or a new one.
+/// Returns the line with a track's times: one of the last few, or a new one.
 SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
     constexpr std::ptrdiff_t kLast = 8;
     const auto first = lines.end() - std::min<std::ptrdiff_t>(kLast, std::ssize(lines));

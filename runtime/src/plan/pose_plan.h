@@ -12,13 +12,13 @@
 #include <span>
 #include <vector>
 
-// What posing takes that no frame changes, as kernels want it: made once for a model.
+// Data for posing that is the same for all frames, in the kernels' layout: built once per model.
 namespace bendy {
 
 struct Joint;
 
-/// The tracks of a clip that share their times. Linear ones of two keys or more are grouped for the kernels; `others`
-/// are sampled one by one.
+/// The tracks of a clip that have the same times. Linear ones with two keys or more are grouped for the kernels;
+/// `others` are sampled one by one.
 struct SampleLine {
     const TrackView* clock = nullptr;  ///< any of the tracks: for its times
     std::size_t rotation_tracks = 0;
@@ -27,20 +27,21 @@ struct SampleLine {
     std::vector<const TrackView*> others;
 };
 
-/// Of a clip. About 12 bytes for each rotation track, 16 for each translation or scale.
+/// The plan for a clip. About 12 bytes per rotation track, 16 per translation or scale track.
 struct SamplePlan {
     std::vector<SampleLine> lines;
-    UnpackPlan packed;  ///< if it is packed
+    UnpackPlan packed;  ///< for packed clips
 };
 
 struct PosePlan {
     std::vector<JointTransform> rest;
     std::vector<float> rest_weights;   ///< of the morph targets
-    std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent is far before it, and so already there
-    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< of each mesh; empty where same_palette is another one
-    std::vector<std::uint32_t> same_palette;  ///< of each mesh: the first of its neighbours with its palette
+    std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent comes well before it, and so is
+                                       ///< already computed
+    std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< per mesh; empty if same_palette is another mesh
+    std::vector<std::uint32_t> same_palette;  ///< per mesh: the first neighbouring mesh with the same palette
     std::vector<SamplePlan> clips;
-    /// Floats are exact enough for joint matrices: no long chains, and nothing far away that cancels.
+    /// True if floats are accurate enough for joint matrices: no long chains, and no large offsets that cancel.
     bool fits_floats = false;
 };
 

@@ -3,23 +3,23 @@
 #include <cstddef>
 #include <cstdint>
 
-// What the kernels for sampling work on: plain numbers only, as in skin_block.h.
+// Input and output of the sampling kernels: plain data only, as in skin_block.h.
 namespace bendy {
 
-/// Up to eight rotation tracks with one time line. Places past the last one repeat it.
+/// Up to eight rotation tracks on the same time line. Unused entries repeat the last one.
 struct RotationTracks {
     static constexpr std::size_t kMost = 8;
-    const float* keys[kMost];     // arrays, since kernels read them; four numbers a key
+    const float* keys[kMost];     // arrays, since kernels read them; four numbers per key
     std::uint32_t places[kMost];  ///< floats from the first joint's transform to the rotation
 };
 
 /// A track of translations or scales.
 struct VectorTrack {
-    const float* keys;    ///< three numbers a key
+    const float* keys;    ///< three numbers per key
     std::uint32_t place;  ///< floats from the first joint's transform
 };
 
-/// Linear tracks between key `left` and the next one, which all of them have.
+/// Linear tracks between key `left` and the next one; all of them have both keys.
 struct SampleBlock {
     const RotationTracks* rotations;
     std::size_t rotation_groups;
@@ -27,16 +27,16 @@ struct SampleBlock {
     std::size_t vector_tracks;
     std::size_t left;
     float fraction;  ///< 0 to 1
-    float* local;    ///< ten a joint
+    float* local;    ///< ten per joint
 };
 
-/// Mixes transforms into others, joint by joint.
+/// Blends transforms into others, joint by joint.
 struct BlendBlock {
     std::size_t joints;
-    float* local;        ///< ten a joint: rotation x y z w, translation, scale
+    float* local;        ///< ten per joint: rotation x y z w, translation, scale
     const float* other;  ///< as local
     float weight;
-    const float* mask;  ///< one a joint; null: 1
+    const float* mask;  ///< one per joint; null: 1
 };
 
 }  // namespace bendy

@@ -20,7 +20,7 @@ public:
         places_.resize(most + std::size_t{1}, kAbsent);
     }
 
-    /// `count` vertices from `first` on. Bones that no weight goes to are left out, but for one; nothing is appended if
+    /// Adds `count` vertices from `first` on. Bones without weight are left out, except for one; nothing is appended if
     /// there are too many. weight_at(number of the influence).
     template <class WeightAt>
     void append(std::size_t first, std::size_t count, const WeightAt& weight_at) {
@@ -36,7 +36,7 @@ public:
             for (const std::size_t end = at + influences_; at < end && listed <= kMostBones; ++at) {
                 const float weight = weight_at(at);
                 if (weight == 0.0f) continue;
-                // Without branches: whether a bone is new to a group cannot be foreseen.
+                // Branchless: whether a bone is new to a group is unpredictable.
                 const std::size_t bone = bones_[at];
                 const std::uint32_t place = std::min(places[bone], listed);
                 places[bone] = place;
@@ -59,7 +59,7 @@ private:
     std::span<const Bone> bones_;
     std::size_t influences_;
     SkinPlan& plan_;
-    std::vector<std::uint32_t> places_;  // of each bone in the group's list
+    std::vector<std::uint32_t> places_;  // for each bone, its index in the group's list
 };
 
 template <class Bone, class WeightAt>
@@ -74,7 +74,7 @@ void list(const MeshView& mesh, SkinPlan& plan, const WeightAt& weight_at) {
         const std::size_t first = group * SkinPlan::kGroup;
         lists.append(first, std::min(SkinPlan::kGroup, mesh.vertices - first), weight_at);
         plan.first.push_back(static_cast<std::uint32_t>(plan.bones.size()));
-        if (group + 1 == kProbe) {  // the others are much like these
+        if (group + 1 == kProbe) {  // the other groups are assumed to be similar
             plan.bones.reserve(plan.bones.size() * (groups / kProbe + 1));
             plan.weights.reserve(plan.bones.capacity());
         }

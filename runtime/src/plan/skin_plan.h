@@ -8,24 +8,24 @@
 
 namespace bendy {
 
-/// A mesh's influences as kernels want them. Vertices that lie near each other follow much the same bones, so for each
-/// group of eight there is a list of the bones that any of them follows, each with eight weights: a matrix then is read
-/// once for eight vertices. Groups of too many bones have no list.
+/// A mesh's influences in the kernels' layout. Neighbouring vertices mostly have the same bones, so for each group of
+/// eight there is a list of all their bones, each with eight weights: a matrix is then read once for eight vertices.
+/// Groups with too many bones have no list.
 struct SkinPlan {
     static constexpr std::size_t kGroup = 8;
-    static constexpr std::size_t kMostBones = 8;  // from there on eight vertices cost as much one by one
+    static constexpr std::size_t kMostBones = 8;  // with more bones, eight vertices cost the same one by one
 
     struct alignas(32) Weights {
         float of[kGroup];  // an array, since kernels read it
     };
 
-    std::vector<std::uint32_t> first;  ///< in bones, of each group; one more than groups. Empty: no plan
-    std::vector<std::uint16_t> bones;  ///< into the palette
-    std::vector<Weights> weights;      ///< as bones
+    std::vector<std::uint32_t> first;  ///< for each group, index into bones; one more than groups. Empty: no plan
+    std::vector<std::uint16_t> bones;  ///< indices into the palette
+    std::vector<Weights> weights;      ///< one per entry of bones
     bool is_complete = false;          ///< every group has a list
 };
 
-/// Nothing for a rigid mesh. Linear in the mesh's influences; at most 35 bytes a vertex.
+/// Returns an empty plan for a rigid mesh. Linear in the mesh's influences; at most 35 bytes per vertex.
 SkinPlan make_skin_plan(const MeshView& mesh);
 
 }  // namespace bendy

@@ -7,7 +7,8 @@
 
 #include <cstddef>
 
-// A vertex out of a SkinBlock and into the caller's memory, in doubles: what the plain ways to skin share.
+// Reads a vertex from a SkinBlock and writes it to the caller's memory, in doubles: shared by the plain skinning
+// functions.
 namespace bendy {
 
 inline glm::dvec3 vec3_at(const float* from) {
@@ -18,7 +19,7 @@ inline void put(const SkinOutput& out, std::size_t vertex, const glm::dvec3& v) 
     for (int c = 0; c < 3; ++c) out.data[vertex * out.stride + static_cast<std::size_t>(c)] = static_cast<float>(v[c]);
 }
 
-/// Zero stays zero.
+/// Normalises; zero stays zero.
 inline glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : glm::dvec3(0.0);

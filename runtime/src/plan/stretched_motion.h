@@ -6,9 +6,9 @@
 
 namespace bendy {
 
-/// What skinning by dual quaternions makes of a palette's entry: v -> rigid motion of (stretch * v + shift).
+/// A palette entry for skinning by dual quaternions: v -> rigid motion of (stretch * v + shift).
 struct StretchedMotion {
-    glm::dquat real{1.0, 0.0, 0.0, 0.0};  ///< of the rigid motion as a dual quaternion; unit
+    glm::dquat real{1.0, 0.0, 0.0, 0.0};  ///< real part of the rigid motion as a dual quaternion; unit
     glm::dquat dual{0.0, 0.0, 0.0, 0.0};
     glm::dmat3 stretch{1.0};
     glm::dvec3 shift{0.0};

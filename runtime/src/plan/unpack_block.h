@@ -3,16 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 
-// What the kernels for packed clips work on: plain numbers only, as in skin_block.h.
+// Input and output of the packed clip kernels: plain data only, as in skin_block.h.
 namespace bendy {
 
-/// Up to eight animated tracks that stand together in each frame, one in a lane. Lanes past `count` stand for the last
-/// track's joint and decode to anything, so they are stored first.
+/// Up to eight animated tracks that are stored together in each frame, one per lane. Lanes beyond `count` refer to the
+/// last track's joint and decode to arbitrary values, so they are stored first.
 struct UnpackGroup {
     static constexpr std::uint32_t kLanes = 8;
     float rest[4][kLanes]{};         ///< rotation: x y z w, unit; otherwise three numbers
-    float steps[3][kLanes]{};        ///< by component; 0 past `count`
-    std::uint32_t places[kLanes]{};  ///< floats from the first joint's transform to what the track animates
+    float steps[3][kLanes]{};        ///< by component; 0 beyond `count`
+    std::uint32_t places[kLanes]{};  ///< floats from the first joint's transform to the animated property
     bool is_rotation = true;
     std::uint32_t count = 0;       ///< tracks
     std::uint32_t components = 3;  ///< 1 or 3
@@ -21,8 +21,8 @@ struct UnpackGroup {
     std::uint32_t base_bytes = 2;  ///< 2 or 4
 };
 
-/// Where one component of a group lies in the frames of a segment: four numbers in each of two windows of sixteen
-/// bytes. Lane by lane a number is the 32 bits from byte `bytes` of its window on, shifted left and then right.
+/// The location of one component of a group in the frames of a segment: four numbers in each of two windows of sixteen
+/// bytes. In each lane the number is the 32 bits from byte `bytes` of its window on, shifted left and then right.
 struct UnpackWindows {
     std::uint32_t low = 0;  ///< bytes from the frame's start to the window of lanes 0 to 3
     std::uint32_t high = 0;
@@ -35,14 +35,14 @@ struct UnpackWindows {
 struct UnpackBlock {
     const UnpackGroup* groups;
     std::size_t group_count;
-    const UnpackWindows* windows;  ///< by group, component
+    const UnpackWindows* windows;  ///< by group, then component
     const unsigned char* tables;
-    const unsigned char* left;   ///< frames
-    const unsigned char* right;  ///< the same one at the end
+    const unsigned char* left;   ///< the left frame
+    const unsigned char* right;  ///< the right frame; at the end, the same as left
     const unsigned char* end;    ///< of the payload
     float fraction;
-    bool is_near_end;  ///< reading kReadPast past a frame or a table may leave the payload
-    float* local;      ///< ten a joint, at rest where a track animates
+    bool is_near_end;  ///< reading kReadPast bytes beyond a frame or a table could leave the payload
+    float* local;      ///< ten per joint; at rest where a track animates
     static constexpr std::size_t kReadPast = 32;
     static constexpr float kMaxHalfTurnSquare = 10.89f;  ///< of a rotation vector
 };

@@ -15,7 +15,7 @@ static_assert(UnpackGroup::kLanes == kPackedGroup &&
               UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
 static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
 
-/// Floats from a joint's transform to one of its properties.
+/// Returns the offset in floats from a joint's transform to one of its properties.
 std::uint32_t place_in_joint(TrackPath path) {
     if (path == TrackPath::rotation) return offsetof(JointTransform, rotation) / sizeof(float);
     if (path == TrackPath::translation) return offsetof(JointTransform, translation) / sizeof(float);
@@ -34,7 +34,7 @@ UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, cons
     return {place, 3, {v.x, v.y, v.z, 0.0f}};
 }
 
-/// Rest values by lane; rotations of unit length.
+/// Returns the rest values for a lane; rotations are normalised.
 glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
     if (path == TrackPath::translation) return {rest.translation, 0.0f};
     if (path == TrackPath::scale) return {rest.scale, 0.0f};
@@ -57,9 +57,9 @@ UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> 
     return group;
 }
 
-/// Where the group's bases stand, and its steps.
-/// \param first   track of the list
-/// \param tables  of the list, from the segment's
+/// Sets the location of the group's bases, and its steps.
+/// \param first   first track, in the list
+/// \param tables  of the list, relative to the segment's
 void place_group(const PackedList& list, std::uint32_t first, std::uint32_t tables, UnpackGroup& group) {
     group.base_bytes = list.base_bytes;
     group.bases = tables + group.components * list.count + first * list.base_bytes;
@@ -73,7 +73,7 @@ void place_group(const PackedList& list, std::uint32_t first, std::uint32_t tabl
 }
 
 /// \param widths  of the lanes that hold a track
-/// \param bit     where the first number stands in a frame; where the next component does
+/// \param bit     position of the first number in a frame; advanced to the next component
 UnpackWindows windows_of(Bytes widths, std::uint32_t& bit) {
     UnpackWindows windows;
     for (std::size_t lane = 0; lane < kPackedGroup; ++lane) {

@@ -10,27 +10,27 @@
 #include <span>
 #include <vector>
 
-// What playing a packed clip on a model takes that no frame changes: made once, when the model is opened.
+// Data for playing a packed clip on a model that is the same for all frames: built once, when the model is opened.
 namespace bendy {
 
 inline constexpr std::uint32_t kJointFloats = sizeof(JointTransform) / sizeof(float);
 
-/// A track that never changes, rest included.
+/// A constant track, including rest.
 struct UnpackedConstant {
     std::uint32_t place = 0;   ///< floats from the first joint's transform to what the track sets
     std::uint32_t floats = 4;  ///< 4: a rotation; 3
     std::array<float, 4> value{};
 };
 
-/// PackedSegment, and where its windows are.
+/// PackedSegment, and the location of its windows.
 struct UnpackSegment {
     std::uint64_t tables = 0;  ///< bytes from the payload's start
     std::uint64_t frames = 0;  ///< bytes from the payload's start
     std::uint64_t stride = 0;  ///< bytes of a frame
-    std::size_t windows = 0;   ///< number of the first one
+    std::size_t windows = 0;   ///< index of the first one
 };
 
-/// About 300 bytes for each eight animated tracks, 100 for these in each segment, and 24 for each constant track.
+/// About 300 bytes per eight animated tracks, 100 per eight of them in each segment, and 24 per constant track.
 struct UnpackPlan {
     const PackedView* packed = nullptr;
     std::vector<UnpackedConstant> constants;

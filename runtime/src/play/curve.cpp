@@ -10,12 +10,12 @@ namespace {
 /// The keys around a time.
 struct KeyInterval {
     std::size_t left = 0;
-    std::size_t right = 0;  ///< left itself where nothing is to be interpolated
+    std::size_t right = 0;  ///< equal to left if there is nothing to interpolate
     double fraction = 0.0;  ///< [0, 1)
     double seconds = 0.0;   ///< from left to right
 };
 
-/// Stays among the keys whatever the times are: files are opened without a check that they ascend.
+/// Stays within the keys whatever the times are: opening a file does not check that they ascend.
 KeyInterval interval_at(std::span<const float> times, double seconds) {
     const auto after = std::upper_bound(times.begin(), times.end(), seconds,
                                         [](double wanted, float time) { return wanted < double{time}; });
@@ -26,7 +26,7 @@ KeyInterval interval_at(std::span<const float> times, double seconds) {
     return {left, left + 1, (seconds - times[left]) / length, length};
 }
 
-/// Value `component` of a cubic curve between two keys, each in-tangent, value, out-tangent.
+/// Returns component `component` of a cubic curve between two keys, each stored as in-tangent, value, out-tangent.
 double hermite_value(const Curve& curve, const KeyInterval& at, std::size_t component) {
     const std::size_t n = curve.components;
     const auto number = [&](std::size_t key, std::size_t part) {

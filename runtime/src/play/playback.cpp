@@ -6,19 +6,20 @@
 namespace bendy {
 namespace {
 
-/// Whole passes in a walk of `seconds` (not negative), and what is left of it.
+/// The whole passes in a step of `seconds` (not negative), and the remainder.
 struct Passes {
     std::uint64_t whole = 0;
     double rest = 0.0;  // [0, length)
 };
 
 Passes split(double seconds, double length) {
-    constexpr double kMost = 9e15;                   // whole numbers of doubles, to which a step is only known anyway
+    constexpr double kMost = 9e15;                   // largest count that doubles represent exactly; longer steps are
+                                                     // inexact anyway
     const double rest = std::fmod(seconds, length);  // exact
     return {static_cast<std::uint64_t>(std::min(std::round((seconds - rest) / length), kMost)), rest};
 }
 
-/// Begins anew after 2^63, which only steps without sense reach.
+/// Wraps around after 2^63, which only meaningless steps reach.
 std::int64_t moved(std::int64_t pass, std::uint64_t by) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(pass) + by);
 }
@@ -40,7 +41,7 @@ double Playback::time_at(double inside, bool is_back) const {
 }
 
 TimeSpan Playback::span_between(double from, double to, bool has_end) const {
-    // Where it turns, the way back begins with what stands there.
+    // At a turn, the way back begins with the markers there.
     return {time_at(from, is_back()), time_at(to, is_back()), has_end && mode_ != LoopMode::ping_pong};
 }
 
@@ -131,7 +132,7 @@ PlayedInterval Playback::advance_backward(double step) {
     played.passes = passes.whole;
     pass_ = moved(pass_, 0 - passes.whole);
     inside_ = length_ - passes.rest;
-    const bool has_moved = inside_ < length_;  // else it stands where the pass after this one begins
+    const bool has_moved = inside_ < length_;  // otherwise it is at the start of the pass after this one
     played.last = span_between(length_, inside_, false);
     if (has_moved) return played;
     inside_ = 0.0;

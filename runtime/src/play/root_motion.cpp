@@ -17,7 +17,7 @@
 namespace bendy {
 namespace {
 
-/// The part of a rotation that goes about the y axis.
+/// Returns the part of a rotation about the y axis.
 glm::dquat yaw_of(const glm::dquat& rotation) {
     const double length = std::sqrt(rotation.w * rotation.w + rotation.y * rotation.y);
     constexpr double kUpsideDown = 1e-9;
@@ -31,7 +31,7 @@ void set(const TrackView& track, std::span<const float> value, JointTransform& j
     if (track.path == TrackPath::scale) joint.scale = {value[0], value[1], value[2]};
 }
 
-/// One joint of `sample`, without the others.
+/// Samples a single joint, as `sample` does.
 JointTransform sample_joint(const Model& model, const Clip& clip, std::uint32_t joint, float seconds) {
     JointTransform local = model.joints()[joint].rest;
     for (const TrackView& track : clip.tracks) {
@@ -81,7 +81,7 @@ RootMotion blend(const RootMotion& motion, const RootMotion& other, double weigh
 
 RootMotion repeat(const RootMotion& motion, std::uint64_t times) {
     RootMotion all;
-    RootMotion power = motion;  // 1, 2, 4, ... of it
+    RootMotion power = motion;  // motion applied 1, 2, 4, ... times
     for (; times != 0; times >>= 1u) {
         if (times % 2 == 1) all = compose(all, power);
         power = compose(power, power);
@@ -106,7 +106,7 @@ RootMotion RootPath::motion_of(const glm::dmat4& root) const {
         motion.rotation = glm::normalize(rigid_rotation(root) * glm::conjugate(rest_rotation_));
         if (axes_.turn == RootTurn::yaw) motion.rotation = yaw_of(motion.rotation);
     }
-    // So that undoing it brings the chosen numbers of the position to those at rest.
+    // Chosen so that undoing the motion resets the chosen components of the position to those at rest.
     motion.translation = chosen_ * glm::dvec3(root[3]) - motion.rotation * (chosen_ * rest_position_);
     return motion;
 }
@@ -131,7 +131,7 @@ RootMotion RootPath::along(const Clip& clip, const TimeSpan& span) const {
 
 RootMotion RootPath::over(const Clip& clip, const PlayedInterval& played) const {
     RootMotion all = along(clip, played.first);
-    if (played.turns) {  // there and back is nowhere
+    if (played.turns) {  // forwards and backwards cancel
         if (played.passes % 2 == 1) all = compose(all, along(clip, played.pass));
     } else if (played.passes != 0) {
         all = compose(all, repeat(along(clip, played.pass), played.passes));

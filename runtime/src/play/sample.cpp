@@ -13,22 +13,22 @@
 namespace bendy {
 namespace {
 
-/// The keys around a time, and how far between them it lies.
+/// The keys around a time, and the position between them.
 struct Interval {
     std::size_t left = 0;
-    std::size_t right = 0;  // left itself where nothing is to be interpolated
+    std::size_t right = 0;  // equal to left if there is nothing to interpolate
     double fraction = 0.0;  // [0, 1)
     double seconds = 0.0;   // from left to right
 };
 
-/// The first time after `seconds`. Most tracks' keys are evenly spread: then it is where it should be, and no search is
-/// needed.
+/// Returns the first time after `seconds`. Most tracks have evenly spaced keys: then it is at the computed position,
+/// and no search is needed.
 std::span<const float>::iterator first_after(std::span<const float> times, float seconds) {
     const float length = times.back() - times.front();
     const float guess = (seconds - times.front()) / length * static_cast<float>(times.size() - 1);
     if (guess >= 0.0f && guess < static_cast<float>(times.size() - 1)) {
         auto left = static_cast<std::size_t>(guess);
-        if (left > 0 && times[left] > seconds) --left;  // rounding, or nearly even
+        if (left > 0 && times[left] > seconds) --left;  // rounding, or nearly evenly spaced
         if (left + 2 < times.size() && times[left + 1] <= seconds) ++left;
         if (times[left] <= seconds && times[left + 1] > seconds)
             return times.begin() + static_cast<std::ptrdiff_t>(left) + 1;
@@ -56,7 +56,7 @@ Interval frame_interval(const TrackView& track, const Clip& clip, float seconds)
     return {left, left + 1, frame - whole, 1.0 / clip.frame_rate};
 }
 
-// sin(u angle) / sin(angle) of an angle of cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
+// sin(u angle) / sin(angle) for an angle with cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
 // for Computing SLERP (2011). Within 1e-11 for `away` below kNear.
 constexpr double kNear = 0.15;
 constexpr int kTerms = 8;
@@ -86,7 +86,7 @@ void slerp(std::span<const float> a, std::span<const float> b, double u, std::sp
     for (std::size_t c = 0; c < 4; ++c) dot += double{a[c]} * b[c];
     const double sign = dot < 0.0 ? -1.0 : 1.0;
     const double away = 1.0 - std::abs(dot);
-    if (away >= 0.0 && away < kNear) {  // all but the fastest turns from one key to the next
+    if (away >= 0.0 && away < kNear) {  // all but the fastest rotations between two keys
         const double by_a = slerp_weight(1.0 - u, away);
         const double by_b = sign * slerp_weight(u, away);
         for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(by_a * a[c] + by_b * b[c]);
@@ -193,7 +193,7 @@ FrameMix mix_frames(const PlayView& play, const Clip& clip, float seconds) {
 
 namespace {
 
-/// The work on a pose.
+/// Samples a clip into a pose.
 class Sampling {
 public:
     Sampling(const Clip& clip, float seconds, Pose& pose)
@@ -207,7 +207,7 @@ public:
         for (const PlayView& play : clip_.plays) sample_frames(play);
         const PoseKernels* const kernels = pose_kernels();
         const std::size_t number = model_.number_of(clip_);
-        if (number >= model_.object.clips.size()) {  // of another model
+        if (number >= model_.object.clips.size()) {  // a clip of another model
             sample_tracks();
             if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}}, seconds_, local_);
             return;
@@ -228,7 +228,7 @@ private:
         if (play.first + play.frames > mesh.frames()) return;
         const FrameMix mix = mix_frames(play, clip_, seconds_);
         const auto add = [&](std::uint32_t frame, float weight) {
-            if (frame == 0) return;  // the mesh's own streams have what the others leave
+            if (frame == 0) return;  // the mesh's own streams have the remaining weight
             weights_[model_.first_morph_target[play.mesh] + mesh.first_frame + frame - 1] += weight;
         };
         add(mix.left, 1.0f - mix.fraction);
@@ -236,7 +236,7 @@ private:
     }
 
     void sample_tracks() const {
-        // Neighbouring tracks mostly share their times.
+        // Neighbouring tracks usually have the same times.
         const TrackView* same = nullptr;
         Interval at;
         for (const TrackView& track : clip_.tracks) {
@@ -258,7 +258,7 @@ private:
                           at.left,
                           static_cast<float>(at.fraction),
                           &local_.front().rotation.x};
-        if (at.left + 1 == line.clock->keys) {  // the last key: from the one before it all the way
+        if (at.left + 1 == line.clock->keys) {  // at the last key: interpolate fully from the one before it
             block.left = at.left - 1;
             block.fraction = 1.0f;
         }

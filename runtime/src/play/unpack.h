@@ -4,7 +4,7 @@
 
 namespace bendy {
 
-/// With the kernel in use.
+/// Unpacks with the kernel in use.
 Unpack unpack;
 
 }  // namespace bendy

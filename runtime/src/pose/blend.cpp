@@ -20,7 +20,7 @@ BlendBlock block_of(std::span<JointTransform> local, const Pose& other, float we
             mask.empty() ? nullptr : mask.data()};
 }
 
-/// towards * weight + q * (1 - weight), the short way round.
+/// Returns towards * weight + q * (1 - weight), along the shorter arc.
 glm::dquat mix(const glm::dquat& q, const glm::dquat& towards, double weight) {
     const glm::dquat sum = q * (1.0 - weight) + towards * (glm::dot(q, towards) < 0.0 ? -weight : weight);
     return glm::normalize(sum);

@@ -10,11 +10,11 @@
 
 namespace bendy {
 
-/// A joint of a chain while an IK solver works on it; a PoseState has as many as its model's longest chain has, so that
-/// reaching allocates nothing. Rotations and bones in the space of the start's parent, lengths in chain lengths.
+/// A joint of a chain while an IK solver works on it; a PoseState has enough for its model's longest chain, so that
+/// reaching allocates nothing. Rotations and bones are in the space of the start's parent, lengths in chain lengths.
 struct IkLink {
-    glm::dquat local;                        ///< relative to the link before
-    glm::dvec3 bone;                         ///< to the next link or the tip, in this link's axes
+    glm::dquat local;                        ///< relative to the previous link
+    glm::dvec3 bone;                         ///< to the next link or the tip, relative to this link
     glm::dquat rest_frame;                   ///< q_rest * C
     glm::dquat frame;                        ///< C
     const Constraint* constraint = nullptr;  ///< null: free
@@ -23,12 +23,12 @@ struct IkLink {
     std::uint32_t joint = 0;
     bool is_fixed = false;  ///< no freedom about any axis
 
-    // Where the link is, by the problem.
+    // Computed by the problem's `place`.
     glm::dquat global;
     glm::dvec3 position;
 
-    // The solvers' own.
-    glm::dquat saved;  ///< a rotation to come back to
+    // Used by the solvers.
+    glm::dquat saved;  ///< a saved rotation
     glm::dquat trial;
     glm::dmat3 mobility;
     glm::dvec3 goal;

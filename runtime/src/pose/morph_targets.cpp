@@ -10,7 +10,7 @@
 namespace bendy {
 namespace {
 
-/// Decodes a stream's vectors, or zeros if the mesh has none.
+/// Decodes the vectors of a stream; zeros if the mesh does not have it.
 template <class Vector>
 void fill(const std::optional<StreamView>& stream, std::uint32_t vertices, std::span<Vector> out) {
     if (out.empty()) return;

@@ -31,7 +31,7 @@ bool PoseState::make_palette(std::uint32_t mesh) {
     }
     const auto inverse_bind = bind.inverse_bind();
     for (std::size_t entry = 0; entry < bind.joints.size(); ++entry) {
-        // Large translations cancel here, which a product of floats would not survive.
+        // Large translations cancel here, so the product must be computed in doubles.
         palette[entry] = to_rows(exact_matrix(bind.joints[entry]) * glm::dmat4(inverse_bind[entry]));
         is_palette_finite = is_palette_finite && is_finite(palette[entry]);
     }

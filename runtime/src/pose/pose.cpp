@@ -37,7 +37,7 @@ Pose::Pose(Pose&& other) noexcept = default;
 Pose& Pose::operator=(const Pose& other) {
     if (this == &other) return *this;
     if (state_) {
-        *state_ = *other.state_;  // without an allocation, if both are of one model
+        *state_ = *other.state_;  // does not allocate if both are of one model
     } else {
         state_ = std::make_unique<PoseState>(*other.state_);
     }

@@ -18,24 +18,24 @@
 
 namespace bendy {
 
-/// The work memory of skinning by dual quaternions.
+/// The work memory for skinning by dual quaternions.
 struct DualMotions {
     explicit DualMotions(const Model& model);
 
-    std::vector<glm::dvec3> places;          ///< of each palette entry's joint in mesh space when it was bound
-    std::vector<std::uint32_t> first_place;  ///< of each mesh
+    std::vector<glm::dvec3> places;  ///< for each palette entry, the joint's position in mesh space at bind time
+    std::vector<std::uint32_t> first_place;  ///< for each mesh, index into places
     std::vector<StretchedMotion> motions;    ///< of the mesh that is being skinned, by palette entry
     std::vector<DualMotion> kernel_motions;
     std::vector<PaletteMatrix> kernel_stretches;
     double scale = 1.0;
     bool is_stretched = false;
     bool are_good = false;    ///< all of `motions` are finite
-    bool has_kernel = false;  ///< kernel_motions hold what `motions` do
+    bool has_kernel = false;  ///< kernel_motions correspond to `motions`
 };
 
-/// What a Pose holds. No two of them share a cache line: each is written by a thread of its own.
+/// The data of a Pose. Two of them never share a cache line, since each is written by its own thread.
 struct alignas(64) PoseState {
-    struct alignas(64) JointMatrix {  // on a cache line of its own
+    struct alignas(64) JointMatrix {  // on its own cache line
         glm::mat4 matrix;
     };
     static_assert(sizeof(JointMatrix) == sizeof(glm::mat4));
@@ -46,19 +46,20 @@ struct alignas(64) PoseState {
     explicit PoseState(const Model& from);
 
     void set_rest();
-    /// Fills model_space from the local transforms, parents before children, if these may have changed.
+    /// Computes model_space from the local transforms, parents before children, if these may have changed.
     void refresh() {
         if (is_stale) find_model_space();
     }
     void find_model_space();
-    /// Joint space to model space, as exact as find_model_space had it.
+    /// Returns the matrix from joint space to model space, as accurate as find_model_space computed it.
     [[nodiscard]] glm::dmat4 exact_matrix(std::uint32_t joint) const {
         return is_exact ? exact_model_space[joint] : glm::dmat4(model_space[joint].matrix);
     }
-    /// Sets `palette` for a skinned mesh, if it is not that already. Whether all numbers are finite. Not of a stale
-    /// pose.
+    /// Sets `palette` for a skinned mesh, unless it is set already. Returns whether all numbers are finite. The pose
+    /// must not be stale.
     bool make_palette(std::uint32_t mesh);
-    /// Sets `palette` for what one joint moves. Whether all numbers are finite. Not of a stale pose.
+    /// Sets `palette` for vertices moved by one joint. Returns whether all numbers are finite. The pose must not be
+    /// stale.
     bool make_rigid_palette(std::uint32_t joint);
 
     Model model;
@@ -72,9 +73,9 @@ struct alignas(64) PoseState {
     std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
     std::uint32_t palette_mesh = kNone;        ///< whose palette is
     bool is_palette_finite = false;
-    bool is_exact = true;             ///< in doubles, so that rounding does not add up along deep chains
+    bool is_exact = true;             ///< in doubles, so that rounding does not accumulate along deep chains
     bool is_stale = true;             ///< a local transform may have changed since find_model_space
-    std::optional<DualMotions> dual;  ///< once it is skinned by dual quaternions
+    std::optional<DualMotions> dual;  ///< set once the pose has been skinned by dual quaternions
 };
 
 }  // namespace bendy

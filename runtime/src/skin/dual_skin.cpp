@@ -22,7 +22,7 @@ double largest(const glm::dmat3& m) {
     return most;
 }
 
-/// Scaled to the volume of a rotation, unless it is near that already; none if it is flat.
+/// Scales a matrix to volume 1, unless it is close to that already; nothing if it is flat.
 std::optional<glm::dmat3> with_volume_one(const glm::dmat3& matrix) {
     constexpr double kNear = 0.1;
     constexpr double kFlat = 1e-9;  // volume of a unit cube, below which the inverse is noise
@@ -34,11 +34,11 @@ std::optional<glm::dmat3> with_volume_one(const glm::dmat3& matrix) {
     return scaled / std::cbrt(volume);
 }
 
-/// The rotation nearest to a matrix of positive volume: Newton's iteration (Higham, Computing the Polar Decomposition,
-/// 1986).
+/// Returns the rotation nearest to a matrix of positive volume: Newton's iteration (Higham, Computing the Polar
+/// Decomposition, 1986).
 glm::dmat3 nearest_rotation_matrix(const glm::dmat3& matrix) {
-    constexpr int kSteps = 60;       // 2 for what is nearly a rotation
-    constexpr double kClose = 1e-8;  // a step of this size leaves its square
+    constexpr int kSteps = 60;       // 2 for a matrix that is nearly a rotation
+    constexpr double kClose = 1e-8;  // a step of this size leaves an error of its square
     const auto start = with_volume_one(matrix);
     if (!start) return rigid_axes(matrix);
     glm::dmat3 at = *start;
@@ -60,7 +60,7 @@ glm::dmat4 matrix_of(const PaletteMatrix& entry) {
     return matrix;
 }
 
-/// Where the joint stood in the mesh when it was bound; the mesh's origin if its matrix has no inverse.
+/// Returns the joint's position in the mesh at bind time; the mesh's origin if the matrix is singular.
 glm::dvec3 place_of(const glm::mat4& inverse_bind) {
     const glm::dmat4 bind = glm::inverse(glm::dmat4(inverse_bind));
     const glm::dvec3 place(bind[3]);
@@ -70,7 +70,7 @@ glm::dvec3 place_of(const glm::mat4& inverse_bind) {
 
 StretchedMotion motion_of(const glm::dmat4& matrix, const glm::dvec3& place) {
     const glm::dmat3 linear(matrix);
-    // A mirrored joint is one that turns and stretches by less than nothing.
+    // A mirrored joint is treated as a rotation with a negative stretch.
     const glm::dmat3 turn = nearest_rotation_matrix(glm::determinant(linear) < 0.0 ? -linear : linear);
     StretchedMotion motion;
     motion.stretch = glm::transpose(turn) * linear;
@@ -81,9 +81,9 @@ StretchedMotion motion_of(const glm::dmat4& matrix, const glm::dvec3& place) {
     return motion;
 }
 
-/// The first motions as kernels want them; false if not all are finite as floats.
+/// Converts the first motions to the kernels' layout; returns false if not all are finite as floats.
 bool round_motions(std::size_t count, DualMotions& dual) {
-    float sum = 0.0f;  // of what is finite times 0 is 0
+    float sum = 0.0f;  // a finite number times 0 is 0
     const auto put = [&sum](float& to, double number) {
         to = static_cast<float>(number);
         sum += 0.0f * to;
@@ -108,7 +108,7 @@ bool round_motions(std::size_t count, DualMotions& dual) {
     return sum == 0.0f;
 }
 
-/// Fills the motions from the palette, unless it is not finite.
+/// Computes the motions from the palette, unless it is not finite.
 void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
     dual.are_good = false;
     const auto& joints = state.data->object.meshes[mesh].palette.joints;
@@ -118,9 +118,9 @@ void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
     const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
     const glm::dmat3 top(matrix_of(palette[topmost]));
     dual.scale = std::cbrt(glm::determinant(top));
-    constexpr double kFlat = 1e-4;  // of its longest side: no scale of all, then
+    constexpr double kFlat = 1e-4;  // relative to its longest side: no uniform scale then
     if (!(std::abs(dual.scale) > kFlat * largest(top))) dual.scale = 1.0;
-    constexpr double kStretched = 2e-6;  // more than what rounding does to a rotation
+    constexpr double kStretched = 2e-6;  // more than rounding does to a rotation
     dual.is_stretched = false;
     for (std::size_t entry = 0; entry < palette.size(); ++entry) {
         glm::dmat4 matrix = matrix_of(palette[entry]);

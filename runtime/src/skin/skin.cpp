@@ -13,7 +13,7 @@
 namespace bendy {
 namespace {
 
-/// What nothing moves.
+/// Copies vertices that no joint moves.
 void copy_block(const SkinBlock& block) {
     const auto copy = [&](const float* from, const SkinOutput& out, std::size_t numbers) {
         if (out.data == nullptr) return;
@@ -44,14 +44,14 @@ SkinOutput output_at(const StridedFloats& memory, std::uint64_t vertex) {
     return {memory.floats.data() + vertex * memory.stride, memory.stride};
 }
 
-/// The work on a pose's scratch memory.
+/// Skins with the pose's scratch memory.
 class Skinning {
 public:
-    /// The pose is not stale.
+    /// The pose must not be stale.
     Skinning(PoseState& state, const SkinRequest& request)
         : state_(state), data_(*state.data), method_(request.method), out_(request.out) {}
 
-    /// The first `vertices` of a mesh, vertex 0 at `at` of the output.
+    /// Skins the first `vertices` of a mesh; vertex 0 is written to `at` of the output.
     void skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std::uint64_t at);
 
 private:
@@ -62,7 +62,7 @@ private:
     const ModelData& data_;
     SkinningMethod method_;
     const VertexBuffer& out_;
-    std::uint32_t motions_of_ = kNone;  // the mesh whose palette state_.dual has the motions of
+    std::uint32_t motions_of_ = kNone;  // the mesh whose motions are in state_.dual
 };
 
 void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first,
@@ -113,7 +113,7 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
         skin_rigid(mesh_number, staging, wanted);
         return;
     }
-    // Lanes multiply by weights that are zero, too.
+    // Kernels also multiply by weights that are zero.
     const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
     Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights,
                     state_.active_targets, wanted);

@@ -61,7 +61,7 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
     const std::span<Vector> vectors(reinterpret_cast<Vector*>(scratch.data()), count);  // NOLINT(*-reinterpret-cast)
     if (!stream) {
         std::fill(vectors.begin(), vectors.end(), Vector(0.0f));
-        if (shifts != &MorphTargetView::positions) return scratch.data();  // displacements of nothing
+        if (shifts != &MorphTargetView::positions) return scratch.data();  // displacements without a stream to displace
     } else {
         part_of(*stream, first, count).decode(vectors);
     }

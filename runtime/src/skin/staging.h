@@ -12,8 +12,8 @@
 
 namespace bendy {
 
-/// A mesh's vertices as kernels want them: where the file has plain floats and no morph target moves them, in
-/// place; else decoded and moved, a few at a time, so that they are still in the nearest cache when they are skinned.
+/// Provides a mesh's vertices in the kernels' layout: in place if the file has plain floats and no morph target moves
+/// them; otherwise decoded and morphed, a few at a time, so that they are still in the L1 cache when they are skinned.
 class Staging {
 public:
     /// \param plan     null if the kernel does not use it
@@ -23,10 +23,10 @@ public:
     Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, std::span<ActiveTarget> room,
             const SkinBlock& wanted);
 
-    /// How many vertices fill() takes at most.
+    /// The maximum number of vertices per call of fill().
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
-    /// Points a block's sources and outputs at `block.vertices` vertices from `first` on. Those pointers hold until the
-    /// next call.
+    /// Points a block's sources and outputs to `block.vertices` vertices from `first` on. The pointers are valid until
+    /// the next call.
     void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
 
 private:

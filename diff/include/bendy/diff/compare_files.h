@@ -8,12 +8,12 @@
 
 namespace bendy::diff {
 
-/// A good file, read.
+/// A file that has been read and is valid.
 struct ReadFile {
     ChunkTree tree;
     Document document;
-    std::vector<UnpackedTrack> unpacked;              ///< what the document's packed clips hold, as tracks of theirs
-    std::vector<std::unique_ptr<StreamView>> frames;  ///< streams of FRMS, all frames together
+    std::vector<UnpackedTrack> unpacked;              ///< the document's packed clips, as ordinary tracks
+    std::vector<std::unique_ptr<StreamView>> frames;  ///< the streams of all frames in FRMS
     std::vector<const StreamView*> streams;           ///< by chunk number; null: no stream
     std::vector<const ClipView*> clips;               ///< by chunk number; null: no clip
     std::vector<const ObjectView*> objects;           ///< by chunk number; null: no object
@@ -22,10 +22,10 @@ struct ReadFile {
 /// Reads a file that passes bendy::validate. The views refer to `bytes` and to the result itself.
 std::unique_ptr<ReadFile> read_file(Bytes bytes);
 
-/// Thrown where tracks share keys so that comparing them all would take for ever: no real file does.
+/// Thrown if tracks share keys in such a way that comparing them all would take forever; real files never do.
 struct TooMuchToCompare {};
 
-/// Everything in which two files differ, in A's order. Where sums are equal it does not look further.
+/// Returns everything in which two files differ, in A's order. Subtrees with equal sums are not compared further.
 Differences compare_files(const ReadFile& a, const ReadFile& b);
 
 }  // namespace bendy::diff

@@ -11,16 +11,18 @@
 
 namespace bendy::diff {
 
-/// A number, a text, a truth; nothing where one file has no value.
+/// A number, a text or a truth value; monostate if one file has no value.
 using Scalar = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
-/// What a field holds: one scalar, or a list of them.
+/// The content of a field: a scalar, or a list of scalars.
 struct Value {
     std::vector<Scalar> items{Scalar{}};
     bool is_list = false;
 
     Value() = default;
-    Value(Scalar scalar) : items{std::move(scalar)} {}  // NOLINT(google-explicit-constructor): as a scalar would be
+    Value(Scalar scalar)
+        : items{std::move(scalar)} {}  // NOLINT(google-explicit-constructor): converts implicitly by
+                                       // design
     bool operator==(const Value&) const = default;
 };
 
@@ -29,24 +31,24 @@ struct Difference {
     enum class Kind : std::uint8_t {
         only_in_a,  ///< the chunk, or `part` of it
         only_in_b,
-        order,    ///< paired chunks stand in another order among their siblings
-        value,    ///< `part` has a_value and b_value: a record's field, a text
+        order,    ///< paired chunks are in a different order among their siblings
+        value,    ///< `part` has a_value and b_value: a field of a record, or a text
         numbers,  ///< `count` of `of` numbers of `part` differ
-        bytes,    ///< `count` of `of` bytes, of what this program cannot read
-        storage   ///< the same content, stored otherwise
+        bytes,    ///< `count` of `of` bytes differ in content that this program cannot interpret
+        storage   ///< the same content, stored in a different way
     };
     Kind kind = Kind::value;
     ChunkPair chunks;
     std::string part;        ///< a field, "track joint 3 rotation: values", or empty: the chunk itself
-    Value a_value, b_value;  ///< of a value; of numbers and bytes: the first that differs
+    Value a_value, b_value;  ///< for a value; for numbers and bytes: the first that differs
     std::uint64_t count = 0;
     std::uint64_t of = 0;
-    double largest = 0.0;             ///< distance of two numbers
-    std::uint64_t first_element = 0;  ///< for bytes: the first one's place
+    double largest = 0.0;             ///< the largest distance between two numbers
+    std::uint64_t first_element = 0;  ///< for bytes: position of the first that differs
     std::uint64_t first_component = 0;
 };
 
-/// Gathers differences; keeps the first thousand and counts the rest.
+/// Collects differences; keeps the first thousand and counts the rest.
 class Differences {
 public:
     static constexpr std::size_t kMost = 1'000;

@@ -7,12 +7,13 @@
 
 namespace bendy::edit {
 
-/// A part of a character as a file of its own: the joint with this name (see find_named) and all below it, with the
-/// polygons that belong to these joints, the vertices that those use, their meshes' targets, the materials and textures
-/// that are left in use, the chains whose links are all inside, the limits, and the clips' tracks.
+/// Extracts a part of a character into a file of its own: the joint with this name (see find_named) and its
+/// descendants, their submeshes, the vertices that those use, their meshes' morph targets, the materials and textures
+/// still in use, the chains whose links are all inside, the constraints, and the clips' tracks.
 ///
-/// Everything stays where it was, to the last bit, in every clip: so the joints above, and those outside that also
-/// pull at a vertex which stays, stay too, without polygons of their own. They and all that falls away are in the log.
+/// Every remaining vertex stays exactly where it was, to the last bit, in every clip. For that, the ancestors of the
+/// joint and other joints that influence a remaining vertex are kept too, without submeshes of their own. The log lists
+/// these and everything that is removed.
 Edited extract(Bytes file, std::string_view joint, Log& log);
 
 }  // namespace bendy::edit

@@ -7,19 +7,19 @@
 
 namespace bendy::edit {
 
-/// What becomes of a clip whose name is taken.
+/// What happens to a clip whose name is already taken.
 enum class SameName : std::uint8_t {
-    refuse,   ///< a problem
-    replace,  ///< it takes the place, and the number, of the one that is there
-    number    ///< it gets a name of its own: "Run.001"
+    refuse,   ///< reported as a problem
+    replace,  ///< replaces the existing clip, and takes its number
+    number    ///< is given a new name: "Run.001"
 };
 
-/// The file with the clips of another one's first object behind those of its own first object. Tracks go to the joint
-/// of the same name (of several, to the one below the same parent; those without a name in turn below theirs), weights
-/// tracks to the mesh of the same name and there to the target of the same name; tracks that find none are left out and
-/// listed. Keys stay as they are, packed samples too; only the packed tracks of a joint whose rest transform is another
-/// one here are decoded, since they are relative to it. Rest poses that differ are warned about. A file of which
-/// nothing fits is a problem.
+/// Appends the clips of another file's first object to those of this file's first object. A track is assigned to the
+/// joint of the same name (if there are several, to the one with the same parent; unnamed joints are matched in order
+/// below theirs), a weights track to the mesh of the same name and there to the morph targets of the same name. Tracks
+/// without a match are left out and listed. Keys are copied unchanged, packed samples too; only the packed tracks of a
+/// joint whose rest transform differs here are decoded, since they are relative to it. Differing rest poses cause a
+/// warning. If nothing in the other file matches, that is a problem.
 Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log);
 
 }  // namespace bendy::edit

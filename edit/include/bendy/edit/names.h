@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-// Finding things by what a user calls them.
+// Finds things by the names that users give.
 namespace bendy::edit {
 
-/// True if the whole of `name` is as `pattern` has it; `*` stands for any bytes, `?` for one.
+/// Returns true if all of `name` matches `pattern`; `*` stands for any bytes, `?` for one byte.
 bool matches(std::string_view pattern, std::string_view name);
 
-/// The numbers of all things that `wanted` means: those with exactly this name; else the one with this number ("#3");
-/// else, if it has a `*` or `?`, those that match. If there are none: a problem that lists or suggests names. `kind` is
-/// one of them, as in "clip".
+/// Returns the numbers of all things that `wanted` refers to: those with exactly this name; otherwise the one with this
+/// number ("#3"); otherwise, if it contains `*` or `?`, those that match it. If there are none, returns a problem that
+/// lists or suggests names. `kind` is the singular of what is named, as in "clip".
 Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
                                                      std::string_view kind);
 

@@ -12,26 +12,26 @@
 
 namespace bendy::edit {
 
-/// What has a name.
+/// Kinds of things that have names.
 enum class Named : std::uint8_t { joint, clip, chain, mesh, target, material, texture, object };
 
-/// Names of one kind: each name that a pair's first matches becomes its second. The first pair that matches counts, and
-/// all are looked up in the names as the file has them, so two names can be swapped. A `*` in the first (one at most)
-/// stands for any bytes, and for the same bytes in the second: {"mixamorig:*", "*"} takes a prefix away. "#3" is the
-/// thing with that number, with or without a name.
+/// Renames things of one kind: a name that matches the first of a pair becomes the second. The first matching pair
+/// applies, and all pairs are matched against the names in the file, so two names can be swapped. A `*` in the first
+/// (at most one) stands for any bytes, and for the same bytes in the second: {"mixamorig:*", "*"} removes a prefix.
+/// "#3" is the thing with that number, whether or not it has a name.
 struct Rename {
     Named kind = Named::joint;
     std::vector<std::pair<std::string, std::string>> names;
-    bool all_must_match = true;  ///< a pair that matches nothing is a problem; else a warning
+    bool all_must_match = true;  ///< if false, a pair without a match is a warning instead of a problem
 };
 
-/// "OLD=NEW" as a pair. The first `=` parts them.
+/// Parses "OLD=NEW", split at the first `=`.
 Result<std::pair<std::string, std::string>, Problem> parse_pair(std::string_view text);
-/// "joint", "clip", ...
+/// Parses "joint", "clip", ...
 Result<Named, Problem> parse_named(std::string_view word);
 
-/// The file with other names, in NAME chunks or JNAM. A name that would become empty is a problem; two things of one
-/// kind that come to have one name are a warning.
+/// Returns the file with names changed, in NAME chunks or JNAM. A name that would become empty is a problem; two things
+/// of one kind that end up with the same name cause a warning.
 Edited rename(Bytes file, const Rename& what, Log& log);
 
 }  // namespace bendy::edit

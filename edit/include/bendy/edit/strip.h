@@ -9,23 +9,23 @@
 
 namespace bendy::edit {
 
-/// What can be taken out of a file.
+/// What can be removed from a file.
 enum class Part : std::uint8_t {
-    textures,     ///< TEXT; materials do without
-    materials,    ///< MATE, local ones too; polygons have none
-    meshes,       ///< VECT, with polygons, weights tracks and levels of detail
+    textures,     ///< TEXT; materials are left without them
+    materials,    ///< MATE, including local ones; submeshes are left without them
+    meshes,       ///< VECT, with submeshes, weights tracks and levels of detail
     targets,      ///< TARG, with their weights in clips
     clips,        ///< CYCL
     markers,      ///< MARK
     chains,       ///< IKCH and PULL
-    constraints,  ///< LIMT; by name: of a joint
+    constraints,  ///< LIMT; by name: the name of a joint
     lod,          ///< LODD
-    tangents,     ///< TANG, of targets too
+    tangents,     ///< TANG, also of morph targets
     colours,      ///< COLR
     attributes,   ///< USER
     extras,       ///< EXTR and MORE
     extensions,   ///< EXTN
-    unknown       ///< chunks that this version has no page for; by name: with this id
+    unknown       ///< chunks unknown to this version; by name: with this id
 };
 
 struct Strip {
@@ -33,15 +33,16 @@ struct Strip {
     std::string name;  ///< see find_named; empty: all of them
 };
 
-/// "clips", "clip:Run", "mesh:Hat*": the part's name in one of its two numbers, and which of them. A part that stands
-/// alone (markers, lod, tangents, colours, attributes, extras, extensions) takes no name.
+/// Parses "clips", "clip:Run", "mesh:Hat*": the name of a part in singular or plural, optionally followed by which
+/// ones. Parts that cannot be selected by name (markers, lod, tangents, colours, attributes, extras, extensions) take
+/// none.
 Result<Strip, Problem> parse_strip(std::string_view text);
-/// The words that parse_strip takes, for help and errors: "textures, materials, ...".
+/// Returns the words that parse_strip accepts, for help and error messages: "textures, materials, ...".
 std::string strip_words();
 
-/// The file without a part of it. What referred to it refers to nothing, or goes too; what is numbered is numbered
-/// anew. An image that a texture which stays shares with one that goes moves to the former. A name that nothing has is
-/// a problem; a part that is not there is none.
+/// Returns the file without the given part. References to it are cleared, or what refers to it is removed too; things
+/// that are numbered are renumbered. An image shared by a removed and a remaining texture moves to the remaining one. A
+/// name that matches nothing is a problem; a part that the file does not contain is not.
 Edited strip(Bytes file, const Strip& what, Log& log);
 
 }  // namespace bendy::edit

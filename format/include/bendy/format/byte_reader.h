@@ -11,8 +11,8 @@
 #include <string_view>
 #include <type_traits>
 
-// The only place where bytes become numbers. Files are little-endian and so are all machines we build for; a port to
-// another kind would swap here and nowhere else.
+// The only place where bytes become numbers. Files are little-endian, as are all supported machines; a port to a
+// big-endian machine would swap bytes here and nowhere else.
 namespace BENDY_PUBLIC bendy {
 
 static_assert(std::endian::native == std::endian::little,
@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little,
 
 using Bytes = std::span<const std::byte>;
 
-/// A number or a standard-layout record at `offset`, copied out; bytes past the end of `bytes` leave `value` as it is,
+/// Copies a number or a standard-layout record from `offset`. If `bytes` ends early, the rest of `value` is unchanged,
 /// so that fields which an older writer did not know keep their defaults.
 template <class T>
 requires std::is_trivially_copyable_v<T>
@@ -29,8 +29,8 @@ void copy_at(Bytes bytes, std::uint64_t offset, T& value) {
     std::memcpy(&value, bytes.data() + offset, std::min<std::uint64_t>(sizeof(T), bytes.size() - offset));
 }
 
-/// `count` values of T at `offset` in place, or an empty span if they do not fit. Asserts nothing: what comes back is
-/// always inside `bytes`. The bytes must be aligned for T, which every payload of an aligned file is.
+/// Returns `count` values of T at `offset` in place, or an empty span if they do not fit: the result is always inside
+/// `bytes`. The bytes must be aligned for T, as every payload of an aligned file is.
 template <class T>
 requires std::is_trivially_copyable_v<T> std::span<const T> view_at(Bytes bytes, std::uint64_t offset,
                                                                     std::uint64_t count) {
@@ -39,12 +39,12 @@ requires std::is_trivially_copyable_v<T> std::span<const T> view_at(Bytes bytes,
             static_cast<std::size_t>(count)};  // NOLINT(*-reinterpret-cast)
 }
 
-/// The bytes as characters.
+/// Returns the bytes as characters.
 inline std::string_view as_text(Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};  // NOLINT(*-reinterpret-cast)
 }
 
-/// The characters as bytes.
+/// Returns the characters as bytes.
 inline Bytes as_byte_span(std::string_view text) {
     return std::as_bytes(std::span(text.data(), text.size()));
 }

@@ -6,11 +6,12 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Holds every chunk against the table chunk_ids.def: a known one stands where it may, is leaf or container as it must
-/// be, as often as it may; an unknown one is skipped with all inside it, unless it is marked required.
+/// Checks every chunk against the table chunk_ids.def: that a known chunk is in an allowed container, is a leaf or
+/// container as required, and occurs as often as allowed. An unknown chunk is skipped with its contents, unless it is
+/// marked as required.
 void check_grammar(const ChunkTree& tree, Faults& faults);
 
-/// Whether this version has a page for the id.
+/// Returns true if this version knows the id.
 bool is_known(FourCC id);
 
 }  // namespace bendy

@@ -6,16 +6,16 @@
 
 #include <cstdint>
 
-// Sums nest. A leaf's sum is the CRC-32C of its id, its size+flags and its payload; a container's, of its id, its
-// size+flags and its children's stored sums in order. So the root's sum vouches for the whole file and any subtree can
-// be checked by itself. Sums find accidents, never attackers.
+// Sums nest. The sum of a leaf is the CRC-32C of its id, its size+flags and its payload; that of a container, of its
+// id, its size+flags and its children's stored sums in order. So the root's sum covers the whole file, and any subtree
+// can be checked by itself. Sums detect accidental damage, not attacks.
 namespace BENDY_PUBLIC bendy {
 
-/// The sum that a chunk should carry; `chunk` starts at its header, and its sizes have been checked (read_chunk_tree)
-/// or just been written.
+/// Computes the sum that a chunk should have. `chunk` starts at its header, and its sizes have been checked
+/// (read_chunk_tree) or have just been written.
 std::uint32_t chunk_sum(Bytes chunk);
 
-/// Adds a SUM_MISMATCH for every chunk of the tree whose stored sum is not the one it should carry.
+/// Adds a SUM_MISMATCH for every chunk of the tree whose stored sum is wrong.
 void check_sums(const ChunkTree& tree, Faults& faults);
 
 }  // namespace bendy

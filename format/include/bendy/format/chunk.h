@@ -5,12 +5,12 @@
 
 #include <cstdint>
 
-// The one grammar: a chunk is a 16-byte header and a payload, and starts on a 16-byte boundary.
+// The grammar of the format: a chunk is a 16-byte header and a payload, and starts on a 16-byte boundary.
 //
 //     u32 id         four letters, in reading order
 //     u32 sum        CRC-32C: see check_sums.h
-//     u64 size+flags low 48 bits: payload bytes, children and their padding included, own tail padding not;
-//                    high 16 bits: flags
+//     u64 size+flags low 48 bits: size of the payload in bytes, including children and their padding, but not the
+//                    chunk's own padding; high 16 bits: flags
 namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::uint64_t kChunkHeaderSize = 16;
@@ -18,20 +18,20 @@ inline constexpr std::uint64_t kChunkAlignment = 16;
 
 /// The high 16 bits of size+flags.
 enum ChunkFlag : std::uint16_t {
-    kContainerFlag = 1u << 0,  ///< the payload is chunks and nothing else
-    kRequiredFlag = 1u << 1,   ///< a reader that does not know this id must refuse the file
+    kContainerFlag = 1u << 0,  ///< the payload consists of chunks only
+    kRequiredFlag = 1u << 1,   ///< a reader that does not know this id must reject the file
     kReservedFlags = 0x00fcu,  ///< must be zero
     kCodecMask = 0xff00u,      ///< encoding of a leaf's payload: see codec.h
 };
 
-/// A chunk's header and its place in the tree, as the reader found them.
+/// A chunk's header and its position in the tree.
 struct Chunk {
     FourCC id;
     std::uint32_t sum = 0;
-    std::uint64_t offset = 0;  ///< of the header, bytes from the start of the file
+    std::uint64_t offset = 0;  ///< of the header: bytes from the start of the file
     std::uint64_t size = 0;    ///< payload bytes
-    std::uint32_t parent = 0;  ///< number of the chunk that holds it; the root's is its own
-    std::uint32_t end = 0;     ///< number of the first chunk after its subtree
+    std::uint32_t parent = 0;  ///< number of the containing chunk; for the root its own
+    std::uint32_t end = 0;     ///< number of the first chunk after the subtree
     std::uint16_t flags = 0;
 
     [[nodiscard]] bool is_container() const { return (flags & kContainerFlag) != 0; }
@@ -40,15 +40,15 @@ struct Chunk {
     [[nodiscard]] std::uint64_t payload_offset() const { return offset + kChunkHeaderSize; }
 };
 
-inline constexpr std::uint64_t kChunkSumAt = 4;   ///< in a header
-inline constexpr std::uint64_t kChunkSizeAt = 8;  ///< size and flags, in a header
+inline constexpr std::uint64_t kChunkSumAt = 4;   ///< offset in a header
+inline constexpr std::uint64_t kChunkSizeAt = 8;  ///< offset of size and flags in a header
 
-/// `size` rounded up to the next chunk boundary. size <= 2^48, so this cannot overflow.
+/// Returns `size` rounded up to the next chunk boundary. size <= 2^48, so this cannot overflow.
 constexpr std::uint64_t padded(std::uint64_t size) {
     return (size + (kChunkAlignment - 1)) & ~(kChunkAlignment - 1);
 }
 
-/// The header's third field.
+/// Returns the third field of a header.
 constexpr std::uint64_t pack_size_and_flags(std::uint64_t size, std::uint16_t flags) {
     return size | static_cast<std::uint64_t>(flags) << 48;
 }

@@ -17,24 +17,24 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Where decode_leaves has put an encoded leaf's payload, or why it could not.
+/// The decoded payload of an encoded leaf, or the reason why it could not be decoded.
 struct DecodedLeaf {
     std::uint32_t number = 0;
-    std::uint64_t at = 0;  ///< in DecodedLeaves::bytes
+    std::uint64_t at = 0;  ///< offset in DecodedLeaves::bytes
     std::uint64_t size = 0;
     std::optional<Error> fault;
 };
 
 struct DecodedLeaves {
-    std::vector<DecodedLeaf> leaves;  ///< by number
-    AlignedBytes bytes;               ///< all of them, each on a 16-byte boundary
+    std::vector<DecodedLeaf> leaves;  ///< by chunk number
+    AlignedBytes bytes;               ///< of all leaves, each on a 16-byte boundary
 };
 
-/// All chunks of a file, in the order in which they stand: a parent before its children, so chunk n's first child, if
-/// it has one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
+/// All chunks of a file, in file order: a parent comes before its children, so the first child of chunk n, if it has
+/// one, is n + 1 and its next sibling is chunk(n).end. Refers to the bytes, does not own them.
 class ChunkTree {
 public:
-    /// Walks over the direct children of a chunk; dereferences to their numbers.
+    /// Iterates over the direct children of a chunk; dereferences to their numbers.
     class ChildIterator {
     public:
         using iterator_category = std::input_iterator_tag;
@@ -74,17 +74,17 @@ public:
     [[nodiscard]] std::span<const Chunk> chunks() const { return chunks_; }
     [[nodiscard]] const Chunk& operator[](std::uint32_t number) const { return chunks_[number]; }
 
-    /// The payload as the file has it.
+    /// The payload as stored in the file.
     [[nodiscard]] Bytes stored(std::uint32_t number) const {
         const Chunk& chunk = chunks_[number];
         return bytes_.subspan(chunk.payload_offset(), chunk.size);
     }
-    /// What the payload means: decoded, if decode_leaves has done so.
+    /// The payload after decoding, if decode_leaves has been called; otherwise as stored.
     [[nodiscard]] Bytes payload(std::uint32_t number) const {
         const DecodedLeaf* leaf = find_decoded(number);
         return leaf == nullptr ? stored(number) : decoded_.bytes.bytes().subspan(leaf->at, leaf->size);
     }
-    /// Why `payload` does not give what the leaf means, if it does not.
+    /// The reason why `payload` is not the leaf's decoded content, if it is not.
     [[nodiscard]] std::optional<Error> encoding_fault(std::uint32_t number) const {
         const Chunk& chunk = chunks_[number];
         if (chunk.codec() == 0) return std::nullopt;
@@ -93,14 +93,14 @@ public:
         return leaf->fault;
     }
     void set_decoded(DecodedLeaves decoded) { decoded_ = std::move(decoded); }
-    /// The decoded bytes, for an owner of views into them that outlives the tree.
+    /// Returns the decoded bytes, for an owner of views into them that outlives the tree.
     [[nodiscard]] AlignedBytes take_decoded() && { return std::move(decoded_.bytes); }
 
     [[nodiscard]] ChildRange children(std::uint32_t number) const {
         const std::uint32_t last = chunks_[number].end;
         return {{chunks_.data(), chunks_[number].is_container() ? number + 1 : last}, {chunks_.data(), last}};
     }
-    /// Number of the first direct child with this id, or kNone.
+    /// Returns the number of the first direct child with this id, or kNone.
     [[nodiscard]] std::uint32_t find(std::uint32_t number, FourCC id) const {
         for (const std::uint32_t child : children(number)) {
             if (chunks_[child].id == id) return child;
@@ -121,9 +121,9 @@ private:
     DecodedLeaves decoded_;
 };
 
-/// Walks the whole file and checks its grammar: every header inside its container, sizes, flags, padding, nesting
-/// depth. Does not recurse, and allocates some 40 bytes (while growing, up to 120) for each chunk header that the file
-/// really holds. `bytes` must start on a 16-byte boundary (mapped files do). Malformed input: the first fault, with its
+/// Reads all headers of a file and checks its grammar: every chunk inside its container, sizes, flags, padding, nesting
+/// depth. Does not recurse, and allocates about 40 bytes (while growing, up to 120) per chunk header present in the
+/// file. `bytes` must start on a 16-byte boundary (mapped files do). Malformed input: returns the first fault, with its
 /// offset.
 Result<ChunkTree> read_chunk_tree(Bytes bytes);
 

@@ -17,9 +17,8 @@
 // CYCL: a clip, with tracks of timed keys or of fixed frames.
 namespace BENDY_PUBLIC bendy {
 
-/// One animated property. Its keys lie at times[0 .. keys), or for fixed frames at start + k / frame_rate; its values
-/// are keys * components numbers, for cubic interpolation three times as many: in-tangent, value, out-tangent of each
-/// key.
+/// One animated property. Its key times are times[0 .. keys) or, for fixed frames, start + k / frame_rate. It has keys
+/// * components values; three times as many for cubic interpolation: in-tangent, value, out-tangent of each key.
 struct TrackView {
     TrackPath path = TrackPath::translation;
     Interpolation interpolation = Interpolation::linear;
@@ -30,13 +29,13 @@ struct TrackView {
     std::span<const float> values;
 };
 
-/// Frames of a mesh, one after another: frame k has all the weight at start + k / frame_rate, between two frames they
-/// share it.
+/// Frames of a mesh, one after another: frame k has full weight at start + k / frame_rate; between two frames the
+/// weight is split between them.
 struct PlayView {
     std::uint32_t mesh = 0;
-    std::uint32_t first = 0;   ///< among MeshView::frames(): first + frames are no more than these
+    std::uint32_t first = 0;   ///< index in MeshView::frames(): first + frames does not exceed their number
     std::uint32_t frames = 0;  ///< 1 or more
-    bool closed = false;       ///< the first frame follows on the last one
+    bool closed = false;       ///< the first frame follows the last one
 };
 
 struct ClipView {
@@ -46,27 +45,29 @@ struct ClipView {
     float end = 0.0f;         ///< seconds
     float frame_rate = 0.0f;  ///< of `plays` and of tracks with fixed frames, per second
     bool loop = false;
-    bool has_info = false;  ///< CINF could be read
+    bool has_info = false;  ///< CINF was read
     std::vector<TrackView> tracks;
-    std::optional<PackedView> packed;  ///< tracks that `tracks` lacks
+    std::optional<PackedView> packed;  ///< tracks that are not in `tracks`
     std::vector<PlayView> plays;       ///< fixed frames
     std::string_view extras;
     std::string_view more;        ///< JSON object, or empty
-    std::vector<Marker> markers;  ///< seconds ascend, and may be equal: in all files that pass check_clip_values
+    std::vector<Marker> markers;  ///< ascending by seconds, possibly equal, in all files that pass check_clip_values
     std::vector<CurveView> curves;
 };
 
-/// Reads a CYCL chunk and checks all that memory safety hangs on: keys inside TIME and KEYV, targets inside `counts`
-/// and `meshes`, components as the target has them. Faults go to `faults`; a track or a curve with a fault is left out.
-/// \param counts  its `meshes` is the number of `meshes`
+/// Reads a CYCL chunk and makes all checks that memory safety depends on: keys inside TIME and KEYV, targets inside
+/// `counts` and `meshes`, components that match the target. Faults are added to `faults`; a track or a curve with a
+/// fault is left out.
+/// \param counts  its `meshes` is the size of `meshes`
 ClipView read_clip(const ChunkTree& tree, std::uint32_t chunk, const TargetCounts& counts,
                    std::span<const MeshView> meshes, Faults& faults);
 
-/// Faults of meaning that do not endanger memory: key times and markers that do not ascend or lie outside [start, end],
-/// numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks for one
-/// property or with values that overlap in part. Takes time linear in the chunk's size, whatever the tracks share.
+/// Adds faults of content that do not affect memory safety: key times and markers that do not ascend or are outside
+/// [start, end], numbers that are not finite, rotations that are not unit quaternions within kUnitTolerance, two tracks
+/// for one property or with values that partly overlap. Takes time linear in the chunk's size, whatever the tracks
+/// share.
 void check_clip_values(const ChunkTree& tree, const ClipView& clip, Faults& faults);
 
-inline constexpr float kUnitTolerance = 1e-4f;  ///< of a quaternion's length from 1
+inline constexpr float kUnitTolerance = 1e-4f;  ///< deviation of a quaternion's length from 1
 
 }  // namespace bendy

@@ -11,32 +11,32 @@
 #include <span>
 #include <vector>
 
-// Encodings of a leaf's whole payload: bits 8 to 15 of the header's flags. An encoded payload is a CodecHeader and what
-// the codec makes of the rest; spec/codecs.md describes each to the bit.
+// Encodings of a leaf's whole payload: bits 8 to 15 of the header's flags. An encoded payload is a CodecHeader followed
+// by the codec's output; spec/codecs.md describes each codec bit by bit.
 namespace BENDY_PUBLIC bendy {
 
 enum class Codec : std::uint8_t {
     raw = 0,
-    zstd = 1,           ///< bytes, by planes if there is a stride
+    zstd = 1,           ///< bytes; split into byte planes if there is a stride
     vertices = 2,       ///< rows of a stream: meshoptimizer's vertex codec
-    vertices_zstd = 3,  ///< the same under zstd
+    vertices_zstd = 3,  ///< the same, compressed with zstd
     indices = 4,        ///< triangle list: meshoptimizer's index codec
-    indices_zstd = 5,   ///< the same under zstd
+    indices_zstd = 5,   ///< the same, compressed with zstd
     clip = 6,           ///< packed clip: see packed_clip.h
-    sums = 7,           ///< rows of u16 that sum to the same number, by planes under zstd
+    sums = 7,           ///< rows of u16 with equal sums, in byte planes, compressed with zstd
 };
 inline constexpr unsigned kCodecs = 8;
 
-/// What every encoded payload starts with.
+/// The start of every encoded payload.
 struct CodecHeader {
-    std::uint64_t size = 0;    ///< bytes of the decoded payload
-    std::uint16_t head = 0;    ///< bytes at its start that are not rows: vertices, indices; they follow as they are
-    std::uint16_t stride = 0;  ///< bytes of a row; zstd: bytes of a number whose bytes lie in planes, 0 none
+    std::uint64_t size = 0;    ///< size of the decoded payload in bytes
+    std::uint16_t head = 0;    ///< bytes at its start that precede the rows, stored as they are: vertices, indices
+    std::uint16_t stride = 0;  ///< size of a row in bytes; zstd: size of a number whose bytes are in planes, 0 none
     std::uint32_t reserved = 0;
 };
 static_assert(sizeof(CodecHeader) == 16);
 
-/// A leaf decodes to at most so many times its encoded bytes: a small file cannot take all memory.
+/// The maximum ratio of decoded to encoded size, so that a small file cannot use up all memory.
 inline constexpr std::uint64_t kMaxCodecRatio = 128;
 
 /// Uninitialised bytes on a 16-byte boundary.
@@ -56,21 +56,21 @@ private:
     std::size_t size_ = 0;
 };
 
-/// What the encoded payload says of itself, or why it cannot be decoded: an unknown codec, a header that is damaged, a
-/// size beyond kMaxCodecRatio. Errors have no place yet.
+/// Reads the header of an encoded payload. Returns why it cannot be decoded, if so: an unknown codec, a damaged header,
+/// a size beyond kMaxCodecRatio. Errors have no offset yet.
 std::optional<Error> check_encoded(unsigned codec, Bytes encoded, CodecHeader& header);
 
-/// Decodes into `out`, which must have the header's size; false if the bytes are damaged. Never reads or writes out of
-/// bounds, whatever they hold.
+/// Decodes into `out`, which must have the header's size; returns false if the bytes are damaged. Never reads or writes
+/// out of bounds, whatever the bytes are.
 bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out);
 
-/// The encoded form of a payload: `head` and `stride` as in CodecHeader. Nothing if the codec cannot take it (an index
-/// list that is no list of triangles, rows that do not divide it), or if it would decode to more than kMaxCodecRatio.
+/// Encodes a payload: `head` and `stride` as in CodecHeader. Returns nothing if the codec cannot encode it (an index
+/// list that is not a triangle list, rows that do not divide it), or if it would exceed kMaxCodecRatio.
 std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload, std::uint16_t head,
                                                      std::uint16_t stride);
 
-/// The same triangles in the same order, each one's corners turned so that the index codecs give them back to the bit.
-/// Nothing if the list is no list of triangles, or the codec cannot take it.
+/// Returns the same triangles in the same order, each with its corners rotated such that the index codecs reproduce
+/// them exactly. Returns nothing if the list is not a triangle list, or if the codec cannot encode it.
 std::optional<std::vector<std::uint32_t>> canonical_triangles(std::span<const std::uint32_t> indices);
 
 }  // namespace bendy

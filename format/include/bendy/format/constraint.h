@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-// LIMT: what a joint may do. Both readers and writers hold constraints against the same rules.
+// LIMT: what a joint may do. Readers and writers check constraints against the same rules.
 namespace BENDY_PUBLIC bendy {
 
 /// A constraint of a joint.
@@ -16,21 +16,22 @@ struct ConstraintView {
     ConstraintRecord record;
 };
 
-/// Reads a LIMT chunk. A fault of shape (size, model, order, scope, flags) is added and gives false.
+/// Reads a LIMT chunk. If its form is wrong (size, model, order, scope, flags), adds a fault and returns false.
 bool read_constraint(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joint, ConstraintView& constraint,
                      Faults& faults);
 
-/// Adds what is wrong with a constraint's numbers: NaN, a frame that is no unit quaternion, a minimum above its
-/// maximum, ranges that the model cannot have, stiffness outside 0 to 1, a rest pose outside the limits without the
-/// flag that says so. The faults name `joint`, stand at `offset`, and count axes 0 to 2 for rotation, 3 to 5 for
+/// Adds faults in the values of a constraint: NaN, a frame that is not a unit quaternion, a minimum above its maximum,
+/// ranges that the model does not allow, stiffness outside 0 to 1, a rest pose outside the limits without the flag that
+/// permits it. The faults name `joint`, have the given `offset`, and count axes 0 to 2 for rotation, 3 to 5 for
 /// translation.
 void check_constraint(const ConstraintRecord& constraint, std::uint32_t joint, std::uint64_t offset, Faults& faults);
 
-/// True when the rest pose, R = identity and no translation, is inside the limits: on the circle, and for an Euler box
-/// in either of its two forms.
+/// Returns true if the rest pose, R = identity and no translation, is inside the limits: angles on the circle, and for
+/// an Euler box in either of its two forms.
 bool holds_rest(const ConstraintRecord& constraint);
 
-/// How many of rotation_min and rotation_max count for the model: 3 (X, Y, Z), 1 (X: hinge, largest angle) or 0.
+/// Returns how many components of rotation_min and rotation_max the model uses: 3 (X, Y, Z), 1 (X: hinge, largest
+/// angle) or 0.
 unsigned limited_axes(ConstraintModel model);
 
 }  // namespace bendy

@@ -5,9 +5,9 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Decodes every encoded leaf whose id is known, so that ChunkTree::payload gives what it means. One allocation for all
-/// of them, at most kMaxCodecRatio times the encoded bytes. A leaf that cannot be decoded is empty from here on, and
-/// ChunkTree::encoding_fault says why to those who read it.
+/// Decodes every encoded leaf with a known id, so that ChunkTree::payload returns its content. Makes one allocation for
+/// all of them, at most kMaxCodecRatio times the encoded bytes. A leaf that cannot be decoded becomes empty, and
+/// ChunkTree::encoding_fault returns the reason.
 void decode_leaves(ChunkTree& tree);
 
 }  // namespace bendy

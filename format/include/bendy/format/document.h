@@ -15,7 +15,7 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// OBJE: an object, normally the file's one character.
+/// OBJE: an object, normally the only character in the file.
 struct ObjectView {
     std::uint32_t chunk = 0;
     std::string_view name;
@@ -30,23 +30,23 @@ struct ObjectView {
 
 /// A whole file as typed views into its bytes.
 struct Document {
-    std::optional<VersionRecord> version;  ///< absent only beside a fault
+    std::optional<VersionRecord> version;  ///< absent only if there is a fault
     std::optional<BoundRecord> bound;      ///< of compact encodings; absent in an exact file
     std::vector<TextureView> textures;
-    std::vector<MaterialView> materials;  ///< HEAD's MATE chunks, then those of the objects' joints
-    std::uint32_t global_materials = 0;   ///< how many of them are HEAD's
+    std::vector<MaterialView> materials;  ///< MATE chunks of HEAD, then those of the objects' joints
+    std::uint32_t global_materials = 0;   ///< number of those of HEAD
     std::vector<ObjectView> objects;
     std::string_view extras;
     std::string_view extensions;  ///< JSON
     std::string_view more;        ///< JSON object, or empty
 };
 
-/// Reads every record of a well-formed tree. Adds a fault for each thing that is wrong in shape or that memory safety
-/// hangs on: chunks in the wrong place or number, record sizes, types, counts, every index. When it adds none, every
-/// view, index and range in the result is good.
+/// Reads every record of a well-formed tree. Adds a fault for every error in form and for everything that memory safety
+/// depends on: misplaced or repeated chunks, record sizes, types, counts, every index. If it adds none, every view,
+/// index and range in the result is valid.
 Document read_document(const ChunkTree& tree, Faults& faults);
 
-/// Adds the faults of meaning that do not endanger memory: see the check_*_values functions.
+/// Adds the faults of content that do not affect memory safety: see the check_*_values functions.
 void check_values(const ChunkTree& tree, const Document& document, Faults& faults);
 
 }  // namespace bendy

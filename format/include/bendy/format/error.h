@@ -6,29 +6,29 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// What is wrong; the table is error_codes.def.
+/// Kinds of errors, as listed in error_codes.def.
 enum class ErrorCode : std::uint8_t {
 #define BENDY_ERROR(enumerator, kind, code, text) enumerator,
 #include <bendy/format/error_codes.def>
 #undef BENDY_ERROR
 };
 
-/// malformed: the grammar is broken. invalid: the grammar holds, the meaning does not. unsupported: a good file that
-/// this version cannot read. io: the system said no.
+/// malformed: the grammar is violated. invalid: the grammar is followed, but the content is wrong. unsupported: a valid
+/// file that this version cannot read. io: an error of the operating system.
 enum class ErrorClass : std::uint8_t { malformed, invalid, unsupported, io };
 
-/// A fault with its place. Small and without text: the words stand in the table, `describe` puts them together and
+/// An error and its location. Small and without text: the texts are in the table, `describe` fills them in and
 /// `chunk_path` finds the path (both in diagnostics.h).
 struct Error {
     ErrorCode code = ErrorCode::kNotABendyFile;
-    std::uint64_t offset = 0;  ///< bytes from the start of the file: of the chunk's header, or of the field inside it
-    std::uint64_t value = 0;   ///< what was found, in the sense of the code's text
-    std::uint64_t limit = 0;   ///< what it was held against
+    std::uint64_t offset = 0;  ///< bytes from the start of the file, to the chunk's header or to the field inside it
+    std::uint64_t value = 0;   ///< what was found; the meaning depends on the code's text
+    std::uint64_t limit = 0;   ///< the limit or expectation that it violates
 };
 
-/// The code as `bendy validate` prints it, e.g. "CHUNK_TOO_LONG".
+/// Returns the code as `bendy validate` prints it, e.g. "CHUNK_TOO_LONG".
 const char* code_name(ErrorCode code);
-/// The code's class and its text with {v} and {l} still in it.
+/// Returns the class of a code, and its text with the placeholders {v} and {l}.
 ErrorClass error_class(ErrorCode code);
 const char* error_text(ErrorCode code);
 

@@ -8,8 +8,8 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Gathers faults where more than the first is wanted. Keeps at most kMost, so that a hostile file cannot make the list
-/// larger than itself, and counts the rest.
+/// A list of faults, where more than the first is wanted. Keeps at most kMost, so that a hostile file cannot make the
+/// list larger than itself, and counts the rest.
 class Faults {
 public:
     static constexpr std::size_t kMost = 1'000;
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const std::vector<Error>& list() const& { return list_; }
     const std::vector<Error>& list() const&& = delete;  // it would outlive its owner
     [[nodiscard]] std::size_t left_out() const { return left_out_; }
-    /// All faults so far, kept or not.
+    /// Number of all faults so far, kept or not.
     [[nodiscard]] std::size_t count() const { return list_.size() + left_out_; }
     [[nodiscard]] bool empty() const { return list_.empty(); }
 

@@ -11,9 +11,9 @@ namespace BENDY_PUBLIC bendy {
 
 /// A file mapped read-only into memory; an empty file gives an empty view. The bytes start on a page boundary.
 ///
-/// While a file is mapped, POSIX systems let others replace or remove it: the bytes stay what they were. (Who writes
-/// into it changes them.) Windows refuses to let it be written, replaced, renamed or removed; other readers are
-/// welcome.
+/// While a file is mapped, POSIX systems allow it to be replaced or removed: the bytes stay unchanged. (Writing into
+/// the file in place does change them.) Windows does not allow it to be written, replaced, renamed or removed; other
+/// programs may read it.
 class MappedFile {
 public:
     static Result<MappedFile> open(const std::filesystem::path& path);
@@ -30,16 +30,16 @@ public:
 private:
     const std::byte* data_ = nullptr;
     std::size_t size_ = 0;
-    [[maybe_unused]] void* file_ = nullptr;  ///< Windows: the handle that keeps others from changing the file
+    [[maybe_unused]] void* file_ = nullptr;  ///< Windows: the handle that keeps other programs from changing the file
 };
 
-/// Writes a whole file or nothing: into a new file beside `path`, flushed to the disk, then renamed over it. On failure
-/// the old file, if there was one, is untouched and no new one is left behind. What a link names is replaced, not the
-/// link; a pipe or a device, such as /dev/stdout, is written to as it is. On Windows a file that is open elsewhere,
-/// mapped for one, cannot be replaced: kCannotWrite with EBUSY.
+/// Writes a whole file or nothing: into a new file beside `path`, flushed to disk, then renamed over it. On failure the
+/// old file, if there was one, is untouched, and the new one is removed. If `path` is a symbolic link, the file that it
+/// points to is replaced, not the link; a pipe or a device, such as /dev/stdout, is written to directly. On Windows a
+/// file that is open elsewhere, for example mapped, cannot be replaced: kCannotWrite with EBUSY.
 ///
-/// Paths of both functions may have any characters, and on Windows more than 260. An error's value is an errno number
-/// on all systems.
+/// Paths of both functions may contain any characters, and on Windows be longer than 260. The value of an error is an
+/// errno number on all systems.
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
 
 }  // namespace bendy

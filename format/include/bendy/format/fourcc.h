@@ -7,7 +7,7 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// A chunk's id: four capital letters or digits, stored in reading order (the first letter is the first byte in the
+/// A chunk id: four capital letters or digits, stored in reading order (the first letter is the first byte in the
 /// file).
 struct FourCC {
     std::uint32_t value = 0;
@@ -20,7 +20,7 @@ struct FourCC {
 
     friend constexpr bool operator==(FourCC, FourCC) = default;
 
-    /// True when all four bytes are 'A'..'Z' or '0'..'9'.
+    /// Returns true if all four bytes are 'A'..'Z' or '0'..'9'.
     [[nodiscard]] constexpr bool is_readable() const {
         for (unsigned shift = 0; shift < 32; shift += 8) {
             const std::uint32_t letter = value >> shift & 0xffu;
@@ -29,7 +29,7 @@ struct FourCC {
         return true;
     }
 
-    /// The letters, zero-terminated; bytes that are no printable ASCII become '?'.
+    /// Returns the letters, zero-terminated; bytes that are not printable ASCII become '?'.
     [[nodiscard]] constexpr std::array<char, 5> letters() const {
         std::array<char, 5> text{};
         for (unsigned i = 0; i < 4; ++i) {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-// IKCH: an IK chain of an object; PULL: the weight of a joint in one.
+// IKCH: an IK chain of an object; PULL: the weight of a joint in a chain.
 namespace BENDY_PUBLIC bendy {
 
-/// A chain. Its links are the joints on the path from the effector up to the start: no list is stored.
+/// An IK chain. Its links are the joints on the path from the effector up to the start; the list is not stored.
 struct ChainView {
     std::uint32_t chunk = 0;
     std::string_view name;
@@ -18,12 +18,14 @@ struct ChainView {
     std::string_view extras;
 };
 
-/// Reads the IKCH chunks of an OBJE and checks all that memory safety hangs on: joints in range, start the effector or
-/// above it, every weight's chain there and its joint in that chain, once.
+/// Reads the IKCH chunks of an OBJE and makes all checks that memory safety depends on: joints in range, the start
+/// equal to the effector or one of its ancestors; for every weight, that its chain exists and that its joint is in that
+/// chain, once.
 std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, const SkeletonView& skeleton,
                                    Faults& faults);
 
-/// Faults of meaning: numbers that are not finite, rotations that are not unit, weights outside 0 to 1.
+/// Adds faults of content: numbers that are not finite, rotations that are not unit quaternions, weights outside 0 to
+/// 1.
 void check_chain_values(const ChunkTree& tree, const ChainView& chain, Faults& faults);
 
 }  // namespace bendy

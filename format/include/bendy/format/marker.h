@@ -14,17 +14,17 @@
 // MARK: named times of a clip.
 namespace BENDY_PUBLIC bendy {
 
-/// A footstep, a hit, a sound to be played: what happens at a time of a clip.
+/// An event at a time of a clip: a footstep, a hit, a sound to play.
 struct Marker {
-    float seconds = 0.0f;   ///< on the clip's own time, between its start and end
-    std::string_view name;  ///< UTF-8; may be empty, may be doubled
+    float seconds = 0.0f;   ///< on the clip's time line, between its start and end
+    std::string_view name;  ///< UTF-8; may be empty, need not be unique
 };
 
-/// Reads a MARK's payload. Names lie in it; times may be any. Nothing, and a fault at `offset`, if it is none. The
-/// memory that the markers take is bounded by the payload's size.
+/// Reads the payload of a MARK. The names refer to it; times may be any numbers. If it is not valid, adds a fault at
+/// `offset` and returns nothing. The memory that the markers take is bounded by the payload's size.
 std::optional<std::vector<Marker>> read_markers(Bytes payload, std::uint64_t offset, Faults& faults);
 
-/// The payload for these markers; their names are less than 4 GiB together.
+/// Returns the payload for these markers; the total length of their names must be less than 4 GiB.
 std::vector<std::byte> write_markers(std::span<const Marker> markers);
 
 }  // namespace bendy

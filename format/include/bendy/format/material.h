@@ -21,7 +21,7 @@ struct MaterialView {
     std::string_view more;  ///< JSON object, or empty
 };
 
-/// One encoding of a texture's image: embedded bytes, or a URI, or the image of another texture.
+/// One encoding of a texture's image: embedded bytes, or a URI, or a reference to the image of another texture.
 struct ImageView {
     std::uint32_t chunk = 0;
     MediaType media = MediaType::other;
@@ -39,13 +39,13 @@ struct TextureView {
     std::string_view more;  ///< JSON object, or empty
 };
 
-/// Reads a MATE chunk; texture numbers are held against `textures`.
+/// Reads a MATE chunk; checks texture numbers against `textures`.
 MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t textures, Faults& faults);
 /// Reads a TEXT chunk.
 TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& faults);
-/// Holds every SAME against the textures that it names.
+/// Checks every SAME against the textures that it refers to.
 void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& textures, Faults& faults);
-/// Faults of meaning: numbers that are not finite.
+/// Adds faults of content: numbers that are not finite.
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults);
 
 }  // namespace bendy

@@ -17,13 +17,13 @@
 // VECT: a mesh, one leaf chunk per stream.
 namespace BENDY_PUBLIC bendy {
 
-/// The smallest number of a component, and what one step of its integers adds.
+/// The smallest value of a component, and the step between its integers.
 struct StreamBox {
     float minimum = 0.0f;
     float step = 0.0f;
 };
 
-/// A stream's numbers in place: elements * components of them, without gaps.
+/// The numbers of a stream in place: elements * components, without gaps.
 struct StreamView {
     ComponentType type = ComponentType::f32;
     bool normalised = false;
@@ -32,26 +32,26 @@ struct StreamView {
     std::uint32_t set = 0;    ///< texture coordinate or colour set
     Bytes data;               ///< elements * components * component_size(type) bytes
     std::uint32_t chunk = 0;  ///< the leaf that holds it
-    /// One per component where integers stand for minimum + step * integer; else empty.
+    /// One per component if integers represent minimum + step * integer; otherwise empty.
     std::span<const StreamBox> boxes = {};
-    /// The first two components are a direction on the octahedron, see decode_octahedral.
+    /// True if the first two components are a direction on the octahedron, see decode_octahedral.
     bool is_octahedral = false;
-    /// What the integers are numbers of, for listed normals; every one is a number of it. Else empty.
+    /// The list that the integers are indices into, for listed normals; all indices are in range. Otherwise empty.
     std::span<const glm::vec3> list = {};
 
-    /// One number: normalised integers become [0, 1] or, signed, [-1, 1], as glTF reads them; boxed ones minimum + step
-    /// * integer, rounded after each operation; others keep their value.
+    /// Returns one number: normalised integers become [0, 1] or, signed, [-1, 1], as in glTF; boxed ones become minimum
+    /// + step * integer, rounded after each operation; others keep their value.
     [[nodiscard]] float number(std::uint32_t element, std::uint32_t component) const;
-    /// One unsigned integer of a stream of type u8, u16 or u32.
+    /// Returns one unsigned integer of a stream of type u8, u16 or u32.
     [[nodiscard]] std::uint32_t index(std::uint32_t element, std::uint32_t component) const;
-    /// One element of positions, normals or displacements, decoded.
+    /// Returns one element of positions, normals or displacements, decoded.
     [[nodiscard]] glm::vec3 vec3(std::uint32_t element) const;
-    /// One tangent: xyz and the handedness.
+    /// Returns one tangent: xyz and the handedness.
     [[nodiscard]] glm::vec4 vec4(std::uint32_t element) const;
-    /// Decodes the first out.size() elements; quicker than one by one. At most `elements`.
+    /// Decodes the first out.size() elements, at most `elements`; faster than one by one.
     void decode(std::span<glm::vec3> out) const;
     void decode(std::span<glm::vec4> out) const;
-    /// All numbers in place, if the stream's type is T's (float for f32, ...); T is the caller's to get right.
+    /// Returns all numbers in place. The caller must ensure that T matches the stream's type (float for f32, ...).
     template <class T>
     [[nodiscard]] std::span<const T> as() const {
         return view_at<T>(data, 0, std::uint64_t{elements} * components);
@@ -59,46 +59,50 @@ struct StreamView {
     [[nodiscard]] bool empty() const { return elements == 0 || components == 0; }
 };
 
-/// The unit vector at a point of the unfolded octahedron (Meyer et al., On Floating-Point Normal Vectors, 2010): x and
-/// y in [-1, 1]. Additions, multiplications, divisions and square roots alone, so the same on every machine.
+/// Returns the unit vector at a point of the unfolded octahedron (Meyer et al., On Floating-Point Normal Vectors,
+/// 2010): x and y in [-1, 1]. Uses only addition, multiplication, division and square root, so the result is the same
+/// on every machine.
 glm::vec3 decode_octahedral(float x, float y);
 
-/// Which joints a mesh's bones mean, and their inverse bind matrices (mesh space to joint space at bind time).
+/// The joints that a mesh's bones refer to, and their inverse bind matrices (mesh space to joint space at bind time).
 struct PaletteView {
     std::span<const std::uint32_t> joints;
-    std::span<const glm::mat4> stored;  ///< column-major: as many as joints; or one, from which they are derived
+    std::span<const glm::mat4> stored;  ///< column-major: one per joint, or a single one from which they are derived
     bool is_derived = false;            ///< from the rest pose: see derive_inverse_bind
-    std::vector<glm::mat4> derived;     ///< then, as many as joints
+    std::vector<glm::mat4> derived;     ///< the derived matrices, one per joint
     std::uint32_t chunk = kNone;        ///< PALT
 
     [[nodiscard]] std::span<const glm::mat4> inverse_bind() const { return is_derived ? derived : stored; }
 };
 
-/// TARG: a morph target, or a frame of FRMS, which is one too: a shape of the whole mesh that is stored as it is. A
+/// TARG: a morph target. Also a frame of FRMS, which stores a shape of the whole mesh instead of displacements. A
 /// stream that is absent is not displaced.
 struct MorphTargetView {
     std::uint32_t chunk = 0;  ///< TARG or FRMS
     std::string_view name;
     float rest_weight = 0.0f;
-    std::optional<StreamView> vertices;  ///< the touched vertices, ascending; absent: all of the mesh, in order
-    std::optional<StreamView> positions, normals, tangents;  ///< displacements: vec3, one per touched vertex
-    /// Of a frame, the element of each of the mesh's vertices in `positions` and `normals`, which are no displacements:
-    /// they hold the positions and normals themselves. Absent: this is no frame.
+    std::optional<StreamView> vertices;  ///< the affected vertices, ascending; absent: all vertices of the mesh, in
+                                         ///< order
+    std::optional<StreamView> positions, normals, tangents;  ///< displacements: vec3, one per affected vertex
+    /// For a frame, the element of `positions` and `normals` for each of the mesh's vertices; these streams then hold
+    /// the positions and normals themselves, not displacements. Absent: not a frame.
     std::optional<StreamView> places;
 
     [[nodiscard]] bool is_frame() const { return places.has_value(); }
-    /// How many vertices of a mesh with so many the target touches, and which the k-th of them is.
+    /// Returns the number of vertices that the target affects in a mesh with `mesh_vertices` vertices; and the k-th of
+    /// them.
     [[nodiscard]] std::uint32_t touched(std::uint32_t mesh_vertices) const {
         return vertices ? vertices->elements : mesh_vertices;
     }
     [[nodiscard]] std::uint32_t vertex(std::uint32_t k) const { return vertices ? vertices->index(k, 0) : k; }
-    /// By how much full weight displaces the k-th vertex. `stream`: of the target; `rest`: the mesh's of the same kind.
+    /// Returns the displacement of the k-th vertex at full weight. `stream`: of the target; `rest`: the mesh's stream
+    /// of the same kind.
     [[nodiscard]] glm::vec3 displacement(const StreamView& stream, const StreamView& rest, std::uint32_t k) const {
         return is_frame() ? stream.vec3(places->index(k, 0)) - rest.vec3(k) : stream.vec3(k);
     }
 };
 
-/// USER: an attribute of the author's.
+/// USER: an application-specific attribute.
 struct AttributeView {
     std::string_view name;
     StreamView values;
@@ -109,32 +113,32 @@ struct MeshView {
     std::string_view name;
     std::uint32_t vertices = 0;
     std::uint32_t joint = kNone;         ///< the joint that carries the mesh
-    bool has_info = false;               ///< VINF could be read; else nothing else of the mesh is
+    bool has_info = false;               ///< VINF was read; if not, nothing else of the mesh is
     StreamView positions;                ///< vec3; empty only in a mesh without vertices
     std::optional<StreamView> normals;   ///< vec3
     std::optional<StreamView> tangents;  ///< vec4
     std::vector<StreamView> texture_coords, colours;
     std::vector<AttributeView> attributes;
-    std::optional<StreamView> bones, weights;  ///< both or neither; a mesh without is rigid
+    std::optional<StreamView> bones, weights;  ///< both or neither; a mesh without them is rigid
     PaletteView palette;
-    std::vector<MorphTargetView> targets;  ///< those of TARG, then the frames of FRMS
-    std::uint32_t first_frame = 0;         ///< where in `targets` the frames begin
+    std::vector<MorphTargetView> targets;  ///< those in TARG, then the frames of FRMS
+    std::uint32_t first_frame = 0;         ///< index in `targets` of the first frame
     std::optional<StreamView> indices;     ///< u16 or u32 x 1
     std::string_view extras;
     std::string_view more;  ///< JSON object, or empty
 
     [[nodiscard]] bool is_rigid() const { return !bones.has_value(); }
-    /// Shapes that a clip can play: frame 0 is the mesh's own streams, frame k target first_frame + k - 1.
+    /// Number of shapes that a clip can play: frame 0 is the mesh's own streams, frame k is target first_frame + k - 1.
     [[nodiscard]] std::uint32_t frames() const { return static_cast<std::uint32_t>(targets.size()) - first_frame + 1; }
 };
 
-/// Reads a VECT chunk but for matrices that follow from the rest pose, and checks all that memory safety hangs on:
-/// types, counts, sizes, and every index against the `joints` of the object, the palette and the mesh itself. Faults go
-/// to `faults`; a part with a fault is left out.
+/// Reads a VECT chunk, except for matrices derived from the rest pose, and makes all checks that memory safety depends
+/// on: types, counts, sizes, and every index against the `joints` of the object, the palette and the mesh itself.
+/// Faults are added to `faults`; a part with a fault is left out.
 MeshView read_mesh(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joints, Faults& faults);
 
-/// Faults of meaning that do not endanger memory: numbers that are not finite, weights below zero or that do not sum to
-/// 1 within kWeightTolerance.
+/// Adds faults of content that do not affect memory safety: numbers that are not finite, weights that are negative or
+/// do not sum to 1 within kWeightTolerance.
 void check_mesh_values(const ChunkTree& tree, const MeshView& mesh, Faults& faults);
 
 inline constexpr float kWeightTolerance = 1e-5f;

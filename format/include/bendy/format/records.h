@@ -10,12 +10,12 @@
 #include <limits>
 #include <type_traits>
 
-// The fixed records as they lie in the file: what each field means, its unit and range, stands in records.def.
+// The fixed records as stored in the file; meaning, unit and range of each field are given in records.def.
 namespace BENDY_PUBLIC bendy {
 
 inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 0x59, 0x0d, 0x0a, 0x1a};
 
-/// A material number of SubmeshRecord with this bit set counts among the joint's own MATE chunks.
+/// A material number of SubmeshRecord with this bit set is an index into the joint's own MATE chunks.
 inline constexpr std::uint32_t kLocalMaterial = 0x8000'0000u;
 
 struct VersionRecord {
@@ -145,7 +145,7 @@ struct JointsRecord {
     std::array<std::uint32_t, 2> reserved{};
 };
 
-/// JNTS: a submesh, and the joint to which it belongs.
+/// JNTS: a submesh, and the joint that it belongs to.
 struct JointSubmesh {
     std::uint32_t joint = 0;
     SubmeshRecord submesh;
@@ -255,7 +255,7 @@ struct ImageRecord {
     std::array<std::uint8_t, 15> reserved{};
 };
 
-// The numbers of the records' enumerations, and how many there are of each.
+// The values of the records' enumerations, and the number of values of each.
 
 enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
 inline constexpr unsigned kComponentTypes = 6;
@@ -304,23 +304,23 @@ enum class Solver : std::uint8_t { any, pull, two_bone, ccd, fabrik, aim, least_
 inline constexpr unsigned kSolvers = 7;
 
 /// Bits of ConstraintRecord::flags and ChainRecord::flags.
-inline constexpr std::uint8_t kApproximated = 1;  ///< the source says more, or otherwise, than the record can
-inline constexpr std::uint8_t kProposed = 2;      ///< guessed from the joints' names: nobody has authored it
-inline constexpr std::uint8_t kRestOutside = 4;   ///< of a limit: its author knows that the rest pose is not legal
+inline constexpr std::uint8_t kApproximated = 1;  ///< the source contains more than the record can express, or differs
+inline constexpr std::uint8_t kProposed = 2;      ///< guessed from the joints' names, not authored
+inline constexpr std::uint8_t kRestOutside = 4;   ///< for a limit: its author knows that the rest pose is outside it
 inline constexpr unsigned kConstraintFlags = 8;
 inline constexpr unsigned kChainFlags = 4;
 
-/// Bytes of one number of the type.
+/// Size in bytes of one number of the type.
 constexpr std::uint32_t component_size(ComponentType type) {
     constexpr std::array<std::uint32_t, kComponentTypes> kSizes{1, 1, 2, 2, 4, 4};
     return kSizes[static_cast<std::size_t>(type)];
 }
-/// Indices per polygon: 3, 2, 1.
+/// Number of indices per element: 3, 2, 1.
 constexpr std::uint32_t corners(Topology topology) {
     return 3 - static_cast<std::uint32_t>(topology);
 }
 
-/// Bytes that a payload must have at least to hold record R.
+/// Minimum size in bytes of a payload that holds record R.
 template <class R>
 inline constexpr std::uint64_t kShortest = sizeof(R);
 #define BENDY_RECORD(chunk, Struct, shortest) \
@@ -328,9 +328,10 @@ inline constexpr std::uint64_t kShortest = sizeof(R);
     inline constexpr std::uint64_t kShortest<Struct> = shortest;
 #include <bendy/format/records.def>
 
-/// The record at the start of a leaf's payload. It comes in its shortest form, and the further fields keep their
-/// defaults; or in full; or longer, by a later version, and the rest is skipped. RECORD_TOO_SHORT if it is shorter than
-/// the form that it must have; the codec's fault if it is encoded and has not been decoded.
+/// Reads the record at the start of a leaf's payload. It may be stored in its shortest form, so that the remaining
+/// fields keep their defaults; in full; or longer, by a later version, in which case the rest is skipped. Errors:
+/// RECORD_TOO_SHORT if it is shorter than the form that it must have; the codec's fault if it is encoded and has not
+/// been decoded.
 template <class R>
 Result<R> read_record(const ChunkTree& tree, std::uint32_t chunk) {
     const Bytes payload = tree.payload(chunk);

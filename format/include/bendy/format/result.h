@@ -9,14 +9,15 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// A value of type T, or the reason why there is none. The spelling is that of std::expected, which our compilers lack;
-/// it neither throws nor needs RTTI. Reading the absent side is the caller's bug and is asserted.
+/// A value of type T, or the reason why there is none. The interface follows std::expected, which the supported
+/// compilers lack; it does not throw and needs no RTTI. Accessing the absent side is a bug of the caller and is
+/// asserted.
 template <class T, class E = Error>
 class [[nodiscard]] Result {
 public:
-    // NOLINTNEXTLINE(google-explicit-constructor): `return value;` is the point of the type
+    // NOLINTNEXTLINE(google-explicit-constructor): allows `return value;`
     Result(T value) : value_(std::move(value)) {}
-    // NOLINTNEXTLINE(google-explicit-constructor): `return error;` likewise
+    // NOLINTNEXTLINE(google-explicit-constructor): allows `return error;`
     Result(E error) : error_(std::move(error)) {}
 
     [[nodiscard]] bool has_value() const { return value_.has_value(); }
@@ -52,12 +53,12 @@ private:
     E error_{};
 };
 
-/// Success, or the reason why not: Result<void> as std::expected<void, E> would be.
+/// Success, or the reason for failure: Result<void>, as std::expected<void, E>.
 template <class E>
 class [[nodiscard]] Result<void, E> {
 public:
     Result() = default;
-    // NOLINTNEXTLINE(google-explicit-constructor): `return error;` is the point of the type
+    // NOLINTNEXTLINE(google-explicit-constructor): allows `return error;`
     Result(E error) : error_(std::move(error)) {}
 
     [[nodiscard]] bool has_value() const { return !error_.has_value(); }

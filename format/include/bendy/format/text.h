@@ -8,11 +8,12 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// True for well-formed UTF-8 (Unicode 15, table 3-7): no overlong forms, no surrogates, nothing past U+10FFFF.
+/// Returns true for well-formed UTF-8 (Unicode 15, table 3-7): no overlong forms, no surrogates, nothing above
+/// U+10FFFF.
 bool is_utf8(std::string_view text);
 
-/// The text of the leaf with this id among a container's children: NAME, EXTR, EXTN, MORE. Empty if there is none; text
-/// that is not UTF-8 is a fault, and comes back empty too.
+/// Returns the text of a container's child leaf with this id: NAME, EXTR, EXTN, MORE. Empty if there is none; for text
+/// that is not UTF-8, adds a fault and returns an empty text.
 std::string_view read_text(const ChunkTree& tree, std::uint32_t container, FourCC id, Faults& faults);
 
 }  // namespace bendy

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdint>
 
-// Sine, cosine and arc tangent from IEEE additions, multiplications, divisions and square roots alone. Mathematical
-// libraries round these functions differently; a chain that is solved on two machines must come out the same. Accurate
-// to 2e-16 relative to the larger of the result and 1; quicker than most libraries.
+// Sine, cosine and arc tangent that use only IEEE addition, multiplication, division and square root. Mathematical
+// libraries round these functions differently, but a chain that is solved on two machines must give the same result.
+// Accurate to 2e-16 relative to the larger of the result and 1; faster than most libraries.
 namespace bendy::trig {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -15,18 +15,18 @@ struct SinCos {
     double sin, cos;
 };
 
-/// \param angle  radians; of angles beyond 1e6 and of what is no number, the result is some point of the circle
+/// \param angle  radians; beyond 1e6, and for NaN and infinity, the result is some point on the circle
 inline SinCos sin_cos(double angle) {
     constexpr double kLargest = 1e6;
     if (!(std::abs(angle) <= kLargest)) angle = std::isfinite(angle) ? std::remainder(angle, 2.0 * kPi) : 0.0;
-    // angle = turns * pi/2 + x, |x| <= pi/4, the product in two parts so that nothing is lost.
-    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves whole numbers
+    // angle = turns * pi/2 + x, |x| <= pi/4; the product is in two parts so that no precision is lost.
+    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
     const double turns = (angle * (2.0 / kPi) + kShift) - kShift;
     constexpr double kHigh = 1.57079632673412561417;     // the first 33 bits of pi/2
-    constexpr double kLow = 6.07710050650619224932e-11;  // what is missing
+    constexpr double kLow = 6.07710050650619224932e-11;  // the remainder
     const double x = (angle - turns * kHigh) - turns * kLow;
     const double s = x * x;
-    // Taylor's series, whose next terms are below 1e-18 at pi/4.
+    // Taylor series; the next terms are below 1e-18 at pi/4.
     const double sine =
         x + x * s *
                 (-1.0 / 6 +
@@ -51,9 +51,9 @@ inline SinCos sin_cos(double angle) {
     }
 }
 
-/// Arc tangent of x in [0, 1], radians.
+/// Arc tangent of x in [0, 1], in radians.
 inline double atan_unit(double x) {
-    // Above 0.66, atan(x) = pi/4 + atan((x - 1) / (x + 1)); then a quotient of polynomials (Moshier, Cephes, atan.c).
+    // Above 0.66, atan(x) = pi/4 + atan((x - 1) / (x + 1)); then a rational function (Moshier, Cephes, atan.c).
     const bool is_high = x > 0.66;
     const double t = is_high ? (x - 1.0) / (x + 1.0) : x;
     const double s = t * t;
@@ -81,7 +81,7 @@ inline double atan2(double y, double x) {
     return y < 0.0 ? -angle : angle;
 }
 
-/// \param x  held to -1 ... 1
+/// \param x  clamped to -1 ... 1
 inline double acos(double x) {
     if (x >= 1.0) return 0.0;
     if (x <= -1.0) return kPi;

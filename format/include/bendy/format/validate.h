@@ -6,8 +6,8 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Everything that is wrong with a file: its structure (the first fault ends it there, since what follows cannot be
-/// told), its sums, its records and its values. `bytes` must start on a 16-byte boundary.
+/// Returns all errors of a file: in its structure (only the first, since the rest cannot be interpreted), its sums, its
+/// records and its values. `bytes` must start on a 16-byte boundary.
 Faults validate(Bytes bytes);
 
 }  // namespace bendy

@@ -11,51 +11,52 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Whose translations a bound clip brings along.
+/// Which translations a bound clip applies.
 enum class BoundTranslations : std::uint8_t {
-    all,        ///< every track as it is: right for skeletons of one size
-    root_only,  ///< limbs keep the lengths of the model that is posed
+    all,        ///< every track as it is: for skeletons of the same size
+    root_only,  ///< only those of the root: limbs keep the lengths of the posed model
 };
 
 struct BindingOptions {
     BoundTranslations translations = BoundTranslations::all;
-    /// For root_only: this joint of the model that is posed, and all above it, take translations: hips, usually. kNone:
-    /// only joints with no matched joint above them.
+    /// For root_only: this joint of the posed model and all its ancestors take translations; usually the hips. kNone:
+    /// only joints without a matched ancestor do.
     std::uint32_t root = kNone;
-    /// Times what root_only takes: the posed model's hip height by the other's, so that feet reach the ground.
+    /// Factor for the translations that root_only takes: the posed model's hip height divided by the other's, so that
+    /// the feet reach the ground.
     float root_scale = 1.0f;
 };
 
-/// The clips of one model for another one, joint by joint and target by target of the same name: files that hold
-/// nothing but a skeleton and clips, shared by many characters. Names must be the same to the letter; of names that
-/// are doubled the first counts, empty ones match nothing.
+/// Maps the clips of one model to another, matching joints and morph targets by name: for files that hold only a
+/// skeleton and clips, shared by many characters. Names must match exactly; of duplicate names the first counts, and
+/// empty names match nothing.
 ///
-/// What a track animates gets its value as it is, relative to the parent; everything else is at the posed model's own
-/// rest. Rotations are not corrected: where two skeletons' rest poses differ in how joints are turned, or in which
-/// joints lie between, the pose does too.
+/// Animated values are copied as they are, relative to the parent; everything else is at the posed model's own rest.
+/// Rotations are not corrected: where the rest poses of the two skeletons differ in the joints' orientations or in the
+/// joints in between, the resulting pose differs too.
 ///
-/// Holds a Pose to sample into, so each thread needs a Binding of its own (copies do).
+/// Contains a Pose to sample into, so each thread needs a Binding of its own (a copy will do).
 class Binding {
 public:
-    /// \param animated  has the clips
-    /// \param posed     has the skeleton that is to move
+    /// \param animated  the model that has the clips
+    /// \param posed     the model whose skeleton is posed
     Binding(const Model& animated, Model posed, const BindingOptions& options = {});
 
     [[nodiscard]] const Model& animated() const { return animated_; }
     [[nodiscard]] const Model& posed() const { return posed_; }
-    /// For each joint of the animated model the posed model's, or kNone.
+    /// For each joint of the animated model, the posed model's joint, or kNone.
     [[nodiscard]] std::span<const std::uint32_t> joints() const { return joints_; }
-    /// For each target of the animated model (see Model::first_morph_target) the posed model's, or kNone. Of meshes of
-    /// the same name if there are such, else the first of its name.
+    /// For each morph target of the animated model (see Model::first_morph_target), the posed model's, or kNone.
+    /// Targets in meshes of the same name are preferred; otherwise the first target of that name is taken.
     [[nodiscard]] std::span<const std::uint32_t> targets() const { return targets_; }
-    /// What some clip animates in vain: joints of the animated model, ascending.
+    /// Joints of the animated model that some clip animates but that have no match, ascending.
     [[nodiscard]] std::span<const std::uint32_t> unmatched_joints() const { return unmatched_joints_; }
     [[nodiscard]] std::span<const std::uint32_t> unmatched_targets() const { return unmatched_targets_; }
 
 private:
     friend Result<void, CallError> sample(Pose& pose, Binding& binding, const Clip* clip, float seconds);
 
-    /// What a clip animates of a joint that is matched.
+    /// Properties of a matched joint that a clip animates.
     struct BoundJoint {
         std::uint32_t from = 0, to = 0;
         bool rotation = false, translation = false, scale = false;
@@ -83,9 +84,9 @@ private:
     std::vector<BoundClip> clips_;
 };
 
-/// As sample, of a clip of the animated model, for a pose of the posed one. An error, and the rest pose, for NaN
-/// seconds and for a clip that is null or not the animated model's; an error, and nothing changes, for a pose of
-/// another model.
+/// As sample, for a clip of the animated model and a pose of the posed model. Returns an error, and sets the rest pose,
+/// for NaN seconds and for a clip that is null or does not belong to the animated model. Returns an error, and changes
+/// nothing, for a pose of another model.
 [[nodiscard]] Result<void, CallError> sample(Pose& pose, Binding& binding, const Clip* clip, float seconds);
 
 }  // namespace bendy

@@ -9,27 +9,30 @@
 #include <span>
 #include <vector>
 
-// Several poses of one model become one. Weights are 0 to 1 and may lie outside; a mask scales the weight joint by
-// joint (see mask_below), and is empty or has a number for each joint. Nothing allocates but mask_below. Each returns
-// an error, and changes nothing, for poses of different models, a mask of another size or a weight that is not finite.
+// Combines poses of one model. Weights are usually 0 to 1, but may lie outside. A mask scales the weight per joint (see
+// mask_below); it is empty or has one number per joint. Only mask_below allocates. Each function returns an error, and
+// changes nothing, for poses of different models, a mask of the wrong size or a weight that is not finite.
 namespace BENDY_PUBLIC bendy {
 
-/// Moves `pose` towards `other`: 0 leaves it, 1 makes it the other. Translations, scales and morph target weights are
-/// mixed, rotations too, the short way round, and normalised ("nlerp"). To mix several poses evenly, blend in the
-/// second by 1/2, the third by 1/3 and so on; for a cross-fade or a layer, one call with its weight.
+/// Blends `pose` towards `other`: weight 0 leaves it unchanged, 1 makes it equal to `other`. Translations, scales and
+/// morph target weights are interpolated linearly; rotations are interpolated linearly along the shorter arc and
+/// normalised ("nlerp"). To average several poses, blend in the second with weight 1/2, the third with 1/3 and so on; a
+/// cross-fade or a layer takes one call.
 [[nodiscard]] Result<void, CallError> blend(Pose& pose, const Pose& other, float weight,
                                             std::span<const float> mask = {});
 
-/// Turns `pose` into its difference from `reference`, which add() takes: a breath, a recoil, a lean. Rotations: what
-/// turns the reference into the pose, in the joint's own axes; translations and morph target weights: the difference;
-/// scales: the quotient, 1 where the reference has none. The difference is no pose to show.
+/// Turns `pose` into its difference from `reference`, for add(): a breath, a recoil, a lean. Rotations: the rotation
+/// from the reference to the pose, in the joint's own axes; translations and morph target weights: the difference;
+/// scales: the quotient, 1 where the reference's scale is 0. The result is not meant to be displayed.
 [[nodiscard]] Result<void, CallError> make_additive(Pose& pose, const Pose& reference);
 
-/// Adds a difference to `pose`, so much of it: 0 leaves it, 1 on the reference gives what make_additive was given.
+/// Adds a difference to `pose`, scaled by `weight`: 0 leaves the pose unchanged; 1 on the reference restores the pose
+/// that make_additive was given.
 [[nodiscard]] Result<void, CallError> add(Pose& pose, const Pose& difference, float weight,
                                           std::span<const float> mask = {});
 
-/// For the joint and all below it `inside`, for the others `outside`: an upper body, an arm. One number for each joint.
+/// Returns a mask: `inside` for the joint and its descendants, such as an upper body or an arm, and `outside` for all
+/// others. One number per joint.
 [[nodiscard]] std::vector<float> mask_below(const Model& model, std::uint32_t joint, float inside = 1.0f,
                                             float outside = 0.0f);
 

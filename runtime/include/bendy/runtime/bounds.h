@@ -12,7 +12,7 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// An axis-aligned box, both corners in it; empty where a minimum is above its maximum, as at first.
+/// An axis-aligned box that includes both corners; empty if a minimum is above its maximum, which is the initial state.
 struct Box {
     glm::vec3 minimum{std::numeric_limits<float>::infinity()};
     glm::vec3 maximum{-std::numeric_limits<float>::infinity()};
@@ -26,41 +26,44 @@ struct Box {
     }
 };
 
-/// The smallest box around both.
+/// Returns the smallest box that contains both.
 [[nodiscard]] Box unite(const Box& a, const Box& b);
 
-/// Boxes that hold all that `skin` makes of a model in any pose, without skinning it: for culling, level of detail, and
-/// rays that look for a joint first. Made once, in time linear in vertices, influences and displacements; asking costs
-/// as much as there are joints with vertices. Linear skinning only: dual quaternions may bulge out of it.
+/// Boxes that contain everything that `skin` makes of a model in any pose, without skinning it: for culling, level of
+/// detail, and ray casts that pick a joint first. Construction takes time linear in vertices, influences and
+/// displacements; a query takes time linear in the number of joints with vertices. For linear skinning only: dual
+/// quaternions may bulge out of the box.
 ///
-/// A vertex lies among the places to which each of its joints alone would take it, so it lies in the box around their
-/// boxes. Targets widen a joint's box by weight * the box of their displacements there. What weights that are negative
-/// or do not sum to 1 do is added, and so is rounding: 4e-6 of the numbers that go into a corner. Vertices that are not
-/// finite, and what is moved by joints that are not, are left out.
+/// A skinned vertex is a weighted mean of the positions to which each of its joints alone would take it, so it lies in
+/// the box around those joints' boxes. A morph target extends a joint's box by weight * the box of its displacements
+/// there. The boxes also allow for weights that are negative or do not sum to 1, and for rounding: 4e-6 of the numbers
+/// that contribute to a corner. Vertices that are not finite, and vertices moved by joints that are not, are left out.
 class Bounds {
 public:
     explicit Bounds(const Model& model);
 
     [[nodiscard]] const Model& model() const { return model_; }
-    /// In joint space, of the vertices that the joint moves, with morph target weights 0; empty if it moves none.
+    /// The box of the vertices that the joint moves, in joint space, with morph target weights 0; empty if it moves
+    /// none.
     [[nodiscard]] const Box& joint(std::uint32_t joint) const { return joints_[joint].box; }
 
-    // Of a pose of the model, in model space.
+    // Boxes for a pose of the model, in model space.
 
-    /// Of all that the joint moves, as the joint alone would have it.
+    /// The box of all vertices that the joint moves, as if that joint alone moved them.
     [[nodiscard]] Box of(Pose& pose, std::uint32_t joint) const;
-    /// Of all vertices; empty if there are none.
+    /// The box of all vertices; empty if there are none.
     [[nodiscard]] Box of(Pose& pose) const;
 
 private:
-    /// What moves with one joint.
+    /// The vertices that move with one joint.
     struct JointBox {
         Box box;
-        std::uint32_t first_shift = 0, shifts = 0;  // in shifts_
+        std::uint32_t first_shift = 0, shifts = 0;  // into shifts_
     };
-    /// Displacements by one target of what one joint moves, in joint space, and the place of those it leaves alone.
+    /// The displacements of a joint's vertices by one target, in joint space; includes zero, for vertices that it
+    /// leaves alone.
     struct Shift {
-        std::uint32_t target = 0;  // of all meshes
+        std::uint32_t target = 0;  // index among the targets of all meshes
         Box box;
     };
     struct Builder;
@@ -68,10 +71,10 @@ private:
     [[nodiscard]] Box shifted(const JointBox& joint, std::span<const float> weights) const;
 
     Model model_;
-    std::vector<JointBox> joints_;  // the last one: what nothing moves
+    std::vector<JointBox> joints_;  // the last one: vertices that no joint moves
     std::vector<Shift> shifts_;
-    double slack_ = 0.0;       // how far weights are from positive and a sum of 1, at worst
-    bool has_origin_ = false;  // vertices without weights: skinning puts them at the origin
+    double slack_ = 0.0;       // the worst deviation of a vertex's weights from non-negative with a sum of 1
+    bool has_origin_ = false;  // some vertices have no weights: skinning puts them at the origin
 };
 
 }  // namespace bendy

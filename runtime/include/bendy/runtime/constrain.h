@@ -9,26 +9,27 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// The legal rotation nearest to R by angle; see Constraint for R. Inside the limits it is R itself, clamping twice is
-/// clamping once, and nothing jumps where an angle passes pi. For the Euler box it is the nearest that an ascent over
-/// the three angles finds from several starts. Same result on every machine.
+/// Returns the legal rotation nearest to R by angle; see Constraint for R. A rotation inside the limits is returned
+/// unchanged, clamping twice gives the same as clamping once, and the result is continuous where an angle passes pi.
+/// For the Euler box it is the nearest rotation found by ascent over the three angles from several starting points. The
+/// result is the same on every machine.
 /// \param R  unit quaternion
 [[nodiscard]] glm::dquat clamp_rotation(const Constraint& constraint, const glm::dquat& R);
 
-/// How far R is from the nearest legal rotation, radians.
+/// Returns the angle between R and the nearest legal rotation, in radians.
 [[nodiscard]] double violation(const Constraint& constraint, const glm::dquat& R);
 
-/// R of a joint: conj(C) * conj(rest) * local * C. And back.
+/// Converts a joint's local rotation to R = conj(C) * conj(rest) * local * C, and back.
 [[nodiscard]] glm::dquat to_constraint_space(const Constraint& constraint, const glm::quat& rest,
                                              const glm::quat& local);
 [[nodiscard]] glm::quat from_constraint_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
 
-/// A joint's translation held to the constraint, metres: each component of d in its range, where
-/// translation = rest.translation + rest.rotation * C * d.
+/// Clamps a joint's translation to the constraint, metres: each component of d to its range, where translation =
+/// rest.translation + rest.rotation * C * d.
 [[nodiscard]] glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest,
                                           const glm::vec3& translation);
 
-/// Brings every joint of a pose inside its constraints, those for the IK solver only excepted.
+/// Moves every joint of a pose into the range of its constraints, except those for the IK solver only.
 void constrain(Pose& pose);
 
 }  // namespace bendy

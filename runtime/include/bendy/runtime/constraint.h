@@ -13,26 +13,26 @@ namespace BENDY_PUBLIC bendy {
 
 /// An interval of angles on the circle.
 struct AngleRange {
-    double middle = 0.0;  ///< radians
-    double half = 0.0;    ///< radians, 0 to pi; pi: every angle
-    // The same as turns: cosine and sine of half the angle.
+    double middle = 0.0;  ///< radians: centre of the interval
+    double half = 0.0;    ///< radians: half its width, 0 to pi; pi: all angles
+    // The same as rotations: cosine and sine of half the angle.
     glm::dvec2 middle_turn{1, 0};
     glm::dvec2 low_turn{1, 0};
     glm::dvec2 high_turn{1, 0};
     double sine_half = 0.0;  ///< sin(half / 2)
 };
 
-/// What a constraint allows, made ready for use.
+/// The range that a constraint allows, preprocessed.
 struct LimitShape {
     std::array<AngleRange, 3> angles;  ///< hinge and twist: [0]; Euler box: X, Y, Z
     std::array<double, 2> swing_low{
-        1, 1};  ///< sin(|limit| / 2) of the swing about Y and Z, towards minus: 0 to below 1; infinity: free
-    std::array<double, 2> swing_high{1, 1};  ///< and towards plus
+        1, 1};  ///< sin(|limit| / 2) of the swing about Y and Z in the negative direction: 0 to below 1; infinity: free
+    std::array<double, 2> swing_high{1, 1};  ///< the same in the positive direction
     double largest = 0.0;                    ///< radians: largest angle
 };
 
-/// A joint's constraint. R below is the joint's rotation away from rest in the constraint's frame C:
-/// q = q_rest * C * R * conj(C).
+/// A joint's constraint. R below is the joint's rotation relative to rest, in the constraint's frame C: q = q_rest * C
+/// * R * conj(C).
 struct Constraint {
     std::uint32_t joint = 0;
     ConstraintModel model = ConstraintModel::free;
@@ -48,7 +48,7 @@ struct Constraint {
     ConstraintRecord record;  ///< as in the file
 };
 
-/// Makes a constraint ready. Numbers that are not possible (the file may hold any) are taken as the nearest that are.
+/// Preprocesses a constraint. Impossible numbers (a file may contain any) are replaced by the nearest possible ones.
 [[nodiscard]] Constraint make_constraint(const ConstraintView& view);
 
 }  // namespace bendy

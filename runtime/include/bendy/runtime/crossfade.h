@@ -15,18 +15,18 @@ namespace BENDY_PUBLIC bendy {
 
 enum class Easing : std::uint8_t {
     linear,
-    smooth,  ///< 3t^2 - 2t^3: starts and ends without a jerk
+    smooth,  ///< 3t^2 - 2t^3: starts and ends smoothly
 };
 
-/// The weight at a share of the way, 0 to 1 (held to that; NaN is 1).
+/// Returns the eased weight at a fraction of the way, 0 to 1 (clamped; NaN counts as 1).
 [[nodiscard]] float ease(Easing easing, float share);
 
-/// A weight on its way to another one: of a layer, of an additive pose.
+/// A weight that moves towards another over time: of a layer, of an additive pose.
 class Fade {
 public:
     Fade() = default;
     explicit Fade(float weight) : from_(weight), to_(weight) {}
-    /// From where it is now, in so many seconds; at once if those are not above 0.
+    /// Starts a fade from the current weight that takes `seconds`; immediate if `seconds` is not above 0.
     void to(float weight, float seconds, Easing easing = Easing::smooth);
     void advance(double seconds);
     [[nodiscard]] float weight() const;
@@ -42,31 +42,32 @@ private:
 struct Playing {
     const Clip* clip = nullptr;
     Playback playback;
-    Fade fade;              ///< how much of it covers what began before it
-    PlayedInterval played;  ///< by the last advance: for markers and root motion
-    float share = 0.0f;     ///< of the result; all shares add up to 1
+    Fade fade;              ///< how far it covers the clips that began before it
+    PlayedInterval played;  ///< the interval of the last advance: for markers and root motion
+    float share = 0.0f;     ///< its share of the result; all shares sum to 1
 };
 
-/// Clips that follow one another, each fading in over those before. One that is interrupted goes on beneath the next,
-/// so nothing jumps. Small, and allocates nothing.
+/// A sequence of clips in which each fades in over those before it. A clip that is interrupted keeps playing beneath
+/// the next one, so nothing jumps. Small, and allocates nothing.
 class Crossfade {
 public:
-    /// Of more at a time, the oldest goes at once; what is left of its share jumps.
+    /// Maximum number of clips at a time. One more drops the oldest at once, so that the result jumps by what was left
+    /// of its share.
     static constexpr std::size_t kMost = 4;
 
-    /// From now on this one; the first one covers all at once. The clip must outlive its playing.
+    /// Starts a clip; the first one is visible in full at once. The clip must stay alive while it plays.
     void play(const Clip& clip, float fade_seconds, Easing easing = Easing::smooth) {
         play(clip, Playback(clip), fade_seconds, easing);
     }
-    /// With a clock of the caller's: at another speed, in step with what plays now.
+    /// Starts a clip with a clock of the caller's: at another speed, or in step with the clip that plays now.
     void play(const Clip& clip, const Playback& playback, float fade_seconds, Easing easing = Easing::smooth);
 
-    /// Moves every clock and every fade on; what is wholly covered afterwards is gone, with its walk.
+    /// Advances all clocks and fades; then drops the clips that are completely covered, with their played intervals.
     void advance(double seconds);
 
     /// Oldest first; empty before the first play.
     [[nodiscard]] std::span<const Playing> playing() const { return std::span(playing_).first(count_); }
-    /// The newest one's clock, to change its speed or seek; null before the first play.
+    /// The clock of the newest clip, to change its speed or to seek; null before the first play.
     [[nodiscard]] Playback* playback() { return count_ == 0 ? nullptr : &playing_[count_ - 1].playback; }
 
 private:
@@ -77,8 +78,9 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Sets the pose to what plays, by the shares. `scratch`: another pose of the same model, overwritten. An error,
-/// and the rest pose, if nothing plays; an error, and nothing changes, for poses of different models.
+/// Sets the pose to the clips that play, mixed by their shares. `scratch` is another pose of the same model, which is
+/// overwritten. Returns an error, and sets the rest pose, if nothing plays; returns an error, and changes nothing, for
+/// poses of different models.
 [[nodiscard]] Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scratch);
 
 }  // namespace bendy

@@ -9,19 +9,21 @@
 #include <span>
 #include <type_traits>
 
-// Markers that a walk meets: footsteps, hits, the moment when a hand lets go.
+// Markers that playback passes: footsteps, hits, the moment when a hand lets go.
 namespace BENDY_PUBLIC bendy {
 
-/// Those of a stretch: `markers` ascend by seconds. In the order of the time line, whichever way it was walked.
+/// Returns the markers in a span of time, in time line order, whichever direction it was played in. `markers` must be
+/// ascending by seconds.
 [[nodiscard]] std::span<const Marker> markers_in(std::span<const Marker> markers, const TimeSpan& span);
 
-/// How many a walk meets; passes are counted, not walked.
+/// Returns the number of markers that an interval passes. Whole passes are multiplied, not iterated.
 [[nodiscard]] std::uint64_t count_markers(std::span<const Marker> markers, const PlayedInterval& played);
 
-/// Calls visit(marker) for each that the walk meets, in the order in which it meets them. Each is met once in a pass:
-/// one at the start as playing begins there, one at the end as it gets there, one where ping_pong turns as it turns. A
-/// visit that gives back bool ends it with false. Takes as long as there are markers to be met: see count_markers.
-/// \param markers  ascending by seconds; those outside what is played are never met
+/// Calls visit(marker) for each marker that the interval passes, in playback order. Each is visited once per pass: one
+/// at the start when playback begins there, one at the end when playback reaches it, one at a turn of ping_pong when it
+/// turns. A visit that returns bool stops the iteration with false. Takes time linear in the number of visits: see
+/// count_markers.
+/// \param markers  ascending by seconds; those outside the played range are never visited
 template <class Visit>
 void visit_markers(std::span<const Marker> markers, const PlayedInterval& played, const Visit& visit) {
     const auto visit_one = [&](const Marker& marker) {
@@ -44,7 +46,7 @@ void visit_markers(std::span<const Marker> markers, const PlayedInterval& played
     visit_span(played.last);
 }
 
-/// The first of them, as many as `met` takes, into the caller's memory. How many were written.
+/// Copies the first of these markers, as many as `met` has room for. Returns how many were written.
 [[nodiscard]] std::size_t collect_markers(std::span<const Marker> markers, const PlayedInterval& played,
                                           std::span<const Marker*> met);
 

@@ -4,9 +4,9 @@
 
 namespace BENDY_PUBLIC bendy {
 
-// Nothing but numbers, since kernels for other processors include this.
+// Plain data only, since kernels for other processors include this.
 
-/// Rows of a 3x4 matrix, mesh space to model space: what a bone does to a vertex. As long as a cache line.
+/// Rows of a 3x4 matrix, mesh space to model space: the transform that a bone applies to vertices. Fills a cache line.
 struct alignas(64) PaletteMatrix {
     float rows[3][4];
     float unused[4];

@@ -11,11 +11,11 @@
 #include <cstdint>
 #include <vector>
 
-// Root motion: what a clip's root joint does on the ground is taken out of the pose and moves the character instead,
-// through walls and slopes as the game has them. In doubles, since it adds up over hours.
+// Root motion: the ground movement of a clip's root joint is taken out of the pose and moves the character instead, so
+// that the game can apply collisions and slopes. In double precision, since it accumulates over hours.
 namespace BENDY_PUBLIC bendy {
 
-/// A turn, then a shift.
+/// A rotation followed by a translation.
 struct RootMotion {
     glm::dvec3 translation{0.0};              ///< metres
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
@@ -23,46 +23,47 @@ struct RootMotion {
     [[nodiscard]] glm::dmat4 matrix() const;
 };
 
-/// `motion` in the axes of `before`, after it: character = compose(character, motion) each frame.
+/// Applies `motion`, given in the axes of `before`, after `before`. Each frame: character = compose(character, motion).
 [[nodiscard]] RootMotion compose(const RootMotion& before, const RootMotion& motion);
-/// What undoes it.
+/// Returns the inverse.
 [[nodiscard]] RootMotion inverse(const RootMotion& motion);
-/// A share of the way from one to the other, 0 to 1, the short way round: for crossfades.
+/// Interpolates between two motions, weight 0 to 1, along the shorter arc: for crossfades.
 [[nodiscard]] RootMotion blend(const RootMotion& motion, const RootMotion& other, double weight);
-/// `motion` so many times over. Exact to about 1e-15 of what it moves for each of the `times` at worst.
+/// Returns `motion` applied `times` times. The error is at most about 1e-15 of the movement for each of the `times`.
 [[nodiscard]] RootMotion repeat(const RootMotion& motion, std::uint64_t times);
 
 enum class RootTurn : std::uint8_t {
     none,
-    yaw,  ///< about the model's y axis, which is up
+    yaw,  ///< rotation about the model's y axis, which is up
     all,
 };
 
-/// What of the root's movement is the character's. The rest stays in the pose: by default bobbing and leaning do.
+/// Which parts of the root's movement move the character. The rest, by default bobbing and leaning, stays in the pose.
 struct RootAxes {
     bool x = true, y = false, z = true;  ///< translation along the model's axes
     RootTurn turn = RootTurn::yaw;
 };
 
-/// The joint that carries a character over the ground: a root joint, or hips. Reads clips of its model only; any
-/// number of threads may share one. Made once; nothing else allocates.
+/// The root motion of the joint that carries a character over the ground: a root joint, or the hips. Accepts clips of
+/// its model only; any number of threads may share one. Allocates only when it is made.
 class RootPath {
 public:
-    /// \param joint  of the model; one that it does not have never moves
+    /// \param joint  a joint of the model; if the model has no such joint, there is no motion
     RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes = {});
 
-    /// From where the rest pose stands to where the clip has the root at that time, in model space: the position along
-    /// the chosen axes, and the chosen turn. Yaw is the twist of the turn since rest; a root upside down has none.
+    /// Returns the motion from the root's rest pose to its position in the clip at that time, in model space: the
+    /// translation along the chosen axes, and the chosen rotation. Yaw is the twist of the rotation relative to rest;
+    /// it is zero for a root that is upside down.
     [[nodiscard]] RootMotion at(const Clip& clip, double seconds) const;
-    /// The movement from one time to another, in the axes that the character has at `from`.
+    /// Returns the motion from one time to another, in the axes that the character has at `from`.
     [[nodiscard]] RootMotion between(const Clip& clip, double from, double to) const;
-    /// The movement of a whole walk of a Playback: over ends it goes on as if the next pass began where the last one
-    /// ended. As quick for thousands of passes as for one.
+    /// Returns the motion over an interval of a Playback: across the ends it continues as if the next pass began where
+    /// the last one ended. Takes the same time for thousands of passes as for one.
     [[nodiscard]] RootMotion over(const Clip& clip, const PlayedInterval& played) const;
 
-    /// Takes the movement out of a pose and gives it back: along the chosen axes the root then stands as at rest, so
-    /// that clips fit one another when they are mixed. What hangs below the root comes along; joints above it stay. If
-    /// one of those is scaled unevenly, the turn is not quite taken out; if one is flat, nothing is.
+    /// Takes the motion out of a pose and returns it: along the chosen axes the root is then at rest, so that clips
+    /// line up when they are mixed. The root's descendants move with it; joints above it stay. If one of those is
+    /// scaled unevenly, the rotation is not removed completely; if one is flat, nothing is removed.
     RootMotion extract(Pose& pose) const;
 
 private:
@@ -72,7 +73,7 @@ private:
     Model model_;
     RootAxes axes_;
     std::vector<std::uint32_t> path_;  // from the model's root down to the joint; empty: none
-    glm::dvec3 chosen_{0.0};           // 1 for axes that are taken
+    glm::dvec3 chosen_{0.0};           // 1 for the axes that are taken out, otherwise 0
     glm::dvec3 rest_position_{0.0};
     glm::dquat rest_rotation_{1.0, 0.0, 0.0, 0.0};
 };

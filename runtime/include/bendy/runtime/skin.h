@@ -11,43 +11,44 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// How the joints that a vertex follows are mixed.
+/// How the joints of a vertex are blended.
 enum class SkinningMethod : std::uint8_t {
     /// v' = sum(w_i M_i v) with M_i = model space of joint i * its inverse bind matrix.
     linear,
-    /// By dual quaternions (Kavan, Collins, Zara, O'Sullivan, Skinning with Dual Quaternions, 2007): joints that twist
-    /// or bend keep the limb's volume, where `linear` makes it thinner. For characters that were made for it: elbows
-    /// bulge a little, and `Bounds` does not hold it.
+    /// By dual quaternions (Kavan, Collins, Zara, O'Sullivan, Skinning with Dual Quaternions, 2007): preserves the
+    /// volume of limbs at joints that twist or bend, where `linear` makes them thinner. For characters made for it:
+    /// elbows bulge a little, and `Bounds` does not cover it.
     ///
-    /// Scale and shear go in two phases: each joint's are applied about its own place and mixed by the weights as
-    /// `linear` does, then the rotations and translations are mixed as dual quaternions. The uniform scale of the
-    /// topmost of a mesh' joints is the whole mesh', and exact. A vertex of one joint goes where `linear` takes it,
-    /// whatever the matrix. A vertex without weights lies at the origin.
+    /// Scale and shear are applied in two phases: first each joint's about its own position, blended by the weights as
+    /// in `linear`; then the rotations and translations are blended as dual quaternions. The uniform scale of the
+    /// topmost of a mesh's joints applies to the whole mesh, exactly. A vertex of one joint is moved as by `linear`,
+    /// whatever the matrix. A vertex without weights is put at the origin.
     dual_quaternion,
 };
 
-/// All meshes, one after another: Model::first_vertex says where each begins.
+/// All meshes, one after another: Model::first_vertex gives the index of each mesh's first vertex.
 inline constexpr std::uint32_t kAllMeshes = kNone;
 
-/// What `skin` is to do.
+/// Options and outputs of `skin`.
 struct SkinRequest {
-    std::uint32_t mesh = kAllMeshes;  ///< one mesh, whose vertices begin at 0, or all
-    /// Of the pose's model, or null: all vertices. Else those that are alive at that level of detail, of each mesh the
-    /// first Lod::vertices, in the same places; the others are left as they are. It costs as much less as there are
-    /// fewer of them.
+    std::uint32_t mesh = kAllMeshes;  ///< one mesh, written from vertex 0 on, or all
+    /// A level of detail of the pose's model, or null: all vertices. Skins only the vertices alive at that level, the
+    /// first Lod::vertices of each mesh, at their usual places; the others are left unchanged. The cost is
+    /// proportional.
     const Lod* lod = nullptr;
     SkinningMethod method = SkinningMethod::linear;
-    VertexBuffer out{};  ///< room for the mesh (for the vertices alive), or for all: Model::vertex_count()
+    VertexBuffer out{};  ///< room for the mesh's vertices (or those alive), or for all: Model::vertex_count()
 };
 
-/// Writes the vertices of a pose: inbetweening with its morph target weights, then skinning; the vertices of a rigid
-/// mesh move with their joint. Normals go by the inverse transpose. On an error nothing is written.
+/// Writes the vertices of a pose: applies its morph target weights, then skins; the vertices of a rigid mesh move with
+/// their joint. Normals are transformed by the inverse transpose. On an error nothing is written.
 ///
 ///     skin(pose, {.out = {.positions = positions, .normals = normals}})
 [[nodiscard]] Result<void, CallError> skin(Pose& pose, const SkinRequest& request);
 
-/// Takes the memory that a method needs beside a Pose's own, 256 bytes for each bone of the largest mesh and 24 for
-/// each bone of all. Else the pose's first `skin` by that method takes it. Nothing for `linear`.
+/// Allocates the memory that a method needs in addition to the Pose's own: 256 bytes per bone of the largest mesh and
+/// 24 per bone of all meshes. Otherwise the pose's first `skin` with that method allocates it. Does nothing for
+/// `linear`.
 void prepare_skin(Pose& pose, SkinningMethod method);
 
 }  // namespace bendy

@@ -15,7 +15,7 @@ struct JointTransform {
     glm::vec3 scale{1.0f};                       ///< along the joint's axes; may be negative or zero
 };
 
-/// T * R * U, U upper triangular with the scale on its diagonal and `shear` (xy, xz, yz) above it.
+/// Returns T * R * U; U is upper triangular with the scale on its diagonal and `shear` (xy, xz, yz) above it.
 [[nodiscard]] glm::dmat4 to_matrix(const JointTransform& transform, const glm::vec3& shear);
 
 }  // namespace bendy
