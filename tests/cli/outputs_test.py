@@ -678,7 +678,7 @@ class Report(OutputCase):
         self.assertEqual((report["status"], report["output"]), ("failed", "bad.bendy"))
         self.assertEqual(report["error"]["file"], "bad.glb")
         self.assertIn("the GLB header is truncated", report["error"]["message"])
-        self.assertIn("bendy: error: bad.glb: GLB header", self.told)
+        self.assertIn("bendy: error: bad.glb: the GLB header is truncated", self.told)
         shutil.copy(self.made["glb"], self.folder / "a.glb")
         (self.folder / "a.bendy").write_bytes(FOREIGN)
         [report] = self.report("a.glb", status=1)
