@@ -13,12 +13,12 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # Also in the header, beside the runtime's own: errors in words.
 FURTHER_HEADERS = ["bendy/format/diagnostics.h"]
-WRITES_FILES = re.compile(r"src/(write_\w+|encode_\w+|\w+_writer)\.cpp")
+WRITES_FILES = re.compile(r"src/\w+_writer\.cpp")
 # In the name of a source that there is one of for each kind of system.
 SYSTEM = "${BENDY_SYSTEM}"
 SYSTEMS = {"posix": "!defined(_WIN32)", "windows": "defined(_WIN32)"}
-# A source that includes the header is compiled where the macro is defined, and gives way to the other one where it is not.
-LIBRARIES = {"zstd.h": "ZSTD", "meshoptimizer.h": "MESHOPTIMIZER"}
+# The sources do without each of these where BENDY_WITHOUT_ZSTD, ... is defined.
+LIBRARIES = ("ZSTD", "MESHOPTIMIZER")
 
 HEAD = """// Bendy's runtime {version}: opens, poses and skins animated characters. Made by scripts/amalgamate.py; do not edit.
 //
@@ -97,7 +97,6 @@ def for_processor(instructions, lines):
 def make_source(joiner, folder, name, instructions, condition=None):
     file = ROOT / folder / name
     own_headers = re.findall(r'^#include [<"]([^>"]+)[>"]', file.read_text(encoding="utf-8"), re.M)
-    libraries = [LIBRARIES[header] for header in own_headers if header in LIBRARIES]
     lines = []
     for header in own_headers:  # before any condition: later files count on them
         found = joiner.find(header, file)
@@ -106,8 +105,6 @@ def make_source(joiner, folder, name, instructions, condition=None):
     body = joiner.expand(file)
     if instructions:
         body = for_processor(instructions, body)
-    for library in libraries:
-        body = [f"#ifdef BENDY_WITH_{library}", *body, "#endif"]
     if condition:
         body = [f"#if {condition}", *body, "#endif"]
     return lines + body
@@ -129,7 +126,7 @@ def main():
         header += joiner.expand(file.resolve())
 
     source = ['#include "bendy_runtime.h"']
-    for library in LIBRARIES.values():
+    for library in LIBRARIES:
         source += [f"#ifndef BENDY_WITH_{library}", f"#define BENDY_WITHOUT_{library}", "#endif"]
     kernels = []
     for folder, text in lists.items():
@@ -144,8 +141,6 @@ def main():
                     source += make_source(joiner, folder, name.replace(SYSTEM, system), None, condition)
                 continue
             (kernels if instructions else source).extend(make_source(joiner, folder, name, instructions))
-    for library in LIBRARIES.values():
-        source += [f"#ifdef BENDY_WITHOUT_{library}", *joiner.expand(ROOT / f"format/src/without_{library.lower()}.cpp"), "#endif"]
 
     output.mkdir(parents=True, exist_ok=True)
     for name, lines in (("bendy_runtime.h", ["#pragma once", *header]), ("bendy_runtime.cpp", source + kernels)):

@@ -6,8 +6,8 @@
 
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
-#include <bendy/text_form/assemble.h>
+#include <bendy/format/document.h>
+#include <bendy/text_form/text_form.h>
 
 #include <iostream>
 #include <memory>

@@ -7,7 +7,7 @@
 
 #include <bendy/diff/compare_files.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <nlohmann/json.hpp>
 

@@ -4,10 +4,9 @@
 #include "terminal/problem.h"
 #include "terminal/progress.h"
 
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/text_form/dump.h>
+#include <bendy/text_form/text_form.h>
 
 #include <memory>
 

@@ -9,8 +9,7 @@
 #include "terminal/problem.h"
 #include "terminal/text.h"
 
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/runtime/model.h>

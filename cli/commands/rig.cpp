@@ -4,8 +4,7 @@
 #include "terminal/problem.h"
 
 #include <bendy/converter/write_rig.h>
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 

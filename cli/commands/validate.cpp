@@ -5,7 +5,7 @@
 #include "terminal/problem.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "files/dangling_links.h"
 
 #include <bendy/converter/linked_file.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/document.h>
 
 #include <system_error>

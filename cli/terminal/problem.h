@@ -3,7 +3,6 @@
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/error.h>
-#include <bendy/format/faults.h>
 
 #include <filesystem>
 #include <iosfwd>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bendy/diff/compare_files.h>
-#include <bendy/diff/difference.h>
 #include <bendy/format/leaf_parts.h>
 
 #include <cstdint>

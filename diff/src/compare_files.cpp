@@ -1,6 +1,6 @@
 #include "compare_content.h"
 
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 #include "finish.h"
 
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 
 #include <algorithm>
 #include <cstring>

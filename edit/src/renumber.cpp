@@ -1,6 +1,6 @@
 #include "renumber.h"
 
-#include <bendy/format/check_grammar.h>
+#include <bendy/format/chunk_reader.h>
 
 #include <algorithm>
 #include <cstring>

@@ -5,7 +5,7 @@
 #include "source.h"
 
 #include <bendy/edit/names.h>
-#include <bendy/format/check_grammar.h>
+#include <bendy/format/chunk_reader.h>
 
 #include <algorithm>
 #include <array>

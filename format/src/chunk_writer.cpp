@@ -1,6 +1,6 @@
 #include <bendy/format/chunk_writer.h>
 
-#include <bendy/format/check_sums.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/limits.h>
 
 #include <cassert>

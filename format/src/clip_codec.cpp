@@ -1,11 +1,6 @@
-#include "clip_codec.h"
+#include "codec_parts.h"
 
-#include <bendy/format/codec.h>
 #include <bendy/format/packed_clip.h>
-
-#include "zstd_frame.h"
-
-#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +10,6 @@
 namespace bendy {
 namespace {
 
-constexpr int kLevel = 19;
 constexpr std::array<std::uint8_t, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};  // the start of every zstd frame, which is left
                                                                        // out
 constexpr unsigned kPredictors = 4;
@@ -312,13 +306,12 @@ bool encode_clip(Bytes payload, std::vector<std::byte>& out) {
     const std::vector<std::byte> plain = Plain(samples).write(head_of(*view));
     const auto again = write_packed(samples);
     if (!again || !std::equal(again->begin(), again->end(), payload.begin(), payload.end())) return false;
-    std::vector<std::byte> frame(ZSTD_compressBound(plain.size()));
-    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), plain.data(), plain.size(), kLevel);
-    if (ZSTD_isError(size) != 0 || plain.size() > 0xffff'ffffu) return false;
+    std::vector<std::byte> frame;
+    if (plain.size() > 0xffff'ffffu || !put_zstd(plain, frame)) return false;
     const auto plain_size = static_cast<std::uint32_t>(plain.size());
     const auto head = std::as_bytes(std::span(&plain_size, 1));
     out.insert(out.end(), head.begin(), head.end());
-    out.insert(out.end(), frame.begin() + kMagic.size(), frame.begin() + static_cast<std::ptrdiff_t>(size));
+    out.insert(out.end(), frame.begin() + kMagic.size(), frame.end());
     return plain.size() <= out.size() * kMaxCodecRatio;
 }
 

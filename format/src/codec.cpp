@@ -1,13 +1,11 @@
 #include <bendy/format/codec.h>
 
-#include "clip_codec.h"
-#include "mesh_codecs.h"
-#include "planes.h"
-#include "sums_codec.h"
-#include "zstd_frame.h"
+#include "codec_parts.h"
 
+#include <algorithm>
 #include <array>
 #include <new>
+#include <span>
 
 namespace bendy {
 namespace {
@@ -39,15 +37,6 @@ constexpr std::array<bool, kCodecs> kBuiltIn{
     kHasZstd,           // clip
     kHasZstd,           // sums
 };
-
-bool decode_zstd(const CodecHeader& header, Bytes body, std::span<std::byte> out) {
-    if (header.head != 0) return false;
-    if (header.stride <= 1) return take_zstd(body, out);
-    AlignedBytes planes(out.size());
-    if (!take_zstd(body, planes.span())) return false;
-    from_planes(planes.bytes(), header.stride, out);
-    return true;
-}
 
 }  // namespace
 
@@ -90,6 +79,37 @@ bool decode_payload(Codec codec, Bytes encoded, std::span<std::byte> out) {
         default:
             return false;
     }
+}
+
+std::optional<std::vector<std::byte>> encode_payload(Codec codec, Bytes payload, std::uint16_t head,
+                                                     std::uint16_t stride) {
+    const CodecHeader header{payload.size(), head, stride, 0};
+    std::vector<std::byte> out(sizeof header);
+    std::copy_n(std::as_bytes(std::span(&header, 1)).begin(), sizeof header, out.begin());
+    bool is_done = false;
+    switch (codec) {
+        case Codec::zstd:
+            is_done = encode_zstd(header, payload, out);
+            break;
+        case Codec::vertices:
+        case Codec::vertices_zstd:
+            is_done = encode_rows(header, codec == Codec::vertices_zstd, payload, out);
+            break;
+        case Codec::sums:
+            is_done = encode_sums(header, payload, out);
+            break;
+        case Codec::indices:
+        case Codec::indices_zstd:
+            is_done = encode_triangles(header, codec == Codec::indices_zstd, payload, out);
+            break;
+        case Codec::clip:
+            is_done = head == 0 && stride == 0 && encode_clip(payload, out);
+            break;
+        default:
+            break;
+    }
+    if (!is_done || payload.size() > out.size() * kMaxCodecRatio) return std::nullopt;
+    return out;
 }
 
 }  // namespace bendy

@@ -52,7 +52,7 @@ std::vector<std::string> find_steps(Bytes bytes, std::uint64_t offset) {
         std::uint32_t id = 0;
         std::uint64_t size_and_flags = 0;
         copy_at(bytes, at, id);
-        copy_at(bytes, at + 8, size_and_flags);
+        copy_at(bytes, at + kChunkSizeAt, size_and_flags);
         const std::uint64_t size = size_and_flags & kMaxPayload;
         const std::uint64_t payload = at + kChunkHeaderSize;
         const bool fits = size <= end - payload && padded(size) <= end - payload;

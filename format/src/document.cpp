@@ -1,7 +1,7 @@
 #include <bendy/format/document.h>
 
 #include <bendy/format/bind_palette.h>
-#include <bendy/format/check_grammar.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/codec.h>
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
@@ -243,6 +243,20 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
     check_count(version.clips, clips, offset, faults);
     check_count(version.materials, document.materials.size(), offset, faults);
     check_count(version.textures, document.textures.size(), offset, faults);
+}
+
+Faults validate(Bytes bytes) {
+    Faults faults;
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) {
+        faults.add(tree.error());
+        return faults;
+    }
+    check_sums(*tree, faults);
+    decode_leaves(*tree);
+    const Document document = read_document(*tree, faults);
+    check_values(*tree, document, faults);
+    return faults;
 }
 
 }  // namespace bendy

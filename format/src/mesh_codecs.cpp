@@ -1,15 +1,17 @@
-#include "mesh_codecs.h"
+#include "codec_parts.h"
 
-#include "coded_rows.h"
-#include "zstd_frame.h"
-
+#ifndef BENDY_WITHOUT_MESHOPTIMIZER
 #include <meshoptimizer.h>
+#endif
 
 #include <algorithm>
 #include <cstring>
 #include <mutex>
 
 namespace bendy {
+
+#ifndef BENDY_WITHOUT_MESHOPTIMIZER
+
 namespace {
 
 constexpr std::size_t kMostRowBytes = 256;
@@ -163,5 +165,24 @@ std::optional<std::vector<std::uint32_t>> canonical_triangles(std::span<const st
     }
     return std::nullopt;
 }
+
+#else
+
+// check_encoded rejects everything that would be decoded here.
+bool decode_rows(const CodecHeader& /*header*/, bool /*is_zstd*/, Bytes /*body*/, std::span<std::byte> /*out*/) {
+    return false;
+}
+bool encode_rows(const CodecHeader& /*header*/, bool /*is_zstd*/, Bytes /*payload*/, std::vector<std::byte>& /*out*/) {
+    return false;
+}
+bool decode_triangles(const CodecHeader& /*header*/, bool /*is_zstd*/, Bytes /*body*/, std::span<std::byte> /*out*/) {
+    return false;
+}
+bool encode_triangles(const CodecHeader& /*header*/, bool /*is_zstd*/, Bytes /*payload*/,
+                      std::vector<std::byte>& /*out*/) {
+    return false;
+}
+
+#endif
 
 }  // namespace bendy

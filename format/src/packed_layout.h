@@ -31,6 +31,11 @@ inline std::uint32_t bits_at(Bytes payload, std::uint64_t bit, std::uint32_t wid
     return (word >> (bit % 8)) & ((1u << width) - 1);
 }
 
+/// \param joint  below the record's number of joints
+inline bool has_joint(const PackedList& list, std::uint32_t joint) {
+    return (byte_at(list.joints, joint / 8) >> (joint % 8) & 1u) != 0;
+}
+
 /// Returns the size of the widths and bases of a list in one segment, in bytes.
 inline std::uint64_t table_bytes(const PackedList& list, const PackedKind& kind) {
     return std::uint64_t{list.count} * kind.components * (1 + list.base_bytes);

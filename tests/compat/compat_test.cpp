@@ -1,6 +1,6 @@
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 #include <bendy/format/file.h>
-#include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

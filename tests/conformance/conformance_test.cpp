@@ -2,7 +2,7 @@
 #include "fuzz/use_model.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>
@@ -84,7 +84,6 @@ TEST(Conformance, EveryCodeHasAFile) {
         for (const auto& [offset, code, path] : one.faults) ++files[code];
     }
 #define BENDY_ERROR(enumerator, kind, code, text) EXPECT_NE(files.count(code), elsewhere.count(code)) << code;
-#include <bendy/format/error_codes.def>
 #undef BENDY_ERROR
 }
 

@@ -1,7 +1,6 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

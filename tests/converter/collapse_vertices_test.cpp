@@ -1,7 +1,7 @@
 #include "collapse/collapse_vertices.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
 #include "temporary_folder.h"

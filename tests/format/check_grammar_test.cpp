@@ -1,4 +1,4 @@
-#include <bendy/format/check_grammar.h>
+#include <bendy/format/chunk_reader.h>
 
 #include "edit_file.h"
 

@@ -1,4 +1,4 @@
-#include <bendy/format/check_sums.h>
+#include <bendy/format/chunk_reader.h>
 
 #include <bendy/format/crc32c.h>
 

@@ -1,6 +1,5 @@
 // Good files with something broken in them: whatever it is, it is noticed, or it is harmless.
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 
 #include "edit_file.h"
 #include "mutation/allocations.h"

@@ -1,4 +1,4 @@
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 
 #include "edit_file.h"
 

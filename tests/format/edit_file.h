@@ -1,9 +1,8 @@
 #pragma once
 
-#include <bendy/format/check_sums.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 
 #include "sample_file.h"
 

@@ -1,4 +1,4 @@
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include "edit_file.h"
 

@@ -2,7 +2,6 @@
 #include "check.h"
 #include "plain_reader.h"
 
-#include <bendy/format/check_sums.h>
 #include <bendy/format/chunk_reader.h>
 
 #include <cstddef>

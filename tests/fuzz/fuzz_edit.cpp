@@ -5,7 +5,7 @@
 #include <bendy/edit/merge_clips.h>
 #include <bendy/edit/rename.h>
 #include <bendy/edit/strip.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <cstddef>
 #include <cstdint>

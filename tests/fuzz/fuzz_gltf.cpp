@@ -4,7 +4,7 @@
 #include "use_model.h"
 
 #include <bendy/converter/convert.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <cstddef>
 #include <cstdint>

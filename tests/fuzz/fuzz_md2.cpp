@@ -3,7 +3,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <cstddef>
 #include <cstdint>

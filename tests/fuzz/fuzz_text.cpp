@@ -1,10 +1,8 @@
 // Text forms: a fault with its place, or a well-formed file that comes back from its own text form.
 #include "check.h"
 
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
-#include <bendy/text_form/assemble.h>
-#include <bendy/text_form/dump.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/text_form/text_form.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,8 @@
 // Bendy files: every one that can be walked comes back from its text form, byte for byte.
 #include "check.h"
 
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
-#include <bendy/text_form/assemble.h>
-#include <bendy/text_form/dump.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/text_form/text_form.h>
 
 #include <cstddef>
 #include <cstdint>

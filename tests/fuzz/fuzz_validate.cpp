@@ -1,10 +1,9 @@
 // Finds everything that is wrong with a file, says where, and holds the parts of the reader against one another.
 #include "check.h"
 
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
 #include <cstddef>

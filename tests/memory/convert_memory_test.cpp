@@ -3,7 +3,7 @@
 // conversion is tried as a program, in tests/cli/failures_test.py.
 #include <bendy/converter/convert.h>
 
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include "mutation/fail_each.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/codec.h>
-#include <bendy/format/decode_leaves.h>
 #include <bendy/format/file.h>
 
 #include "format/edit_file.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
 #include "format/edit_file.h"

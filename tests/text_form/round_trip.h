@@ -1,9 +1,7 @@
 #pragma once
 
 #include <bendy/format/chunk_reader.h>
-#include <bendy/format/decode_leaves.h>
-#include <bendy/text_form/assemble.h>
-#include <bendy/text_form/dump.h>
+#include <bendy/text_form/text_form.h>
 
 #include <gtest/gtest.h>
 

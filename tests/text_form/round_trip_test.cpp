@@ -5,11 +5,11 @@
 #include "format/packed_samples.h"
 #include "format/sample_file.h"
 
-#include <bendy/format/check_sums.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/codec.h>
+#include <bendy/format/document.h>
 #include <bendy/format/file.h>
 #include <bendy/format/packed_clip.h>
-#include <bendy/format/validate.h>
 
 #include <bit>
 #include <cmath>

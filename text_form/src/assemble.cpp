@@ -1,4 +1,4 @@
-#include <bendy/text_form/assemble.h>
+#include <bendy/text_form/text_form.h>
 
 #include "leaf_assembler.h"
 #include "leaf_value.h"

@@ -1,7 +1,5 @@
 #include "leaf_assembler.h"
 
-#include "hex.h"
-
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_clip.h>
 

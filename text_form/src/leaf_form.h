@@ -2,7 +2,7 @@
 
 #include "number_text.h"
 
-#include <bendy/format/fourcc.h>
+#include <bendy/format/chunk.h>
 #include <bendy/format/leaf_parts.h>
 #include <bendy/format/record_table.h>
 

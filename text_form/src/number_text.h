@@ -6,12 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-// Numbers in the text form: floats are written as the shortest decimal that reads back to the same bits.
+// Numbers and bytes in the text form. Floats are written as the shortest decimal that reads back to the same bits.
 namespace bendy::text_form {
 
 /// Appends the number at `at`, which must be inside the bytes. A float that JSON cannot express is written as a string:
@@ -26,5 +25,12 @@ enum class NumberFault : std::uint8_t { none, not_whole, out_of_range, no_number
 NumberFault parse_number(std::string_view token, NumberType type, std::vector<std::byte>& out);
 /// The same for the strings that append_number writes.
 NumberFault parse_special(std::string_view text, std::vector<std::byte>& out);
+
+/// Appends two hexadecimal digits per byte.
+void append_hex(std::string& out, Bytes bytes);
+
+/// Appends the bytes for a text of hexadecimal digits, upper or lower case. Returns false if the text contains other
+/// characters, or an odd number of digits.
+bool parse_hex(std::string_view text, std::vector<std::byte>& out);
 
 }  // namespace bendy::text_form

@@ -6,9 +6,7 @@
 #include <bendy/converter/import.h>
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
-#include <bendy/format/check_sums.h>
 #include <bendy/format/chunk_reader.h>
-#include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>

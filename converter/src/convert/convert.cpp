@@ -16,7 +16,7 @@
 #include <bendy/converter/source_format.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <algorithm>
 #include <new>

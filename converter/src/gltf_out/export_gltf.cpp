@@ -11,7 +11,7 @@
 #include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
 #include <bendy/converter/write_rig.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>

@@ -1,7 +1,6 @@
 #include <bendy/runtime/model.h>
 
-#include <bendy/format/check_sums.h>
-#include <bendy/format/decode_leaves.h>
+#include <bendy/format/chunk_reader.h>
 
 #include "model_data.h"
 

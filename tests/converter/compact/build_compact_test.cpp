@@ -6,7 +6,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

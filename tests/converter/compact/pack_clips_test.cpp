@@ -3,8 +3,8 @@
 #include "compact/grid.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/format/document.h>
 #include <bendy/format/packed_clip.h>
-#include <bendy/format/validate.h>
 #include <bendy/runtime.h>
 
 #include <gtest/gtest.h>

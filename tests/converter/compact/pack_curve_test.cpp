@@ -7,7 +7,7 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/compare_characters.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <gtest/gtest.h>
 

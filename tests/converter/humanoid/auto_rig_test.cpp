@@ -5,7 +5,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/constraint.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 #include <bendy/runtime/constrain.h>
 
 #include <gtest/gtest.h>

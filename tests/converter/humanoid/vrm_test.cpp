@@ -3,7 +3,7 @@
 #include "humanoid_gltf.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
-#include <bendy/format/validate.h>
 
 #include <gtest/gtest.h>
 

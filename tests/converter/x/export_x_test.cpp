@@ -2,8 +2,8 @@
 #include <bendy/converter/convert.h>
 #include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
+#include <bendy/format/document.h>
 #include <bendy/format/file.h>
-#include <bendy/format/validate.h>
 
 #include "converter/posed_scene.h"
 

@@ -1,6 +1,6 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/validate.h>
+#include <bendy/format/document.h>
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -127,4 +127,28 @@ private:
 /// offset.
 Result<ChunkTree> read_chunk_tree(Bytes bytes);
 
+/// Checks every chunk against the table chunk_ids.def: that a known chunk is in an allowed container, is a leaf or
+/// container as required, and occurs as often as allowed. An unknown chunk is skipped with its contents, unless it is
+/// marked as required.
+void check_grammar(const ChunkTree& tree, Faults& faults);
+
+/// Returns true if this version knows the id.
+bool is_known(FourCC id);
+
+// Sums nest. The sum of a leaf is the CRC-32C of its id, its size+flags and its payload; that of a container, of its
+// id, its size+flags and its children's stored sums in order. So the root's sum covers the whole file, and any subtree
+// can be checked by itself. Sums detect accidental damage, not attacks.
+
+/// Computes the sum that a chunk should have. `chunk` starts at its header, and its sizes have been checked
+/// (read_chunk_tree) or have just been written.
+std::uint32_t chunk_sum(Bytes chunk);
+
+/// Adds a SUM_MISMATCH for every chunk of the tree whose stored sum is wrong.
+void check_sums(const ChunkTree& tree, Faults& faults);
+
+/// Decodes every encoded leaf with a known id, so that ChunkTree::payload returns its content. Makes one allocation for
+/// all of them, at most kMaxCodecRatio times the encoded bytes. A leaf that cannot be decoded becomes empty, and
+/// ChunkTree::encoding_fault returns the reason.
+void decode_leaves(ChunkTree& tree);
+
 }  // namespace bendy

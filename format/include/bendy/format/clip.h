@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/format/curve.h>
-#include <bendy/format/faults.h>
+#include <bendy/format/error.h>
 #include <bendy/format/marker.h>
 #include <bendy/format/mesh.h>
 #include <bendy/format/packed_clip.h>

@@ -49,4 +49,8 @@ Document read_document(const ChunkTree& tree, Faults& faults);
 /// Adds the faults of content that do not affect memory safety: see the check_*_values functions.
 void check_values(const ChunkTree& tree, const Document& document, Faults& faults);
 
+/// Returns all errors of a file: in its structure (only the first, since the rest cannot be interpreted), its sums, its
+/// records and its values. `bytes` must start on a 16-byte boundary.
+Faults validate(Bytes bytes);
+
 }  // namespace bendy

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
-#include <bendy/format/fourcc.h>
+#include <bendy/format/chunk.h>
 #include <bendy/format/public.h>
 #include <bendy/format/record_table.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/faults.h>
+#include <bendy/format/error.h>
 #include <bendy/format/mesh.h>
 #include <bendy/format/public.h>
 #include <bendy/format/records.h>

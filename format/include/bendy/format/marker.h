@@ -1,7 +1,7 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
-#include <bendy/format/faults.h>
+#include <bendy/format/error.h>
 #include <bendy/format/public.h>
 
 #include <cstddef>

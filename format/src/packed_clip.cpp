@@ -3,6 +3,7 @@
 #include "packed_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -111,6 +112,24 @@ bool check_segments(const PackedView& view, Parts parts, std::uint64_t offset, F
     return true;
 }
 
+/// Returns the last frame that is not after the time, by bisection.
+PackedMoment uneven_moment(const PackedView& view, float seconds) {
+    std::uint32_t left = 0;
+    // No branch depends on a time, since none could be predicted for random moments.
+    for (std::uint32_t count = view.record.frames; count > 1;) {
+        const std::uint32_t half = count / 2;
+        float middle = 0.0f;
+        copy_at(view.payload, view.times_at + std::uint64_t{left + half} * 4, middle);
+        left += middle <= seconds ? half : 0;
+        count -= half;
+    }
+    const std::uint32_t right = left + 1;
+    const double start = view.time_of(left);
+    if (right == view.record.frames || !(seconds > start)) return {left, 0.0};
+    const double fraction = (seconds - start) / (view.time_of(right) - start);
+    return {left, fraction < 1.0 ? fraction : 0.0};
+}
+
 }  // namespace
 
 std::optional<PackedView> read_packed(Bytes payload, std::uint32_t joints, std::uint64_t offset, Faults& faults) {
@@ -185,6 +204,119 @@ void check_packed_values(const PackedView& view, std::uint64_t offset, Faults& f
             faults.add({ErrorCode::kKeyOrder, offset, f});
             return;
         }
+    }
+}
+
+float packed_step(std::uint8_t code) {
+    constexpr std::array<double, 4> kRoots{1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
+    return static_cast<float>(std::ldexp(kRoots[code % 4], code / 4 - 40));
+}
+
+bool PackedView::animates(std::uint32_t joint, TrackPath path) const {
+    if (joint >= record.joints) return false;
+    for (std::size_t k = 0; k < kPackedLists; ++k) {
+        if (kPackedKinds[k].path != path || lists[k].count == 0) continue;
+        if (has_joint(lists[k], joint)) return true;
+    }
+    return false;
+}
+
+double PackedView::time_of(std::uint32_t frame) const {
+    if (is_even()) return double{record.start} + frame / double{record.frame_rate};
+    float time = 0.0f;
+    copy_at(payload, times_at + std::uint64_t{frame} * 4, time);
+    return time;
+}
+
+PackedMoment packed_moment(const PackedView& view, float seconds) {
+    if (!view.is_even()) return uneven_moment(view, seconds);
+    const double frame = (double{seconds} - view.record.start) * view.record.frame_rate;
+    const std::uint32_t last = view.record.frames - 1;
+    if (!(frame > 0.0)) return {};
+    if (frame >= last) return {last, 0.0};
+    const auto whole = static_cast<std::uint32_t>(frame);
+    return {whole, frame - whole};
+}
+
+PackedSegment packed_segment(const PackedView& view, std::uint32_t frame) {
+    PackedSegment segment;
+    std::uint64_t begin = view.first_segment;
+    std::uint64_t end = view.payload.size() - kPackedTail;
+    std::uint32_t number = 0;
+    segment.count = view.record.frames;
+    if (view.segments > 1) {
+        number = std::min(frame / view.record.segment_frames, view.segments - 1);
+        segment.first = number * view.record.segment_frames;
+        std::uint32_t offset = 0;
+        copy_at(view.payload, view.offsets_at + std::uint64_t{number} * 4, offset);
+        begin = offset;
+        if (number + 1 < view.segments) {
+            copy_at(view.payload, view.offsets_at + std::uint64_t{number} * 4 + 4, offset);
+            end = offset;
+        }
+        segment.count =
+            number + 1 < view.segments ? view.record.segment_frames + 1u : view.record.frames - segment.first;
+    }
+    segment.tables = begin;
+    segment.frames = begin + view.table_bytes;
+    segment.stride = (end - segment.frames) / segment.count;
+    return segment;
+}
+
+PackedGroupReader::PackedGroupReader(const PackedView& view, std::uint32_t frame) : view_(view) {
+    if (view.animated_numbers == 0) return;
+    segment_ = packed_segment(view, frame);
+    const std::uint32_t right = std::min(frame + 1, view.record.frames - 1);
+    tables_ = segment_.tables;
+    bit_left_ = (segment_.frames + (frame - segment_.first) * segment_.stride) * 8;
+    bit_right_ = (segment_.frames + (right - segment_.first) * segment_.stride) * 8;
+}
+
+bool PackedGroupReader::next(PackedGroup& group) {
+    while (list_ < kPackedLists && track_ >= view_.lists[list_].count) {
+        if (kPackedKinds[list_].animated) tables_ += table_bytes(view_.lists[list_], kPackedKinds[list_]);
+        ++list_;
+        track_ = 0;
+        joint_ = 0;
+    }
+    if (list_ >= kPackedLists) return false;
+    const PackedList& list = view_.lists[list_];
+    group.kind = kPackedKinds[list_];
+    group.count = std::min(kPackedGroup, list.count - track_);
+    for (std::uint32_t found = 0; found < group.count; ++joint_) {
+        if (has_joint(list, joint_)) group.joints[found++] = joint_;
+    }
+    read_numbers(list, track_, group);
+    track_ += group.count;
+    return true;
+}
+
+void PackedGroupReader::read_numbers(const PackedList& list, std::uint32_t first, PackedGroup& group) {
+    const std::uint32_t components = group.kind.components;
+    const std::uint64_t bases = tables_ + std::uint64_t{components} * list.count;
+    for (std::uint32_t c = 0; c < components; ++c) {
+        for (std::uint32_t t = 0; t < group.count; ++t) {
+            const std::uint64_t number = std::uint64_t{c} * list.count + first + t;
+            const float step = packed_step(static_cast<std::uint8_t>(list.steps[number]));
+            const auto value = [&](std::int32_t base, std::uint32_t bits) {
+                return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(base) + bits)) * step;
+            };
+            if (!group.kind.animated) {
+                const std::int32_t base = base_at(list.constants, number * list.base_bytes, list.base_bytes);
+                group.left[c][t] = group.right[c][t] = value(base, 0);
+                continue;
+            }
+            const std::uint32_t width = byte_at(view_.payload, tables_ + number);
+            const std::int32_t base = base_at(view_.payload, bases + number * list.base_bytes, list.base_bytes);
+            group.left[c][t] = value(base, bits_at(view_.payload, bit_left_, width));
+            group.right[c][t] = value(base, bits_at(view_.payload, bit_right_, width));
+            bit_left_ += width;
+            bit_right_ += width;
+        }
+    }
+    for (std::uint32_t c = components; c < 3; ++c) {
+        group.left[c] = group.left[0];
+        group.right[c] = group.right[0];
     }
 }
 
