@@ -1,7 +1,6 @@
 #include "character.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/viewer/viewer_error.h>
 
 #include <glm/common.hpp>
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "bounds.h"
-#include "demo.h"
-#include "player.h"
+#include "players.h"
 #include "renderer.h"
 
 #include <bendy/format/chunk_reader.h>

@@ -1,7 +1,5 @@
 #include "frame.h"
 
-#include <bendy/viewer/viewer_error.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl_object.h"
+#include "opengl.h"
 
 #include <bendy/viewer/picture.h>
 

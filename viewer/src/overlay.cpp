@@ -1,6 +1,6 @@
 #include "overlay.h"
 
-#include "bounds.h"
+#include "camera.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -84,11 +84,7 @@ std::vector<bool> find_bones(const Model& model) {
         }
     }
     for (const Chain& chain : model.chains()) {
-        std::uint32_t joint = chain.effector;
-        for (std::uint32_t link = 0; link < chain.links && joint != kNone; ++link) {
-            is_bone[joint] = true;
-            joint = model.joints()[joint].parent;
-        }
+        for (const std::uint32_t joint : links_of(model, chain)) is_bone[joint] = true;
     }
     return is_bone;
 }
@@ -258,6 +254,16 @@ void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list
         }
         if (target.tip) list.line(*target.tip, target.position, glm::vec4(glm::vec3(colour), 0.6f), 0.75f);
     }
+}
+
+std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
+    std::vector<std::uint32_t> links(chain.links);
+    std::uint32_t joint = chain.effector;
+    for (std::uint32_t link = chain.links; link-- > 0;) {
+        links[link] = joint;
+        joint = model.joints()[joint].parent;
+    }
+    return links;
 }
 
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {

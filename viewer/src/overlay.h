@@ -73,6 +73,9 @@ private:
 /// `without`, are left out.
 std::vector<TargetMark> target_marks(Pose& pose, std::span<const Chain* const> without = {});
 
+/// A chain's joints from its start to the effector.
+std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain);
+
 /// Where a chain's tip is.
 glm::vec3 tip_of(const Chain& chain, Pose& pose);
 

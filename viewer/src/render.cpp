@@ -1,9 +1,8 @@
 #include <bendy/viewer/render.h>
 
-#include "bounds.h"
 #include "camera.h"
 #include "frame.h"
-#include "gl_context.h"
+#include "opengl.h"
 #include "overlay.h"
 #include "renderer.h"
 

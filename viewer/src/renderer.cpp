@@ -1,9 +1,6 @@
 #include "renderer.h"
 
-#include "lighting.h"
-#include "reflectance_table.h"
-#include "shaders.h"
-#include "texture_units.h"
+#include "shading.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -52,8 +49,7 @@ std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
 /// 16 entries a side: as fine as three.js has it.
 void upload_reflectance(GLuint texture) {
     constexpr GLsizei kSide = 16;
-    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    glBindTexture(GL_TEXTURE_2D, texture);
+    bind_texture(kUploadUnit, GL_TEXTURE_2D, texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
     for (const GLenum filter : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
@@ -99,16 +95,10 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
     load_textures(warn);
     glBindVertexArray(overlay_layout_.name());
     glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
-    const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        glEnableVertexAttribArray(place);
-        glVertexAttribPointer(
-            place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
-            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
-    };
-    floats(0, 3, offsetof(OverlayVertex, position));
-    floats(1, 3, offsetof(OverlayVertex, other));
-    floats(2, 4, offsetof(OverlayVertex, colour));
-    floats(3, 1, offsetof(OverlayVertex, side));
+    describe_floats(0, 3, sizeof(OverlayVertex), offsetof(OverlayVertex, position));
+    describe_floats(1, 3, sizeof(OverlayVertex), offsetof(OverlayVertex, other));
+    describe_floats(2, 4, sizeof(OverlayVertex), offsetof(OverlayVertex, colour));
+    describe_floats(3, 1, sizeof(OverlayVertex), offsetof(OverlayVertex, side));
 }
 
 void Renderer::set_level(float share) {
@@ -177,11 +167,10 @@ void Renderer::set_material(const Submesh& submesh) const {
     std::array<bool, 5> is_shown{};
     for (std::size_t k = 0; k < uses.size(); ++k) {
         const auto unit = static_cast<GLuint>(kMaterialUnit + k);
-        glActiveTexture(GL_TEXTURE0 + unit);
         const auto texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
         is_shown[k] = texture.has_value();
         const bool is_checked = k == kBaseColour && uses[k].record->texture != kNone;
-        glBindTexture(GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
+        bind_texture(unit, GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
         glUniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
         matrices[k] = uv_matrix(*uses[k].record);
         sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, kLastSet));
@@ -217,8 +206,7 @@ void Renderer::draw_surface(const Camera& camera) const {
     glUniform1f(surface_["sky"], lighting.sky);
     glUniform1f(surface_["ground"], lighting.ground);
     glUniform1f(surface_["environment"], lighting.environment);
-    glActiveTexture(GL_TEXTURE0 + kReflectanceUnit);
-    glBindTexture(GL_TEXTURE_2D, reflectance_.name());
+    bind_texture(kReflectanceUnit, GL_TEXTURE_2D, reflectance_.name());
     glUniform1i(surface_["reflectance"], kReflectanceUnit);
     glUniform1i(surface_["which_faces"], kBothFaces);
     struct SeeThrough {

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "camera.h"
+#include "materials.h"
+#include "opengl.h"
 #include "overlay.h"
-#include "program.h"
 #include "scene_buffers.h"
-#include "shown_surface.h"
-#include "texture_loader.h"
 
 #include <bendy/runtime.h>
 

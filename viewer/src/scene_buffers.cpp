@@ -1,8 +1,6 @@
 #include "scene_buffers.h"
 
-#include "texture_units.h"
-
-#include <bendy/viewer/viewer_error.h>
+#include <bendy/viewer/picture.h>
 
 #include <glm/mat4x4.hpp>
 
@@ -26,11 +24,6 @@ struct Displacement {
 };
 static_assert(sizeof(Displacement) == 48, "three texels");
 
-std::vector<float> no_weights(const Mesh& mesh) {
-    std::vector<float> weights(mesh.targets.size(), 0.0f);
-    return weights;
-}
-
 float number_or(const StreamView& stream, std::uint32_t vertex, std::uint32_t component, float otherwise) {
     return component < stream.components ? stream.number(vertex, component) : otherwise;
 }
@@ -39,7 +32,8 @@ void fill_geometry(const Mesh& mesh, std::span<GpuVertex> out) {
     std::vector<glm::vec3> positions(mesh.vertices);
     std::vector<glm::vec3> normals(mesh.vertices);
     std::vector<glm::vec4> tangents(mesh.vertices);
-    (void)apply_morph_targets(mesh, no_weights(mesh), {positions, normals, tangents});
+    const std::vector<float> no_weights(mesh.targets.size(), 0.0f);
+    (void)apply_morph_targets(mesh, no_weights, {positions, normals, tangents});
     for (std::size_t v = 0; v < out.size(); ++v) {
         out[v].position = positions[v];
         out[v].normal = normals[v];
@@ -122,15 +116,13 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 void describe_vertices() {
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        glEnableVertexAttribArray(place);
-        glVertexAttribPointer(
-            place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
-            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+        describe_floats(place, components, sizeof(GpuVertex), offset);
     };
     const auto integers = [](GLuint place, std::size_t offset) {
         glEnableVertexAttribArray(place);
-        glVertexAttribIPointer(place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
-                               reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): likewise
+        glVertexAttribIPointer(
+            place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
     floats(0, 3, offsetof(GpuVertex, position));
     floats(1, 3, offsetof(GpuVertex, normal));
@@ -160,14 +152,12 @@ void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
                  bytes == 0 ? kNothing.data() : data, usage);
-    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    bind_texture(kUploadUnit, GL_TEXTURE_BUFFER, texture_.name());
     glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
 }
 
 void BufferTexture::bind(GLuint unit) const {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    bind_texture(unit, GL_TEXTURE_BUFFER, texture_.name());
 }
 
 SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {

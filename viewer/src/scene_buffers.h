@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl_object.h"
+#include "opengl.h"
 
 #include <bendy/runtime.h>
 
@@ -49,7 +49,7 @@ public:
     /// What changes from frame to frame: matrices and weights of morph targets. Brings the pose up to date.
     void set_pose(Pose& pose);
     void set_level(const Lod& lod);
-    /// Binds vertices, indices, and the buffers to the texture units that texture_units.h names for them.
+    /// Binds vertices, indices, and the buffers to their texture units.
     void bind() const;
 
     /// Where a mesh's indices begin in the bound index buffer.

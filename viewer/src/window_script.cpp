@@ -3,8 +3,6 @@
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
-#include <bendy/viewer/picture_file.h>
-#include <bendy/viewer/viewer_error.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // Pictures of a character, without a display.
@@ -57,6 +58,9 @@ struct RenderOptions {
     std::function<void(Pose&)> adjust;
     std::vector<DrawnTarget> targets;
 };
+
+/// The file that an image's URI names inside `folder`, where pictures are drawn from; nothing for what leads elsewhere.
+std::optional<std::filesystem::path> linked_file(const std::filesystem::path& folder, std::string_view uri);
 
 inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 

@@ -1,12 +1,11 @@
-#include "demo.h"
-
-#include <bendy/runtime/blend.h>
+#include "players.h"
 
 #include "overlay.h"
 
+#include <bendy/runtime/blend.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
@@ -14,6 +13,10 @@
 
 namespace bendy::viewer {
 namespace {
+
+double length_of(const Clip& clip) {
+    return static_cast<double>(clip.end) - static_cast<double>(clip.start);
+}
 
 constexpr double kEase = 0.4;              // seconds from one mode into the next
 constexpr double kPress = 1.0 / 15.0;      // seconds of holding that a press is worth
@@ -46,17 +49,6 @@ const Clip* find_animation(const Model& model) {
     return wave != nullptr || model.clips().empty() ? wave : model.clips().data();
 }
 
-/// A chain's joints from its start to the effector.
-std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
-    std::vector<std::uint32_t> links(chain.links);
-    std::uint32_t joint = chain.effector;
-    for (std::uint32_t link = chain.links; link-- > 0;) {
-        links[link] = joint;
-        joint = model.joints()[joint].parent;
-    }
-    return links;
-}
-
 glm::vec3 unit_vector(int number) {
     glm::vec3 axis(0.0f);
     axis[number] = 1.0f;
@@ -84,6 +76,55 @@ glm::quat rotation_of(const glm::mat4& matrix) {
 }
 
 }  // namespace
+
+Player::Player(const Model& model)
+    : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
+    update();
+    for (const Chain& chain : model.chains()) {
+        const bool has_target = chain.target != kNone;
+        chains.push_back({false, has_target ? glm::vec3(pose_.model_space()[chain.target][3]) : tip_of(chain, pose_)});
+    }
+}
+
+double Player::length() const {
+    if (clip >= model_->clips().size()) return 0.0;
+    const double own = length_of(model_->clips()[clip]);
+    if (other >= model_->clips().size()) return own;
+    return own + (length_of(model_->clips()[other]) - own) * static_cast<double>(share);
+}
+
+void Player::sample_at_phase(std::uint32_t number, Pose& pose) const {
+    const Clip& played = model_->clips()[number];
+    (void)sample(pose, &played, played.start + phase * (played.end - played.start));
+}
+
+void Player::step(double seconds) {
+    const double whole = length();
+    if (is_playing && whole > 0.0) {
+        const double next = static_cast<double>(phase) + seconds * static_cast<double>(speed) / whole;
+        phase = static_cast<float>(next - std::floor(next));
+    }
+    update();
+}
+
+void Player::update() {
+    if (clip < model_->clips().size()) {
+        sample_at_phase(clip, pose_);
+        if (other < model_->clips().size()) {
+            sample_at_phase(other, mixed_in_);
+            (void)blend(pose_, mixed_in_, share);
+        }
+    } else {
+        pose_.set_rest();
+    }
+    if (obeys_constraints) constrain(pose_);
+    ReachOptions options;
+    options.carry_target = true;
+    for (const std::uint32_t number : model_->chain_order()) {
+        if (number < chains.size() && chains[number].is_on)
+            (void)reach(pose_, &model_->chains()[number], chains[number].target, options);
+    }
+}
 
 Demo::Demo(const Model& model)
     : model_(&model),

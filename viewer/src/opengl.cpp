@@ -1,6 +1,6 @@
-#include "gl_context.h"
+#include "opengl.h"
 
-#include <bendy/viewer/viewer_error.h>
+#include <bendy/viewer/picture.h>
 
 // libepoxy opens libEGL and libGL when the first of their functions is called, so that the program starts where they
 // are missing. It aborts when it cannot: they are looked for before.
@@ -48,6 +48,21 @@ EGLDisplay open_display(unsigned platform) {
     EGLint count = 0;
     if (eglQueryDevicesEXT(1, &device, &count) == EGL_FALSE || count == 0) return EGL_NO_DISPLAY;
     return eglGetPlatformDisplayEXT(platform, device, nullptr);
+}
+
+constexpr GLsizei kLogLength = 2000;
+
+GLuint compile(GLenum kind, const char* source) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint is_good = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &is_good);
+    if (is_good == GL_TRUE) return shader;
+    std::array<char, kLogLength> log{};
+    glGetShaderInfoLog(shader, kLogLength, nullptr, log.data());
+    glDeleteShader(shader);
+    throw ViewerError("a shader does not compile: " + std::string(log.data()));
 }
 
 }  // namespace
@@ -102,6 +117,39 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     };
     description_ = describe(name);
     return true;
+}
+
+Program::Program(const char* vertex_source, const char* fragment_source) : name_(glCreateProgram()) {
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_source);
+    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_source);
+    glAttachShader(name_, vertex);
+    glAttachShader(name_, fragment);
+    glLinkProgram(name_);
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
+    GLint is_good = GL_FALSE;
+    glGetProgramiv(name_, GL_LINK_STATUS, &is_good);
+    if (is_good == GL_TRUE) return;
+    std::array<char, kLogLength> log{};
+    glGetProgramInfoLog(name_, kLogLength, nullptr, log.data());
+    glDeleteProgram(name_);
+    throw ViewerError("the shaders do not link: " + std::string(log.data()));
+}
+
+Program::~Program() {
+    glDeleteProgram(name_);
+}
+
+void bind_texture(GLuint unit, GLenum target, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(target, texture);
+}
+
+void describe_floats(GLuint place, GLint components, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(place);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
+    const auto* first = reinterpret_cast<const void*>(offset);
+    glVertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), first);
 }
 
 }  // namespace bendy::viewer
