@@ -16,14 +16,14 @@ constexpr float kSteepest = 1.55f;  // radians: straight up has no yaw
 class Points {
 public:
     void add(const glm::vec3& p) {
-        constexpr float kFarthest = 1e15f;  // beyond, squares leave a float's range
+        constexpr float kFarthest = 1e15f;  // squares of larger numbers overflow a float
         if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest)) return;
         low_ = glm::min(low_, p);
         high_ = glm::max(high_, p);
     }
     [[nodiscard]] bool empty() const { return low_.x > high_.x; }
     [[nodiscard]] Box box() const {
-        // A point has some room round it.
+        // A single point gets a box of one metre.
         return low_ == high_ ? Box{low_ - 0.5f, high_ + 0.5f} : Box{low_, high_};
     }
 
@@ -32,7 +32,7 @@ private:
     glm::vec3 high_{std::numeric_limits<float>::lowest()};
 };
 
-/// Vertices that something draws: meshes may hold others.
+/// Returns the vertices that submeshes use; meshes may have others.
 std::vector<std::uint64_t> drawn_vertices(const Model& model) {
     std::vector<bool> is_drawn(model.vertex_count());
     for (const Submesh& submesh : model.submeshes()) {
@@ -55,7 +55,7 @@ void Camera::fit(const Box& box, const CameraOptions& options, float aspect) {
     yaw_ = options.yaw;
     pitch_ = std::clamp(options.pitch, -kSteepest, kSteepest);
     aspect_ = aspect;
-    // As near as each of the box's corners allows.
+    // The smallest distance from which all corners of the box are visible.
     distance_ = radius_;
     const glm::mat4 to_camera = view();
     const float upwards = std::tan(0.5f * kViewAngle);

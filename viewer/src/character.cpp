@@ -15,7 +15,7 @@ Model open_model(Bytes bytes, const std::string& title) {
     return *std::move(model);
 }
 
-/// Round everything that any of the first clips shows.
+/// Returns a box around the character at rest and in its first clips.
 Box box_of(const Model& model) {
     constexpr std::size_t kClips = 4;
     Box box = bounding_box(model, nullptr);

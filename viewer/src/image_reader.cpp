@@ -11,7 +11,7 @@
 #include <cstring>
 #include <memory>
 
-// Two formats only. Pixels that a short file lacks are black: never what was in the memory before.
+// Two formats only. Memory is zeroed, so the missing pixels of a truncated file are black.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_BMP
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint32_t kMostSide = 16'384;
 
-/// Room for a picture of so many pixels, or a problem that says why there is none.
+/// Allocates the picture, or sets the problem and returns false if it is too large.
 bool prepare(ReadImage& out, std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
     if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width > most_pixels / height) {
         out.problem = "is too large: " + std::to_string(width) + " x " + std::to_string(height);
@@ -69,7 +69,7 @@ void read_jpeg(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
         return;
     }
     if (!prepare(out, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), most_pixels)) return;
-    // What can be shown of a damaged file is shown. A scan limit: progressive files can ask for endless work.
+    // A damaged file is shown as far as possible. Scans are limited, because progressive files can have any number.
     const int failed = tjDecompress2(decoder.get(), data, size, out.picture.pixels.data(), width, 0, height, TJPF_RGBA,
                                      TJFLAG_LIMITSCANS);
     if (failed != 0 && tjGetErrorCode(decoder.get()) == TJERR_FATAL)
@@ -91,7 +91,7 @@ void read_webp(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
         out.problem = "is no good WebP";
 }
 
-/// Reads a BMP or TGA file, which are usual beside X and MD2 files; false if the bytes begin like neither.
+/// Reads a BMP or TGA file, the usual textures of X and MD2 files; returns false if the bytes are neither.
 bool read_bmp_or_tga(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
     if (bytes.size() > INT_MAX) return false;
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -103,7 +103,7 @@ bool read_bmp_or_tga(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
     int channels = 0;
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
         if (is_bmp) out.problem = "is no good BMP: " + std::string(stbi_failure_reason());
-        return is_bmp;  // a TGA file has no sign of its own: what is no header of one is not called a bad TGA
+        return is_bmp;  // TGA has no signature, so bytes that are not a TGA header are not reported as a bad TGA
     }
     const auto w = static_cast<std::uint64_t>(std::abs(static_cast<long long>(width)));
     const auto h = static_cast<std::uint64_t>(std::abs(static_cast<long long>(height)));

@@ -16,7 +16,7 @@
 namespace bendy::viewer {
 namespace {
 
-/// A number of an extension, at least 0; nothing where there is none that has a meaning.
+/// Returns a number of an extension; nothing if it is not a finite number of at least 0.
 std::optional<float> number_of(const nlohmann::json& value) {
     if (!value.is_number()) return std::nullopt;
     const auto number = value.get<float>();
@@ -37,7 +37,7 @@ ShownSurface shown_surface(const MaterialView& material) {
         number_of(member(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength")).value_or(1.0f);
     for (float& colour : surface.record.emissive) colour *= strength;
 
-    // 0 stands for an index without end: everything is mirrored.
+    // 0 represents an infinite index: everything is reflected.
     const float ior = number_of(member(member(extensions, "KHR_materials_ior"), "ior")).value_or(1.5f);
     const float from_ahead = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
     const nlohmann::json specular = member(extensions, "KHR_materials_specular");
@@ -50,7 +50,7 @@ ShownSurface shown_surface(const MaterialView& material) {
     return surface;
 }
 
-/// "a%20b" as "a b"; a percent sign that means nothing stays.
+/// Decodes "a%20b" to "a b"; a percent sign without two digits stays.
 std::string percent_decoded(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at < text.size(); ++at) {
@@ -67,7 +67,7 @@ std::string percent_decoded(std::string_view text) {
     return out;
 }
 
-/// Of all textures together: half a gigabyte.
+/// For all textures together: half a gigabyte.
 constexpr std::uint64_t kMostTexels = 1u << 27u;
 
 void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {

@@ -15,33 +15,34 @@
 #include <utility>
 #include <vector>
 
-// A model's materials as they are drawn.
+// Drawing a model's materials: surface parameters and textures.
 
 namespace bendy::viewer {
 
-/// A material's surface as it is drawn: also what the numbers of some extensions say, which the file keeps as text.
+/// The surface parameters of a material, including those of some extensions, which the file keeps as JSON.
 struct ShownSurface {
-    SurfaceRecord record;                ///< its emissive colour with KHR_materials_emissive_strength
-    glm::vec3 dielectric{0.04f};         ///< what a surface that is no metal mirrors, seen from straight ahead, ...
+    SurfaceRecord record;                ///< emissive includes KHR_materials_emissive_strength
+    glm::vec3 dielectric{0.04f};         ///< reflectance of a non-metal at normal incidence, ...
     float dielectric_at_grazing = 1.0f;  ///< ... and at a grazing angle: KHR_materials_ior, KHR_materials_specular
 };
 
-/// Of each material; and one more at the end, glTF's default one, for what has no material.
+/// Returns one for each material, and glTF's default material at the end, for submeshes without a material.
 std::vector<ShownSurface> shown_surfaces(const Model& model);
 
-/// A model's textures in the graphics processor's memory.
+/// A model's textures on the graphics processor.
 class TextureLoader {
 public:
-    /// `folder`: where images that the file only names are looked for; nothing outside it is read. Empty: nowhere.
+    /// `folder`: contains the images that the file links to; nothing outside it is read. Empty: no linked image is
+    /// read.
     TextureLoader(const Model& model, std::filesystem::path folder, Warn warn);
 
-    /// Loads a texture, once, as sRGB or as plain numbers; warns of one that cannot be shown. Not while something is
-    /// drawn: what is uploaded is bound.
+    /// Loads a texture once, as sRGB or as plain numbers, or warns that it cannot be shown. Do not call it while
+    /// drawing: uploading binds the texture.
     void load(std::uint32_t number, bool srgb);
-    /// A texture that was loaded so; nothing for any other number, and for one that cannot be shown.
+    /// Returns a loaded texture; nothing for any other number and for a texture that cannot be shown.
     [[nodiscard]] std::optional<GLuint> texture(std::uint32_t number, bool srgb) const;
     [[nodiscard]] GLuint white() const { return white_.name(); }
-    /// In place of a colour that cannot be shown: a grey check.
+    /// A grey check, drawn in place of a base colour that cannot be shown.
     [[nodiscard]] GLuint check() const { return check_.name(); }
 
 private:

@@ -2,8 +2,8 @@
 
 #include <bendy/viewer/picture.h>
 
-// libepoxy opens libEGL and libGL when the first of their functions is called, so that the program starts where they
-// are missing. It aborts when it cannot: they are looked for before.
+// libepoxy opens libEGL and libGL when the first of their functions is called, so the program starts without them. It
+// aborts if they are missing, so this file looks for them first.
 #define EGL_NO_X11
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -15,7 +15,7 @@ namespace bendy::viewer {
 namespace {
 
 bool has_library(const char* file) {
-    return dlopen(file, RTLD_LAZY | RTLD_LOCAL) != nullptr;  // stays open: drivers do not survive being opened twice
+    return dlopen(file, RTLD_LAZY | RTLD_LOCAL) != nullptr;  // never closed: drivers crash if they are loaded again
 }
 
 std::string text_of(GLenum what) {
@@ -96,7 +96,7 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     EGLConfig config = nullptr;
     EGLint configs = 0;
     eglChooseConfig(display, kConfig.data(), &config, 1, &configs);
-    if (configs == 0) config = nullptr;  // EGL_KHR_no_config_context, where there is none
+    if (configs == 0) config = nullptr;  // requires EGL_KHR_no_config_context
     constexpr std::array<EGLint, 7> kContext{
         EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};

@@ -7,16 +7,16 @@
 #include <string>
 #include <utility>
 
-// What the viewer uses of OpenGL: a context without a window, objects that delete themselves, programs, texture units.
+// OpenGL: an offscreen context, owners of OpenGL objects, shader programs, texture units.
 
 namespace bendy::viewer {
 
-/// An OpenGL 3.3 core context without a window, current on this thread while it lives. Draws into framebuffer objects
-/// only.
+/// An OpenGL 3.3 core context without a window, current on this thread during its lifetime. It draws into framebuffer
+/// objects only.
 class OffscreenContext {
 public:
-    /// Takes the first that works: EGL without a surface, EGL on a device, EGL on the default display. Throws
-    /// ViewerError with the reason that each one gave if none works.
+    /// Uses the first of these that works: EGL without a surface, EGL on a device, EGL on the default display. If none
+    /// works, throws ViewerError with the reason for each.
     OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
@@ -24,7 +24,7 @@ public:
     OffscreenContext& operator=(OffscreenContext&&) = delete;
     ~OffscreenContext();
 
-    /// Such as "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
+    /// For example "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
     [[nodiscard]] const std::string& description() const { return description_; }
 
 private:
@@ -34,7 +34,7 @@ private:
     std::string description_;
 };
 
-/// Owns the number of an OpenGL object; the context that made it must be current when it goes.
+/// Owns an OpenGL object. The context that made it must be current when it is destroyed.
 template <class Make, class Drop>
 class GlObject {
 public:
@@ -74,7 +74,7 @@ BENDY_GL_OBJECT(Renderbuffer, Renderbuffers)
 /// A linked shader program.
 class Program {
 public:
-    /// Throws ViewerError with the compiler's words; that is a bug here or in the driver.
+    /// Throws ViewerError with the compiler's message, which means a bug here or in the driver.
     Program(const char* vertex_source, const char* fragment_source);
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
@@ -83,14 +83,14 @@ public:
     ~Program();
 
     void use() const { glUseProgram(name_); }
-    /// Place of a uniform; -1, which OpenGL ignores, if the compiler has dropped it.
+    /// Returns the location of a uniform; -1, which OpenGL ignores, if the compiler removed it.
     [[nodiscard]] GLint operator[](const char* uniform) const { return glGetUniformLocation(name_, uniform); }
 
 private:
     GLuint name_;
 };
 
-/// Which texture unit holds what. OpenGL 3.3 has at least 16 in the fragment stage and 16 in the vertex stage.
+/// The use of each texture unit. OpenGL 3.3 has at least 16 each in the fragment and the vertex stage.
 enum TextureUnit : GLuint {
     kMaterialUnit = 0,  ///< and the four after it: base colour, metallic-roughness, normal, occlusion, emissive
     kReflectanceUnit = 5,
@@ -98,7 +98,7 @@ enum TextureUnit : GLuint {
     kInfluenceUnit = 9,
     kDisplacementUnit = 10,
     kWeightUnit = 11,
-    kUploadUnit = 15,  ///< where textures are filled: whatever is bound for drawing stays bound
+    kUploadUnit = 15,  ///< for uploads, so that they do not unbind the textures in use
 };
 
 /// Binds a texture to a unit; `target` such as GL_TEXTURE_2D.

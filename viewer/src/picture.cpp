@@ -31,7 +31,7 @@ public:
         if (file_ == nullptr) fail(problem);
         EGifSetGifVersion(file_, true);
         if (EGifPutScreenDesc(file_, width_, height_, 8, 0, nullptr) == GIF_ERROR) fail(file_->Error);
-        // Netscape's looping block: 1, then how often, 0 for ever.
+        // Netscape's looping block: 1, then the number of repetitions; 0 means for ever.
         constexpr std::array<GifByteType, 3> kForEver{1, 0, 0};
         if (EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE) == GIF_ERROR ||
             EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0") == GIF_ERROR ||
@@ -49,7 +49,7 @@ public:
     }
 
     void add(const Picture& picture, double seconds) override {
-        // A frame says how long it stays, which is known when the next one comes.
+        // A frame stores its duration, which is known when the next frame arrives.
         if (has_waiting_) put(waiting_, seconds - waiting_since_);
         waiting_ = picture;
         waiting_since_ = seconds;
@@ -78,7 +78,7 @@ private:
             parts[c].resize(count);
             for (std::size_t k = 0; k < count; ++k) parts[c][k] = picture.pixels[4 * k + c];
         }
-        int colours = kColours - 1;  // the last one is nothing
+        int colours = kColours - 1;  // the last one means transparent
         ColorMapObject* map = GifMakeMapObject(kColours, nullptr);
         std::vector<GifByteType> picked(count);
         if (map == nullptr ||
@@ -94,7 +94,7 @@ private:
             picked[k] = kColours - 1;
             has_nothing = true;
         }
-        // Rounded from the start, so that the whole length is right.
+        // The end is rounded, not the duration, so that rounding errors do not add up.
         shown_ += seconds;
         const long until = std::lround(100.0 * shown_);
         GraphicsControlBlock control{};
@@ -120,7 +120,7 @@ private:
     double waiting_since_ = 0.0;
     bool has_waiting_ = false;
     double shown_ = 0.0;
-    long written_ = 0;  // hundredths
+    long written_ = 0;  // hundredths of a second
 };
 
 class WebpFile : public AnimationFile {

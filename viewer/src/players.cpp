@@ -18,13 +18,13 @@ double length_of(const Clip& clip) {
     return static_cast<double>(clip.end) - static_cast<double>(clip.start);
 }
 
-constexpr double kEase = 0.4;              // seconds from one mode into the next
-constexpr double kPress = 1.0 / 15.0;      // seconds of holding that a press is worth
-constexpr double kPullEvery = 1.0 / 60.0;  // seconds between two steps of the pull
-constexpr double kOtherWay = 0.8;          // seconds from where it was stuck to the other pose
-constexpr int kMostPulls = 30;             // in one step, whatever its length
+constexpr double kEase = 0.4;              // seconds from one mode to the next
+constexpr double kPress = 1.0 / 15.0;      // a press counts as holding the key for so many seconds
+constexpr double kPullEvery = 1.0 / 60.0;  // seconds from pull to pull
+constexpr double kOtherWay = 0.8;          // seconds from the pose where it was stuck to the other pose
+constexpr int kMostPulls = 30;             // in one step, however long it is
 
-/// As the viewer sees it: X to the right, Y up, Z nearer.
+/// As seen in the picture: X to the right, Y up, Z towards the viewer.
 glm::vec3 direction_of(DemoKey key) {
     switch (key) {
         case DemoKey::left:
@@ -55,14 +55,14 @@ glm::vec3 unit_vector(int number) {
     return axis;
 }
 
-/// The number of the axis that is nearest to a direction.
+/// Returns the number of the axis nearest to a direction.
 int nearest_axis(const glm::vec3& direction) {
     const glm::vec3 size = glm::abs(direction);
     if (size.y >= size.x && size.y >= size.z) return 1;
     return size.x >= size.z ? 0 : 2;
 }
 
-/// The picture's right, level: bending by hand goes by where the viewer stands, not by how high.
+/// Returns the picture's right in the horizontal plane: bending depends on the viewer's yaw, not on the pitch.
 glm::vec3 level_right(const glm::vec3& right) {
     const glm::vec3 level(right.x, 0.0f, right.z);
     const float length = glm::length(level);
@@ -254,7 +254,7 @@ void Demo::look_along(const glm::vec3& right, const glm::vec3& up) {
     up_ = up;
 }
 
-/// From the whole chain to its first joint, and so on to the last and back to the whole.
+/// Selects the next one of: the whole chain, its first joint, ... its last joint.
 void Demo::choose_joint(int step) {
     if (!state_.forward) set_mode(true, false);
     const auto at = static_cast<int>(std::find(links_.begin(), links_.end(), state_.joint) - links_.begin());
@@ -263,8 +263,8 @@ void Demo::choose_joint(int step) {
     state_.joint = next + 1 == places ? kNone : links_[static_cast<std::size_t>(next)];
 }
 
-/// The chain stands up: Left and Right bend it to the picture's sides, Up and Down nearer and away, PgUp and PgDn twist
-/// it.
+/// The chain is upright: Left and Right bend it sideways, Up and Down away from and towards the viewer, PgUp and PgDn
+/// twist it.
 void Demo::bend_all(const glm::vec3& direction, float amount) {
     constexpr float kMost = 2.4f;
     const glm::vec3 right = level_right(right_);
@@ -273,8 +273,8 @@ void Demo::bend_all(const glm::vec3& direction, float amount) {
     state_.bend = glm::clamp(state_.bend + turn * amount, -kMost, kMost);
 }
 
-/// As bend_all, but about the joint's own axes: of the two across its bone, Left and Right turn it about the one that
-/// faces the viewer more, Up and Down about the other.
+/// Like bend_all, but about the joint's own axes: Left and Right turn it about that axis perpendicular to its bone
+/// which faces the viewer more, Up and Down about the other one.
 void Demo::bend_joint(const glm::vec3& direction, float amount) {
     const std::uint32_t joint = state_.joint;
     const bool is_last = joint == chain_->effector;
@@ -303,14 +303,13 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     };
     float share = 1.0f;
     if (const Constraint* constraint = constraint_record_of(joint)) {
-        // It stops at its limits, and does not slide along them: a key that goes on being pressed leaves nothing to
-        // take back.
+        // The joint stops at its limits and does not slide along them, so the opposite key takes effect at once.
         const auto excess = [&](float part) {
             const glm::quat& rest = model_->joints()[joint].rest.rotation;
             return bendy::violation(*constraint, to_constraint_space(*constraint, rest, turned(part)));
         };
         constexpr double kLegal = 1e-6;    // radians
-        constexpr double kOutside = 1e-4;  // where bending the whole chain has brought it
+        constexpr double kOutside = 1e-4;  // bending the whole chain may move it outside
         constexpr int kHalvings = 16;
         if (excess(1.0f) > kLegal && excess(0.0f) < kOutside) {
             float legal = 0.0f;
@@ -324,7 +323,7 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     joint_bends_[joint] = glm::normalize(glm::conjugate(before) * turned(share));
 }
 
-/// The joint's rotation by what bends the whole chain.
+/// Returns the joint's rotation from the bend of the whole chain.
 glm::quat Demo::bent_with_all(std::uint32_t joint) const {
     const glm::quat& rest = model_->joints()[joint].rest.rotation;
     const glm::vec3 share = state_.bend / static_cast<float>(std::max(chain_->links, 1u));
@@ -334,7 +333,7 @@ glm::quat Demo::bent_with_all(std::uint32_t joint) const {
 }
 
 void Demo::move_target(const glm::vec3& position) {
-    // A little out of reach is worth seeing: the tentacle then points at it.
+    // The target may be slightly out of reach; the tentacle then points at it.
     const float farthest = 1.3f * reach_;
     const glm::vec3 away = position - start_;
     const float distance = glm::length(away);
@@ -377,7 +376,7 @@ void Demo::pull() {
 void Demo::look_for_another_way(float distance) {
     constexpr int kStill = 20;
     constexpr float kNear = 5e-3f;   // of the chain's length
-    constexpr float kBetter = 0.7f;  // of the distance that is left
+    constexpr float kBetter = 0.7f;  // of the remaining distance
     if (has_looked_ || still_ < kStill || distance < kNear * reach_) return;
     has_looked_ = true;
     other_way_ = pose_;
@@ -394,7 +393,7 @@ void Demo::step(double seconds) {
     since_mode_ += seconds;
     if (state_.turntable) state_.angle = std::remainder(state_.angle + 0.8 * seconds, 6.283185307179586);
     if (state_.inverse) {
-        // From where it is: the force takes frames to bring the tip there.
+        // The pull starts from the current pose and takes several frames to reach the target.
         since_other_way_ += seconds;
         if (since_other_way_ < kOtherWay) {
             const double share = since_other_way_ / kOtherWay;

@@ -12,32 +12,32 @@
 
 namespace bendy::viewer {
 
-/// An IK chain as the window has it: switched on, its tip goes to the target.
+/// The state of an IK chain in the window: if it is on, its tip reaches for the target.
 struct ChainControl {
     bool is_on = false;
     glm::vec3 target{0.0f};  ///< metres, model space
 };
 
-/// Plays a model's clips, one or two mixed, and lets chains reach; without window or drawing. The model must outlive
-/// it.
+/// Plays one clip of a model or a mix of two, and lets chains reach. It needs no window and draws nothing. The model
+/// must outlive it.
 class Player {
 public:
     explicit Player(const Model& model);
 
     void step(double seconds);
-    /// Poses for the present time without letting it go on.
+    /// Computes the pose for the current time, without advancing it.
     void update();
 
     bool is_playing = true;
-    bool obeys_constraints = false;  ///< brings the clip's pose inside the constraints
+    bool obeys_constraints = false;  ///< clamps the clip's pose to the constraints
     std::uint32_t clip = 0;          ///< kNone: the rest pose
     std::uint32_t other = kNone;     ///< the clip mixed in, or kNone
-    float share = 0.5f;              ///< of the other one
+    float share = 0.5f;              ///< of the other clip
     float speed = 1.0f;
-    float phase = 0.0f;  ///< 0 to 1 through the clips: two that are mixed keep step
+    float phase = 0.0f;  ///< 0 to 1 through the clips; mixed clips have the same phase
     std::vector<ChainControl> chains;
 
-    /// Seconds from one start to the next, of what is played.
+    /// Returns the seconds from one start to the next.
     [[nodiscard]] double length() const;
     [[nodiscard]] Pose& pose() { return pose_; }
 
@@ -71,36 +71,36 @@ enum class DemoKey : std::uint8_t {
 struct DemoState {
     bool quits = false;
     bool bones = false;
-    bool forward = false;  ///< the tentacle is moved by hand
-    bool inverse = false;  ///< the target pulls the tip; at most one of these two
-    bool paused = false;   ///< the animation, which plays where neither is on
+    bool forward = false;  ///< forward kinematics: the keys bend the tentacle
+    bool inverse = false;  ///< the target pulls the tip; not together with forward
+    bool paused = false;   ///< stops the animation, which plays if neither is on
     bool turntable = false;
     bool wireframe = false;
     bool help = true;
     double time = 0.0;            ///< of the animation, seconds from its start
     double angle = 0.0;           ///< of the turntable, radians
-    glm::vec3 bend{0.0f};         ///< by hand: of the whole chain about the model's axes, radians
-    std::uint32_t joint = kNone;  ///< by hand: the one that the keys bend; kNone: the whole chain
+    glm::vec3 bend{0.0f};         ///< forward: of the whole chain about the model's axes, radians
+    std::uint32_t joint = kNone;  ///< forward: the joint that the keys bend; kNone: the whole chain
     glm::vec3 target{0.0f};       ///< metres, model space
 };
 
-/// The Bendy Tentacle Demo: what the keys do, without window or drawing. Takes a model with a chain; plays its clip
-/// "Wave", or else its first. The limits of the joints hold after every step.
+/// The Bendy Tentacle Demo: the effect of the keys. It needs no window and draws nothing. It plays the model's clip
+/// "Wave", or its first clip if there is none. After every step the joints satisfy their constraints.
 class Demo {
 public:
     /// The model must outlive it and have at least one chain.
     explicit Demo(const Model& model);
 
-    /// How the picture lies in the model's space, unit vectors: the keys mean what the viewer sees. +X and +Y if nobody
-    /// says.
+    /// Sets the picture's right and up as unit vectors in model space, because the keys refer to the picture. The
+    /// defaults are +X and +Y.
     void look_along(const glm::vec3& right, const glm::vec3& up);
-    /// A key went down. An arrow, PgUp or PgDn moves the target, the tentacle or one joint a little.
+    /// Handles a key press. An arrow, PgUp or PgDn moves the target, the tentacle or one joint a little.
     void press(DemoKey key);
-    /// A key is held down for so long.
+    /// Handles a key that was held down for some seconds.
     void hold(DemoKey key, double seconds);
-    /// Time goes on.
+    /// Advances the time.
     void step(double seconds);
-    /// Puts the target there, as near as it may go, and lets it pull.
+    /// Moves the target as near to the position as it may go, and lets it pull.
     void drag_target(const glm::vec3& position);
 
     [[nodiscard]] const DemoState& state() const { return state_; }
@@ -109,8 +109,8 @@ public:
     /// The chain's joints, from its start to the effector.
     [[nodiscard]] const std::vector<std::uint32_t>& links() const { return links_; }
     [[nodiscard]] glm::vec3 tip();
-    /// How far the worst of all joints is outside its limits, radians; while the target pulls, the chain's joints have
-    /// those that the file gives for IK.
+    /// Returns how far the worst joint is outside its constraint, radians. While the target pulls, the chain's joints
+    /// have the constraints for IK.
     [[nodiscard]] double violation() const;
 
 private:
@@ -131,20 +131,20 @@ private:
     const Chain* chain_;
     const Clip* clip_;
     Pose pose_;
-    Pose before_;  // what the mode before left, from which the new one eases away
+    Pose before_;  // the last pose of the previous mode, from which the new one is blended in
     DemoState state_;
     glm::vec3 start_{0.0f};               // of the chain at rest, model space
     glm::vec3 right_{1.0f, 0.0f, 0.0f};   // of the picture
     glm::vec3 up_{0.0f, 1.0f, 0.0f};      // likewise
     std::vector<std::uint32_t> links_;    // the chain's joints, from its start
-    std::vector<bool> is_link_;           // of the chain, one a joint
-    std::vector<glm::quat> rest_turns_;   // in model space, one a joint
-    std::vector<glm::quat> joint_bends_;  // by hand, after what bends the whole chain; one a joint
+    std::vector<bool> is_link_;           // of the chain, one per joint
+    std::vector<glm::quat> rest_turns_;   // in model space, one per joint
+    std::vector<glm::quat> joint_bends_;  // forward: added to the bend of the whole chain; one per joint
     float reach_ = 1.0f;                  // the chain's length at rest
     double since_mode_ = 1e9;
-    double pull_time_ = 0.0;  // not yet used by pulling
-    // Where the limits keep the force from the target although the tip can reach it, the tentacle goes to a pose that
-    // another solver has found; once for each place of the target.
+    double pull_time_ = 0.0;  // seconds not yet used by pulls
+    // If constraints stop the pull short of a target that the tip can reach, the tentacle moves to a pose that another
+    // solver has found; once for each position of the target.
     Pose other_way_;
     double since_other_way_ = 1e9;
     float last_distance_ = 0.0f;

@@ -20,7 +20,7 @@ bool is_blended(const SurfaceRecord& surface) {
     return static_cast<AlphaMode>(surface.alpha_mode) == AlphaMode::blend;
 }
 
-/// T * R * S, KHR_texture_transform.
+/// KHR_texture_transform: T * R * S.
 glm::mat3 uv_matrix(const TextureUseRecord& use) {
     const float c = std::cos(use.rotation);
     const float s = std::sin(use.rotation);
@@ -46,7 +46,7 @@ std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
              {&surface.emissive_texture, "emissive_map", true}}};
 }
 
-/// 16 entries a side: as fine as three.js has it.
+/// 16 entries a side, as in three.js.
 void upload_reflectance(GLuint texture) {
     constexpr GLsizei kSide = 16;
     bind_texture(kUploadUnit, GL_TEXTURE_2D, texture);
@@ -114,7 +114,7 @@ void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    // The alpha of what was drawn over nothing adds up, so that a picture can be laid over another.
+    // Alpha accumulates, so that a picture with a transparent background can be composited.
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     buffers_.set_pose(pose);
     buffers_.bind();
@@ -145,7 +145,7 @@ const ShownSurface& Renderer::surface_of(const Submesh& submesh) const {
     return surfaces_[std::min<std::size_t>(submesh.material, surfaces_.size() - 1)];
 }
 
-/// All that any draw needs, before the first: nothing is uploaded between the calls that set a draw up.
+/// Loads all textures before the first draw, so that no upload comes between the calls that set up a draw.
 void Renderer::load_textures(const Warn& warn) {
     bool is_beyond = false;
     for (const Submesh& submesh : model_->submeshes()) {
@@ -178,7 +178,7 @@ void Renderer::set_material(const Submesh& submesh) const {
     glUniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
     glUniform1iv(surface_["uv_set"], 5, sets.data());
     glUniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
-    // Without its map a surface has no light of its own, and no bumps.
+    // A surface whose emissive map cannot be shown emits nothing.
     const bool is_dark = surface.emissive_texture.texture != kNone && !is_shown[kEmissive];
     set_vector(surface_["emissive"], is_dark ? glm::vec3(0.0f) : glm::make_vec3(surface.emissive.data()));
     set_vector(surface_["dielectric"], shown.dielectric);
@@ -284,7 +284,7 @@ void Renderer::draw_overlay(Pose& pose, const Camera& camera, const DrawOptions&
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);
     if (options.marked_joint != kNone) overlay_.add_mark(pose, options.marked_joint, list_);
-    glClear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
+    glClear(GL_DEPTH_BUFFER_BIT);  // otherwise the character would hide its bones
     overlay_program_.use();
     glUniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
     glUniform2f(overlay_program_["size"], size.x, size.y);

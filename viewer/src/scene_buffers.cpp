@@ -13,12 +13,12 @@
 namespace bendy::viewer {
 namespace {
 
-/// The palette's first matrix; the joints' follow, then the meshes' bind palettes.
+/// The palette's first matrix; those of the joints follow, then the meshes' bind palettes.
 constexpr std::uint32_t kIdentity = 0;
 
 struct Displacement {
     glm::vec3 position{0.0f};
-    float target = 0.0f;  ///< Model-wide number: a float, since bits of an integer would be a denormal one
+    float target = 0.0f;  ///< model-wide number; a float, because an integer's bits would be a denormal float
     glm::vec4 normal{0.0f};
     glm::vec4 tangent{0.0f};
 };
@@ -55,7 +55,7 @@ void fill_coords_and_colours(const Mesh& mesh, std::span<GpuVertex> out) {
     }
 }
 
-/// Adds what moves the mesh's vertices: pairs of palette entry and weight, of any number a vertex.
+/// Adds the mesh's influences: any number of pairs of palette entry and weight for each vertex.
 void add_influences(const Model& model, std::uint32_t number, std::uint32_t first_entry, std::span<GpuVertex> out,
                     std::vector<glm::uvec2>& list) {
     const Mesh& mesh = model.meshes()[number];
@@ -80,7 +80,7 @@ glm::vec3 vector_at(const MorphTargetView& target, const std::optional<StreamVie
     return stream && rest ? target.displacement(*stream, *rest, entry) : glm::vec3(0.0f);
 }
 
-/// Adds the targets' displacements, sorted by vertex: as many as the file has, whatever their number.
+/// Adds all displacements of the mesh's targets, sorted by vertex.
 void add_displacements(const Mesh& mesh, std::uint32_t first_morph_target, std::span<GpuVertex> out,
                        std::vector<Displacement>& list) {
     for (const MorphTargetView& target : mesh.targets) {
@@ -134,7 +134,7 @@ void describe_vertices() {
     integers(7, offsetof(GpuVertex, displacements));
 }
 
-/// The three upper rows.
+/// Writes the upper three rows.
 void put_rows(const glm::mat4& matrix, glm::vec4* out) {
     for (int row = 0; row < 3; ++row) out[row] = {matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]};
 }

@@ -14,7 +14,7 @@ glm::vec3 towards(float yaw, float height) {
 
 constexpr unsigned kSamples = 512;
 
-/// The bits of a number in reverse, after the binary point: evenly spread from 0 to 1.
+/// Reverses the bits of a number behind the binary point: a sequence spread evenly from 0 to 1.
 float radical_inverse(unsigned number) {
     float value = 0.0f;
     for (float digit = 0.5f; number != 0; number >>= 1u, digit *= 0.5f) {
@@ -44,7 +44,7 @@ std::vector<float> reflectance_table(unsigned side) {
             float scale = 0.0f;
             float bias = 0.0f;
             for (unsigned k = 0; k < kSamples; ++k) {
-                // Half vectors as often as GGX has them.
+                // Half vectors with the distribution of GGX.
                 const float turn = 6.2831853f * (static_cast<float>(k) + 0.5f) / kSamples;
                 const float u = radical_inverse(k);
                 const float nh = std::sqrt((1.0f - u) / (1.0f + (a2 - 1.0f) * u));

@@ -6,17 +6,16 @@
 #include <stdexcept>
 #include <vector>
 
-// Pictures, and the bytes of image files. Everything here throws ViewerError when the library refuses.
-
+// Pictures, and their encoding as image files. All functions throw ViewerError if encoding fails.
 namespace bendy::viewer {
 
-/// No picture can be made: no OpenGL, no display, not enough memory. what() is a line for the user.
+/// Thrown if no picture can be made: no OpenGL, no display, too little memory. what() is a line for the user.
 class ViewerError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Pixels from the top left, row after row: red, green, blue, alpha; sRGB, alpha straight.
+/// Rows of pixels from the top left: red, green, blue, alpha; sRGB, alpha not premultiplied.
 struct Picture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -27,7 +26,7 @@ struct Picture {
 
 std::vector<std::byte> encode_png(const Picture& picture);
 
-/// A picture after another, all of one size, as an animation that repeats for ever.
+/// Encodes pictures of one size as an animation that repeats for ever.
 class AnimationFile {
 public:
     AnimationFile() = default;
@@ -36,17 +35,17 @@ public:
     AnimationFile(AnimationFile&&) = delete;
     AnimationFile& operator=(AnimationFile&&) = delete;
     virtual ~AnimationFile() = default;
-    /// \param seconds  when it is to be seen, from the start; ascending
+    /// \param seconds  when it appears, counted from the start; ascending
     virtual void add(const Picture& picture, double seconds) = 0;
-    /// \param seconds  the whole length
+    /// \param seconds  the length of the animation
     virtual std::vector<std::byte> finish(double seconds) = 0;
 };
 
-/// 256 colours a picture, hundredths of a second; a pixel is there or is not.
+/// GIF: 256 colours per picture, times in hundredths of a second, and pixels that are either opaque or transparent.
 std::unique_ptr<AnimationFile> make_gif(std::uint32_t width, std::uint32_t height);
 std::unique_ptr<AnimationFile> make_webp(std::uint32_t width, std::uint32_t height);
 
-/// Pictures of one size as one, in rows of `columns`. `empty`, of the same size, fills the last row.
+/// Arranges pictures of one size in rows of `columns`. `empty`, of the same size, fills the last row.
 Picture contact_sheet(const std::vector<Picture>& pictures, std::uint32_t columns, const Picture& empty);
 
 }  // namespace bendy::viewer
