@@ -1,5 +1,5 @@
-// bench_accuracy FILE...: how far posed vertices are from a double-precision evaluation of the same file (the
-// converter's, which shares no code with the runtime), with every kernel that this machine has: the worst of all
+// bench_accuracy FILE...: the largest distance of posed vertices from the converter's evaluation of the same file,
+// which uses doubles and shares no code with the runtime. It is measured with every kernel of this machine, over all
 // vertices, at rest and at 41 times of every clip, in millionths of the extent (the bounding box's diagonal at rest).
 #include "evaluate.h"
 
@@ -30,7 +30,7 @@ double extent_of(const std::vector<glm::vec3>& positions) {
     return glm::distance(low, high);
 }
 
-/// The longest distance between a vertex and where it should be.
+/// Returns the largest distance between a vertex and its correct position.
 double worst_of(const Scene& scene, const bendy::converter::EvaluatedPose& expected,
                 const std::vector<glm::vec3>& found) {
     double worst = 0.0;
@@ -43,7 +43,7 @@ double worst_of(const Scene& scene, const bendy::converter::EvaluatedPose& expec
     return worst;
 }
 
-/// Millionths of the extent.
+/// Returns the largest error in millionths of the extent.
 double measure(const Scene& scene, const bendy::Model& model) {
     bendy::Pose pose(model);
     std::vector<glm::vec3> positions(model.vertex_count());

@@ -1,16 +1,16 @@
-// bench_auto_rig [--targets N] [--expect] FILE...: how good the rigs are that `bendy convert --auto-rig` guesses. Of a
-// glTF file or an X-file the own rig is taken away first; a bendy file is measured as it is. A row of a Markdown table
+// bench_auto_rig [--targets N] [--expect] FILE...: measures the rigs that `bendy convert --auto-rig` proposes. The rig
+// of a glTF file or an X-file is removed first; a bendy file is measured as it is. It prints a row of a Markdown table
 // for each character:
-//     constraints  of arms (shoulder and elbow), legs (hip and knee), spine and neck, those with constraints at each
-//                  joint; a joint whose constraint allows everything has none
-//     frames       30 a second of every clip: those that have every proposed joint inside its constraint, to 1 degree,
-//                  which is what a hinge may wobble; and how far the worst joint is outside in the worst of them
-//     targets      N for each limb, made by turning its joints at random inside their constraints, everything else at
-//                  rest: those that the chain reaches from the rest pose to 0.1 % of its length; and those that it
-//                  reaches with elbow or knee bent to the side to which the clips bend it in the mean, or about an axis
-//                  within 20 degrees of that of one of their frames; or bent by less than 10 degrees. Where neither
-//                  clips nor the rest pose bend the limb by 10 degrees, reached counts
-// With --expect it fails unless that is 100, 99 and 99 %.
+//     constraints  the number of arms (shoulder and elbow), legs (hip and knee), spine and neck with a constraint at
+//                  every joint; a constraint that allows everything does not count
+//     frames       30 a second of every clip: those with every proposed joint inside its constraint to 1 degree, the
+//                  tolerance for the wobble of a hinge; and how far the worst joint is outside in the worst frame
+//     targets      N for each limb, made by turning its joints at random inside their constraints, with everything else
+//                  at rest: those that the chain reaches from the rest pose to 0.1 % of its length; and those that it
+//                  reaches with the elbow or knee bent to the side to which the clips bend it on average, or about an
+//                  axis within 20 degrees of that in one of their frames, or bent by less than 10 degrees. If neither
+//                  the clips nor the rest pose bend the limb by 10 degrees, reaching the target is enough
+// With --expect it fails unless these are 100, 99 and 99 %.
 #include "humanoid/auto_rig.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -37,17 +37,17 @@ using namespace bendy;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTolerance = 1.0;  // degrees
-constexpr double kBent = 10.0;      // degrees: what is bent by less is straight
+constexpr double kBent = 10.0;      // degrees: a limb that is bent less is straight
 constexpr float kRate = 30.0f;      // frames a second
 constexpr std::array kLimbNames{"LeftArm", "RightArm", "LeftLeg", "RightLeg"};
 
 struct Limb {
     const Chain* chain = nullptr;
-    std::vector<std::uint32_t> joints;  ///< that turn, but for the tip's own: start and middle
+    std::vector<std::uint32_t> joints;  ///< that turn, without the tip's joint: start and middle
     std::uint32_t middle = kNone;
 };
 
-/// The joints of a two-bone chain that turn: those with a weight, and without the one at the tip.
+/// Finds the joints of a two-bone chain that turn: those with a weight, except the one at the tip.
 std::optional<Limb> find_limb(const Model& model, const char* name) {
     Limb limb;
     limb.chain = model.chain(name);
@@ -71,13 +71,13 @@ bool is_limited(const Model& model, std::uint32_t joint) {
     const Constraint* constraint = model.constraint(joint);
     if (constraint == nullptr || constraint->model == ConstraintModel::free) return false;
     if (constraint->model == ConstraintModel::hinge || constraint->model == ConstraintModel::locked) return true;
-    // A swing and twist that allow every direction and every twist are no constraint.
+    // A swing-twist constraint that allows every direction and every twist does not limit the joint.
     const LimitShape& shape = constraint->shape;
     return shape.swing_low[0] < 1.0 || shape.swing_high[0] < 1.0 || shape.swing_low[1] < 1.0 ||
            shape.swing_high[1] < 1.0 || shape.angles[0].half < 3.14159;
 }
 
-/// Joints from the chain's start to the one before its effector; with the effector if `whole`.
+/// Checks the joints from the chain's start to the one before its effector, or to the effector if `whole`.
 bool is_column_limited(const Model& model, const Chain& chain, bool whole) {
     std::uint32_t joint = chain.effector;
     if (!whole && joint != chain.start) joint = model.joints()[joint].parent;
@@ -100,7 +100,7 @@ struct Share {
     }
 };
 
-/// What the bones of a limb do: which way it is bent, in the space of the bone above the middle joint, and by how much.
+/// How a limb is bent: in which direction, in the space of the bone above the middle joint, and by how much.
 struct Bend {
     glm::dvec3 axis{0.0};  ///< sine of the bend times the axis
     double degrees = 0.0;
@@ -122,7 +122,7 @@ Bend bend_of(Pose& pose, const Limb& limb) {
     return bend;
 }
 
-/// A rotation inside the constraint, at random.
+/// Returns a random rotation inside the constraint.
 glm::quat random_rotation(const Constraint& constraint, const glm::quat& rest, std::mt19937_64& random) {
     const auto uniform = [&](double low, double high) {
         return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
@@ -149,7 +149,7 @@ struct Row {
     Share parts, frames, reached, bent;
     double worst = 0.0;  ///< degrees
     std::string missing;
-    std::array<Share, 4> limbs{};  ///< reached and bent, of each
+    std::array<Share, 4> limbs{};  ///< shares of targets reached and bent as in the clips
 };
 
 class Measurement {
@@ -182,7 +182,7 @@ private:
         const Chain* spine = model_.chain("Spine");
         const Chain* head = model_.chain("Head");
         count("Spine", spine != nullptr && is_column_limited(model_, *spine, false));
-        // Without a neck there is no chain: the head itself is limited.
+        // Without a neck there is no chain; the head has the constraint.
         count("Neck", head != nullptr ? is_column_limited(model_, *head, true)
                                       : spine != nullptr && is_limited(model_, spine->effector));
     }
@@ -269,7 +269,7 @@ private:
     Row row_;
 };
 
-/// The character with the rig that is guessed; nothing, and a message, if the file cannot be read.
+/// Converts the character with an automatic rig; prints a message and returns nothing if the file cannot be read.
 std::optional<std::vector<std::byte>> convert(const std::filesystem::path& file) {
     converter::Report report;
     const std::string suffix = file.extension().string();

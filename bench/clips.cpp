@@ -1,6 +1,6 @@
-// What decoding packed clips costs: bendy_bench_clips FILE... [--benchmark_...]. Nanoseconds per joint of the
-// skeleton, the copy of the rest pose included; times in order, at random, and at random among so many copies that none
-// is in the cache.
+// bendy_bench_clips FILE... [--benchmark_...]: the cost of decoding packed clips, in nanoseconds per joint of the
+// skeleton, including the copy of the rest pose; at times in order, at random times, and at random times in so many
+// copies that none is in the cache.
 #include "compact/pack_clips.h"
 #include "plan/unpack_plan.h"
 #include "play/unpack.h"
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
                     {"next", Order::next_frame}, {"random", Order::random}, {"cold", Order::cold}};
                 for (const auto& [name, order] : kOrders) {
                     const std::string title = clip.name + '/' + kernel + '/' + name;
-#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+#ifndef __clang_analyzer__  // reports a leak, although the library's list frees the benchmarks
                     benchmark::RegisterBenchmark(title.c_str(), [clip, unpack, order = order](benchmark::State& state) {
                         decode(state, clip, unpack, order);
                     });

@@ -1,5 +1,5 @@
-// What packed clips need, beside what others do: bendy_bench_compact_clips [--shell] [--error MM] [--peers PEERS.tsv]
-// [--unit METRES] FILE...; --unit is what one unit of the files after it is taken for.
+// bendy_bench_compact_clips [--shell] [--error MM] [--peers PEERS.tsv] [--unit METRES] FILE...: the sizes of packed
+// clips, compared with those of other programs. --unit gives the length of one unit in the files that follow it.
 #include "compact/pack_clips.h"
 
 #include <bendy/converter/import.h>
@@ -22,7 +22,7 @@ using namespace bendy::converter;
 
 namespace {
 
-/// Columns of the peers' table by asset and clip.
+/// The columns of the table of other programs' sizes, by asset and clip.
 class Peers {
 public:
     void read(const char* path) {

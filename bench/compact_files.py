@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What compact files weigh, beside gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%]
+"""Compares the sizes of compact files with gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%]
 
-Prints a Markdown table: bytes without images, with and without the clips. Python 3, nothing else.
+Prints a Markdown table of bytes without images, with and without clips. Needs only Python 3.
 """
 
 import argparse

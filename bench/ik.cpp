@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-// What the IK solvers reach, how fast, and whether they keep to the constraints:
-//     bench/ik [TARGETS] [UNREACHABLE]        default 10000 1000
-// Chains of 2, 5, 20 and 100 joints, one metre in all, free and constrained. Targets are made by posing the chain at
-// random inside its limits (all joints, up to 2 radians about each axis), unreachable ones lie 1.1 to 3 metres away.
-// Every solve begins at the rest pose, which is bent a little; it succeeds within 0.1 % of the chain's length. A chain
-// points at a target out of reach if the line from start to tip is within a degree of it. One core; the time is that of
-// bendy::reach as a program calls it, reading and writing the pose included.
+// bendy_bench_ik [TARGETS] [UNREACHABLE], default 10000 1000: how many targets the IK solvers reach, how fast, and
+// whether they satisfy the constraints. The chains have 2, 5, 20 and 100 joints and a total length of one metre, and
+// are free or constrained. Reachable targets are made by posing the chain at random inside its limits (all joints, up
+// to 2 radians about each axis); targets out of reach are 1.1 to 3 metres away. Every solve starts from the rest pose,
+// which is slightly bent, and succeeds within 0.1 % of the chain's length. A chain points at a target out of reach if
+// the line from start to tip is within a degree of it. One core; the time is that of bendy::reach, including reading
+// and writing the pose.
 namespace {
 
 using namespace bendy;
@@ -53,7 +53,7 @@ std::vector<std::byte> make_chain_file(std::uint32_t joints, bool is_constrained
                     constraint.rotation_max[axis] = radians(high[axis]);
                 }
             };
-            // A shoulder, an elbow, and what a spine or a tentacle has, by turns.
+            // In turn: a shoulder, an elbow, and the constraints of a spine or a tentacle.
             switch (joint % 4) {
                 case 0:
                     set(ConstraintModel::swing_twist_ellipse, {-45, -60, -90}, {45, 90, 60});
@@ -89,7 +89,7 @@ glm::vec3 tip_of(Pose& pose) {
     return {position.x, position.y, position.z};
 }
 
-/// A pose inside the limits, at random.
+/// Sets a random pose inside the limits.
 void pose_at_random(const Model& model, Pose& pose, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(-2.0, 2.0);
     pose.set_rest();
@@ -111,7 +111,7 @@ struct Outcome {
     std::uint64_t iterations = 0;
     std::vector<double> microseconds;
     double worst_violation = 0.0;  // radians
-    double farthest = 0.0;         // metres left
+    double farthest = 0.0;         // metres from the target
 };
 
 void solve(const Model& model, Pose& pose, const glm::vec3& target, const ReachOptions& options, bool is_reachable,
@@ -123,7 +123,7 @@ void solve(const Model& model, Pose& pose, const glm::vec3& target, const ReachO
     outcome.microseconds.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
     ++outcome.solves;
     outcome.iterations += result.iterations;
-    const double left = glm::length(tip_of(pose) - target);  // from the pose itself, not from what the solver says
+    const double left = glm::length(tip_of(pose) - target);  // measured on the pose, not taken from the solver
     if (is_reachable) {
         outcome.successes += left <= 0.001 + 1e-6 ? 1 : 0;
     } else {

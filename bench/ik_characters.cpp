@@ -13,14 +13,17 @@
 #include <string>
 #include <vector>
 
-// What each IK solver reaches on characters' own chains:
-//     bench/ik_characters [--targets N] [--free] [--limbs] [--mirror] FILE.bendy...     default 1000 targets a chain
-// Targets are made by posing the chain at random inside its constraints; every solve begins at the rest pose. A solver
-// misses where it stops outside its tolerance; `alone` are the misses where another solver arrives, `farthest` how far
-// from the target the worst of those stops. --free ignores constraints; --limbs prints one row a chain, of the solver
-// that it gets by default, and counts every miss; --mirror reaches with each chain "Left..." and its "Right..." for
-// targets mirrored in X, and counts the poses that are not mirrored, a joint more than a thousandth of the chain's
-// length off; every other target is then moved by up to 0.2 m along each axis, so that some cannot be reached.
+// bendy_bench_ik_characters [--targets N] [--free] [--limbs] [--mirror] FILE.bendy...: how many targets each IK solver
+// reaches with the chains of characters; 1000 targets per chain by default. Targets are made by posing the chain at
+// random inside its constraints; every solve starts from the rest pose. A solver misses a target if it stops outside
+// its tolerance. `alone` counts the misses that another solver reaches, and `farthest` is the largest distance among
+// those.
+//     --free    ignores constraints
+//     --limbs   prints one row per chain, for its default solver, and counts every miss
+//     --mirror  reaches with each chain "Left..." and its "Right..." for targets mirrored in X, and counts the poses
+//     that
+//               are not mirrored: those with a joint off by more than a thousandth of the chain's length. Every other
+//               target is moved by up to 0.2 m along each axis, so that some are out of reach
 namespace {
 
 using namespace bendy;
@@ -41,7 +44,7 @@ glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
-/// The joints that the chain turns, from the effector up.
+/// Returns the joints that the chain turns, from the effector up.
 std::vector<std::uint32_t> joints_of(const Model& model, const Chain& chain) {
     std::vector<std::uint32_t> joints;
     for (std::uint32_t joint = chain.effector;; joint = model.joints()[joint].parent) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Counts what a processor does, which no other program disturbs: bench/instructions.sh FILE.bendy...
-# Instructions for each stage by callgrind, for one joint, vertex, ...; then the cache misses of a crowd by cachegrind,
-# for one character, of caches of 32 kB and 8 MB. Needs valgrind, which knows AVX2 and no AVX-512. BENDY_KERNEL=plain counts another kernel.
+# Counts instructions and cache misses, which other programs do not disturb: bench/instructions.sh FILE.bendy...
+# callgrind counts the instructions of each stage per joint, vertex, ...; cachegrind counts the cache misses of a crowd
+# per character, with caches of 32 kB and 8 MB. Needs valgrind, which supports AVX2. BENDY_KERNEL=plain counts another kernel.
 set -euo pipefail
 build=${BUILD:-$(dirname "$0")/../build/release}
 repeat=$build/bench/bendy_bench_repeat

@@ -1,10 +1,6 @@
-// bench_lod: how far simplified characters are from the full ones, beside meshoptimizer's simplifier at the same
-// counts.
-//
-//     bendy_bench_lod FILE.glb...
-//
-// Two-sided Hausdorff distance, from samples: every vertex and 20,000 points spread by area, on either surface. At rest
-// and in three poses of the clips.
+// bendy_bench_lod FILE.glb...: the distance of simplified characters from the full ones, compared with meshoptimizer's
+// simplifier at the same triangle counts. It is the two-sided Hausdorff distance, sampled at every vertex and at 20,000
+// points spread by area on either surface, at rest and in three poses of the clips.
 
 #include "collapse/distances.h"
 
@@ -39,7 +35,7 @@ double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Triangles in boxes in boxes: the distance of a point from the nearest one.
+/// A tree of boxes around triangles: finds the distance of a point from the nearest triangle.
 class Surface {
 public:
     Surface(std::span<const glm::vec3> places, const Indices& indices) : places_(places), indices_(indices) {
@@ -53,7 +49,7 @@ public:
             std::uint32_t node;
             float distance;
         };
-        std::array<Far, 64> open;  // one for each halving of the triangles, and they are fewer than 2^32
+        std::array<Far, 64> open;  // one for each halving of fewer than 2^32 triangles
         std::size_t waiting = 0;
         if (!nodes_.empty()) open[waiting++] = {0, 0.0f};
         while (waiting != 0) {
@@ -74,7 +70,7 @@ public:
         return best;
     }
 
-    /// Every used vertex, and points spread by area.
+    /// Returns every used vertex, and points spread by area.
     [[nodiscard]] std::vector<glm::vec3> samples() const {
         std::vector<glm::vec3> list;
         std::vector<bool> is_used(places_.size());
@@ -116,7 +112,7 @@ private:
     }
     [[nodiscard]] glm::vec3 centre(std::uint32_t t) const { return corner(t, 0) + corner(t, 1) + corner(t, 2); }
 
-    /// Halves the triangles until few are left: no deeper than their number's logarithm.
+    /// Halves the triangles until few are left; the depth is the logarithm of their number.
     void build() {
         struct Range {
             std::uint32_t first, count, parent;
@@ -177,7 +173,7 @@ float hausdorff(std::span<const glm::vec3> places, const Indices& a, const Indic
     return std::max(one_sided(first, second), one_sided(second, first));
 }
 
-/// The triangles at a level, as indices into all meshes' vertices together.
+/// Returns the triangles of a level, as indices into the vertices of all meshes together.
 Indices triangles_of(const bendy::Model& model, const bendy::Lod& lod) {
     Indices list;
     for (const bendy::Submesh& submesh : lod.submeshes()) {
@@ -190,14 +186,14 @@ Indices triangles_of(const bendy::Model& model, const bendy::Lod& lod) {
     return list;
 }
 
-/// A mesh without doubles.
+/// A mesh without duplicate vertices.
 struct Welded {
     Indices indices;
     std::vector<glm::vec3> places;
     std::vector<std::uint32_t> vertices;  // their numbers in the mesh
 };
 
-/// What meshoptimizer is asked to look at: vertices alike in everything are one; or, where that hinders it, in place.
+/// Merges vertices for meshoptimizer: those equal in every attribute, or if `by_place`, in position.
 Welded weld(const bendy::Mesh& mesh, const Indices& indices, std::span<const glm::vec3> places, bool by_place) {
     std::vector<float> numbers;
     std::size_t width = 3;
@@ -228,7 +224,7 @@ Welded weld(const bendy::Mesh& mesh, const Indices& indices, std::span<const glm
     return welded;
 }
 
-/// meshoptimizer's, each mesh by itself down to `share` of its triangles.
+/// Simplifies each mesh separately with meshoptimizer, to `share` of its triangles.
 Indices simplify(const bendy::Model& model, const bendy::Lod& full, float share) {
     Indices list;
     for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) {
@@ -240,7 +236,7 @@ Indices simplify(const bendy::Model& model, const bendy::Lod& full, float share)
         }
         if (indices.empty()) continue;
         const auto goal = static_cast<std::size_t>(share * static_cast<float>(indices.size()) / 3.0f) * 3;
-        // Not as posed: rounding would part vertices that lie at one place.
+        // Rest positions, because rounding in a pose would separate vertices that have the same position.
         const auto places =
             bendy::view_at<glm::vec3>(model.meshes()[mesh].positions.data, 0, model.meshes()[mesh].vertices);
         Indices out;
@@ -290,7 +286,7 @@ float extent_of(std::span<const glm::vec3> places) {
 
 double switching_time(bendy::Lod& lod) {
     constexpr int kTimes = 10;
-    double worst = 0.0;  // of the levels; of each the best time, so that other programs do not count
+    double worst = 0.0;  // over the levels, of the best time of each, to exclude disturbance by other programs
     for (int level = 1; level < 9; ++level) {
         double best = 1e9;
         for (int i = 0; i < kTimes; ++i) {

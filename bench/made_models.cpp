@@ -24,7 +24,7 @@ constexpr std::uint32_t kChain = 10;  // joints
 constexpr std::uint32_t kKeys = 31;
 constexpr std::uint32_t kInfluences = 4;
 
-/// A vertex' numbers, of as many as there are.
+/// The numbers of all vertices.
 struct MeshNumbers {
     std::vector<float> positions, normals, tangents, weights;
     std::vector<std::uint16_t> bones;
@@ -57,7 +57,7 @@ std::vector<std::byte> end_file(ChunkWriter&& out) {
     return std::move(out).finish();
 }
 
-/// A joint's chunk without its end.
+/// Begins a joint's chunk and leaves it open.
 void begin_joint(ChunkWriter& out, std::uint32_t joint, const RestRecord& rest,
                  const ConstraintRecord* constraint = nullptr) {
     out.begin(FourCC("SKIN"));
@@ -68,7 +68,7 @@ void begin_joint(ChunkWriter& out, std::uint32_t joint, const RestRecord& rest,
     out.end();
 }
 
-/// A turn about x, and a place.
+/// Returns a rest transform: a rotation about x and a translation.
 RestRecord rest_of(float radians, const glm::vec3& place) {
     RestRecord rest;
     rest.rotation = {std::sin(radians / 2), 0.0f, 0.0f, std::cos(radians / 2)};
@@ -80,7 +80,7 @@ std::uint32_t parent_of(std::uint32_t joint) {
     return joint == 0 ? kNone : joint % kChain == 0 ? 0 : joint - 1;
 }
 
-/// Chains of ten joints on one root.
+/// Writes chains of ten joints on one root.
 void put_joints(ChunkWriter& out, std::uint32_t joints) {
     std::vector<std::uint32_t> ancestors;
     for (std::uint32_t joint = 0; joint < joints; ++joint) {
@@ -92,7 +92,7 @@ void put_joints(ChunkWriter& out, std::uint32_t joints) {
     for (; !ancestors.empty(); ancestors.pop_back()) out.end();
 }
 
-/// A stream of numbers as they are.
+/// Writes a plain stream.
 template <class T>
 void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t components,
                 const std::vector<T>& numbers) {
@@ -104,7 +104,7 @@ void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t c
     out.leaf(id, pieces);
 }
 
-/// A stream of vec3, each component minimum + step * integer.
+/// Writes a boxed stream of vec3: each component is minimum + step * integer.
 void put_boxed(ChunkWriter& out, FourCC id, const std::vector<std::int16_t>& steps, StreamBox box) {
     StreamRecord record;
     record.component_type = static_cast<std::uint8_t>(ComponentType::i16);
@@ -117,7 +117,7 @@ void put_boxed(ChunkWriter& out, FourCC id, const std::vector<std::int16_t>& ste
     out.leaf(id, pieces);
 }
 
-/// All joints are in the palette.
+/// Writes a mesh whose palette contains all joints.
 void put_mesh(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, const MeshNumbers& numbers) {
     std::vector<std::uint32_t> palette(joints);
     for (std::uint32_t joint = 0; joint < joints; ++joint) palette[joint] = joint;
@@ -138,7 +138,7 @@ void put_mesh(ChunkWriter& out, std::uint32_t vertices, std::uint32_t joints, co
     out.end();
 }
 
-/// A sheet; a vertex follows four bones that follow one another, sixty-four vertices the same.
+/// Makes a sheet; each vertex follows four consecutive bones, the same ones for sixty-four vertices.
 MeshNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
     MeshNumbers numbers;
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
@@ -153,7 +153,7 @@ MeshNumbers make_sheet(std::uint32_t vertices, std::uint32_t joints) {
     return numbers;
 }
 
-/// Places at random; a vertex follows four of six bones that are near.
+/// Makes random positions; each vertex follows four of six near bones.
 MeshNumbers make_cloud(std::uint32_t vertices, std::uint32_t joints) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);

@@ -1,5 +1,5 @@
-// bendy_bench_morph [--benchmark_...]: what an entry of a morph target costs, one touched vertex of one active target.
-// The counter per_entry is seconds.
+// bendy_bench_morph [--benchmark_...]: the cost of an entry of a morph target, which is one touched vertex of one
+// active target. The counter per_entry is in seconds.
 #include <bendy/runtime.h>
 
 #include "made_models.h"
@@ -24,8 +24,8 @@ std::vector<float> make_weights(float weight) {
     return weights;
 }
 
-/// \param with_skin  by skin(), which displaces a few vertices at a time and writes them where the joint has them;
-///                   otherwise by apply_morph_targets()
+/// \param with_skin  uses skin(), which displaces a few vertices at a time and then skins them; otherwise
+///                   apply_morph_targets()
 void morph(benchmark::State& state, bool is_packed, bool with_skin, float weight) {
     const auto made = bench::make_face(kVertices, kTargets, kTouched, is_packed);
     const Model& model = made->model;

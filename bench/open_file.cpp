@@ -1,5 +1,5 @@
-// bendy_bench_open FILE... [--benchmark_...]: what it takes from a file in the page cache to its first pose, beside
-// mapping it and touching every page. bench/ratios.py prints how many times touching it takes.
+// bendy_bench_open FILE... [--benchmark_...]: the time from a file in the page cache to its first pose, and the time
+// for mapping it and reading from every page. bench/ratios.py prints the ratio.
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
@@ -17,7 +17,7 @@ using namespace bendy;
 
 constexpr std::size_t kPage = 4096;
 
-/// Something of every page, so that none is left out.
+/// Reads a byte of every page.
 unsigned touch(const std::string& path) {
     unsigned sum = 0;
     const auto file = MappedFile::open(path);
@@ -37,7 +37,7 @@ void open(const std::string& path, Sums sums, bool poses) {
 }
 
 void add(const std::string& name, const std::function<void()>& run) {
-#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+#ifndef __clang_analyzer__  // reports a leak, although the library's list frees the benchmarks
     benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) {
         while (state.KeepRunning()) run();
     })->Unit(benchmark::kMicrosecond);

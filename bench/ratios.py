@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Runs a program of bench/ that is made with Google Benchmark, and prints how the benchmarks of a group compare.
+"""Runs a program of bench/ that uses Google Benchmark, and compares the benchmarks of each group.
 
     bench/ratios.py PROGRAM [ARGUMENT...] [--to NAME] [--rounds 41] [--filter REGEX]
 
     bench/ratios.py build/release/bench/bendy_bench_open fox.bendy
     bench/ratios.py build/release/bench/bendy_bench fox.bendy --filter 'skin' --to 'skin positions'
 
-All benchmarks run in one process, in random order in every round, so that other programs disturb all of them alike. A group is
-what the names have in common before their last "/"; each of its benchmarks is compared with the one called NAME, or with the
-first. The ratio is the median of the ratios of all rounds, of processor time; least and median are times in microseconds.
+All benchmarks run in one process, in random order in every round, so that other programs disturb all of them alike. Benchmarks
+whose names are the same up to the last "/" form a group; each of them is compared with the one called NAME, or with the first.
+The ratio is the median over the rounds of the ratio of processor times; least and median are times in microseconds.
 """
 
 import argparse

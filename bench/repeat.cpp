@@ -1,6 +1,5 @@
-// One stage of a file so many times, for tools that count what a program does: bendy_bench_repeat FILE lists the
-// stages, bendy_bench_repeat FILE STAGE TIMES runs the one of that number and says what it deals with. See
-// instructions.sh.
+// Repeats one stage of a file, for tools that count instructions. bendy_bench_repeat FILE lists the stages;
+// bendy_bench_repeat FILE STAGE TIMES runs the stage of that number and prints its items. See instructions.sh.
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 #include <bendy/stages/stages.h>

@@ -1,5 +1,5 @@
-// bendy_bench_scale [--benchmark_...]: what each joint and each vertex costs, from few to very many, on made-up
-// characters. The counters per_joint and per_vertex are seconds.
+// bendy_bench_scale [--benchmark_...]: the cost per joint and per vertex, from few to very many, with synthetic
+// characters. The counters per_joint and per_vertex are in seconds.
 #include <bendy/runtime.h>
 
 #include "made_models.h"
@@ -30,14 +30,14 @@ struct Character {
     Model model;
 };
 
-/// Made when it is first measured, and kept while it is: the largest takes gigabytes.
+/// Makes the character when it is first measured and keeps only the current one, because the largest takes gigabytes.
 Character& character(std::uint32_t joints, std::uint32_t vertices) {
     static std::unique_ptr<Character> kept;
     if (!kept || kept->joints != joints || kept->vertices != vertices) {
         kept.reset();
         std::vector<std::byte> bytes = bench::make_character(joints, vertices);
         auto model = open(bytes, Sums::checked);
-        if (!model) std::abort();  // they are made valid
+        if (!model) std::abort();  // made_models writes valid files
         kept = std::make_unique<Character>(Character{joints, vertices, std::move(bytes), *std::move(model)});
     }
     return *kept;
@@ -53,7 +53,7 @@ void open_later(benchmark::State& state, Character& of) {
     while (state.KeepRunning()) benchmark::DoNotOptimize(open(of.bytes, Sums::later).has_value());
 }
 
-/// Includes opening, sums later: what a pose plans with a model's first one.
+/// Includes opening with Sums::later, and the plans that a model's first Pose makes.
 void open_to_first_pose(benchmark::State& state, Character& of) {
     while (state.KeepRunning()) {
         const auto fresh = open(of.bytes, Sums::later);
@@ -114,7 +114,7 @@ void add(std::uint32_t joints, std::uint32_t vertices, const char* what, [[maybe
     const std::uint32_t items = is_skinned ? vertices : joints;
     const std::string unit = is_skinned ? "vertex" : "joint";
     const std::string name = std::to_string(items) + (is_skinned ? " vertices/" : " joints/") + what;
-#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+#ifndef __clang_analyzer__  // reports a leak, although the library's list frees the benchmarks
     benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         measure(state, character(joints, vertices));
         state.counters["per_" + unit] = benchmark::Counter(static_cast<double>(state.iterations()) * items,

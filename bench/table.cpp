@@ -1,7 +1,7 @@
-// The whole table of what posing costs: bendy_bench [FILE.bendy...] [--benchmark_...]. Of each file every stage that
-// `bendy bench` knows and crowds of it; then meshes of four influences from 1,000 vertices to 1,000,000, and chains.
-// Single stages: --benchmark_filter=REGEX; two builds or kernels beside each other: BENDY_KERNEL=plain, or `bendy bench
-// --kernel`, which measures by turns.
+// bendy_bench [FILE.bendy...] [--benchmark_...]: the whole table of costs. For each file it measures every stage of
+// `bendy bench`, and crowds; then meshes of four influences with 1,000 to 1,000,000 vertices, and chains.
+// --benchmark_filter=REGEX selects stages. To compare kernels, use BENDY_KERNEL=plain, or `bendy bench --kernel`, which
+// measures them alternately.
 #include "made_models.h"
 
 #include <bendy/format/diagnostics.h>
@@ -31,21 +31,21 @@ using namespace bendy;
 
 namespace {
 
-/// Of one thread by the processor's time, which other programs disturb less; of several by the clock.
+/// Uses processor time for one thread, because other programs disturb it less, and elapsed time for several threads.
 void add(const std::string& name, const std::function<void(benchmark::State&)>& measure, std::size_t threads = 1) {
-#ifndef __clang_analyzer__  // takes the library's list of benchmarks, which frees them, for a leak
+#ifndef __clang_analyzer__  // reports a leak, although the library's list frees the benchmarks
     auto* const added = benchmark::RegisterBenchmark(name.c_str(), measure);
     if (threads > 1) added->UseRealTime();
 #endif
 }
 
-/// Seconds for each of `items` that an iteration deals with.
+/// Sets the counter of seconds per item, for the `items` of an iteration.
 void per_item(benchmark::State& state, const char* item, double items) {
     state.counters[std::string("per_") + item] = benchmark::Counter(
         static_cast<double>(state.iterations()) * items, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// A file and its stages, where they may stay.
+/// A file and its stages, which must not move.
 struct File {
     File(const std::filesystem::path& path, Model opened)
         : model(std::move(opened)),
@@ -57,7 +57,7 @@ struct File {
 
 // --- crowds
 
-/// As many threads as a crowd has workers.
+/// A pool of threads, one for each worker of a crowd.
 class Threads {
 public:
 #ifdef BENDY_HAS_TBB
@@ -87,8 +87,8 @@ bool has_normals(const Model& model) {
                        [](const Mesh& mesh) { return mesh.normals.has_value(); });
 }
 
-/// Each member at a time of its own; positions and normals, if there are any, into memory of its own, or its palettes
-/// alone.
+/// Each member has its own time and writes positions and normals, if there are any, or only palettes, to its own
+/// memory.
 void measure_crowd(benchmark::State& state, const Model& model, std::size_t count, std::size_t threads,
                    bool is_skinned) {
     Crowd crowd(model, threads);
@@ -142,9 +142,9 @@ void add_crowds(const std::string& name, const Model& model) {
     }
 }
 
-// --- beside skinning
+// --- bounds and dual quaternions
 
-/// What bounds cost, and dual quaternions; positions and normals, like the stage "skin positions, normals".
+/// Measures bounds, and dual quaternions with positions and normals like the stage "skin positions, normals".
 void add_bounds_and_duals(const std::string& name, const Model& model) {
     if (model.vertex_count() == 0) return;
     add(name + "/bounds", [&model](auto& state) {
@@ -186,7 +186,7 @@ void add_file(const char* path, std::vector<std::unique_ptr<File>>& files) {
 
 // --- meshes of any size
 
-/// Made when it is first measured, and kept while it is: meshes are large.
+/// Makes the mesh when it is first measured and keeps only the current one, because meshes are large.
 void measure_mesh(benchmark::State& state, std::uint32_t vertices, int attributes) {
     static std::unique_ptr<const bench::MadeModel> made;
     if (!made || made->model.vertex_count() != vertices) made = bench::make_mesh(vertices);

@@ -11,10 +11,8 @@
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
-#include <bendy/viewer/linked_file.h>
-#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
-#include <bendy/viewer/viewer_error.h>
 
 #include <algorithm>
 #include <array>

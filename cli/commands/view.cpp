@@ -7,7 +7,6 @@
 #include "tentacle.h"
 
 #include <bendy/viewer/view.h>
-#include <bendy/viewer/viewer_error.h>
 
 #include <memory>
 #include <vector>

@@ -3,9 +3,8 @@
 #ifdef BENDY_HAS_VIEWER
 
 #include <bendy/runtime/model.h>
-#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
-#include <bendy/viewer/viewer_error.h>
 
 #include <algorithm>
 

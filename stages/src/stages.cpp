@@ -132,7 +132,7 @@ void Stages::add_reaching() {
         targets_.push_back(start + 0.95f * (tip - start));
         targets_.push_back(start + 0.85f * (tip - start));
     }
-    // From one target to the other and back, as a chain follows what moves.
+    // The target alternates between two positions, as if it moved.
     add("reach", "chain", static_cast<double>(model_.chains().size()), [this] {
         turn_ ^= 1;
         for (std::size_t k = 0; k < model_.chains().size(); ++k)

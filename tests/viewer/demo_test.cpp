@@ -1,4 +1,4 @@
-#include "demo.h"
+#include "players.h"
 
 #include "viewer/example_model.h"
 

@@ -1,6 +1,6 @@
 #include "image_reader.h"
 
-#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/picture.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "player.h"
+#include "players.h"
 
 #include <bendy/runtime/blend.h>
 

@@ -1,4 +1,4 @@
-#include "reflectance_table.h"
+#include "shading.h"
 
 #include <gtest/gtest.h>
 

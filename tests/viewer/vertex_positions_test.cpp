@@ -1,12 +1,12 @@
 // Where the graphics processor draws every vertex, held against the runtime's own skinning.
-#include "bounds.h"
+#include "camera.h"
 #include "frame.h"
-#include "gl_context.h"
+#include "opengl.h"
 #include "renderer.h"
 #include "runtime/build_model.h"
 #include "viewer/example_model.h"
 
-#include <bendy/viewer/viewer_error.h>
+#include <bendy/viewer/picture.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include "character.h"
 
 #include <bendy/format/diagnostics.h>
-#include <bendy/viewer/viewer_error.h>
 
 #include <glm/common.hpp>
 
@@ -16,7 +15,7 @@ Model open_model(Bytes bytes, const std::string& title) {
     return *std::move(model);
 }
 
-/// Round everything that any of the first clips shows.
+/// Returns a box around the character at rest and in its first clips.
 Box box_of(const Model& model) {
     constexpr std::size_t kClips = 4;
     Box box = bounding_box(model, nullptr);

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "bounds.h"
-#include "demo.h"
-#include "player.h"
+#include "players.h"
 #include "renderer.h"
 
 #include <bendy/format/chunk_reader.h>
@@ -16,9 +14,9 @@
 
 namespace bendy::viewer {
 
-/// What the window shows: a file's bytes and all that is made of them. Stays where it is made.
+/// What the window shows: a file's bytes and everything made from them. It cannot be moved.
 struct Character {
-    /// Throws ViewerError if the bytes are no good file. `file_bytes` are the whole file; `is_demo`: the tentacle.
+    /// Throws ViewerError if the file is invalid. `file_bytes` is the whole file; `is_demo`: it is the tentacle.
     Character(std::vector<std::byte> file_bytes, std::string name, const std::filesystem::path& folder, bool is_demo,
               const Warn& warn);
     Character(const Character&) = delete;
@@ -28,9 +26,9 @@ struct Character {
     ~Character() = default;
 
     [[nodiscard]] Pose& pose() const { return demo ? demo->pose() : player->pose(); }
-    /// The chains' targets as they are drawn and dragged: one a chain, the demo's one.
+    /// Returns the targets to draw and drag: one for each chain; in the demo, one.
     [[nodiscard]] std::vector<TargetMark> targets() const;
-    /// A target was dragged there.
+    /// Moves the target that the user drags.
     void move_target(std::size_t number, const glm::vec3& position) const;
 
     std::vector<std::byte> bytes;
@@ -40,7 +38,7 @@ struct Character {
     Box box;
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Player> player;
-    std::unique_ptr<Demo> demo;  // null: a file is looked at
+    std::unique_ptr<Demo> demo;  // null: a file is shown
 };
 
 }  // namespace bendy::viewer

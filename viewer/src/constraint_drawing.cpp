@@ -21,7 +21,7 @@ glm::dvec3 unit_axis(int axis) {
     return v;
 }
 
-/// The part of v across an axis as a unit vector; where there is next to none, that of the next axis.
+/// Returns the component of v perpendicular to an axis as a unit vector; the next axis if that component is too small.
 glm::dvec3 across(const glm::dvec3& v, int axis) {
     glm::dvec3 rest = v;
     rest[axis] = 0.0;
@@ -45,16 +45,16 @@ LimitFan make_arc(const AngleRange& range, int axis, const glm::dvec3& zero, con
     return fan;
 }
 
-constexpr double kWidest = 0.9995;  // sine of half the angle: a cone that is all but a ball
+constexpr double kWidest = 0.9995;  // sine of half the angle: the cone is nearly a sphere
 
-/// The largest legal swing towards an azimuth, sine of half its angle. See spec/constraints.md.
+/// Returns the largest legal swing towards an azimuth, as the sine of half its angle. See spec/constraints.md.
 double widest_swing(const Constraint& constraint, double y, double z) {
     const LimitShape& shape = constraint.shape;
     const double a = y < 0.0 ? shape.swing_low[0] : shape.swing_high[0];
     const double b = z < 0.0 ? shape.swing_low[1] : shape.swing_high[1];
     constexpr double kNothing = 1e-6;
     if (constraint.model == ConstraintModel::swing_twist_ellipse) {
-        // A free axis makes a band, an axis without room a line.
+        // A free axis makes a band, an axis with an empty range a line.
         const double along_y = std::isinf(a) ? 0.0 : std::abs(y) < kNothing ? 0.0 : y / std::max(a, 1e-9);
         const double along_z = std::isinf(b) ? 0.0 : std::abs(z) < kNothing ? 0.0 : z / std::max(b, 1e-9);
         const double slope = std::hypot(along_y, along_z);

@@ -1,7 +1,5 @@
 #include "frame.h"
 
-#include <bendy/viewer/viewer_error.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +27,7 @@ float to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-/// Colours that were drawn over transparent black hold their alpha as a factor.
+/// Colours drawn over transparent black are premultiplied; this undoes it.
 void divide_by_alpha(Picture& picture) {
     for (std::size_t at = 0; at + 4 <= picture.pixels.size(); at += 4) {
         const std::uint8_t alpha = picture.pixels[at + 3];
@@ -97,7 +95,7 @@ Picture Frame::read_pixels() const {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA, GL_UNSIGNED_BYTE,
                  picture.pixels.data());
-    // OpenGL begins at the bottom.
+    // OpenGL has the bottom row first.
     const auto row = [&](std::uint32_t y) {
         return picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.row_size() * y);
     };
@@ -109,7 +107,7 @@ void Frame::copy_to_window() const {
     resolve();
     const auto w = static_cast<GLint>(width_);
     const auto h = static_cast<GLint>(height_);
-    glDisable(GL_FRAMEBUFFER_SRGB);  // what was encoded once is copied as it is
+    glDisable(GL_FRAMEBUFFER_SRGB);  // the colours are already encoded
     glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);

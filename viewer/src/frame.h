@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl_object.h"
+#include "opengl.h"
 
 #include <bendy/viewer/picture.h>
 
@@ -8,20 +8,20 @@
 
 namespace bendy::viewer {
 
-/// What is drawn into: sRGB colour and depth with several samples a pixel, and the picture that they make.
+/// A render target: sRGB colour and depth with several samples per pixel, and the picture resolved from them.
 class Frame {
 public:
-    /// Throws ViewerError if the driver has not enough memory for it. `samples` 1: each pixel is what was drawn there;
-    /// and `srgb` false: its numbers too.
+    /// Throws ViewerError if the driver cannot make it. With `samples` 1 pixels are not antialiased; with `srgb` false
+    /// numbers are stored as they are.
     Frame(std::uint32_t width, std::uint32_t height, std::uint32_t samples = 4, bool srgb = true);
 
-    /// Makes it the place where everything is drawn.
+    /// Makes it the current render target.
     void bind() const;
-    /// The picture so far. `is_transparent`: it was drawn over nothing, so that its colours hold their alpha.
+    /// Returns the picture so far. `is_transparent`: the background is transparent, so colours are premultiplied.
     [[nodiscard]] Picture read(bool is_transparent) const;
     /// Copies it into the current window's own framebuffer.
     void copy_to_window() const;
-    /// What stands in the current window, not yet shown; it must be of this size.
+    /// Returns the back buffer of the current window, which must have this size.
     [[nodiscard]] Picture read_window() const;
 
     [[nodiscard]] std::uint32_t width() const { return width_; }

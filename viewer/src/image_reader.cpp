@@ -1,7 +1,5 @@
 #include "image_reader.h"
 
-#include "tga_bmp.h"
-
 #include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
@@ -9,12 +7,37 @@
 #include <algorithm>
 #include <array>
 #include <climits>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
+
+// Two formats only. Memory is zeroed, so the missing pixels of a truncated file are black.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_NO_STDIO
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(memory, size) std::realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
+#include <stb/stb_image.h>
 
 namespace bendy::viewer {
 namespace {
 
 constexpr std::uint32_t kMostSide = 16'384;
+
+/// Allocates the picture, or sets the problem and returns false if it is too large.
+bool prepare(ReadImage& out, std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
+    if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width > most_pixels / height) {
+        out.problem = "is too large: " + std::to_string(width) + " x " + std::to_string(height);
+        return false;
+    }
+    out.picture.width = static_cast<std::uint32_t>(width);
+    out.picture.height = static_cast<std::uint32_t>(height);
+    out.picture.pixels.resize(out.picture.row_size() * height);
+    return true;
+}
 
 void read_png(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
     png_image image{};
@@ -46,7 +69,7 @@ void read_jpeg(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
         return;
     }
     if (!prepare(out, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), most_pixels)) return;
-    // What can be shown of a damaged file is shown. A scan limit: progressive files can ask for endless work.
+    // A damaged file is shown as far as possible. Scans are limited, because progressive files can have any number.
     const int failed = tjDecompress2(decoder.get(), data, size, out.picture.pixels.data(), width, 0, height, TJPF_RGBA,
                                      TJFLAG_LIMITSCANS);
     if (failed != 0 && tjGetErrorCode(decoder.get()) == TJERR_FATAL)
@@ -68,6 +91,34 @@ void read_webp(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
         out.problem = "is no good WebP";
 }
 
+/// Reads a BMP or TGA file, the usual textures of X and MD2 files; returns false if the bytes are neither.
+bool read_bmp_or_tga(Bytes bytes, std::uint64_t most_pixels, ReadImage& out) {
+    if (bytes.size() > INT_MAX) return false;
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const auto size = static_cast<int>(bytes.size());
+    const bool is_bmp = size >= 2 && std::memcmp(data, "BM", 2) == 0;
+    const std::string format = is_bmp ? "BMP" : "TGA";
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
+        if (is_bmp) out.problem = "is no good BMP: " + std::string(stbi_failure_reason());
+        return is_bmp;  // TGA has no signature, so bytes that are not a TGA header are not reported as a bad TGA
+    }
+    const auto w = static_cast<std::uint64_t>(std::abs(static_cast<long long>(width)));
+    const auto h = static_cast<std::uint64_t>(std::abs(static_cast<long long>(height)));
+    if (!prepare(out, w, h, most_pixels)) return true;
+    const auto drop = [](stbi_uc* pixels) { stbi_image_free(pixels); };
+    const std::unique_ptr<stbi_uc, decltype(drop)> pixels(
+        stbi_load_from_memory(data, size, &width, &height, &channels, STBI_rgb_alpha), drop);
+    if (!pixels || static_cast<std::uint64_t>(width) != w || static_cast<std::uint64_t>(height) != h) {
+        out.problem = "is no good " + format + ": " + (pixels ? "bad size" : stbi_failure_reason());
+        return true;
+    }
+    std::memcpy(out.picture.pixels.data(), pixels.get(), out.picture.pixels.size());
+    return true;
+}
+
 template <std::size_t N>
 bool begins(Bytes bytes, const std::array<unsigned char, N>& start, std::size_t at = 0) {
     return bytes.size() >= at && N <= bytes.size() - at &&
@@ -76,17 +127,6 @@ bool begins(Bytes bytes, const std::array<unsigned char, N>& start, std::size_t 
 }
 
 }  // namespace
-
-bool prepare(ReadImage& out, std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
-    if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width > most_pixels / height) {
-        out.problem = "is too large: " + std::to_string(width) + " x " + std::to_string(height);
-        return false;
-    }
-    out.picture.width = static_cast<std::uint32_t>(width);
-    out.picture.height = static_cast<std::uint32_t>(height);
-    out.picture.pixels.resize(out.picture.row_size() * height);
-    return true;
-}
 
 ReadImage read_image(Bytes bytes, std::uint64_t most_pixels) {
     constexpr std::array<unsigned char, 4> kPng{0x89, 'P', 'N', 'G'};

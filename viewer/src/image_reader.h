@@ -10,11 +10,11 @@ namespace bendy::viewer {
 
 struct ReadImage {
     Picture picture;
-    std::string problem;  ///< why there is no picture; empty if there is one
+    std::string problem;  ///< why there is no picture, otherwise empty
 };
 
-/// Decodes a PNG, JPEG, WebP, BMP or TGA image, told by its first bytes. Whatever the bytes hold, it gives a picture of
-/// at most `most_pixels` or says why not, before it allocates.
+/// Decodes a PNG, JPEG, WebP, BMP or TGA image, recognised by its first bytes. A picture of more than `most_pixels`
+/// pixels is a problem, which is found before memory is allocated.
 ReadImage read_image(Bytes bytes, std::uint64_t most_pixels);
 
 }  // namespace bendy::viewer

@@ -1,6 +1,6 @@
 #include "overlay.h"
 
-#include "bounds.h"
+#include "camera.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -28,7 +28,7 @@ bool is_finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// A face's brightness by its direction, so that solids look solid.
+/// Shades a face by its direction, so that solids look three-dimensional.
 glm::vec4 shaded(const glm::vec3& colour, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 n = glm::cross(b - a, c - a);
     const float length = glm::length(n);
@@ -36,7 +36,7 @@ glm::vec4 shaded(const glm::vec3& colour, const glm::vec3& a, const glm::vec3& b
     return {colour * (0.55f + 0.45f * light), 1.0f};
 }
 
-/// Two pyramids with their bases, a square at `waist`, together.
+/// Adds two pyramids that share their square base, at `waist`.
 void add_octahedron(const glm::vec3& from, const glm::vec3& to, float waist, float width, const glm::vec3& colour,
                     OverlayList& list) {
     const glm::vec3 along = to - from;
@@ -62,8 +62,8 @@ void add_diamond(const glm::vec3& centre, float radius, const glm::vec3& colour,
     add_octahedron(centre - up, centre + up, 0.5f, radius, colour, list);
 }
 
-/// Joints that move something or belong to a chain: a file's other nodes are no bones. Without a surface all are but
-/// the controls.
+/// Returns for each joint whether it moves a vertex or belongs to a chain; a file's other nodes are not bones. Without
+/// a surface, all joints except the controls are bones.
 std::vector<bool> find_bones(const Model& model) {
     std::vector<bool> is_bone(model.joints().size());
     if (!has_surface(model)) {
@@ -84,11 +84,7 @@ std::vector<bool> find_bones(const Model& model) {
         }
     }
     for (const Chain& chain : model.chains()) {
-        std::uint32_t joint = chain.effector;
-        for (std::uint32_t link = 0; link < chain.links && joint != kNone; ++link) {
-            is_bone[joint] = true;
-            joint = model.joints()[joint].parent;
-        }
+        for (const std::uint32_t joint : links_of(model, chain)) is_bone[joint] = true;
     }
     return is_bone;
 }
@@ -103,7 +99,7 @@ void OverlayList::clear() {
 
 void OverlayList::line(const glm::vec3& a, const glm::vec3& b, const glm::vec4& colour, float pixels) {
     if (!is_finite(a) || !is_finite(b)) return;
-    // Seen from b the sides change places.
+    // Seen from b, left and right are exchanged.
     const OverlayVertex left{a, b, colour, pixels};
     const OverlayVertex right{a, b, colour, -pixels};
     const OverlayVertex far_left{b, a, colour, -pixels};
@@ -123,7 +119,7 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     Pose rest(model);
     constexpr float kDefaultLength = 0.06f;  // of the character's size
     lengths_.assign(is_bone.size(), 0.0f);
-    std::vector<std::uint32_t> child(is_bone.size(), kNone);  // at the end of a joint's longest bone
+    std::vector<std::uint32_t> child(is_bone.size(), kNone);  // at the end of each joint's longest bone
     std::vector<bool> is_end(is_bone.size());
     for (std::uint32_t joint = 0; joint < is_bone.size(); ++joint) {
         const std::uint32_t parent = model.joints()[joint].parent;
@@ -147,7 +143,7 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
         if (&constraint != (in_poses != nullptr ? in_poses : model.ik_constraint(constraint.joint))) continue;
         constraints_.push_back(&constraint);
         const std::uint32_t next = child[constraint.joint];
-        // At a skeleton's end, straight on.
+        // A joint without a bone continues its parent's direction.
         const JointTransform& own = model.joints()[constraint.joint].rest;
         const glm::vec3 bone =
             next == kNone ? glm::conjugate(own.rotation) * own.translation : model.joints()[next].rest.translation;
@@ -200,7 +196,7 @@ void Overlay::add_mark(Pose& pose, std::uint32_t joint, OverlayList& list) const
 void Overlay::add_constraint(const Constraint& constraint, const ConstraintDrawing& drawing, Pose& pose,
                              OverlayList& list) const {
     const Joint& joint = model_->joints()[drawing.joint];
-    // The limit stands still in the parent's space: rest * C. Scales are left out, but not mirrorings.
+    // The constraint is fixed in the parent's space: rest * C. Scale is removed, mirroring is not.
     glm::mat3 parent(1.0f);
     if (joint.parent != kNone) parent = glm::mat3(pose.model_space()[joint.parent]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -258,6 +254,16 @@ void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list
         }
         if (target.tip) list.line(*target.tip, target.position, glm::vec4(glm::vec3(colour), 0.6f), 0.75f);
     }
+}
+
+std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
+    std::vector<std::uint32_t> links(chain.links);
+    std::uint32_t joint = chain.effector;
+    for (std::uint32_t link = chain.links; link-- > 0;) {
+        links[link] = joint;
+        joint = model.joints()[joint].parent;
+    }
+    return links;
 }
 
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {

@@ -15,12 +15,12 @@ namespace bendy::viewer {
 
 struct OverlayVertex {
     glm::vec3 position;
-    glm::vec3 other;    ///< of a line: its other end
-    glm::vec4 colour;   ///< linear, alpha straight
-    float side = 0.0f;  ///< of a line: pixels to its edge, sign by side; 0 in a triangle
+    glm::vec3 other;    ///< the other end of a line
+    glm::vec4 colour;   ///< linear, alpha not premultiplied
+    float side = 0.0f;  ///< half the width of a line in pixels, its sign gives the side; 0 in a triangle
 };
 
-/// Triangles of the things that are drawn over the character.
+/// The triangles and lines that are drawn over the character.
 struct OverlayList {
     std::vector<OverlayVertex> solid;
     std::vector<OverlayVertex> translucent;
@@ -32,20 +32,20 @@ struct OverlayList {
                          const glm::vec4& colour);
 };
 
-/// A chain's target as a player has it.
+/// The target of an IK chain.
 struct TargetMark {
     glm::vec3 position{0.0f};
-    std::optional<glm::vec3> tip;  ///< what is to reach it
+    std::optional<glm::vec3> tip;  ///< the tip of its chain
     bool is_active = false;
 };
 
 /// Draws the skeleton, the constraints and the targets of one model. The model must outlive it.
 class Overlay {
 public:
-    /// `size`: of the whole character, metres: what cannot be measured by a bone goes by it.
+    /// `size`: of the whole character, metres; determines the size of what has no bone to scale with.
     Overlay(const Model& model, float size);
 
-    /// Each adds to the list; the pose must be up to date.
+    /// Each function adds to the list.
     void add_bones(Pose& pose, OverlayList& list) const;
     void add_axes(Pose& pose, OverlayList& list) const;
     void add_constraints(Pose& pose, OverlayList& list) const;
@@ -63,17 +63,20 @@ private:
     const Model* model_;
     float size_;
     std::vector<Bone> bones_;
-    std::vector<std::uint32_t> ends_;  // joints where a bone ends
-    std::vector<float> lengths_;       // of each joint's longest bone at rest, model space; or a share of the size
-    std::vector<const Constraint*> constraints_;  // one a joint: what poses obey, or else what the solvers do
-    std::vector<ConstraintDrawing> limits_;       // as many
+    std::vector<std::uint32_t> ends_;             // joints where a bone ends
+    std::vector<float> lengths_;                  // of each joint's longest bone at rest, or a share of the size
+    std::vector<const Constraint*> constraints_;  // one per joint: for poses, otherwise for IK
+    std::vector<ConstraintDrawing> limits_;       // of the same constraints
 };
 
-/// Where the chains' target joints are in a pose that is up to date; chains without one, that are off, or that stand in
-/// `without`, are left out.
+/// Returns the targets of the model's chains. Chains without a target joint, with influence 0, or listed in `without`
+/// are left out.
 std::vector<TargetMark> target_marks(Pose& pose, std::span<const Chain* const> without = {});
 
-/// Where a chain's tip is.
+/// Returns a chain's joints from its start to the effector.
+std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain);
+
+/// Returns the position of a chain's tip.
 glm::vec3 tip_of(const Chain& chain, Pose& pose);
 
 }  // namespace bendy::viewer

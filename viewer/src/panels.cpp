@@ -18,7 +18,7 @@ std::string label(std::string_view name, std::size_t number) {
     return std::to_string(number) + "  " + std::string(name);
 }
 
-/// A list of clips to choose from, with "none" at its head. True if the choice has changed.
+/// Draws a list of clips with `none` at the top. Returns true if the choice has changed.
 bool choose_clip(const char* title, const Model& model, std::uint32_t& chosen, const char* none) {
     const auto clips = model.clips();
     const std::string shown = chosen < clips.size() ? label(clips[chosen].name, chosen) : none;
@@ -114,7 +114,7 @@ void Window::draw_chunk_panel() {
     ImGui::SetNextWindowCollapsed(true, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Chunks")) {
         const ChunkTree& tree = character_->tree;
-        std::vector<std::uint32_t> ends;  // of the open containers that we are in
+        std::vector<std::uint32_t> ends;  // of the open containers around this chunk
         for (std::uint32_t number = 0; number < tree.chunks().size();) {
             while (!ends.empty() && number >= ends.back()) {
                 ImGui::TreePop();

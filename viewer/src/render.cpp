@@ -1,9 +1,8 @@
 #include <bendy/viewer/render.h>
 
-#include "bounds.h"
 #include "camera.h"
 #include "frame.h"
-#include "gl_context.h"
+#include "opengl.h"
 #include "overlay.h"
 #include "renderer.h"
 
@@ -16,7 +15,7 @@
 namespace bendy::viewer {
 namespace {
 
-/// Round all that will be drawn.
+/// Returns a box around everything that will be drawn.
 Box box_of(const Model& model, const RenderOptions& options) {
     std::vector<glm::vec3> targets;
     for (const DrawnTarget& target : options.targets) targets.push_back(target.position);
@@ -25,7 +24,7 @@ Box box_of(const Model& model, const RenderOptions& options) {
 
 }  // namespace
 
-/// In the order in which they are made: the context goes last.
+/// In the order of construction; the context is destroyed after everything that uses it.
 struct PictureMaker::Parts {
     Parts(const Model& model, const RenderOptions& wanted, const Warn& warn)
         : options(wanted),

@@ -1,9 +1,6 @@
 #include "renderer.h"
 
-#include "lighting.h"
-#include "reflectance_table.h"
-#include "shaders.h"
-#include "texture_units.h"
+#include "shading.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -23,7 +20,7 @@ bool is_blended(const SurfaceRecord& surface) {
     return static_cast<AlphaMode>(surface.alpha_mode) == AlphaMode::blend;
 }
 
-/// T * R * S, KHR_texture_transform.
+/// KHR_texture_transform: T * R * S.
 glm::mat3 uv_matrix(const TextureUseRecord& use) {
     const float c = std::cos(use.rotation);
     const float s = std::sin(use.rotation);
@@ -49,11 +46,10 @@ std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
              {&surface.emissive_texture, "emissive_map", true}}};
 }
 
-/// 16 entries a side: as fine as three.js has it.
+/// 16 entries a side, as in three.js.
 void upload_reflectance(GLuint texture) {
     constexpr GLsizei kSide = 16;
-    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    glBindTexture(GL_TEXTURE_2D, texture);
+    bind_texture(kUploadUnit, GL_TEXTURE_2D, texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, kSide, kSide, 0, GL_RG, GL_FLOAT, reflectance_table(kSide).data());
     for (const GLenum filter : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
@@ -99,16 +95,10 @@ Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::pa
     load_textures(warn);
     glBindVertexArray(overlay_layout_.name());
     glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
-    const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        glEnableVertexAttribArray(place);
-        glVertexAttribPointer(
-            place, components, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
-            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
-    };
-    floats(0, 3, offsetof(OverlayVertex, position));
-    floats(1, 3, offsetof(OverlayVertex, other));
-    floats(2, 4, offsetof(OverlayVertex, colour));
-    floats(3, 1, offsetof(OverlayVertex, side));
+    describe_floats(0, 3, sizeof(OverlayVertex), offsetof(OverlayVertex, position));
+    describe_floats(1, 3, sizeof(OverlayVertex), offsetof(OverlayVertex, other));
+    describe_floats(2, 4, sizeof(OverlayVertex), offsetof(OverlayVertex, colour));
+    describe_floats(3, 1, sizeof(OverlayVertex), offsetof(OverlayVertex, side));
 }
 
 void Renderer::set_level(float share) {
@@ -124,7 +114,7 @@ void Renderer::draw(Pose& pose, const Camera& camera, const DrawOptions& options
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    // The alpha of what was drawn over nothing adds up, so that a picture can be laid over another.
+    // Alpha accumulates, so that a picture with a transparent background can be composited.
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     buffers_.set_pose(pose);
     buffers_.bind();
@@ -155,7 +145,7 @@ const ShownSurface& Renderer::surface_of(const Submesh& submesh) const {
     return surfaces_[std::min<std::size_t>(submesh.material, surfaces_.size() - 1)];
 }
 
-/// All that any draw needs, before the first: nothing is uploaded between the calls that set a draw up.
+/// Loads all textures before the first draw, so that no upload comes between the calls that set up a draw.
 void Renderer::load_textures(const Warn& warn) {
     bool is_beyond = false;
     for (const Submesh& submesh : model_->submeshes()) {
@@ -177,11 +167,10 @@ void Renderer::set_material(const Submesh& submesh) const {
     std::array<bool, 5> is_shown{};
     for (std::size_t k = 0; k < uses.size(); ++k) {
         const auto unit = static_cast<GLuint>(kMaterialUnit + k);
-        glActiveTexture(GL_TEXTURE0 + unit);
         const auto texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
         is_shown[k] = texture.has_value();
         const bool is_checked = k == kBaseColour && uses[k].record->texture != kNone;
-        glBindTexture(GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
+        bind_texture(unit, GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
         glUniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
         matrices[k] = uv_matrix(*uses[k].record);
         sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, kLastSet));
@@ -189,7 +178,7 @@ void Renderer::set_material(const Submesh& submesh) const {
     glUniformMatrix3fv(surface_["uv_matrix"], 5, GL_FALSE, glm::value_ptr(matrices[0]));
     glUniform1iv(surface_["uv_set"], 5, sets.data());
     glUniform4fv(surface_["base_colour"], 1, surface.base_colour.data());
-    // Without its map a surface has no light of its own, and no bumps.
+    // A surface whose emissive map cannot be shown emits nothing.
     const bool is_dark = surface.emissive_texture.texture != kNone && !is_shown[kEmissive];
     set_vector(surface_["emissive"], is_dark ? glm::vec3(0.0f) : glm::make_vec3(surface.emissive.data()));
     set_vector(surface_["dielectric"], shown.dielectric);
@@ -217,8 +206,7 @@ void Renderer::draw_surface(const Camera& camera) const {
     glUniform1f(surface_["sky"], lighting.sky);
     glUniform1f(surface_["ground"], lighting.ground);
     glUniform1f(surface_["environment"], lighting.environment);
-    glActiveTexture(GL_TEXTURE0 + kReflectanceUnit);
-    glBindTexture(GL_TEXTURE_2D, reflectance_.name());
+    bind_texture(kReflectanceUnit, GL_TEXTURE_2D, reflectance_.name());
     glUniform1i(surface_["reflectance"], kReflectanceUnit);
     glUniform1i(surface_["which_faces"], kBothFaces);
     struct SeeThrough {
@@ -296,7 +284,7 @@ void Renderer::draw_overlay(Pose& pose, const Camera& camera, const DrawOptions&
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);
     if (options.marked_joint != kNone) overlay_.add_mark(pose, options.marked_joint, list_);
-    glClear(GL_DEPTH_BUFFER_BIT);  // over the character, which would hide its own bones
+    glClear(GL_DEPTH_BUFFER_BIT);  // otherwise the character would hide its bones
     overlay_program_.use();
     glUniformMatrix4fv(overlay_program_["view_projection"], 1, GL_FALSE, glm::value_ptr(camera.view_projection()));
     glUniform2f(overlay_program_["size"], size.x, size.y);

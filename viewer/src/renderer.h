@@ -1,11 +1,10 @@
 #pragma once
 
 #include "camera.h"
+#include "materials.h"
+#include "opengl.h"
 #include "overlay.h"
-#include "program.h"
 #include "scene_buffers.h"
-#include "shown_surface.h"
-#include "texture_loader.h"
 
 #include <bendy/runtime.h>
 
@@ -16,8 +15,7 @@
 
 namespace bendy::viewer {
 
-/// Draws one model into the framebuffer that is bound; the pictures and the window both come from here. The model must
-/// outlive it.
+/// Draws one model into the bound framebuffer, for pictures and for the window. The model must outlive it.
 class Renderer {
 public:
     Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn);
@@ -25,12 +23,12 @@ public:
     void set_level(float share);
     [[nodiscard]] const Lod& level() const { return level_; }
 
-    /// Draws the pose. `targets`: of IK chains, drawn if the options say so. `size`: of the framebuffer, pixels.
+    /// Draws the pose, and the `targets` of IK chains if the options say so. `size`: of the framebuffer, pixels.
     void draw(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
               const glm::vec2& size);
 
-    /// Draws every vertex as one pixel with its number (Model::first_vertex and on; red the lowest bits; alpha 0:
-    /// none), what is behind others hidden: by vertices only, or also by the surface. For tests.
+    /// Draws every vertex as one pixel whose colour is its number (Model::first_vertex + n; red has the lowest bits;
+    /// alpha 0: no vertex). Vertices hide those behind them, and so does the surface if `behind_surface`. For tests.
     void draw_numbers(Pose& pose, const Camera& camera, bool behind_surface);
 
 private:
@@ -47,7 +45,7 @@ private:
     [[nodiscard]] const ShownSurface& surface_of(const Submesh& submesh) const;
 
     const Model* model_;
-    std::vector<ShownSurface> surfaces_;  // of the materials, and the default one
+    std::vector<ShownSurface> surfaces_;  // of each material, then the default one
     Lod level_;
     SceneBuffers buffers_;
     TextureLoader textures_;
@@ -60,7 +58,7 @@ private:
     VertexArray overlay_layout_;
     Buffer overlay_vertices_;
     OverlayList list_;
-    std::vector<glm::vec3> centres_;  // of the draws at rest: to sort what is see-through
+    std::vector<glm::vec3> centres_;  // of the submeshes at rest, to sort transparent ones
 };
 
 }  // namespace bendy::viewer

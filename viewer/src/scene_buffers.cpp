@@ -1,8 +1,6 @@
 #include "scene_buffers.h"
 
-#include "texture_units.h"
-
-#include <bendy/viewer/viewer_error.h>
+#include <bendy/viewer/picture.h>
 
 #include <glm/mat4x4.hpp>
 
@@ -15,21 +13,16 @@
 namespace bendy::viewer {
 namespace {
 
-/// The palette's first matrix; the joints' follow, then the meshes' bind palettes.
+/// The palette's first matrix; those of the joints follow, then the meshes' bind palettes.
 constexpr std::uint32_t kIdentity = 0;
 
 struct Displacement {
     glm::vec3 position{0.0f};
-    float target = 0.0f;  ///< Model-wide number: a float, since bits of an integer would be a denormal one
+    float target = 0.0f;  ///< model-wide number; a float, because an integer's bits would be a denormal float
     glm::vec4 normal{0.0f};
     glm::vec4 tangent{0.0f};
 };
 static_assert(sizeof(Displacement) == 48, "three texels");
-
-std::vector<float> no_weights(const Mesh& mesh) {
-    std::vector<float> weights(mesh.targets.size(), 0.0f);
-    return weights;
-}
 
 float number_or(const StreamView& stream, std::uint32_t vertex, std::uint32_t component, float otherwise) {
     return component < stream.components ? stream.number(vertex, component) : otherwise;
@@ -39,7 +32,8 @@ void fill_geometry(const Mesh& mesh, std::span<GpuVertex> out) {
     std::vector<glm::vec3> positions(mesh.vertices);
     std::vector<glm::vec3> normals(mesh.vertices);
     std::vector<glm::vec4> tangents(mesh.vertices);
-    (void)apply_morph_targets(mesh, no_weights(mesh), {positions, normals, tangents});
+    const std::vector<float> no_weights(mesh.targets.size(), 0.0f);
+    (void)apply_morph_targets(mesh, no_weights, {positions, normals, tangents});
     for (std::size_t v = 0; v < out.size(); ++v) {
         out[v].position = positions[v];
         out[v].normal = normals[v];
@@ -61,7 +55,7 @@ void fill_coords_and_colours(const Mesh& mesh, std::span<GpuVertex> out) {
     }
 }
 
-/// Adds what moves the mesh's vertices: pairs of palette entry and weight, of any number a vertex.
+/// Adds the mesh's influences: any number of pairs of palette entry and weight for each vertex.
 void add_influences(const Model& model, std::uint32_t number, std::uint32_t first_entry, std::span<GpuVertex> out,
                     std::vector<glm::uvec2>& list) {
     const Mesh& mesh = model.meshes()[number];
@@ -86,7 +80,7 @@ glm::vec3 vector_at(const MorphTargetView& target, const std::optional<StreamVie
     return stream && rest ? target.displacement(*stream, *rest, entry) : glm::vec3(0.0f);
 }
 
-/// Adds the targets' displacements, sorted by vertex: as many as the file has, whatever their number.
+/// Adds all displacements of the mesh's targets, sorted by vertex.
 void add_displacements(const Mesh& mesh, std::uint32_t first_morph_target, std::span<GpuVertex> out,
                        std::vector<Displacement>& list) {
     for (const MorphTargetView& target : mesh.targets) {
@@ -122,15 +116,13 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 void describe_vertices() {
     const auto floats = [](GLuint place, GLint components, std::size_t offset) {
-        glEnableVertexAttribArray(place);
-        glVertexAttribPointer(
-            place, components, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
-            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
+        describe_floats(place, components, sizeof(GpuVertex), offset);
     };
     const auto integers = [](GLuint place, std::size_t offset) {
         glEnableVertexAttribArray(place);
-        glVertexAttribIPointer(place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
-                               reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): likewise
+        glVertexAttribIPointer(
+            place, 2, GL_UNSIGNED_INT, sizeof(GpuVertex),
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL wants it
     };
     floats(0, 3, offsetof(GpuVertex, position));
     floats(1, 3, offsetof(GpuVertex, normal));
@@ -142,7 +134,7 @@ void describe_vertices() {
     integers(7, offsetof(GpuVertex, displacements));
 }
 
-/// The three upper rows.
+/// Writes the upper three rows.
 void put_rows(const glm::mat4& matrix, glm::vec4* out) {
     for (int row = 0; row < 3; ++row) out[row] = {matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]};
 }
@@ -160,14 +152,12 @@ void BufferTexture::fill(const void* data, std::size_t bytes, GLenum usage) {
     glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes == 0 ? kNothing.size() : bytes),
                  bytes == 0 ? kNothing.data() : data, usage);
-    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    bind_texture(kUploadUnit, GL_TEXTURE_BUFFER, texture_.name());
     glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
 }
 
 void BufferTexture::bind(GLuint unit) const {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    bind_texture(unit, GL_TEXTURE_BUFFER, texture_.name());
 }
 
 SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {

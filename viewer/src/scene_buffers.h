@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl_object.h"
+#include "opengl.h"
 
 #include <bendy/runtime.h>
 
@@ -14,10 +14,10 @@
 
 namespace bendy::viewer {
 
-/// A vertex as the graphics processor gets it; all meshes, mesh after mesh.
+/// The vertex layout on the graphics processor. All meshes are in one buffer, one after another.
 struct GpuVertex {
     glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};             ///< zero where the source has none
+    glm::vec3 normal{0.0f};             ///< zero if the source has none
     glm::vec4 tangent{0.0f};            ///< likewise
     std::array<glm::vec2, 4> coords{};  ///< sets 0 to 3
     glm::vec4 colour{1.0f};             ///< set 0
@@ -25,12 +25,12 @@ struct GpuVertex {
     glm::uvec2 displacements{0};        ///< first and count, in the list of displacements
 };
 
-/// A buffer that shaders read by number: any length up to what the driver takes (65,536 texels at least).
+/// A buffer that shaders read by index. Drivers allow at least 65,536 texels.
 class BufferTexture {
 public:
-    /// `format` such as GL_RGBA32F; `texel` bytes of one.
+    /// `format`: such as GL_RGBA32F; `texel`: the bytes of one texel.
     BufferTexture(GLenum format, std::size_t texel) : format_(format), texel_(texel) {}
-    /// Replaces the content. Throws ViewerError if the driver cannot take so much.
+    /// Replaces the content. Throws ViewerError if it is too large for the driver.
     void fill(const void* data, std::size_t bytes, GLenum usage);
     void bind(GLuint unit) const;
 
@@ -41,18 +41,18 @@ private:
     std::size_t texel_;
 };
 
-/// A model in the graphics processor's memory. The model must outlive it.
+/// A model on the graphics processor. The model must outlive it.
 class SceneBuffers {
 public:
     explicit SceneBuffers(const Model& model);
 
-    /// What changes from frame to frame: matrices and weights of morph targets. Brings the pose up to date.
+    /// Uploads what changes from frame to frame: matrices and weights of morph targets.
     void set_pose(Pose& pose);
     void set_level(const Lod& lod);
-    /// Binds vertices, indices, and the buffers to the texture units that texture_units.h names for them.
+    /// Binds vertices, indices, and the buffers to their texture units.
     void bind() const;
 
-    /// Where a mesh's indices begin in the bound index buffer.
+    /// Returns the position of a mesh's first index in the bound index buffer.
     [[nodiscard]] std::uint32_t first_index(std::uint32_t mesh) const { return first_index_[mesh]; }
     [[nodiscard]] std::uint32_t vertices() const { return static_cast<std::uint32_t>(model_->vertex_count()); }
 
@@ -66,8 +66,8 @@ private:
     BufferTexture displacements_{GL_RGBA32F, 16};
     BufferTexture weights_{GL_R32F, 4};
     std::vector<std::uint32_t> first_index_;    // one per mesh
-    std::vector<std::uint32_t> first_palette_;  // of a mesh's entries, in matrices
-    std::vector<glm::vec4> rows_;               // the palette while it is made
+    std::vector<std::uint32_t> first_palette_;  // of each mesh's entries, counted in matrices
+    std::vector<glm::vec4> rows_;               // scratch memory for the palette
     std::vector<float> weight_list_;
 };
 

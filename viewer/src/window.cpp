@@ -1,8 +1,6 @@
 #include "window.h"
 
 #include <bendy/format/file.h>
-#include <bendy/viewer/picture_file.h>
-#include <bendy/viewer/viewer_error.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -30,7 +28,7 @@ std::string last_problem() {
     return text == nullptr ? "no reason given" : text;
 }
 
-/// What a key does in the demo, if it does anything.
+/// Returns the meaning of a key in the demo, if it has one.
 std::optional<DemoKey> demo_key(int key) {
     struct Meaning {
         int key;
@@ -79,9 +77,9 @@ Window::Window(const ViewOptions& options) : options_(options) {
     fit_camera();
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;  // writes no settings file
     ImGui::StyleColorsDark();
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks that are there, too
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);  // also calls the callbacks installed before
     ImGui_ImplOpenGL3_Init("#version 330");
     has_panels_ = true;
 }
@@ -134,7 +132,7 @@ void Window::show(const std::filesystem::path& file) {
     character_ = std::move(character);
     level_ = 1.0f;
     draw_.wireframe = turntable_ = false;
-    draw_.bones = !has_surface(*character_->model);  // else there is nothing to see
+    draw_.bones = !has_surface(*character_->model);  // otherwise there is nothing to see
 }
 
 void Window::fit_camera() {
@@ -143,7 +141,7 @@ void Window::fit_camera() {
 }
 
 void Window::on_drop(const std::filesystem::path& file) {
-    // A file that is no good leaves the one that is shown.
+    // If the file is invalid, the current one stays.
     try {
         show(file);
         fit_camera();
@@ -160,7 +158,7 @@ void Window::toggle_chains() {
     for (ChainControl& chain : chains) chain.is_on = !any;
 }
 
-/// The keys mean what is seen in the picture.
+/// Tells the demo the view, because its keys refer to the picture.
 void Window::show_demo_the_view() {
     const glm::mat4 axes = glm::transpose(camera_.view());
     character_->demo->look_along(glm::vec3(axes[0]), glm::vec3(axes[1]));
@@ -357,7 +355,7 @@ void Window::run() {
     while (!quits_ && glfwWindowShouldClose(window_) == GLFW_FALSE) {
         glfwPollEvents();
         const auto now = Clock::now();
-        constexpr double kLongest = 0.1;  // seconds: whoever was away comes back to where it stood
+        constexpr double kLongest = 0.1;  // seconds: after a pause of the program, playback continues where it was
         step(std::min(kLongest, std::chrono::duration<double>(now - last).count()));
         last = now;
         draw();

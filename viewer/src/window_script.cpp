@@ -1,10 +1,8 @@
-// The window's test hook: commands in, its state as JSON out.
+// The window's test interface: it reads commands and prints the state as JSON.
 #include "window.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
-#include <bendy/viewer/picture_file.h>
-#include <bendy/viewer/viewer_error.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -19,7 +17,7 @@
 namespace bendy::viewer {
 namespace {
 
-/// GLFW's number of a key: a letter, or a name.
+/// Returns GLFW's number of a key, which is a letter or one of the names below.
 int key_named(const std::string& name) {
     struct Named {
         const char* name;
@@ -195,7 +193,7 @@ void Window::run_command(const std::string& line) {
         on_drop(name);
     } else if (command == "picture") {
         std::getline(words >> std::ws, name);
-        picture_ = name;  // by the frame that is drawn after every command
+        picture_ = name;  // saved by the draw that follows every command
     } else {
         throw ViewerError("script: there is no command " + command);
     }

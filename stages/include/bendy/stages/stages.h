@@ -13,25 +13,24 @@
 #include <string>
 #include <vector>
 
-// What is done with a file from opening it to its vertices on the screen, a step at a time: what `bendy bench` and
-// bench/ time.
+// The steps from opening a file to its skinned vertices, which `bendy bench` and bench/ measure.
 namespace bendy::stages {
 
 struct Stage {
     std::string name;
-    const char* item = "";  ///< what a time is stated for: "file", "joint", "vertex", ...
-    double items = 1.0;     ///< of these in one run
+    const char* item = "";  ///< the unit of work that times refer to: "file", "joint", "vertex", ...
+    double items = 1.0;     ///< number of items in one run
     std::function<void()> run;
 };
 
-/// The stages of one file, with all that they work on; they use it, and it must not move.
+/// The stages of one file and their data. The stages refer to this object, so it cannot be moved.
 class Stages {
 public:
     using Open = std::function<Result<Model>(const OpenOptions&)>;
 
-    /// \param open   opens the file once more, or the bytes that were piped in
-    /// \param model  the file opened
-    /// \param clip  what is played; null: the rest pose, and nothing is sampled
+    /// \param open   opens the file again, or the bytes from standard input
+    /// \param model  the opened file
+    /// \param clip   the clip to play; null: the rest pose, and nothing is sampled
     Stages(const Open& open, const Model& model, const Clip* clip);
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
@@ -50,7 +49,7 @@ private:
     void add_reaching();
     void add_levels();
     void next_frame();
-    /// Positions, normals, tangents: the first so many.
+    /// Skins the first so many of positions, normals, tangents.
     void skin_attributes(std::size_t attributes);
 
     const Model& model_;
@@ -63,7 +62,7 @@ private:
     std::vector<glm::vec4> tangents_;
     std::vector<float> weights_;      // of morph targets
     std::vector<glm::vec3> targets_;  // two for each chain
-    std::size_t turn_ = 0;            // which of two
+    std::size_t turn_ = 0;            // which of the two
     std::vector<Stage> list_;
 };
 

@@ -13,33 +13,34 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-// Pictures of a character, without a display.
+// Rendering pictures of a character without a display.
 namespace bendy::viewer {
 
-/// Takes a line about something that cannot be shown as it should be.
+/// Receives a line about something that cannot be shown correctly.
 using Warn = std::function<void(const std::string& what)>;
 
-/// What is drawn, and how.
+/// Selects what is drawn.
 struct DrawOptions {
     bool surface = true;  ///< the character itself
     bool wireframe = false;
     bool bones = false;
-    bool axes = false;  ///< the joints' axes: X red, Y green, Z blue
+    bool axes = false;  ///< of the joints: X red, Y green, Z blue
     bool constraints = false;
-    bool targets = false;                              ///< what the IK chains are to reach
-    std::uint32_t marked_joint = kNone;                ///< drawn so that it stands out, with its axes
+    bool targets = false;                              ///< of IK chains
+    std::uint32_t marked_joint = kNone;                ///< highlighted, with its axes
     glm::vec4 background{0.086f, 0.1f, 0.122f, 1.0f};  ///< linear; alpha 0: transparent
 };
 
 struct CameraOptions {
     float yaw = 0.6f;       ///< radians about Y; 0 looks along -Z, at the front of a character that faces +Z
-    float pitch = 0.2f;     ///< radians, over the horizon
+    float pitch = 0.2f;     ///< radians above the horizon
     float distance = 1.0f;  ///< 1: the character fills the picture
 };
 
-/// A point that an IK chain was to reach: drawn, with a line from the chain's tip, and always in the picture.
+/// The target of a reach. It is always in the picture, with a line from the chain's tip.
 struct DrawnTarget {
     const Chain* chain = nullptr;  ///< of the model
     glm::vec3 position{0.0f};      ///< metres, model space
@@ -49,18 +50,22 @@ struct RenderOptions {
     std::uint32_t width = 1024;  ///< pixels, 1 to kMostPixels
     std::uint32_t height = 768;  ///< likewise
     const Clip* clip = nullptr;  ///< null: the rest pose
-    float lod = 1.0f;            ///< share of the triangles
+    float lod = 1.0f;            ///< fraction of the triangles
     CameraOptions camera;
     DrawOptions draw;
-    std::filesystem::path folder;  ///< of images that the file only names
-    /// Changes every pose after the clip: limits, IK. May be empty.
+    std::filesystem::path folder;  ///< that contains the images that the file links to
+    /// Changes every pose after sampling, to apply constraints or IK. May be empty.
     std::function<void(Pose&)> adjust;
     std::vector<DrawnTarget> targets;
 };
 
+/// Returns the file that an image's URI refers to, relative to `folder` (RenderOptions::folder); nothing if the URI
+/// leads out of the folder.
+std::optional<std::filesystem::path> linked_file(const std::filesystem::path& folder, std::string_view uri);
+
 inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 
-/// Draws one character, or the skeleton of one without a surface; the camera is fitted to the whole clip and stays.
+/// Draws a character, or its skeleton if it has no surface. The camera is fitted to the whole clip and does not move.
 /// The model must outlive it.
 class PictureMaker {
 public:
@@ -72,11 +77,11 @@ public:
     PictureMaker& operator=(PictureMaker&&) = delete;
     ~PictureMaker();
 
-    /// The character at a time of the clip, seconds.
+    /// Draws the character at a time of the clip, in seconds.
     Picture draw(float time);
-    /// The background alone.
+    /// Draws the background alone.
     Picture draw_nothing();
-    /// Which OpenGL draws.
+    /// Describes the OpenGL driver.
     [[nodiscard]] const std::string& context() const;
 
 private:

@@ -9,25 +9,25 @@
 #include <string>
 #include <vector>
 
-// The window.
+// The viewer window.
 namespace bendy::viewer {
 
 struct ViewOptions {
-    /// Gives the bytes of a file that shall be shown, converted if it is none of ours. Throws ViewerError with the
-    /// reason if it cannot.
+    /// Returns the bytes of a file to show, converted if it is not a bendy file. Throws ViewerError with the reason if
+    /// it fails.
     std::function<std::vector<std::byte>(const std::filesystem::path&)> open;
     std::filesystem::path file;    ///< empty: the tentacle demo
     Bytes tentacle;                ///< the demo's character, a bendy file
-    std::filesystem::path script;  ///< for tests: keys to press, see window.h; empty: a person does
-    bool trace = false;            ///< for tests: prints the state, a JSON object a line, after each key
+    std::filesystem::path script;  ///< for tests: commands, see window.h; empty: interactive
+    bool trace = false;            ///< for tests: prints the state as a JSON object after each key
     std::uint32_t width = 1280;
     std::uint32_t height = 800;
-    bool verbose = false;  ///< says which OpenGL draws
+    bool verbose = false;  ///< prints the OpenGL driver
     Warn warn;
 };
 
-/// Opens the window and stays until it is closed. Throws ViewerError if there is no display, no OpenGL 3.3, or nothing
-/// to show.
+/// Opens the window and returns when it is closed. Throws ViewerError if there is no display or no OpenGL 3.3, or if
+/// the file cannot be shown.
 void view(const ViewOptions& options);
 
 }  // namespace bendy::viewer

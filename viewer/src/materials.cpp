@@ -1,26 +1,77 @@
-#include "texture_loader.h"
+#include "materials.h"
 
 #include "image_reader.h"
-#include "texture_units.h"
 
 #include <bendy/format/file.h>
-#include <bendy/viewer/linked_file.h>
+
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <string>
+#include <charconv>
+#include <cmath>
 #include <string_view>
-#include <vector>
 
 namespace bendy::viewer {
 namespace {
 
-/// Of all textures together: half a gigabyte.
+/// Returns a number of an extension; nothing if it is not a finite number of at least 0.
+std::optional<float> number_of(const nlohmann::json& value) {
+    if (!value.is_number()) return std::nullopt;
+    const auto number = value.get<float>();
+    return std::isfinite(number) && number >= 0.0f ? std::optional(number) : std::nullopt;
+}
+
+nlohmann::json member(const nlohmann::json& object, const char* key) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() ? nlohmann::json() : *found;
+}
+
+ShownSurface shown_surface(const MaterialView& material) {
+    ShownSurface surface{material.surface};
+    if (material.extensions.empty()) return surface;
+    const auto extensions = nlohmann::json::parse(material.extensions, nullptr, false);
+    const float strength =
+        number_of(member(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength")).value_or(1.0f);
+    for (float& colour : surface.record.emissive) colour *= strength;
+
+    // 0 represents an infinite index: everything is reflected.
+    const float ior = number_of(member(member(extensions, "KHR_materials_ior"), "ior")).value_or(1.5f);
+    const float from_ahead = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
+    const nlohmann::json specular = member(extensions, "KHR_materials_specular");
+    glm::vec3 colour(1.0f);
+    const nlohmann::json factors = member(specular, "specularColorFactor");
+    for (int k = 0; k < 3 && factors.is_array() && factors.size() == 3; ++k)
+        colour[k] = number_of(factors[static_cast<std::size_t>(k)]).value_or(1.0f);
+    surface.dielectric_at_grazing = std::min(number_of(member(specular, "specularFactor")).value_or(1.0f), 1.0f);
+    surface.dielectric = glm::min(from_ahead * from_ahead * colour, glm::vec3(1.0f)) * surface.dielectric_at_grazing;
+    return surface;
+}
+
+/// Decodes "a%20b" to "a b"; a percent sign without two digits stays.
+std::string percent_decoded(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        unsigned byte = 0;
+        const char* digits = text.data() + at + 1;
+        if (text[at] == '%' && text.size() - at > 2 &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte != 0) {
+            out += static_cast<char>(byte);
+            at += 2;
+        } else {
+            out += text[at];
+        }
+    }
+    return out;
+}
+
+/// For all textures together: half a gigabyte.
 constexpr std::uint64_t kMostTexels = 1u << 27u;
 
 void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {
-    glActiveTexture(GL_TEXTURE0 + kUploadUnit);
-    glBindTexture(GL_TEXTURE_2D, texture);
+    bind_texture(kUploadUnit, GL_TEXTURE_2D, texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
                  static_cast<GLsizei>(picture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
@@ -53,6 +104,21 @@ void set_sampler(const SamplerRecord& sampler) {
 }
 
 }  // namespace
+
+std::vector<ShownSurface> shown_surfaces(const Model& model) {
+    std::vector<ShownSurface> surfaces;
+    for (const MaterialView& material : model.materials()) surfaces.push_back(shown_surface(material));
+    surfaces.emplace_back();
+    return surfaces;
+}
+
+std::optional<std::filesystem::path> linked_file(const std::filesystem::path& folder, std::string_view uri) {
+    if (folder.empty() || uri.empty() || uri.find(':') != std::string_view::npos) return std::nullopt;
+    const std::filesystem::path file = percent_decoded(uri);
+    const bool leads_out = std::any_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
+    if (file.is_absolute() || leads_out) return std::nullopt;
+    return folder / file;
+}
 
 TextureLoader::TextureLoader(const Model& model, std::filesystem::path folder, Warn warn)
     : model_(&model), folder_(std::move(folder)), warn_(std::move(warn)), pixels_left_(kMostTexels) {

@@ -1,9 +1,9 @@
-#include "gl_context.h"
+#include "opengl.h"
 
-#include <bendy/viewer/viewer_error.h>
+#include <bendy/viewer/picture.h>
 
-// libepoxy opens libEGL and libGL when the first of their functions is called, so that the program starts where they
-// are missing. It aborts when it cannot: they are looked for before.
+// libepoxy opens libEGL and libGL when the first of their functions is called, so the program starts without them. It
+// aborts if they are missing, so this file looks for them first.
 #define EGL_NO_X11
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -15,7 +15,7 @@ namespace bendy::viewer {
 namespace {
 
 bool has_library(const char* file) {
-    return dlopen(file, RTLD_LAZY | RTLD_LOCAL) != nullptr;  // stays open: drivers do not survive being opened twice
+    return dlopen(file, RTLD_LAZY | RTLD_LOCAL) != nullptr;  // never closed: drivers crash if they are loaded again
 }
 
 std::string text_of(GLenum what) {
@@ -50,6 +50,21 @@ EGLDisplay open_display(unsigned platform) {
     return eglGetPlatformDisplayEXT(platform, device, nullptr);
 }
 
+constexpr GLsizei kLogLength = 2000;
+
+GLuint compile(GLenum kind, const char* source) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint is_good = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &is_good);
+    if (is_good == GL_TRUE) return shader;
+    std::array<char, kLogLength> log{};
+    glGetShaderInfoLog(shader, kLogLength, nullptr, log.data());
+    glDeleteShader(shader);
+    throw ViewerError("a shader does not compile: " + std::string(log.data()));
+}
+
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
@@ -81,7 +96,7 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     EGLConfig config = nullptr;
     EGLint configs = 0;
     eglChooseConfig(display, kConfig.data(), &config, 1, &configs);
-    if (configs == 0) config = nullptr;  // EGL_KHR_no_config_context, where there is none
+    if (configs == 0) config = nullptr;  // requires EGL_KHR_no_config_context
     constexpr std::array<EGLint, 7> kContext{
         EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
@@ -102,6 +117,39 @@ bool OffscreenContext::try_egl(unsigned platform, const char* name, std::string&
     };
     description_ = describe(name);
     return true;
+}
+
+Program::Program(const char* vertex_source, const char* fragment_source) : name_(glCreateProgram()) {
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_source);
+    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_source);
+    glAttachShader(name_, vertex);
+    glAttachShader(name_, fragment);
+    glLinkProgram(name_);
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
+    GLint is_good = GL_FALSE;
+    glGetProgramiv(name_, GL_LINK_STATUS, &is_good);
+    if (is_good == GL_TRUE) return;
+    std::array<char, kLogLength> log{};
+    glGetProgramInfoLog(name_, kLogLength, nullptr, log.data());
+    glDeleteProgram(name_);
+    throw ViewerError("the shaders do not link: " + std::string(log.data()));
+}
+
+Program::~Program() {
+    glDeleteProgram(name_);
+}
+
+void bind_texture(GLuint unit, GLenum target, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(target, texture);
+}
+
+void describe_floats(GLuint place, GLint components, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(place);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): as OpenGL wants it
+    const auto* first = reinterpret_cast<const void*>(offset);
+    glVertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), first);
 }
 
 }  // namespace bendy::viewer

@@ -1,12 +1,11 @@
-#include "demo.h"
-
-#include <bendy/runtime/blend.h>
+#include "players.h"
 
 #include "overlay.h"
 
+#include <bendy/runtime/blend.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
@@ -15,13 +14,17 @@
 namespace bendy::viewer {
 namespace {
 
-constexpr double kEase = 0.4;              // seconds from one mode into the next
-constexpr double kPress = 1.0 / 15.0;      // seconds of holding that a press is worth
-constexpr double kPullEvery = 1.0 / 60.0;  // seconds between two steps of the pull
-constexpr double kOtherWay = 0.8;          // seconds from where it was stuck to the other pose
-constexpr int kMostPulls = 30;             // in one step, whatever its length
+double length_of(const Clip& clip) {
+    return static_cast<double>(clip.end) - static_cast<double>(clip.start);
+}
 
-/// As the viewer sees it: X to the right, Y up, Z nearer.
+constexpr double kEase = 0.4;              // seconds from one mode to the next
+constexpr double kPress = 1.0 / 15.0;      // a press counts as holding the key for so many seconds
+constexpr double kPullEvery = 1.0 / 60.0;  // seconds from pull to pull
+constexpr double kOtherWay = 0.8;          // seconds from the pose where it was stuck to the other pose
+constexpr int kMostPulls = 30;             // in one step, however long it is
+
+/// As seen in the picture: X to the right, Y up, Z towards the viewer.
 glm::vec3 direction_of(DemoKey key) {
     switch (key) {
         case DemoKey::left:
@@ -46,31 +49,20 @@ const Clip* find_animation(const Model& model) {
     return wave != nullptr || model.clips().empty() ? wave : model.clips().data();
 }
 
-/// A chain's joints from its start to the effector.
-std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
-    std::vector<std::uint32_t> links(chain.links);
-    std::uint32_t joint = chain.effector;
-    for (std::uint32_t link = chain.links; link-- > 0;) {
-        links[link] = joint;
-        joint = model.joints()[joint].parent;
-    }
-    return links;
-}
-
 glm::vec3 unit_vector(int number) {
     glm::vec3 axis(0.0f);
     axis[number] = 1.0f;
     return axis;
 }
 
-/// The number of the axis that is nearest to a direction.
+/// Returns the number of the axis nearest to a direction.
 int nearest_axis(const glm::vec3& direction) {
     const glm::vec3 size = glm::abs(direction);
     if (size.y >= size.x && size.y >= size.z) return 1;
     return size.x >= size.z ? 0 : 2;
 }
 
-/// The picture's right, level: bending by hand goes by where the viewer stands, not by how high.
+/// Returns the picture's right in the horizontal plane: bending depends on the viewer's yaw, not on the pitch.
 glm::vec3 level_right(const glm::vec3& right) {
     const glm::vec3 level(right.x, 0.0f, right.z);
     const float length = glm::length(level);
@@ -84,6 +76,55 @@ glm::quat rotation_of(const glm::mat4& matrix) {
 }
 
 }  // namespace
+
+Player::Player(const Model& model)
+    : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
+    update();
+    for (const Chain& chain : model.chains()) {
+        const bool has_target = chain.target != kNone;
+        chains.push_back({false, has_target ? glm::vec3(pose_.model_space()[chain.target][3]) : tip_of(chain, pose_)});
+    }
+}
+
+double Player::length() const {
+    if (clip >= model_->clips().size()) return 0.0;
+    const double own = length_of(model_->clips()[clip]);
+    if (other >= model_->clips().size()) return own;
+    return own + (length_of(model_->clips()[other]) - own) * static_cast<double>(share);
+}
+
+void Player::sample_at_phase(std::uint32_t number, Pose& pose) const {
+    const Clip& played = model_->clips()[number];
+    (void)sample(pose, &played, played.start + phase * (played.end - played.start));
+}
+
+void Player::step(double seconds) {
+    const double whole = length();
+    if (is_playing && whole > 0.0) {
+        const double next = static_cast<double>(phase) + seconds * static_cast<double>(speed) / whole;
+        phase = static_cast<float>(next - std::floor(next));
+    }
+    update();
+}
+
+void Player::update() {
+    if (clip < model_->clips().size()) {
+        sample_at_phase(clip, pose_);
+        if (other < model_->clips().size()) {
+            sample_at_phase(other, mixed_in_);
+            (void)blend(pose_, mixed_in_, share);
+        }
+    } else {
+        pose_.set_rest();
+    }
+    if (obeys_constraints) constrain(pose_);
+    ReachOptions options;
+    options.carry_target = true;
+    for (const std::uint32_t number : model_->chain_order()) {
+        if (number < chains.size() && chains[number].is_on)
+            (void)reach(pose_, &model_->chains()[number], chains[number].target, options);
+    }
+}
 
 Demo::Demo(const Model& model)
     : model_(&model),
@@ -213,7 +254,7 @@ void Demo::look_along(const glm::vec3& right, const glm::vec3& up) {
     up_ = up;
 }
 
-/// From the whole chain to its first joint, and so on to the last and back to the whole.
+/// Selects the next one of: the whole chain, its first joint, ... its last joint.
 void Demo::choose_joint(int step) {
     if (!state_.forward) set_mode(true, false);
     const auto at = static_cast<int>(std::find(links_.begin(), links_.end(), state_.joint) - links_.begin());
@@ -222,8 +263,8 @@ void Demo::choose_joint(int step) {
     state_.joint = next + 1 == places ? kNone : links_[static_cast<std::size_t>(next)];
 }
 
-/// The chain stands up: Left and Right bend it to the picture's sides, Up and Down nearer and away, PgUp and PgDn twist
-/// it.
+/// The chain is upright: Left and Right bend it sideways, Up and Down away from and towards the viewer, PgUp and PgDn
+/// twist it.
 void Demo::bend_all(const glm::vec3& direction, float amount) {
     constexpr float kMost = 2.4f;
     const glm::vec3 right = level_right(right_);
@@ -232,8 +273,8 @@ void Demo::bend_all(const glm::vec3& direction, float amount) {
     state_.bend = glm::clamp(state_.bend + turn * amount, -kMost, kMost);
 }
 
-/// As bend_all, but about the joint's own axes: of the two across its bone, Left and Right turn it about the one that
-/// faces the viewer more, Up and Down about the other.
+/// Like bend_all, but about the joint's own axes: Left and Right turn it about that axis perpendicular to its bone
+/// which faces the viewer more, Up and Down about the other one.
 void Demo::bend_joint(const glm::vec3& direction, float amount) {
     const std::uint32_t joint = state_.joint;
     const bool is_last = joint == chain_->effector;
@@ -262,14 +303,13 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     };
     float share = 1.0f;
     if (const Constraint* constraint = constraint_record_of(joint)) {
-        // It stops at its limits, and does not slide along them: a key that goes on being pressed leaves nothing to
-        // take back.
+        // The joint stops at its limits and does not slide along them, so the opposite key takes effect at once.
         const auto excess = [&](float part) {
             const glm::quat& rest = model_->joints()[joint].rest.rotation;
             return bendy::violation(*constraint, to_constraint_space(*constraint, rest, turned(part)));
         };
         constexpr double kLegal = 1e-6;    // radians
-        constexpr double kOutside = 1e-4;  // where bending the whole chain has brought it
+        constexpr double kOutside = 1e-4;  // bending the whole chain may move it outside
         constexpr int kHalvings = 16;
         if (excess(1.0f) > kLegal && excess(0.0f) < kOutside) {
             float legal = 0.0f;
@@ -283,7 +323,7 @@ void Demo::bend_joint(const glm::vec3& direction, float amount) {
     joint_bends_[joint] = glm::normalize(glm::conjugate(before) * turned(share));
 }
 
-/// The joint's rotation by what bends the whole chain.
+/// Returns the joint's rotation from the bend of the whole chain.
 glm::quat Demo::bent_with_all(std::uint32_t joint) const {
     const glm::quat& rest = model_->joints()[joint].rest.rotation;
     const glm::vec3 share = state_.bend / static_cast<float>(std::max(chain_->links, 1u));
@@ -293,7 +333,7 @@ glm::quat Demo::bent_with_all(std::uint32_t joint) const {
 }
 
 void Demo::move_target(const glm::vec3& position) {
-    // A little out of reach is worth seeing: the tentacle then points at it.
+    // The target may be slightly out of reach; the tentacle then points at it.
     const float farthest = 1.3f * reach_;
     const glm::vec3 away = position - start_;
     const float distance = glm::length(away);
@@ -336,7 +376,7 @@ void Demo::pull() {
 void Demo::look_for_another_way(float distance) {
     constexpr int kStill = 20;
     constexpr float kNear = 5e-3f;   // of the chain's length
-    constexpr float kBetter = 0.7f;  // of the distance that is left
+    constexpr float kBetter = 0.7f;  // of the remaining distance
     if (has_looked_ || still_ < kStill || distance < kNear * reach_) return;
     has_looked_ = true;
     other_way_ = pose_;
@@ -353,7 +393,7 @@ void Demo::step(double seconds) {
     since_mode_ += seconds;
     if (state_.turntable) state_.angle = std::remainder(state_.angle + 0.8 * seconds, 6.283185307179586);
     if (state_.inverse) {
-        // From where it is: the force takes frames to bring the tip there.
+        // The pull starts from the current pose and takes several frames to reach the target.
         since_other_way_ += seconds;
         if (since_other_way_ < kOtherWay) {
             const double share = since_other_way_ / kOtherWay;

@@ -1,4 +1,4 @@
-#include <bendy/viewer/picture_file.h>
+#include <bendy/viewer/picture.h>
 
 #include <gif_lib.h>
 #include <gtest/gtest.h>
