@@ -1,7 +1,6 @@
 #include "commands/commands.h"
-#include "terminal/colour.h"
 #include "terminal/console.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -49,7 +49,7 @@ math(EXPR cut "${cut} + 6")
 string(SUBSTRING "${page}" ${cut} -1 after)
 as_literals("${before}" before)
 as_literals("${after}" after)
-file(WRITE ${OUTPUT} "#include \"inspect/inspect_page.h\"
+file(WRITE ${OUTPUT} "#include \"inspect/inspect_html.h\"
 
 namespace bendy::cli {
 

@@ -1,18 +1,17 @@
 #include "commands/commands.h"
 #include "commands/model_options.h"
-#include "commands/side_by_side.h"
 #include "files/input.h"
-#include "terminal/problem.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 #include "terminal/progress.h"
 
 #include <bendy/runtime.h>
 #include <bendy/runtime/kernels.h>
 #include <bendy/stages/stages.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -57,17 +56,50 @@ std::vector<Kernel> chosen_kernels(const BenchArguments& arguments) {
     return chosen;
 }
 
-/// One Timing for each kernel, by turns, in nanoseconds per item.
+/// Nanoseconds per item, over the rounds.
+struct Timing {
+    double median = 0.0;
+    double least = 0.0;
+};
+
+double median_of(std::vector<double> numbers) {
+    std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2), numbers.end());
+    return numbers[numbers.size() / 2];
+}
+
+/// One Timing for each kernel. Others use the machine too, so the kernels run by turns. A turn takes about two
+/// milliseconds, or one run if that is longer; where a round takes longer than a tenth of a second there are fewer of
+/// them, at least 5.
 std::vector<Timing> time_stage(const stages::Stage& stage, const std::vector<Kernel>& kernels, int rounds) {
-    std::vector<Contestant> contestants;
-    contestants.reserve(kernels.size());
+    using Clock = std::chrono::steady_clock;
+    const auto nanoseconds = [&stage](Kernel kernel, std::size_t times) {
+        const auto start = Clock::now();
+        for (std::size_t k = 0; k < times; ++k) {
+            (void)set_kernel(kernel);
+            stage.run();
+        }
+        return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / static_cast<double>(times);
+    };
+    std::vector<std::size_t> times;
+    double round_time = 0.0;
     for (const Kernel kernel : kernels) {
-        contestants.push_back({"", [&stage, kernel] {
-                                   (void)set_kernel(kernel);
-                                   stage.run();
-                               }});
+        nanoseconds(kernel, 1);  // warm
+        const double once = nanoseconds(kernel, 1);
+        times.push_back(static_cast<std::size_t>(std::max(1.0, 2e6 / once)));
+        round_time += std::max(2e6, once);
     }
-    return side_by_side(contestants, stage.items, rounds);
+    constexpr double kLong = 1e8;  // nanoseconds
+    constexpr int kFewest = 5;
+    if (round_time > kLong) rounds = std::min(rounds, std::max(kFewest, static_cast<int>(rounds * kLong / round_time)));
+    std::vector<std::vector<double>> taken(kernels.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t k = 0; k < kernels.size(); ++k)
+            taken[k].push_back(nanoseconds(kernels[k], times[k]) / stage.items);
+    }
+    std::vector<Timing> timings;
+    for (const std::vector<double>& own : taken)
+        timings.push_back({median_of(own), *std::min_element(own.begin(), own.end())});
+    return timings;
 }
 
 /// Three digits and a unit.
@@ -130,22 +162,21 @@ void print_json(const BenchArguments& arguments, const Model& model, const Clip*
                                    {"clip", clip == nullptr ? nlohmann::json() : nlohmann::json(clip->name)},
                                    {"rounds", arguments.rounds},
                                    {"stages", stages}};
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    print_report(report, 2);
 }
 
 void run(const BenchArguments& arguments) {
     const InputBytes file = open_bendy_file(arguments.file);
-    const Result<Model> model = Model::from_memory(file.bytes());
-    if (!model) fail(arguments.file, model.error(), file.bytes());
-    const Clip* clip = model->clips().empty() ? nullptr : model->clips().data();
-    if (!arguments.clip.empty()) clip = &find_clip(arguments.clip, arguments.file, *model);
+    const Model model = read_model(arguments.file, file.bytes());
+    const Clip* clip = model.clips().empty() ? nullptr : model.clips().data();
+    if (!arguments.clip.empty()) clip = &find_clip(arguments.clip, arguments.file, model);
 
     const std::vector<Kernel> kernels = chosen_kernels(arguments);
     const auto open = [&](const OpenOptions& options) {
         return is_dash(arguments.file) ? Model::from_memory(file.bytes(), options)
                                        : Model::open(arguments.file, options);
     };
-    const stages::Stages steps(open, *model, clip);
+    const stages::Stages steps(open, model, clip);
     std::vector<Row> rows;
     {
         ProgressBar bar("measuring");
@@ -154,7 +185,7 @@ void run(const BenchArguments& arguments) {
             rows.push_back({&stage, time_stage(stage, kernels, arguments.rounds)});
         }
     }
-    (arguments.json ? print_json : print_page)(arguments, *model, clip, kernels, rows);
+    (arguments.json ? print_json : print_page)(arguments, model, clip, kernels, rows);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "commands/commands.h"
+#include "convert/batch.h"
 #include "convert/conversion.h"
-#include "convert/convert_batch.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "inspect/summary.h"
 #include "terminal/console.h"
-#include "terminal/problem.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 #include "terminal/progress.h"
 
 #include <bendy/converter/convert.h>
@@ -14,8 +15,8 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <iostream>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,21 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
     out << '\n';
 }
 
+/// converter::convert of a file, or of standard input if its name is a dash: what that refers to is relative to the
+/// working directory. A rig file may be a dash too. Prints what cannot be read of standard input and throws Failed.
+Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
+                                                                     converter::ConvertOptions options,
+                                                                     converter::Report& report) {
+    const std::filesystem::path name = "standard input";
+    if (options.rig && is_dash(*options.rig)) {
+        const InputBytes rig = InputBytes::read(*options.rig);
+        options.rig_text = std::string(as_text(rig.bytes()));
+        options.rig = name;
+    }
+    if (!is_dash(input)) return converter::convert(input, options, report);
+    return converter::convert(InputBytes::read(input).take(), name, options, report);
+}
+
 auto convert_with_progress(const ConvertArguments& arguments, converter::ConvertOptions options,
                            converter::Report& report) {
     const std::filesystem::path& input = arguments.inputs.front();
@@ -62,11 +78,38 @@ auto convert_with_progress(const ConvertArguments& arguments, converter::Convert
 }
 
 void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_bytes_by_kind) {
-    const Result<Model> model = Model::from_memory(bytes);
-    if (!model) fail(output_name(arguments.output), model.error(), bytes);
+    const Model model = read_model(output_name(arguments.output), bytes);
     const Stream stream = is_dash(arguments.output) ? Stream::error : Stream::output;
-    summary_stream(arguments.output) << summary_as_text(summarize(*model, bytes), output_name(arguments.output),
+    summary_stream(arguments.output) << summary_as_text(summarize(model, bytes), output_name(arguments.output),
                                                         columns_of(stream), with_bytes_by_kind);
+}
+
+/// A file's name as Make reads it: before a space, or a #, every backslash is doubled and one more is put.
+std::string escaped(std::string_view name) {
+    std::string text;
+    std::size_t backslashes = 0;
+    for (const char c : name) {
+        if (c == ' ' || c == '\t' || c == '#') text += std::string(backslashes + 1, '\\');
+        if (c == '$') text += '$';
+        text += c;
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+    }
+    return text;
+}
+
+/// A rule for Make and Ninja: `output` depends on the sources that are there; no commands. A name with a line break
+/// cannot be written: the result is empty.
+std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources) {
+    const std::string target = output.string();
+    std::string text = escaped(target) + ':';
+    bool is_one_line = target.find('\n') == std::string::npos;
+    for (const converter::SourceFile& source : sources) {
+        if (!source.stamp.is_there) continue;
+        const std::string name = source.file.string();
+        is_one_line = is_one_line && name.find('\n') == std::string::npos;
+        text += " \\\n  " + escaped(name);
+    }
+    return is_one_line ? text + '\n' : std::string();
 }
 
 void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {

@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 #include "files/input.h"
 #include "files/output.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #include <bendy/edit/extract.h>
 #include <bendy/edit/merge_clips.h>
@@ -15,9 +15,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,16 +41,11 @@ struct EditArguments {
 /// One change; renames of one kind that follow one another are one.
 using Step = std::function<edit::Edited(Bytes, edit::Log&)>;
 
-/// The command line is wrong, in a sentence.
-[[noreturn]] void misused(const char* option, const edit::Problem& problem) {
-    throw CLI::ValidationError(option, problem.message);
-}
-
 std::pair<edit::Named, std::string> split_rename(const std::string& text) {
     const std::size_t colon = text.find(':');
-    if (colon == std::string::npos) misused("--rename", {"\"" + text + "\" is not KIND:OLD=NEW"});
+    if (colon == std::string::npos) throw CLI::ValidationError("--rename", '"' + text + "\" is not KIND:OLD=NEW");
     const auto kind = edit::parse_named(std::string_view(text).substr(0, colon));
-    if (!kind) misused("--rename", kind.error());
+    if (!kind) throw CLI::ValidationError("--rename", kind.error().message);
     return {*kind, text.substr(colon + 1)};
 }
 
@@ -108,7 +103,7 @@ private:
     void add_strip(const std::string& text) {
         close_rename();
         const auto what = edit::parse_strip(text);
-        if (!what) misused("--strip", what.error());
+        if (!what) throw CLI::ValidationError("--strip", what.error().message);
         steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::strip(file, what, log); });
     }
 
@@ -119,7 +114,7 @@ private:
 
     void add_pair(const char* option, edit::Named kind, const std::string& text) {
         const auto pair = edit::parse_pair(text);
-        if (!pair) misused(option, pair.error());
+        if (!pair) throw CLI::ValidationError(option, pair.error().message);
         if (!rename_.names.empty() && rename_.kind != kind) close_rename();
         rename_.kind = kind;
         rename_.names.push_back(*pair);
@@ -167,9 +162,8 @@ private:
     std::vector<Step> steps_;
 };
 
-void print_size(const EditArguments& arguments, std::uint64_t before, std::uint64_t after) {
-    std::ostream& out = summary_stream(arguments.output);
-    out << printable(output_name(arguments.output)) << ": " << grouped(after) << " bytes";
+void print_change(const EditArguments& arguments, std::uint64_t before, std::uint64_t after) {
+    std::ostream& out = print_size(arguments.output, after);
     if (after != before) {
         out << ", " << grouped(after < before ? before - after : after - before)
             << (after < before ? " less" : " more");
@@ -196,7 +190,7 @@ void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs
     outputs.write(arguments.output, bytes);
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
     if (arguments.quiet) return;
-    print_size(arguments, size_before, bytes.size());
+    print_change(arguments, size_before, bytes.size());
     for (const std::string& line : log.done) summary_stream(arguments.output) << "  " << printable(line) << '\n';
 }
 

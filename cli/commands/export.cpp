@@ -2,16 +2,14 @@
 #include "commands/model_options.h"
 #include "files/input.h"
 #include "files/output.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #include <bendy/converter/export.h>
-#include <bendy/format/diagnostics.h>
 #include <bendy/runtime/model.h>
 
 #include <cstdint>
 #include <iostream>
 #include <memory>
-#include <span>
 #include <string>
 
 namespace bendy::cli {
@@ -36,8 +34,8 @@ std::string format_of(const ExportArguments& arguments) {
 /// The output's name fits what it will be.
 void check_output(const ExportArguments& arguments, const std::string& format) {
     const bool has_meaning = !arguments.format.empty() || !arguments.output.has_extension();
-    check_format({"export", "--output", {".glb", ".gltf", ".x"}, has_meaning}, arguments.format, arguments.file,
-                 arguments.output);
+    check_suffix({"export", "--output", {".glb", ".gltf", ".x"}, has_meaning}, arguments.file, arguments.output,
+                 arguments.format);
     if (format != "glb" && is_dash(arguments.output))
         throw CLI::ValidationError("--output", format + " may need files beside it: only glb goes to standard output");
 }
@@ -47,10 +45,9 @@ converter::ExportOptions options_of(const ExportArguments& arguments, Bytes file
     converter::ExportOptions options;
     options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
     if (!(arguments.lod < 1.0f)) return options;
-    const Result<Model> model = Model::from_memory(file);
-    if (!model) fail(arguments.file, model.error(), file);
-    const Lod lod = level_of(arguments.file, *model, arguments.lod);
-    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) options.vertices.push_back(lod.vertices(mesh));
+    const Model model = read_model(arguments.file, file);
+    const Lod lod = level_of(arguments.file, model, arguments.lod);
+    for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) options.vertices.push_back(lod.vertices(mesh));
     return options;
 }
 
@@ -127,10 +124,7 @@ void run(ExportArguments arguments) {
     converter::Report report;
     const std::uint64_t size = format == "x" ? export_x(arguments, file.bytes(), outputs, report)
                                              : export_gltf(arguments, file.bytes(), format == "glb", outputs, report);
-    if (!arguments.quiet) {
-        summary_stream(arguments.output) << printable(output_name(arguments.output)) << ": " << grouped(size)
-                                         << " bytes\n";
-    }
+    if (!arguments.quiet) print_size(arguments.output, size) << '\n';
 }
 
 }  // namespace

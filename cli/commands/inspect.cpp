@@ -3,11 +3,9 @@
 #include "files/output.h"
 #include "inspect/describe_chunk.h"
 #include "inspect/inspect_html.h"
-#include "inspect/inspect_json.h"
 #include "inspect/summary.h"
-#include "terminal/colour.h"
-#include "terminal/problem.h"
-#include "terminal/text.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
@@ -24,6 +22,8 @@
 
 namespace bendy::cli {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct InspectArguments {
     std::filesystem::path file;
@@ -142,18 +142,48 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
     }
 }
 
+/// The chunks from `root` on as a JSON array in file order; nesting is told by "parent", the number of an entry before
+/// it, so that a skeleton of ten thousand levels is no deep JSON.
+Json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
+    Json chunks = Json::array();
+    for (std::uint32_t number = root; number < tree[root].end; ++number) {
+        const Chunk& chunk = tree[number];
+        std::array<char, 11> sum{};
+        std::snprintf(sum.data(), sum.size(), "0x%08x", chunk.sum);
+        Json entry{{"number", number - root},
+                   {"parent", number == root ? Json(nullptr) : Json(chunk.parent - root)},
+                   {"id", chunk.id.letters().data()},
+                   {"meaning", chunk_meaning(chunk.id)},
+                   {"offset", chunk.offset},
+                   {"size", chunk.size},
+                   {"sum", sum.data()},
+                   {"container", chunk.is_container()}};
+        if (chunk.is_required()) entry["required"] = true;
+        if (chunk.codec() != 0) {
+            entry["codec"] = chunk.codec();
+            entry["decoded"] = tree.payload(number).size();
+        }
+        if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
+        chunks.push_back(std::move(entry));
+    }
+    return chunks;
+}
+
 void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
                 const std::optional<Summary>& summary) {
-    nlohmann::ordered_json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};
-    if (arguments.chunk.empty())
-        document["summary"] = summary ? summary_as_json(*summary) : nlohmann::ordered_json(nullptr);
+    Json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};
+    if (arguments.chunk.empty()) document["summary"] = summary ? summary_as_json(*summary) : Json(nullptr);
     if (!arguments.summary) document["chunks"] = chunks_as_json(tree, root);
-    std::cout << document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+    print_report(document, 1);
+}
+
+std::string short_name(const std::filesystem::path& file) {
+    return is_dash(file) ? "standard input" : file.filename().string();
 }
 
 void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
                 const std::optional<Summary>& summary) {
-    const std::string name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    const std::string name = short_name(arguments.file);
     if (arguments.chunk.empty() && summary) {
         std::cout << summary_as_text(*summary, name, columns_of(Stream::output));
         if (arguments.summary) return;
@@ -163,11 +193,6 @@ void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::u
                   << grouped(tree.chunks().size()) << " chunks\n";
     }
     print_tree(tree, root, arguments.all);
-}
-
-void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
-    warn(file, "the file has faults, `bendy validate` lists them; the first: " +
-                   describe_with_place(faults.list().front(), bytes));
 }
 
 /// \returns its size, bytes
@@ -185,7 +210,7 @@ void run_html(const InspectArguments& arguments) {
     check_suffix({"inspect", "--html", {".html", ".htm", ".xhtml"}}, arguments.file, arguments.html);
     const InputBytes input = open_bendy_file(arguments.file);
     InspectedFile file;
-    file.name = is_dash(arguments.file) ? "standard input" : arguments.file.filename().string();
+    file.name = short_name(arguments.file);
     file.bytes = input.bytes();
     Result<ChunkTree> tree = read_chunk_tree(file.bytes);
     if (!tree) {
@@ -201,9 +226,7 @@ void run_html(const InspectArguments& arguments) {
     file.pictures = draw_page_pictures(
         file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
     const std::size_t size = write_page(arguments, outputs, file);
-    summary_stream(arguments.html) << printable(output_name(arguments.html)) << ": " << grouped(size) << " bytes, "
-                                   << grouped(file.faults.count())
-                                   << (file.faults.count() == 1 ? " fault\n" : " faults\n");
+    print_size(arguments.html, size) << ", " << counted(file.faults.count(), "fault") << '\n';
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
@@ -226,10 +249,9 @@ void run(const InspectArguments& arguments) {
         return;
     }
     const InputBytes file = open_bendy_file(arguments.file);
-    Result<ChunkTree> tree = read_chunk_tree(file.bytes());
-    if (!tree) fail(arguments.file, tree.error(), file.bytes());
-    decode_leaves(*tree);
-    const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(*tree, arguments.chunk);
+    ChunkTree tree = read_tree(arguments.file, file.bytes());
+    decode_leaves(tree);
+    const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(tree, arguments.chunk);
     if (root == kNone) {
         fail(arguments.file,
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
@@ -237,19 +259,19 @@ void run(const InspectArguments& arguments) {
 
     std::optional<Summary> summary;
     if (root == 0 && !arguments.hex) {
-        summary = summarize_file(arguments, *tree, file.bytes());
+        summary = summarize_file(arguments, tree, file.bytes());
     }
     if (arguments.json) {
-        print_json(arguments, *tree, root, summary);
+        print_json(arguments, tree, root, summary);
     } else if (arguments.hex) {
-        const Chunk& chunk = (*tree)[root];
+        const Chunk& chunk = tree[root];
         print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
-        print_text(arguments, *tree, root, summary);
+        print_text(arguments, tree, root, summary);
     }
     Faults faults;
-    check_sums(*tree, faults);
-    if (faults.empty()) read_document(*tree, faults);
+    check_sums(tree, faults);
+    if (faults.empty()) read_document(tree, faults);
     if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
 }
 

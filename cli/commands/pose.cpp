@@ -1,10 +1,9 @@
 #include "commands/commands.h"
 #include "commands/model_options.h"
-#include "commands/reach_request.h"
 #include "files/input.h"
-#include "files/mesh_writer.h"
 #include "files/output.h"
-#include "terminal/problem.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/runtime.h>
 
@@ -13,8 +12,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -29,6 +34,254 @@ struct PoseArguments {
     std::filesystem::path output = "-";
     std::string format;  // empty: as the output's name says
 };
+
+/// A mesh's posed vertices and what connects them.
+struct PosedMesh {
+    std::string name;
+    std::vector<glm::vec3> positions;                     ///< model space
+    std::vector<glm::vec3> normals;                       ///< as many, or none
+    std::vector<std::uint32_t> triangles, lines, points;  ///< 3, 2 and 1 vertices each
+};
+
+struct PosedJoint {
+    std::string name;
+    glm::mat4 world{1.0f};
+};
+
+/// An IK target, and how near its chain came.
+struct PosedReach {
+    std::string chain;  ///< its name, or its number
+    ReachTarget target;
+    float distance = 0.0f;  ///< metres left
+    float angle = 0.0f;     ///< radians left, where the target has a rotation
+    bool is_reached = false;
+};
+
+/// A named curve of the clip, and its value.
+struct PosedCurve {
+    std::string name, path;
+    std::string target_kind;  ///< joint, material, mesh or texture; empty: no target
+    std::uint32_t target = 0;
+    std::vector<float> value;
+};
+
+struct PosedObject {
+    std::string file;
+    std::string clip;  ///< empty: the rest pose
+    float time = 0.0f;
+    std::vector<PosedReach> reaches;  ///< empty: no chain was to reach anything
+    std::vector<PosedCurve> curves;   ///< empty: the clip has none
+    std::vector<PosedJoint> joints;
+    std::vector<PosedMesh> meshes;
+};
+
+/// Appends a number in the shortest form that reads back the same.
+template <class Number>
+void put(std::string& out, Number number) {
+    std::array<char, 32> digits;  // NOLINT(*-member-init): to_chars fills it
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    out.append(digits.data(), end);
+}
+
+void put_vectors(std::string& out, std::string_view keyword, std::span<const glm::vec3> vectors) {
+    for (const glm::vec3& v : vectors) {
+        out += keyword;
+        for (int c = 0; c < 3; ++c) {
+            out += ' ';
+            put(out, v[c]);
+        }
+        out += '\n';
+    }
+}
+
+/// OBJ elements of `corners` vertices each; `base` is the number of the mesh's first vertex, OBJ counts from 1.
+void put_elements(std::string& out, char keyword, std::span<const std::uint32_t> indices, std::size_t corners,
+                  std::uint64_t base, bool normals) {
+    for (std::size_t at = 0; at + corners <= indices.size(); at += corners) {
+        out += keyword;
+        for (const std::uint32_t index : indices.subspan(at, corners)) {
+            out += ' ';
+            put(out, base + index + 1);
+            if (normals) {
+                out += "//";
+                put(out, base + index + 1);
+            }
+        }
+        out += '\n';
+    }
+}
+
+template <class T>
+void put_raw(std::string& out, T value) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    out.append(bytes.data(), bytes.size());
+}
+
+template <class Number>
+void put_list(std::string& out, std::span<const Number> numbers) {
+    out += '[';
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i != 0) out += ',';
+        put(out, numbers[i]);
+    }
+    out += ']';
+}
+
+std::span<const float> floats_of(std::span<const glm::vec3> vectors) {
+    return vectors.empty() ? std::span<const float>() : std::span<const float>(&vectors[0].x, vectors.size() * 3);
+}
+
+std::string quoted(const std::string& text) {
+    return json_text(nlohmann::json(text));
+}
+
+/// JSON has no infinities.
+void put_finite(std::string& out, float number) {
+    if (std::isfinite(number)) {
+        put(out, number);
+    } else {
+        out += "null";
+    }
+}
+
+void put_reaches(std::string& out, std::span<const PosedReach> reaches) {
+    out += ",\"reaches\":[";
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+        const PosedReach& reach = reaches[i];
+        out += (i == 0 ? "\n{\"chain\":" : ",\n{\"chain\":") + quoted(reach.chain) + ",\"target\":";
+        put_list(out, std::span<const float>(&reach.target.position.x, 3));
+        if (reach.target.rotation) {
+            const glm::quat& q = *reach.target.rotation;
+            const std::array<float, 4> numbers{q.x, q.y, q.z, q.w};
+            out += ",\"rotation\":";
+            put_list(out, std::span<const float>(numbers));
+        }
+        out += ",\"distance\":";
+        put_finite(out, reach.distance);
+        if (reach.target.rotation) {
+            out += ",\"angle\":";
+            put_finite(out, reach.angle);
+        }
+        out += reach.is_reached ? ",\"reached\":true}" : ",\"reached\":false}";
+    }
+    out += ']';
+}
+
+void put_curves(std::string& out, std::span<const PosedCurve> curves) {
+    out += ",\"curves\":[";
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const PosedCurve& curve = curves[i];
+        out += (i == 0 ? "\n{\"name\":" : ",\n{\"name\":") + quoted(curve.name) + ",\"path\":" + quoted(curve.path);
+        if (!curve.target_kind.empty())
+            out += ",\"target\":{" + quoted(curve.target_kind) + ':' + std::to_string(curve.target) + '}';
+        out += ",\"value\":[";
+        for (std::size_t c = 0; c < curve.value.size(); ++c) {
+            if (c != 0) out += ',';
+            put_finite(out, curve.value[c]);
+        }
+        out += "]}";
+    }
+    out += ']';
+}
+
+/// Normals are written for all vertices or for none: OBJ counts them with the vertices, PLY has one vertex layout.
+bool have_normals(const PosedObject& object) {
+    return std::any_of(object.meshes.begin(), object.meshes.end(),
+                       [](const PosedMesh& mesh) { return !mesh.normals.empty(); });
+}
+
+std::vector<glm::vec3> normals_or_zeros(const PosedMesh& mesh) {
+    return mesh.normals.empty() ? std::vector<glm::vec3>(mesh.positions.size(), glm::vec3(0.0f)) : mesh.normals;
+}
+
+/// Wavefront OBJ: an `o` group per mesh; numbers in the shortest form that reads back to the same float.
+std::string write_obj(const PosedObject& object) {
+    std::string out =
+        "# " + printable(object.file) + (object.clip.empty() ? ", rest pose" : ", " + printable(object.clip)) + '\n';
+    const bool normals = have_normals(object);
+    std::uint64_t base = 0;
+    for (const PosedMesh& mesh : object.meshes) {
+        out += "o " + printable(mesh.name) + '\n';
+        put_vectors(out, "v", mesh.positions);
+        if (normals) put_vectors(out, "vn", normals_or_zeros(mesh));
+        put_elements(out, 'f', mesh.triangles, 3, base, !mesh.normals.empty());
+        put_elements(out, 'l', mesh.lines, 2, base, false);
+        put_elements(out, 'p', mesh.points, 1, base, false);
+        base += mesh.positions.size();
+    }
+    return out;
+}
+
+/// PLY, binary little-endian: vertices with normals, faces; edges if there are any.
+std::string write_ply(const PosedObject& object) {
+    std::uint64_t vertices = 0;
+    std::uint64_t faces = 0;
+    std::uint64_t edges = 0;
+    for (const PosedMesh& mesh : object.meshes) {
+        vertices += mesh.positions.size();
+        faces += mesh.triangles.size() / 3;
+        edges += mesh.lines.size() / 2;
+    }
+    const bool normals = have_normals(object);
+    std::string out = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) +
+                      "\nproperty float x\nproperty float y\nproperty float z\n";
+    if (normals) out += "property float nx\nproperty float ny\nproperty float nz\n";
+    out += "element face " + std::to_string(faces) + "\nproperty list uchar uint vertex_indices\n";
+    if (edges != 0) out += "element edge " + std::to_string(edges) + "\nproperty uint vertex1\nproperty uint vertex2\n";
+    out += "end_header\n";
+    for (const PosedMesh& mesh : object.meshes) {
+        const std::vector<glm::vec3> mesh_normals = normals ? normals_or_zeros(mesh) : std::vector<glm::vec3>();
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            for (int c = 0; c < 3; ++c) put_raw(out, mesh.positions[i][c]);
+            for (int c = 0; normals && c < 3; ++c) put_raw(out, mesh_normals[i][c]);
+        }
+    }
+    const auto put_all = [&](std::vector<std::uint32_t> PosedMesh::*list, std::size_t corners, bool counted) {
+        std::uint32_t base = 0;
+        for (const PosedMesh& mesh : object.meshes) {
+            const auto& indices = mesh.*list;
+            for (std::size_t at = 0; at + corners <= indices.size(); at += corners) {
+                if (counted) put_raw(out, static_cast<std::uint8_t>(corners));
+                for (std::size_t c = 0; c < corners; ++c) put_raw(out, base + indices[at + c]);
+            }
+            base += static_cast<std::uint32_t>(mesh.positions.size());
+        }
+    };
+    put_all(&PosedMesh::triangles, 3, true);
+    if (edges != 0) put_all(&PosedMesh::lines, 2, false);
+    return out;
+}
+
+/// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]};
+/// and where chains were to reach targets "reaches": [{"chain", "target", "distance", "reached"}] after "time", with
+/// "rotation" and "angle" where the target has a rotation. Where the clip has curves, before "joints"
+/// "curves": [{"name", "path", "value"}], with "target": {KIND: number} where it has one.
+std::string write_json(const PosedObject& object) {
+    std::string out = "{\"file\":" + quoted(object.file) +
+                      ",\"clip\":" + (object.clip.empty() ? "null" : quoted(object.clip)) + ",\"time\":";
+    put(out, object.time);
+    if (!object.reaches.empty()) put_reaches(out, object.reaches);
+    if (!object.curves.empty()) put_curves(out, object.curves);
+    out += ",\"joints\":[";
+    for (std::size_t i = 0; i < object.joints.size(); ++i) {
+        const PosedJoint& joint = object.joints[i];
+        out += (i == 0 ? "\n{\"name\":" : ",\n{\"name\":") + quoted(joint.name) + ",\"world\":";
+        put_list(out, std::span<const float>(&joint.world[0][0], 16));
+        out += '}';
+    }
+    out += "],\n\"meshes\":[";
+    for (std::size_t i = 0; i < object.meshes.size(); ++i) {
+        const PosedMesh& mesh = object.meshes[i];
+        out += (i == 0 ? "\n{\"name\":" : ",\n{\"name\":") + quoted(mesh.name) + ",\"positions\":";
+        put_list(out, floats_of(mesh.positions));
+        out += ",\"normals\":";
+        put_list(out, floats_of(mesh.normals));
+        out += ",\"indices\":";
+        put_list(out, std::span<const std::uint32_t>(mesh.triangles));
+        out += '}';
+    }
+    return out + "]}\n";
+}
 
 /// True for a rigid mesh whose joint mirrors it: its triangles then turn their backs.
 bool is_mirrored(const Model& model, Pose& pose, std::uint32_t mesh) {
@@ -117,28 +370,17 @@ PosedObject pose_object(const PoseArguments& arguments, const Model& model) {
     return object;
 }
 
-/// Of the output: what --format says, or its name does.
-std::string format_of(const PoseArguments& arguments) {
-    if (!arguments.format.empty()) return arguments.format;
-    const std::string suffix = suffix_of(arguments.output);
-    return is_dash(arguments.output) || suffix.empty() ? "obj" : suffix.substr(1);
-}
-
 void run(const PoseArguments& arguments) {
-    const std::string format = format_of(arguments);
+    const std::string format = format_of(arguments.format, arguments.output, "obj");
     const auto writer = format == "json" ? write_json : format == "ply" ? write_ply : write_obj;
     Outputs outputs;
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, NamedBy::user, format == "ply" ? Content::binary : Content::text);
-    check_format({"pose", "--output", {".obj", ".ply", ".json"}, false}, arguments.format, arguments.file,
-                 arguments.output);
+    check_suffix({"pose", "--output", {".obj", ".ply", ".json"}, false}, arguments.file, arguments.output,
+                 arguments.format);
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, outputs);
-    const Result<Model> model = Model::from_memory(file.bytes());
-    if (!model) fail(arguments.file, model.error(), file.bytes());
-
-    const std::string text = writer(pose_object(arguments, *model));
-    outputs.write(arguments.output, text);
+    outputs.write(arguments.output, writer(pose_object(arguments, read_model(arguments.file, file.bytes()))));
 }
 
 }  // namespace
@@ -146,12 +388,8 @@ void run(const PoseArguments& arguments) {
 void add_pose(CLI::App& program) {
     const auto arguments = std::make_shared<PoseArguments>();
     CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a clip");
-    command
-        ->add_option("FILE", arguments->file,
-                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
-        ->required();
-    CLI::Option* clip =
-        command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
+    add_character(*command, arguments->file)->required();
+    CLI::Option* clip = add_clip(*command, arguments->clip);
     command->add_option("--time", arguments->time, "seconds on the clip's time line; clamped to its ends")
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })
         ->capture_default_str()
@@ -160,10 +398,7 @@ void add_pose(CLI::App& program) {
     add_lod(*command, arguments->lod);
     command->add_option("-o,--output", arguments->output,
                         "OUT.obj, OUT.ply or OUT.json; standard output if not given, or for -");
-    command
-        ->add_option("--format", arguments->format,
-                     "the format, if the output's name does not determine it; obj by default on standard output")
-        ->check(CLI::IsMember({"obj", "ply", "json"}));
+    add_format(*command, arguments->format, {"obj", "ply", "json"});
     command->footer(
         "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "
         "meshes: name, positions, normals and indices of triangles. After --reach also reaches, one for each target: "

@@ -1,15 +1,13 @@
 #include "commands/commands.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #ifdef BENDY_HAS_VIEWER
 
 #include "commands/model_options.h"
-#include "commands/reach_request.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "terminal/progress.h"
 
-#include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 #include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
@@ -20,7 +18,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -44,27 +41,6 @@ struct RenderArguments {
     viewer::RenderOptions render;
 };
 
-[[noreturn]] void fail_option(const char* option, const std::string& what) {
-    throw CLI::ValidationError(option, what);
-}
-
-/// Numbers with commas between them; nothing if the text is anything else, or holds fewer than `least`.
-std::optional<std::vector<float>> parse_numbers(std::string_view text, std::size_t least, std::size_t most) {
-    std::vector<float> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (numbers.size() < most) {
-        float number = 0.0f;
-        const auto [stop, problem] = std::from_chars(at, end, number);
-        if (problem != std::errc() || !std::isfinite(number)) return std::nullopt;
-        numbers.push_back(number);
-        at = stop;
-        if (at == end) break;
-        if (*at++ != ',') return std::nullopt;
-    }
-    return at == end && numbers.size() >= least ? std::optional(numbers) : std::nullopt;
-}
-
 void parse_size(const std::string& text, viewer::RenderOptions& options) {
     const char* const end = text.data() + text.size();
     const auto [cross, bad_width] = std::from_chars(text.data(), end, options.width);
@@ -72,17 +48,19 @@ void parse_size(const std::string& text, viewer::RenderOptions& options) {
     const auto [stop, bad_height] = std::from_chars(has_cross ? cross + 1 : end, end, options.height);
     const auto fits = [](std::uint32_t side) { return side >= 1 && side <= viewer::kMostPixels; };
     if (!has_cross || bad_height != std::errc() || stop != end || !fits(options.width) || !fits(options.height))
-        fail_option("--size", "must be WIDTHxHEIGHT in pixels, 1 to " + std::to_string(viewer::kMostPixels) + " each");
+        throw CLI::ValidationError(
+            "--size", "must be WIDTHxHEIGHT in pixels, 1 to " + std::to_string(viewer::kMostPixels) + " each");
 }
 
 void parse_camera(const std::string& text, viewer::CameraOptions& camera) {
-    const auto numbers = parse_numbers(text, 2, 3);
-    if (!numbers || (numbers->size() == 3 && (*numbers)[2] <= 0.0f))
-        fail_option("--camera", "must be YAW,PITCH or YAW,PITCH,DISTANCE: degrees, and a factor above 0");
+    const std::vector<float> numbers = read_numbers(text);
+    if (numbers.size() < 2 || numbers.size() > 3 || (numbers.size() == 3 && numbers[2] <= 0.0f))
+        throw CLI::ValidationError("--camera",
+                                   "must be YAW,PITCH or YAW,PITCH,DISTANCE: degrees, and a factor above 0");
     constexpr float kDegree = 3.14159265f / 180.0f;
-    camera.yaw = (*numbers)[0] * kDegree;
-    camera.pitch = (*numbers)[1] * kDegree;
-    if (numbers->size() == 3) camera.distance = (*numbers)[2];
+    camera.yaw = numbers[0] * kDegree;
+    camera.pitch = numbers[1] * kDegree;
+    if (numbers.size() == 3) camera.distance = numbers[2];
 }
 
 float linear(unsigned srgb) {
@@ -111,7 +89,7 @@ void parse_background(const std::string& text, glm::vec4& background) {
     const char* const end = text.data() + text.size();
     const auto [stop, problem] = std::from_chars(text.data() + hash, end, colour, 16);
     if (text.size() - hash != 6 || problem != std::errc() || stop != end)
-        fail_option("--background", "must be RRGGBB, white, black, grey or transparent");
+        throw CLI::ValidationError("--background", "must be RRGGBB, white, black, grey or transparent");
     background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
 }
 
@@ -133,7 +111,7 @@ void check_sheet(const RenderArguments& arguments) {
     constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
     const std::uint64_t columns = sheet_columns(arguments.frames);
     if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
-        fail_option("--frames", "so many pictures of this --size are too large for one");
+        throw CLI::ValidationError("--frames", "so many pictures of this --size are too large for one");
 }
 
 /// Draws poses whose chains have reached for their targets, and keeps count of how near they came.
@@ -224,14 +202,7 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
     return bytes;
 }
 
-/// Of the output: what --format says, or its name does.
-std::string format_of(const RenderArguments& arguments) {
-    if (!arguments.format.empty()) return arguments.format;
-    const std::string suffix = suffix_of(arguments.output);
-    return is_dash(arguments.output) || suffix.empty() ? "png" : suffix.substr(1);
-}
-
-/// The file and the images beside it that it names, which are drawn.
+/// The images beside the file that it names, which are drawn.
 void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
     for (const Texture& texture : model.textures()) {
         for (const ImageView& image : texture.images) {
@@ -244,10 +215,10 @@ void run(RenderArguments arguments) {
     Outputs outputs;
     outputs.reads(arguments.file);
     outputs.writes(arguments.output, NamedBy::user, Content::binary);
-    check_format({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.format, arguments.file,
-                 arguments.output);
-    const std::string format = format_of(arguments);
-    if (arguments.frames > 1 && arguments.has_time) fail_option("--time", "does not go with --frames");
+    check_suffix({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.file, arguments.output,
+                 arguments.format);
+    const std::string format = format_of(arguments.format, arguments.output, "png");
+    if (arguments.frames > 1 && arguments.has_time) throw CLI::ValidationError("--time", "does not go with --frames");
     if (arguments.frames > 1 || format != "png") {
         arguments.render.width = 320;
         arguments.render.height = 240;
@@ -259,12 +230,11 @@ void run(RenderArguments arguments) {
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, outputs);
-    const Result<Model> model = Model::from_memory(file.bytes());
-    if (!model) fail(arguments.file, model.error(), file.bytes());
+    const Model model = read_model(arguments.file, file.bytes());
     arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
-    note_inputs(arguments, *model, outputs);
+    note_inputs(arguments, model, outputs);
     try {
-        const std::vector<std::byte> bytes = draw_all(arguments, *model, format);
+        const std::vector<std::byte> bytes = draw_all(arguments, model, format);
         outputs.write(arguments.output, bytes);
     } catch (const viewer::ViewerError& problem) {
         fail(arguments.file, printable(problem.what()));
@@ -276,20 +246,13 @@ void run(RenderArguments arguments) {
 void add_render(CLI::App& program) {
     const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = program.add_subcommand("render", "Render a picture or an animation, without a display");
-    command
-        ->add_option("FILE", arguments->file,
-                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
-        ->required();
+    add_character(*command, arguments->file)->required();
     command
         ->add_option("-o,--output", arguments->output,
                      "OUT.png; or OUT.gif, OUT.webp: an animation; - is standard output")
         ->required();
-    command
-        ->add_option("--format", arguments->format,
-                     "the format, if the output's name does not determine it; png by default on standard output")
-        ->check(CLI::IsMember({"png", "gif", "webp"}));
-    CLI::Option* clip =
-        command->add_option("--clip", arguments->clip, "the clip, by number or name; the rest pose if not given");
+    add_format(*command, arguments->format, {"png", "gif", "webp"});
+    CLI::Option* clip = add_clip(*command, arguments->clip);
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
     add_reach(*command, arguments->reach);
     command
@@ -315,7 +278,7 @@ void add_render(CLI::App& program) {
     command->callback([arguments, clip, time] {
         arguments->has_clip = clip->count() != 0;
         arguments->has_time = time->count() != 0;
-        if (!std::isfinite(arguments->time)) fail_option("--time", "must be a finite number");
+        if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");
         run(*arguments);
     });
 }

@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 #include "files/input.h"
 #include "files/output.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #include <bendy/converter/write_rig.h>
 #include <bendy/format/chunk_reader.h>
@@ -26,20 +26,18 @@ void run(const RigArguments& arguments) {
     require_folder_of(arguments.output);
     const InputBytes file = open_bendy_file(arguments.file);
     const Bytes bytes = file.bytes();
-    Result<ChunkTree> tree = read_chunk_tree(bytes);
-    if (!tree) fail(arguments.file, tree.error(), bytes);
+    ChunkTree tree = read_tree(arguments.file, bytes);
     Faults faults;
-    check_sums(*tree, faults);
-    decode_leaves(*tree);
-    const Document document = read_document(*tree, faults);
-    if (faults.empty()) check_values(*tree, document, faults);
+    check_sums(tree, faults);
+    decode_leaves(tree);
+    const Document document = read_document(tree, faults);
+    if (faults.empty()) check_values(tree, document, faults);
     if (!faults.empty()) fail(arguments.file, faults.list().front(), bytes);
     if (document.objects.empty()) fail(arguments.file, "there is no object in the file");
     if (document.objects.size() > 1)
         warn(arguments.file, "there are " + grouped(document.objects.size()) + " objects; the rig is the first one's");
 
-    const std::string text = converter::write_rig(document.objects.front());
-    outputs.write(arguments.output, text);
+    outputs.write(arguments.output, converter::write_rig(document.objects.front()));
 }
 
 }  // namespace

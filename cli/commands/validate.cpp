@@ -1,17 +1,18 @@
 #include "commands/commands.h"
-#include "files/dangling_links.h"
 #include "files/input.h"
-#include "terminal/colour.h"
-#include "terminal/problem.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
+#include <bendy/converter/linked_file.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 
-#include <nlohmann/json.hpp>
-
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace bendy::cli {
@@ -42,7 +43,34 @@ std::string why_no_file(const std::filesystem::path& file, const Result<InputByt
     return mapped ? why_not_bendy(file, mapped->bytes()) : why_not_opened(file, mapped.error());
 }
 
+/// A LINK to an image file that does not exist.
+struct DanglingLink {
+    std::uint64_t offset = 0;  ///< of the chunk
+    std::string uri;
+};
+
 using Links = std::vector<DanglingLink>;
+
+/// Of a file's bytes, which links are relative to its folder. Data URIs and other schemes are not looked at; of bytes
+/// that cannot be read, nothing.
+Links find_dangling_links(const std::filesystem::path& file, Bytes bytes) {
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) return {};
+    decode_leaves(*tree);
+    Faults ignored;
+    const Document document = read_document(*tree, ignored);
+    Links dangling;
+    for (const TextureView& texture : document.textures) {
+        for (const ImageView& image : texture.images) {
+            if (image.uri.empty()) continue;
+            const auto linked = converter::linked_file(image.uri, file);
+            std::error_code problem;
+            if (linked && !std::filesystem::exists(*linked, problem))
+                dangling.push_back({(*tree)[image.chunk].offset, std::string(image.uri)});
+        }
+    }
+    return dangling;
+}
 
 std::string text_of(const DanglingLink& link) {
     return "linked image does not exist: " + link.uri;
@@ -97,7 +125,7 @@ void run(const ValidateArguments& arguments) {
                 warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
         }
     }
-    if (arguments.json) std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    if (arguments.json) print_report(report, 2);
     if (!all_good) throw Failed{};
 }
 

@@ -1,9 +1,10 @@
 #include "commands/commands.h"
 #include "files/input.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #ifdef BENDY_HAS_VIEWER
 
+#include "commands/model_options.h"
 #include "tentacle.h"
 
 #include <bendy/viewer/view.h>
@@ -52,8 +53,7 @@ void run(ViewArguments arguments) {
 void add_view(CLI::App& program) {
     const auto arguments = std::make_shared<ViewArguments>();
     CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
-    command->add_option("FILE", arguments->file,
-                        "a bendy file, or one that `bendy convert` reads, which is converted on the fly");
+    add_character(*command, arguments->file);
     command->add_flag("-v,--verbose", arguments->view.verbose, "print the OpenGL driver in use");
     // For tests, see viewer/src/window.h.
     command->add_option("--script", arguments->view.script)->group("");

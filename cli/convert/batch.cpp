@@ -1,19 +1,15 @@
-#include "batch.h"
+#include "convert/batch.h"
 
 #include "files/output.h"
-#include "terminal/problem.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <exception>
-#include <map>
 #include <set>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -100,10 +96,10 @@ using converter::SourceFile;
 
 /// The same for a file however its folder was written. Not what a link names: other files are looked for beside the
 /// link.
-std::filesystem::path in_plain_folder(const std::filesystem::path& file) {
-    const std::filesystem::path whole = std::filesystem::absolute(file);
+fs::path in_plain_folder(const fs::path& file) {
+    const fs::path whole = fs::absolute(file);
     std::error_code unknown;
-    return std::filesystem::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
+    return fs::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
 }
 
 nlohmann::json as_json(const FileStamp& stamp) {
@@ -124,7 +120,7 @@ BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder
     return planner.finish();
 }
 
-BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder), file_(file_in(folder)) {
+BatchRecord::BatchRecord(const fs::path& folder) : folder_(folder), file_(file_in(folder)) {
     try {
         read();
     } catch (const nlohmann::json::exception&) {
@@ -132,7 +128,7 @@ BatchRecord::BatchRecord(const std::filesystem::path& folder) : folder_(folder),
     }
 }
 
-std::filesystem::path BatchRecord::file_in(const std::filesystem::path& folder) {
+fs::path BatchRecord::file_in(const fs::path& folder) {
     return folder / ".bendy_batch.json";
 }
 
@@ -143,9 +139,7 @@ bool BatchRecord::knows(const BatchFile& file) const {
 void BatchRecord::read() {
     const Result<MappedFile> mapped = MappedFile::open(file_);
     if (!mapped) return;
-    const Bytes bytes = mapped->bytes();
-    const auto* text = reinterpret_cast<const char*>(bytes.data());  // NOLINT(*-reinterpret-cast)
-    const nlohmann::json record = nlohmann::json::parse(text, text + bytes.size());
+    const nlohmann::json record = nlohmann::json::parse(as_text(mapped->bytes()));
     for (const auto& [output, members] : record.at("outputs").items()) {
         Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
         for (const nlohmann::json& source : members.at("sources"))
@@ -166,7 +160,7 @@ bool BatchRecord::is_up_to_date(const BatchFile& file, const std::string& recipe
 
 void BatchRecord::note(const BatchFile& file, const std::string& recipe, const std::vector<SourceFile>& sources) {
     Entry entry{recipe, converter::stamp_of(file.output), sources};
-    for (SourceFile& source : entry.sources) source.file = std::filesystem::absolute(source.file);
+    for (SourceFile& source : entry.sources) source.file = fs::absolute(source.file);
     entries_[file.place.generic_string()] = std::move(entry);
 }
 
@@ -181,9 +175,8 @@ std::string BatchRecord::write() const {
             {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
     }
     // A name that is no UTF-8 is not found again, and its file made again.
-    const std::string text =
-        nlohmann::json{{"outputs", std::move(outputs)}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    const auto written = write_file(file_, std::as_bytes(std::span(text)));
+    const std::string text = json_text(nlohmann::json{{"outputs", std::move(outputs)}});
+    const auto written = write_file(file_, as_byte_span(text));
     return written ? std::string() : bendy::describe(written.error());
 }
 

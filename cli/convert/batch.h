@@ -1,5 +1,7 @@
 #pragma once
 
+#include "convert/conversion.h"
+
 #include <bendy/converter/report.h>
 
 #include <filesystem>
@@ -68,5 +70,10 @@ private:
     std::filesystem::path file_;
     std::map<std::string, Entry> entries_;  ///< by the output's place
 };
+
+/// Converts the inputs into the folder that is the output, or each beside itself where none is given, several at a
+/// time; only what has changed. Prints a line for each file, in order, what went wrong with which, and a table at the
+/// end; throws Failed if there was anything.
+void convert_batch(const ConvertArguments& arguments);
 
 }  // namespace bendy::cli

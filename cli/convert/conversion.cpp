@@ -1,16 +1,11 @@
-#include "conversion.h"
+#include "convert/conversion.h"
 
-#include "files/input.h"
+#include "terminal/json.h"
 
 #include <bendy/runtime.h>
 
-#include <nlohmann/json.hpp>
-
-#include <cstddef>
 #include <cstdint>
-#include <iostream>
 #include <string>
-#include <string_view>
 
 namespace bendy::cli {
 namespace {
@@ -85,19 +80,6 @@ void add_contents(Json& json, const Model& model) {
     json["clips"] = list_clips(model);
 }
 
-/// A file's name as Make reads it: before a space, or a #, every backslash is doubled and one more is put.
-std::string escaped(std::string_view name) {
-    std::string text;
-    std::size_t backslashes = 0;
-    for (const char c : name) {
-        if (c == ' ' || c == '\t' || c == '#') text += std::string(backslashes + 1, '\\');
-        if (c == '$') text += '$';
-        text += c;
-        backslashes = c == '\\' ? backslashes + 1 : 0;
-    }
-    return text;
-}
-
 }  // namespace
 
 converter::ConvertOptions options_of(const ConvertArguments& arguments) {
@@ -133,20 +115,7 @@ std::string recipe_of(const ConvertArguments& arguments) {
                                 {"max_error", arguments.max_error},
                                 {"lod", arguments.lod},
                                 {"sort_vertices", arguments.sort_vertices}};
-    return recipe.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
-                                                                     converter::ConvertOptions options,
-                                                                     converter::Report& report) {
-    const std::filesystem::path name = "standard input";
-    if (options.rig && is_dash(*options.rig)) {
-        const InputBytes rig = InputBytes::read(*options.rig);
-        options.rig_text = std::string(as_text(rig.bytes()));
-        options.rig = name;
-    }
-    if (!is_dash(input)) return converter::convert(input, options, report);
-    return converter::convert(InputBytes::read(input).take(), name, options, report);
+    return json_text(recipe);
 }
 
 Json converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -169,23 +138,6 @@ Json failed_report(const std::filesystem::path& input, const std::filesystem::pa
     json["error"] = {{"file", file.string()}, {"message", what}};
     add_remarks(json, report);
     return json;
-}
-
-void print_report(const Json& report) {
-    std::cout << report.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
-}
-
-std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources) {
-    const std::string target = output.string();
-    std::string text = escaped(target) + ':';
-    bool is_one_line = target.find('\n') == std::string::npos;
-    for (const converter::SourceFile& source : sources) {
-        if (!source.stamp.is_there) continue;
-        const std::string name = source.file.string();
-        is_one_line = is_one_line && name.find('\n') == std::string::npos;
-        text += " \\\n  " + escaped(name);
-    }
-    return is_one_line ? text + '\n' : std::string();
 }
 
 }  // namespace bendy::cli

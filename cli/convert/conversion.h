@@ -43,12 +43,6 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments);
 /// All that decides which bytes come out, with the program's version, as one line of text.
 std::string recipe_of(const ConvertArguments& arguments);
 
-/// converter::convert of a file, or of standard input if its name is a dash: what that refers to is relative to the
-/// working directory. A rig file may be a dash too. Prints what cannot be read of standard input and throws Failed.
-Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
-                                                                     converter::ConvertOptions options,
-                                                                     converter::Report& report);
-
 /// Of an input that was converted. \param bytes  of the output
 nlohmann::ordered_json converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
                                         const converter::Report& report, Bytes bytes);
@@ -58,12 +52,5 @@ nlohmann::ordered_json up_to_date_report(const std::filesystem::path& input, con
 nlohmann::ordered_json failed_report(const std::filesystem::path& input, const std::filesystem::path& output,
                                      const converter::Report& report, const std::filesystem::path& file,
                                      const std::string& what);
-
-/// On a line of its own, to standard output.
-void print_report(const nlohmann::ordered_json& report);
-
-/// A rule for Make and Ninja: `output` depends on the sources that are there; no commands. A name with a line break
-/// cannot be written: the result is empty.
-std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources);
 
 }  // namespace bendy::cli

@@ -1,12 +1,8 @@
-#include "convert/convert_batch.h"
-
 #include "convert/batch.h"
 #include "convert/conversion.h"
-#include "files/file_identity.h"
-#include "files/written_by_bendy.h"
-#include "terminal/colour.h"
-#include "terminal/interrupt.h"
-#include "terminal/problem.h"
+#include "files/output.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 #include "terminal/progress.h"
 
 #include <bendy/format/diagnostics.h>
@@ -16,6 +12,8 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -34,6 +32,49 @@ namespace bendy::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+std::atomic<int> noted{0};
+static_assert(std::atomic<int>::is_always_lock_free);  // or a handler must not touch it
+
+extern "C" void note(int signal) {
+    noted = signal;
+    std::signal(signal, SIG_DFL);
+}
+
+/// Leaves a signal alone that whoever started the program has switched off, as nohup does.
+void watch(int signal) {
+    if (std::signal(signal, note) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+void forget(int signal) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program at once.
+class Interrupt {
+public:
+    Interrupt() {
+        watch(SIGINT);
+        watch(SIGTERM);
+    }
+    Interrupt(const Interrupt&) = delete;
+    Interrupt& operator=(const Interrupt&) = delete;
+    Interrupt(Interrupt&&) = delete;
+    Interrupt& operator=(Interrupt&&) = delete;
+    ~Interrupt() {
+        forget(SIGINT);
+        forget(SIGTERM);
+    }
+
+    /// True after a signal.
+    [[nodiscard]] static bool has_come() { return noted != 0; }
+    /// Ends the program by that signal, as the shell expects it.
+    [[noreturn]] static void obey() {
+        std::signal(noted, SIG_DFL);
+        std::raise(noted);
+        std::_Exit(EXIT_FAILURE);  // where signals end nothing
+    }
+};
 
 struct Totals {
     std::uint64_t converted = 0;

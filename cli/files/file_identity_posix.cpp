@@ -1,4 +1,4 @@
-#include "files/file_identity.h"
+#include "files/output.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "files/file_identity.h"
+#include "files/output.h"
 
 #define WIN32_LEAN_AND_MEAN
 #ifndef NOMINMAX

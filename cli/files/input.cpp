@@ -1,6 +1,6 @@
-#include "input.h"
+#include "files/input.h"
 
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/converter/source_format.h>
@@ -97,6 +97,18 @@ InputBytes open_bendy_file(const std::filesystem::path& file) {
     InputBytes mapped = open_file(file);
     if (const std::string why = why_not_bendy(file, mapped.bytes()); !why.empty()) fail(file, printable(why));
     return mapped;
+}
+
+ChunkTree read_tree(const std::filesystem::path& file, Bytes bytes) {
+    Result<ChunkTree> tree = read_chunk_tree(bytes);
+    if (!tree) fail(file, tree.error(), bytes);
+    return *std::move(tree);
+}
+
+Model read_model(const std::filesystem::path& file, Bytes bytes) {
+    Result<Model> model = Model::from_memory(bytes);
+    if (!model) fail(file, model.error(), bytes);
+    return *std::move(model);
 }
 
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,

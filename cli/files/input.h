@@ -3,8 +3,10 @@
 #include "files/output.h"
 
 #include <bendy/converter/report.h>
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/file.h>
 #include <bendy/format/result.h>
+#include <bendy/runtime/model.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -47,6 +49,10 @@ InputBytes open_file(const std::filesystem::path& file);
 /// Maps a file that is to be a bendy file. Fails, with the command that makes one of it, if it is known to be something
 /// else; what is not known at all goes through.
 InputBytes open_bendy_file(const std::filesystem::path& file);
+
+/// The chunks of a file's bytes, or its character. Fails, with the place, if they cannot be read.
+ChunkTree read_tree(const std::filesystem::path& file, Bytes bytes);
+Model read_model(const std::filesystem::path& file, Bytes bytes);
 
 /// What is wrong with a file that could not be opened.
 std::string why_not_opened(const std::filesystem::path& file, const Error& error);

@@ -1,20 +1,23 @@
 #include "files/output.h"
 
 #include "files/input.h"
-#include "files/written_by_bendy.h"
 #include "terminal/console.h"
-#include "terminal/problem.h"
+#include "terminal/messages.h"
 
+#include <bendy/format/chunk.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
+#include <bendy/format/read_record.h>
+#include <bendy/format/records.h>
 
 #include <CLI/Error.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <charconv>
 #include <iostream>
-#include <span>
 #include <system_error>
 
 namespace bendy::cli {
@@ -45,6 +48,124 @@ bool holds_bytes(const fs::path& file) {
     std::error_code ignored;
     const fs::file_status status = fs::status(file, ignored);
     return fs::exists(status) && (fs::is_regular_file(status) || fs::is_directory(status));
+}
+
+/// "bendy 0.8.0", and what may follow.
+bool is_ours(std::string_view generator) {
+    constexpr std::string_view kName = "bendy ";
+    return generator.starts_with(kName) && generator.size() > kName.size() && generator[kName.size()] >= '0' &&
+           generator[kName.size()] <= '9';
+}
+
+/// What of a glTF file's JSON tells who wrote it and what lies beside it. Builds nothing else, however deep it is.
+class AssetReader : public nlohmann::json_sax<nlohmann::json> {
+public:
+    std::string generator;
+    std::vector<std::string> buffers;  ///< URIs
+
+    bool key(string_t& name) override {
+        if (depth_ == 1) member_ = name;
+        field_ = name;
+        return true;
+    }
+    bool string(string_t& text) override {
+        if (depth_ == 2 && member_ == "asset" && field_ == "generator") generator = text;
+        if (depth_ == 3 && member_ == "buffers" && field_ == "uri" && !text.starts_with("data:"))
+            buffers.push_back(text);
+        return true;
+    }
+    bool start_object(std::size_t /*size*/) override { return ++depth_ != 0; }
+    bool start_array(std::size_t /*size*/) override { return ++depth_ != 0; }
+    bool end_object() override { return depth_-- != 0; }
+    bool end_array() override { return depth_-- != 0; }
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool binary(binary_t& /*bytes*/) override { return true; }
+    bool parse_error(std::size_t /*at*/, const std::string& /*token*/, const nlohmann::detail::exception&) override {
+        return false;
+    }
+
+private:
+    std::size_t depth_ = 0;
+    std::string member_, field_;
+};
+
+bool is_bendy(Bytes bytes) {
+    return as_text(bytes).starts_with("HEAD");
+}
+
+/// VERS is the first chunk in HEAD.
+std::string_view generator_of_bendy_file(Bytes bytes) {
+    constexpr std::size_t kVersion = 2 * kChunkHeaderSize;  // behind the headers of HEAD and VERS
+    constexpr std::size_t kGenerator = 48;                  // in the record, see spec/chunks/VERS.md
+    constexpr std::size_t kLength = sizeof(VersionRecord::generator);
+    if (bytes.size() < kVersion + kGenerator + kLength || as_text(bytes.subspan(kChunkHeaderSize, 4)) != "VERS")
+        return {};
+    const std::string_view text = as_text(bytes.subspan(kVersion + kGenerator, kLength));
+    return text.substr(0, text.find('\0'));
+}
+
+/// The JSON of a glTF file in either container.
+std::string_view json_of(Bytes bytes) {
+    constexpr std::size_t kJson = 20;  // behind the headers of the file and of its first chunk
+    const std::string_view text = as_text(bytes);
+    if (!text.starts_with("glTF")) return text;
+    std::uint32_t size = 0;
+    if (bytes.size() < kJson) return {};
+    copy_at(bytes, 12, size);
+    return text.substr(kJson, size);
+}
+
+AssetReader read_asset(Bytes bytes) {
+    AssetReader reader;
+    const std::string_view json = json_of(bytes);
+    if (!nlohmann::json::sax_parse(json.begin(), json.end(), &reader, nlohmann::json::input_format_t::json, false))
+        reader = AssetReader();
+    return reader;
+}
+
+constexpr std::string_view kXFile = "xof ";
+
+/// The comment in the second line.
+std::string_view generator_of_x_file(std::string_view text) {
+    constexpr std::string_view kComment = "// ";
+    const std::string_view rest = text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
+    return rest.starts_with(kComment) ? rest.substr(kComment.size()) : std::string_view();
+}
+
+/// %20 as a space.
+std::string decoded(std::string_view uri) {
+    std::string text;
+    for (std::size_t at = 0; at < uri.size(); ++at) {
+        unsigned byte = 0;
+        const char* digits = uri.data() + at + 1;
+        if (uri[at] == '%' && uri.size() - at > 2 && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            text += static_cast<char>(byte);
+            at += 2;
+        } else {
+            text += uri[at];
+        }
+    }
+    return text;
+}
+
+std::string utf8(const fs::path& path) {
+    const std::u8string text = path.u8string();
+    return {text.begin(), text.end()};
+}
+
+/// Whether a glTF file has `other`, which is in the same folder, as a buffer; or an X-file names it.
+bool refers_to(const fs::path& file, const fs::path& other) {
+    const Result<MappedFile> mapped = MappedFile::open(file);
+    if (!mapped) return false;
+    const std::string name = utf8(other.filename());
+    const std::string_view text = as_text(mapped->bytes());
+    if (text.starts_with(kXFile)) return text.find('"' + name + '"') != std::string_view::npos;
+    const auto buffers = read_asset(mapped->bytes()).buffers;
+    return std::any_of(buffers.begin(), buffers.end(), [&](const std::string& uri) { return decoded(uri) == name; });
 }
 
 constexpr const char* kForeign = "is there, and bendy did not write it: --force replaces it, -o writes elsewhere";
@@ -111,7 +232,7 @@ bool is_picture(std::string_view suffix) {
 }
 
 /// A name as a shell reads it; for people, so control characters are escaped.
-std::string quoted(const std::filesystem::path& file) {
+std::string quoted(const fs::path& file) {
     const std::string name = printable(file.string());
     constexpr std::string_view kPlain = "._-/+=:,@%";
     const bool is_plain = std::all_of(name.begin(), name.end(), [&](char c) {
@@ -122,14 +243,11 @@ std::string quoted(const std::filesystem::path& file) {
 }
 
 /// "bendy export fox.bendy -o fox.glb", where need be with the command that makes the bendy file first.
-std::string commands_for(const Writes& writes, const Meaning& wanted, const std::filesystem::path& input,
-                         const std::filesystem::path& output) {
-    std::filesystem::path bendy_file = input;
+std::string commands_for(const Writes& writes, const Meaning& wanted, const fs::path& input, const fs::path& output) {
+    fs::path bendy_file = input;
     std::string text;
-    const bool makes_bendy_files =
-        std::find(writes.suffixes.begin(), writes.suffixes.end(), ".bendy") != writes.suffixes.end();
-    if (makes_bendy_files && wanted.suffix != ".bendy") {
-        bendy_file = std::filesystem::path(output).replace_extension(".bendy");
+    if (writes.has(".bendy") && wanted.suffix != ".bendy") {
+        bendy_file = fs::path(output).replace_extension(".bendy");
         text = "bendy " + std::string(writes.command) + ' ' + quoted(input) + (writes.command == "edit" ? " ..." : "") +
                " -o " + quoted(bendy_file) + " && ";
     }
@@ -153,6 +271,15 @@ std::string list(const std::vector<std::string_view>& suffixes) {
 }
 
 }  // namespace
+
+bool was_written_by_bendy(const fs::path& file) {
+    const Result<MappedFile> mapped = MappedFile::open(file);
+    if (!mapped || mapped->bytes().empty()) return false;
+    const Bytes bytes = mapped->bytes();
+    if (is_bendy(bytes)) return is_ours(generator_of_bendy_file(bytes));
+    if (as_text(bytes).starts_with(kXFile)) return is_ours(generator_of_x_file(as_text(bytes)));
+    return is_ours(read_asset(bytes).generator);
+}
 
 void Outputs::reads(const fs::path& input) {
     const auto identity = is_dash(input) ? identity_of_standard_input() : identity_of(input);
@@ -225,49 +352,55 @@ std::ostream& summary_stream(const fs::path& output) {
     return is_dash(output) ? std::cerr : std::cout;
 }
 
-void require_folder_of(const std::filesystem::path& output) {
-    const std::filesystem::path folder = output.parent_path();
+std::ostream& print_size(const fs::path& output, std::uint64_t bytes) {
+    return summary_stream(output) << printable(output_name(output)) << ": " << grouped(bytes) << " bytes";
+}
+
+void require_folder_of(const fs::path& output) {
+    const fs::path folder = output.parent_path();
     if (folder.empty()) return;
     std::error_code unknown;
-    const std::filesystem::file_status status = std::filesystem::status(folder, unknown);
-    if (status.type() == std::filesystem::file_type::not_found) {
+    const fs::file_status status = fs::status(folder, unknown);
+    if (status.type() == fs::file_type::not_found) {
         fail(output, "there is no folder " + printable(folder.string()) + ": make it first");
-    } else if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) {
+    } else if (fs::exists(status) && !fs::is_directory(status)) {
         fail(output, printable(folder.string()) + " is a file, not a folder");
     }
 }
 
-void check_format(const Writes& writes, const std::string& format, const std::filesystem::path& input,
-                  const std::filesystem::path& output) {
-    Writes named = writes;
-    named.others_too = named.others_too || !format.empty();
-    check_suffix(named, input, output);
-    const std::string suffix = suffix_of(output);
-    const bool is_meant = std::find(writes.suffixes.begin(), writes.suffixes.end(), suffix) != writes.suffixes.end();
-    if (!format.empty() && is_meant && suffix != '.' + format)
-        throw CLI::ValidationError("--format", format + " is not what " + printable(output.string()) + " would be");
+bool Writes::has(std::string_view suffix) const {
+    return std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
 }
 
-std::string suffix_of(const std::filesystem::path& file) {
+std::string suffix_of(const fs::path& file) {
     std::string suffix = file.extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return suffix;
 }
 
-std::string_view format_named_by(const std::filesystem::path& file) {
+std::string_view format_named_by(const fs::path& file) {
     const Meaning* meaning = find_meaning(suffix_of(file));
     return meaning == nullptr ? std::string_view() : meaning->format;
 }
 
-void check_suffix(const Writes& writes, const std::filesystem::path& input, const std::filesystem::path& output) {
+std::string format_of(const std::string& format, const fs::path& output, const char* usual) {
+    if (!format.empty()) return format;
     const std::string suffix = suffix_of(output);
-    if (is_dash(output) || std::find(writes.suffixes.begin(), writes.suffixes.end(), suffix) != writes.suffixes.end())
-        return;
+    return is_dash(output) || suffix.empty() ? usual : suffix.substr(1);
+}
+
+void check_suffix(const Writes& writes, const fs::path& input, const fs::path& output, const std::string& format) {
+    const std::string suffix = suffix_of(output);
+    if (is_dash(output)) return;
+    if (writes.has(suffix)) {
+        if (format.empty() || suffix == '.' + format) return;
+        throw CLI::ValidationError("--format", format + " is not what " + printable(output.string()) + " would be");
+    }
     const Meaning* meaning = find_meaning(suffix);
     const std::string option(writes.option);
     if (meaning == nullptr) {
-        if (writes.others_too) return;
+        if (writes.others_too || !format.empty()) return;
         throw CLI::ValidationError(option, printable(output.string()) + " must end in " + list(writes.suffixes));
     }
     std::string what = printable(output.string()) + " would be " + std::string(meaning->format) + ", which ";
@@ -278,12 +411,11 @@ void check_suffix(const Writes& writes, const std::filesystem::path& input, cons
     const bool shown = is_picture(suffix);
     const Meaning& nearest = *find_meaning(shown ? ".png" : ".glb");
     what += std::string("bendy does not write; ") + (shown ? "a picture" : "glTF, which most programs read") + ": ";
-    const auto other = std::filesystem::path(output).replace_extension(nearest.suffix);
+    const auto other = fs::path(output).replace_extension(nearest.suffix);
     throw CLI::ValidationError(
-        option,
-        what + (std::find(writes.suffixes.begin(), writes.suffixes.end(), nearest.suffix) != writes.suffixes.end()
-                    ? "bendy " + std::string(writes.command) + ' ' + quoted(input) + " -o " + quoted(other)
-                    : commands_for(writes, nearest, input, other)));
+        option, what + (writes.has(nearest.suffix)
+                            ? "bendy " + std::string(writes.command) + ' ' + quoted(input) + " -o " + quoted(other)
+                            : commands_for(writes, nearest, input, other)));
 }
 
 }  // namespace bendy::cli

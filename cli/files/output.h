@@ -1,20 +1,35 @@
 #pragma once
 
-#include "files/file_identity.h"
-
 #include <bendy/format/byte_reader.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Where all subcommands write through, so that none of them loses a file (docs/decisions/0031).
 namespace bendy::cli {
+
+/// What tells whether two names, hard links and symbolic links included, are one file.
+using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
+
+/// Of the file that a name leads to; nothing where there is none.
+std::optional<FileIdentity> identity_of(const std::filesystem::path& file);
+
+/// Of the file that standard input is read from, or standard output goes to; nothing for a pipe, a terminal or a
+/// device.
+std::optional<FileIdentity> identity_of_standard_input();
+std::optional<FileIdentity> identity_of_standard_output();
+
+/// Whether a file says of itself that this program wrote it, in any version: a bendy file in its VERS, glTF in
+/// asset.generator, an X-file in its second line. False for all other files, and for what cannot be read.
+bool was_written_by_bendy(const std::filesystem::path& file);
 
 /// Who chose an output's name.
 enum class NamedBy : std::uint8_t {
@@ -62,6 +77,8 @@ std::string output_name(const std::filesystem::path& output);
 
 /// Where a summary goes: to standard error if the result takes standard output.
 std::ostream& summary_stream(const std::filesystem::path& output);
+/// "fox.bendy: 1,234 bytes", to that stream.
+std::ostream& print_size(const std::filesystem::path& output, std::uint64_t bytes);
 
 /// Fails, naming the folder, where the one that an output goes to is not there: before the work, not after it.
 void require_folder_of(const std::filesystem::path& output);
@@ -78,16 +95,20 @@ struct Writes {
     std::string_view option;                 ///< whose value the output is: "--output"
     std::vector<std::string_view> suffixes;  ///< what it writes, in small letters
     bool others_too = true;                  ///< suffixes without a meaning, and none, name the same format
+
+    [[nodiscard]] bool has(std::string_view suffix) const;
 };
 
 /// Throws CLI::ValidationError where the output's suffix means a format that the subcommand does not write, saying by
 /// which commands `input` becomes it; or, unless `others_too`, where it is none of the suffixes. Standard output is
 /// always right.
-void check_suffix(const Writes& writes, const std::filesystem::path& input, const std::filesystem::path& output);
+/// \param format  what --format says, a suffix without its dot; empty: not given. It goes before a suffix without a
+///                meaning, and must agree with one that has it
+void check_suffix(const Writes& writes, const std::filesystem::path& input, const std::filesystem::path& output,
+                  const std::string& format = {});
 
-/// The same for a subcommand with --format: a format that is given goes before a suffix without a meaning, and must
-/// agree with one that has it. \param format  a suffix without its dot; empty: not given
-void check_format(const Writes& writes, const std::string& format, const std::filesystem::path& input,
-                  const std::filesystem::path& output);
+/// The format of an output: what --format says, or else its name. \param usual  of standard output, and of a name
+/// without a suffix
+std::string format_of(const std::string& format, const std::filesystem::path& output, const char* usual);
 
 }  // namespace bendy::cli

@@ -1,9 +1,6 @@
 #include "inspect/describe_chunk.h"
 
-#include "inspect/describe_leaf.h"
-#include "inspect/record_at.h"
-#include "terminal/problem.h"
-#include "terminal/text.h"
+#include "terminal/messages.h"
 
 #include <bendy/format/leaf_parts.h>
 #include <bendy/format/marker.h>
@@ -19,6 +16,143 @@
 namespace bendy::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// A field of plain numbers, or of text; null for one that is a record itself.
+Json field_json(const RecordField& field, Bytes payload, std::uint64_t base) {
+    const std::uint64_t at = base + field.offset;
+    if (field.is_text()) {
+        const std::uint64_t size = std::min<std::uint64_t>(field.count, payload.size() - at);
+        const std::string_view text = as_text(payload.subspan(at, size));
+        return text.substr(0, text.find('\0'));
+    }
+    if (field.type == FieldType::record) return nullptr;
+    Json list = Json::array();
+    for (std::uint32_t k = 0; k < field.count; ++k) {
+        if (field.type == FieldType::f32) {
+            float number = 0.0f;
+            copy_at(payload, at + k * sizeof number, number);
+            list.push_back(number);
+        } else {
+            list.push_back(field_number(field, payload, base + k * field_type_size(field.type)));
+        }
+    }
+    return field.count == 1 ? list.front() : list;
+}
+
+/// Calls visit(field) for each field of a record at `base` that the payload holds.
+template <class Visit>
+void for_each_field(const RecordLayout& layout, Bytes payload, std::uint64_t base, const Visit& visit) {
+    for (const RecordField& field : layout.fields) {
+        if (!field.is_reserved() && base + field.offset < payload.size()) visit(field);
+    }
+}
+
+/// Of a record inside a record, which holds numbers only.
+Json inner_record_json(const RecordLayout& layout, Bytes payload, std::uint64_t base) {
+    Json fields = Json::object();
+    for_each_field(layout, payload, base, [&](const RecordField& field) {
+        fields[std::string(field.name)] = field_json(field, payload, base);
+    });
+    return fields;
+}
+
+Json record_json(const RecordLayout& layout, Bytes payload, std::uint64_t base) {
+    Json fields = Json::object();
+    for_each_field(layout, payload, base, [&](const RecordField& field) {
+        fields[std::string(field.name)] =
+            field.type == FieldType::record
+                ? inner_record_json(*find_layout(field.type_name), payload, base + field.offset)
+                : field_json(field, payload, base);
+    });
+    return fields;
+}
+
+Json names_json(std::string_view text) {
+    Json names = Json::array();
+    while (!text.empty()) {
+        const std::size_t end = text.find('\0');
+        names.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end, text.size() - 1) + 1);
+    }
+    return names;
+}
+
+/// The field says how many bytes a text has, which is shown itself.
+bool is_size_of_text(const LeafLayout& leaf, const RecordField& field) {
+    return std::any_of(leaf.parts.begin(), leaf.parts.end(),
+                       [&](const LeafPart& part) { return part.kind == PartKind::text && part.count == field.name; });
+}
+
+/// "solver two_bone", "target joint 3", "soft_zone 0.1 radians".
+std::string field_text(const RecordLayout& layout, const RecordField& field, Bytes payload) {
+    std::string text(field.name);
+    const std::uint64_t number = field_number(field, payload, 0);
+    if (const std::string_view value = field.value_name(number); !value.empty() && field.count == 1)
+        return text.append(1, ' ').append(value);
+    if (field.reference.is_any()) {
+        const std::string_view thing = name_of(referred_entity(layout, field, payload, 0));
+        if (number == kNone) return text + " none";
+        if (!thing.empty() && thing != field.name) text.append(1, ' ').append(thing);
+        return text + ' ' + std::to_string(number);
+    }
+    const Json value = field_json(field, payload, 0);
+    if (value.is_string()) return text + " \"" + brief(value.get_ref<const std::string&>()) + '"';
+    const auto add = [&](const Json& one) {
+        text += ' ';
+        text += one.is_number_float() ? brief(one.get<float>()) : grouped(one.get<std::uint64_t>());
+    };
+    if (value.is_array()) {
+        std::for_each(value.begin(), value.end(), add);
+    } else {
+        add(value);
+    }
+    if (!field.unit.empty()) text.append(1, ' ').append(field.unit);
+    return text;
+}
+
+/// Fields of the record, texts and names by name, and the records of a leaf that is nothing but records. Long arrays of
+/// numbers are left out. Empty for a leaf without these.
+Json leaf_fields(const LeafLayout& leaf, Bytes payload) {
+    Json fields = Json::object();
+    const bool is_records = leaf.record() == nullptr;
+    // A record that is cut short still says something.
+    if (!is_records) fields = record_json(*leaf.record(), payload, 0);
+    for (const LocatedPart& located : locate_parts(leaf, payload).list) {
+        const std::string name(located.part->name);
+        const Bytes bytes = payload.subspan(located.offset, located.size);
+        if (located.part->kind == PartKind::text) fields[name] = as_text(bytes);
+        if (located.part->kind == PartKind::names) fields[name] = names_json(as_text(bytes));
+        if (located.part->kind != PartKind::records || !is_records) continue;
+        Json list = Json::array();
+        for (std::uint64_t k = 0; k < located.shape.count; ++k)
+            list.push_back(record_json(*located.shape.record, bytes, k * located.shape.unit()));
+        fields[name] = std::move(list);
+    }
+    return fields;
+}
+
+/// The same in a line: values of enumerations by their names, what numbers refer to, texts.
+std::string leaf_text(const LeafLayout& leaf, Bytes payload) {
+    std::string text;
+    const RecordLayout* record = leaf.record();
+    if (record != nullptr) {
+        for_each_field(*record, payload, 0, [&](const RecordField& field) {
+            if (field.type != FieldType::record && !is_size_of_text(leaf, field))
+                add_part(text, field_text(*record, field, payload));
+        });
+    }
+    for (const LocatedPart& located : locate_parts(leaf, payload).list) {
+        const Bytes bytes = payload.subspan(located.offset, located.size);
+        const std::string name(located.part->name);
+        if (located.part->kind == PartKind::text && !bytes.empty())
+            add_part(text, name + " \"" + brief(as_text(bytes)) + '"');
+        const bool is_list = located.part->kind == PartKind::records || located.part->kind == PartKind::numbers;
+        if (is_list && located.part->count == "rest") add_part(text, grouped(located.shape.count) + ' ' + name);
+    }
+    return text;
+}
+
 std::string quoted(std::string_view text) {
     return '"' + brief(text) + '"';
 }
@@ -27,7 +161,7 @@ std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
     constexpr std::array<std::string_view, kComponentTypes> kTypes{"u8", "i8", "u16", "i16", "u32", "f32"};
     const auto record = record_at<StreamRecord>(tree, number);
     std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
-    text += record.component_type < kTypes.size() ? kTypes[record.component_type] : "?";
+    text += name_at(kTypes, record.component_type);
     if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
     if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
     if (record.normalised == static_cast<std::uint8_t>(Numbers::listed)) text += " listed";
@@ -120,7 +254,7 @@ std::vector<Marker> markers_at(const ChunkTree& tree, std::uint32_t number) {
 
 std::string markers_text(const ChunkTree& tree, std::uint32_t number) {
     const std::vector<Marker> markers = markers_at(tree, number);
-    std::string text = grouped(markers.size()) + (markers.size() == 1 ? " marker" : " markers");
+    std::string text = counted(markers.size(), "marker");
     constexpr std::size_t kShown = 6;
     for (std::size_t k = 0; k < std::min(markers.size(), kShown); ++k)
         text += (k == 0 ? ": " : ", ") + quoted(markers[k].name) + " at " + brief(markers[k].seconds) + " s";
@@ -137,7 +271,7 @@ std::uint64_t frames_in(const ChunkTree& tree, std::uint32_t grid) {
 std::string frames_text(const ChunkTree& tree, std::uint32_t number) {
     const std::uint64_t frames = frames_in(tree, tree.find(number, FourCC("GRID")));
     const auto positions = record_at<StreamRecord>(tree, tree.find(number, FourCC("POSI")));
-    std::string text = grouped(frames) + (frames == 1 ? " frame" : " frames");
+    std::string text = counted(frames, "frame");
     if (frames != 0) text += " of " + grouped(positions.elements / frames) + " places";
     return text;
 }
@@ -158,9 +292,8 @@ std::string plays_text(const ChunkTree& tree, std::uint32_t number) {
     const std::vector<PlayRecord> plays = plays_at(tree, number);
     for (std::size_t k = 0; k < std::min(plays.size(), kShown); ++k) {
         const PlayRecord& play = plays[k];
-        add_part(text, grouped(play.frames) + (play.frames == 1 ? " frame" : " frames") + " of mesh " +
-                           std::to_string(play.mesh) + " from frame " + std::to_string(play.first) +
-                           (play.closed != 0 ? ", closed" : ""));
+        add_part(text, counted(play.frames, "frame") + " of mesh " + std::to_string(play.mesh) + " from frame " +
+                           std::to_string(play.first) + (play.closed != 0 ? ", closed" : ""));
     }
     return plays.size() > kShown ? text + ", ..." : text;
 }
@@ -174,13 +307,13 @@ std::string clip_text(const ChunkTree& tree, std::uint32_t number) {
     for (const PlayRecord& play : plays_at(tree, tree.find(number, FourCC("PLAY"))))
         frames = std::max(frames, std::uint64_t{play.frames});
     std::string text = brief(info.start) + " to " + brief(info.end) + " s, ";
-    if (frames != 0) text += grouped(frames) + (frames == 1 ? " frame" : " frames");
+    if (frames != 0) text += counted(frames, "frame");
     if (frames != 0 && tracks != 0) text += ", ";
     if (frames == 0 || tracks != 0) text += grouped(tracks) + " tracks";
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
     const std::size_t markers = markers_at(tree, tree.find(number, FourCC("MARK"))).size();
-    if (markers != 0) text += ", " + grouped(markers) + (markers == 1 ? " marker" : " markers");
+    if (markers != 0) text += ", " + counted(markers, "marker");
     return text;
 }
 
@@ -188,8 +321,7 @@ std::string clip_text(const ChunkTree& tree, std::uint32_t number) {
 std::string collapse_text(const ChunkTree& tree, std::uint32_t number) {
     const auto record = record_at<CollapseRecord>(tree, number);
     const Bytes payload = tree.payload(number);
-    std::string text = grouped(record.meshes) + (record.meshes == 1 ? " mesh, " : " meshes, ") +
-                       grouped(record.levels) + (record.levels == 1 ? " level" : " levels");
+    std::string text = counted(record.meshes, "mesh", "meshes") + ", " + counted(record.levels, "level");
     constexpr std::uint32_t kShown = 6;
     for (std::uint32_t k = 0; k < std::min(record.meshes, kShown); ++k) {
         const std::uint64_t at = sizeof(CollapseRecord) + k * sizeof(MeshCollapseRecord);
@@ -236,7 +368,6 @@ std::string bound_text(const BoundRecord& bound) {
 /// What a record says, without the chunk's name.
 std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
     const Chunk& chunk = tree[number];
-    constexpr std::array<std::string_view, kMediaTypes> kMedia{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
     if (is_text(chunk.id)) return quoted(as_text(tree.payload(number)));
     if (is_stream(chunk.id)) return stream_text(tree, number);
     if (chunk.id == FourCC("VERS")) return version_text(record_at<VersionRecord>(tree, number));
@@ -281,10 +412,8 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         return grouped(tree.payload(number).size() / sizeof(float)) + " f32";
     if (chunk.id == FourCC("MATE"))
         return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
-    if (chunk.id == FourCC("IMAG")) {
-        const auto image = record_at<ImageRecord>(tree, number);
-        return std::string(image.media < kMediaTypes ? kMedia[image.media] : "?");
-    }
+    if (chunk.id == FourCC("IMAG"))
+        return std::string(name_at(kMediaNames, record_at<ImageRecord>(tree, number).media));
     const LeafLayout* leaf = find_leaf(chunk.id);
     return leaf == nullptr || chunk.is_container() ? std::string() : leaf_text(*leaf, tree.payload(number));
 }
@@ -324,19 +453,17 @@ std::string describe_chunk(const ChunkTree& tree, std::uint32_t number, const Ri
     return text;
 }
 
-nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
+Json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
     const Chunk& chunk = tree[number];
-    if (chunk.is_container() || tree.encoding_fault(number)) return nlohmann::ordered_json::object();
-    const Bytes payload = tree.payload(number);
     const LeafLayout* leaf = find_leaf(chunk.id);
-    if (leaf == nullptr) return nlohmann::ordered_json::object();
+    if (leaf == nullptr || chunk.is_container() || tree.encoding_fault(number)) return Json::object();
     if (chunk.id == FourCC("MARK")) {
-        nlohmann::ordered_json markers = nlohmann::ordered_json::array();
+        Json markers = Json::array();
         for (const Marker& marker : markers_at(tree, number))
             markers.push_back({{"seconds", marker.seconds}, {"name", marker.name}});
         return {{"markers", markers}};
     }
-    return leaf_fields(*leaf, payload);
+    return leaf_fields(*leaf, tree.payload(number));
 }
 
 std::string_view chunk_meaning(FourCC id) {

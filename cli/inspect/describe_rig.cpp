@@ -1,15 +1,12 @@
 #include "inspect/describe_rig.h"
 
-#include "inspect/record_at.h"
-#include "terminal/problem.h"
-#include "terminal/text.h"
+#include "terminal/messages.h"
 
 #include <bendy/format/ik_chain.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <tuple>
@@ -68,9 +65,7 @@ std::string rotation_text(const ConstraintRecord& constraint) {
         case ConstraintModel::swing_twist_pyramid:
             return "swing-twist pyramid, twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
         case ConstraintModel::euler_box:
-            return "Euler box " +
-                   std::string(constraint.euler_order < kEulerOrders ? kOrders[constraint.euler_order] : "?") + ' ' +
-                   ranges(0, 3);
+            return "Euler box " + std::string(name_at(kOrders, constraint.euler_order)) + ' ' + ranges(0, 3);
         case ConstraintModel::largest_angle:
             return high[0] == ConstraintRecord::kFree ? "largest angle free"
                                                       : "largest angle " + brief(high[0]) + " deg";
@@ -229,7 +224,7 @@ std::string RigIndex::chain_text(std::uint32_t chunk) const {
     const auto record = record_at<ChainRecord>(*tree_, info);
     const auto place = std::lower_bound(object->chains.begin(), object->chains.end(), chunk);
     std::string text = links_text(*object, static_cast<std::uint32_t>(place - object->chains.begin()), record);
-    add_part(text, record.solver < kSolvers ? kNames[record.solver] : "?");
+    add_part(text, name_at(kNames, record.solver));
     if (record.target != kNone) add_part(text, "target " + joint_name(object->skeleton, record.target));
     if (record.pole != kNone) add_part(text, "pole " + joint_name(object->skeleton, record.pole));
     add_number(text, "position", record.position_weight, 1.0f);

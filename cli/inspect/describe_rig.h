@@ -1,13 +1,32 @@
 #pragma once
 
+#include <bendy/format/chunk_reader.h>
 #include <bendy/format/joint.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bendy::cli {
+
+/// What can be read of a record at the start of a leaf's payload; the rest, and all of it where there is no such leaf,
+/// keeps its defaults. For showing files, good or bad.
+template <class R>
+R record_at(const ChunkTree& tree, std::uint32_t number) {
+    R record;
+    if (number != kNone && !tree[number].is_container()) copy_at(tree.payload(number), 0, record);
+    return record;
+}
+
+/// The name of an enumeration's value; "?" for a number that it does not have.
+template <std::size_t N>
+std::string_view name_at(const std::array<std::string_view, N>& names, std::size_t number) {
+    return number < N ? names[number] : "?";
+}
 
 /// A constraint in few words, angles in degrees: "hinge 0 to 150 deg, IK only, proposed".
 std::string constraint_text(const ConstraintRecord& constraint);

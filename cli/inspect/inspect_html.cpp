@@ -2,19 +2,20 @@
 
 #include "inspect/describe_chunk.h"
 #include "inspect/describe_rig.h"
-#include "inspect/inspect_page.h"
 #include "inspect/page_curves.h"
-#include "inspect/page_materials.h"
-#include "inspect/page_skeleton.h"
-#include "terminal/problem.h"
-#include "terminal/text.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/format/diagnostics.h>
+#include <bendy/runtime/transform.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -93,35 +94,34 @@ Json warnings_json(const InspectedFile& file) {
     return warnings.json();
 }
 
+/// A table by columns, which are empty.
+Json empty_columns(std::size_t total, std::initializer_list<const char*> names) {
+    Json table{{"total", total}};
+    for (const char* name : names) table[name] = Json::array();
+    return table;
+}
+
 /// The chunks as columns, in file order; ids and encodings by number.
 Json chunks_json(const ChunkTree& tree, const RigIndex& rigs) {
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(tree.chunks().size(), kMostChunks));
     std::map<std::uint32_t, std::size_t> known;
-    Json ids = Json::array();
-    Json meanings = Json::array();
-    Json id = Json::array();
-    Json parent = Json::array();
-    Json offset = Json::array();
-    Json size = Json::array();
-    Json text = Json::array();
-    Json encoded = Json::object();
+    Json table = empty_columns(tree.chunks().size(), {"ids", "meanings", "id", "parent", "offset", "size", "text"});
+    table["encoded"] = Json::object();
     for (std::uint32_t number = 0; number < count; ++number) {
         const Chunk& chunk = tree[number];
-        const auto [place, is_new] = known.try_emplace(chunk.id.value, ids.size());
+        const auto [place, is_new] = known.try_emplace(chunk.id.value, table["ids"].size());
         if (is_new) {
-            ids.push_back(chunk.id.letters().data());
-            meanings.push_back(chunk_meaning(chunk.id));
+            table["ids"].push_back(chunk.id.letters().data());
+            table["meanings"].push_back(chunk_meaning(chunk.id));
         }
-        id.push_back(place->second);
-        parent.push_back(number == 0 ? -1 : static_cast<std::int64_t>(chunk.parent));
-        offset.push_back(chunk.offset);
-        size.push_back(chunk.size);
-        text.push_back(describe_chunk(tree, number, rigs));
-        if (chunk.codec() != 0) encoded[std::to_string(number)] = encoding_text(tree, number);
+        table["id"].push_back(place->second);
+        table["parent"].push_back(number == 0 ? -1 : static_cast<std::int64_t>(chunk.parent));
+        table["offset"].push_back(chunk.offset);
+        table["size"].push_back(chunk.size);
+        table["text"].push_back(describe_chunk(tree, number, rigs));
+        if (chunk.codec() != 0) table["encoded"][std::to_string(number)] = encoding_text(tree, number);
     }
-    return {{"total", tree.chunks().size()}, {"ids", std::move(ids)},       {"meanings", std::move(meanings)},
-            {"id", std::move(id)},           {"parent", std::move(parent)}, {"offset", std::move(offset)},
-            {"size", std::move(size)},       {"text", std::move(text)},     {"encoded", std::move(encoded)}};
+    return table;
 }
 
 Json facts_json(const Document& document) {
@@ -148,6 +148,205 @@ Json facts_json(const Document& document) {
             {"clips", clips},
             {"materials", document.materials.size()},
             {"textures", document.textures.size()}};
+}
+
+constexpr std::size_t kMostJoints = 20'000;
+constexpr std::size_t kMostChains = 1'000;
+constexpr std::size_t kMostLinks = 1'000;  // of one chain
+
+glm::dmat4 rest_matrix(const RestRecord& rest) {
+    JointTransform transform;
+    transform.rotation = glm::quat(rest.rotation[3], rest.rotation[0], rest.rotation[1], rest.rotation[2]);
+    transform.translation = {rest.translation[0], rest.translation[1], rest.translation[2]};
+    transform.scale = {rest.scale[0], rest.scale[1], rest.scale[2]};
+    return to_matrix(transform, {rest.shear[0], rest.shear[1], rest.shear[2]});
+}
+
+/// The constraints of the joints, one text for each.
+std::vector<std::string> constraint_texts(const SkeletonView& skeleton, std::size_t joints) {
+    std::vector<std::string> texts(joints);
+    for (const ConstraintView& constraint : skeleton.constraints) {
+        if (constraint.joint >= joints) continue;
+        std::string& text = texts[constraint.joint];
+        text += (text.empty() ? "" : " | ") + constraint_text(constraint.record);
+    }
+    return texts;
+}
+
+/// The joints from the effector up to the start; empty if that is not above it.
+Json links_of(const SkeletonView& skeleton, const ChainRecord& chain) {
+    Json links = Json::array();
+    std::uint32_t joint = chain.effector;
+    while (joint < skeleton.joints.size() && links.size() < kMostLinks) {
+        links.push_back(joint);
+        if (joint == chain.start) return links;
+        joint = skeleton.joints[joint].parent;
+    }
+    return links.size() == kMostLinks ? links : Json::array();
+}
+
+/// The joints of an object, as columns: parents, names, rest values, places in the rest pose, limits.
+Json page_joints(const ObjectView& object) {
+    const auto& joints = object.skeleton.joints;
+    const std::size_t count = std::min(joints.size(), kMostJoints);
+    const std::vector<std::string> constraints = constraint_texts(object.skeleton, count);
+    std::vector<glm::dmat4> model_space(count);
+    Json table = empty_columns(joints.size(), {"parent", "name", "chunk", "t", "r", "s", "place"});
+    for (std::size_t number = 0; number < count; ++number) {
+        const JointView& joint = joints[number];
+        const bool is_root = joint.parent == kNone;
+        const glm::dmat4 local = rest_matrix(joint.rest);
+        model_space[number] = is_root ? local : model_space[joint.parent] * local;
+        table["parent"].push_back(is_root ? -1 : static_cast<std::int64_t>(joint.parent));
+        table["name"].push_back(brief(joint.name));
+        table["chunk"].push_back(joint.chunk);
+        table["t"].push_back(short_numbers(joint.rest.translation));
+        table["r"].push_back(short_numbers(joint.rest.rotation));
+        table["s"].push_back(short_numbers(joint.rest.scale));
+        const glm::dvec4 place = model_space[number][3];
+        table["place"].push_back(short_numbers(
+            std::array{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)}));
+    }
+    table["constraints"] = constraints;
+    return table;
+}
+
+/// The IK chains of an object: names, texts, links.
+Json page_chains(const ObjectView& object, const RigIndex& rigs) {
+    Json list = Json::array();
+    for (const ChainView& chain : object.chains) {
+        if (list.size() == kMostChains) break;
+        list.push_back({{"name", brief(chain.name)},
+                        {"chunk", chain.chunk},
+                        {"text", rigs.chain_text(chain.chunk)},
+                        {"links", links_of(object.skeleton, chain.record)}});
+    }
+    return {{"total", object.chains.size()}, {"list", std::move(list)}};
+}
+
+constexpr std::size_t kMostListed = 1'000;  // textures; materials
+/// Images are embedded up to this many bytes in all, in the order of the file.
+constexpr std::size_t kMostImageBytes = std::size_t{32} << 20u;
+constexpr std::size_t kMostUses = 50;  // of a texture
+
+struct Use {
+    std::string_view slot;
+    const TextureUseRecord* record;
+};
+
+std::array<Use, 5> uses_of(const SurfaceRecord& surface) {
+    return {{{"base colour", &surface.base_colour_texture},
+             {"metallic-roughness", &surface.metallic_roughness_texture},
+             {"normal", &surface.normal_texture},
+             {"occlusion", &surface.occlusion_texture},
+             {"emissive", &surface.emissive_texture}}};
+}
+
+std::string sampler_text(const SamplerRecord& sampler) {
+    constexpr std::array<std::string_view, kMinFilters> kFilters{
+        "unspecified",         "nearest",           "linear", "nearest, mip nearest", "linear, mip nearest",
+        "nearest, mip linear", "linear, mip linear"};
+    constexpr std::array<std::string_view, kWraps> kWrapNames{"repeats", "clamped", "mirrored"};
+    std::string text = "magnified " + std::string(name_at(kFilters, sampler.mag_filter));
+    text.append("; minified ").append(name_at(kFilters, sampler.min_filter));
+    text.append("; S ").append(name_at(kWrapNames, sampler.wrap_s));
+    text.append(", T ").append(name_at(kWrapNames, sampler.wrap_t));
+    return text;
+}
+
+/// The bytes as a URI that holds them.
+std::string data_uri(std::string_view media_type, Bytes bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text("data:");
+    text.append(media_type).append(";base64,");
+    text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+        const std::size_t left = bytes.size() - at;
+        std::uint32_t group = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            group = group << 8u | (i < left ? std::to_integer<std::uint32_t>(bytes[at + i]) : 0u);
+        for (std::size_t i = 0; i < 4; ++i) text += i <= left ? kDigits[group >> (18 - 6 * i) & 63u] : '=';
+    }
+    return text;
+}
+
+Json image_json(const ImageView& image, std::size_t& budget) {
+    constexpr std::array<std::string_view, kMediaTypes> kShown{"", "image/png",  "image/jpeg",
+                                                               "", "image/webp", "image/avif"};
+    if (image.same) return {{"same", image.same->texture}};
+    if (image.bytes.empty() && !image.uri.empty()) return {{"uri", brief(image.uri)}};
+    const auto media = static_cast<std::size_t>(image.media);
+    Json json{{"media", name_at(kMediaNames, media)}, {"bytes", image.bytes.size()}};
+    if (name_at(kShown, media).empty() || media >= kMediaTypes) {
+        json["why"] = "browsers do not show this kind";
+    } else if (image.bytes.size() > budget) {
+        json["why"] = "not embedded: the page holds up to 32 MiB of images";
+    } else {
+        budget -= image.bytes.size();
+        json["src"] = data_uri(kShown[media], image.bytes);
+    }
+    return json;
+}
+
+/// Material and slot of each texture's uses.
+std::vector<Json> uses_by_texture(const Document& document) {
+    std::vector<Json> uses(document.textures.size(), Json::array());
+    for (std::size_t number = 0; number < document.materials.size(); ++number) {
+        for (const Use& use : uses_of(document.materials[number].surface)) {
+            if (use.record->texture < uses.size() && uses[use.record->texture].size() < kMostUses)
+                uses[use.record->texture].push_back({number, use.slot});
+        }
+    }
+    return uses;
+}
+
+/// The textures: images as data URIs as far as a browser can show them, samplers, who uses them.
+Json page_textures(const Document& document) {
+    std::vector<Json> uses = uses_by_texture(document);
+    std::size_t budget = kMostImageBytes;
+    Json list = Json::array();
+    for (std::size_t number = 0; number < document.textures.size() && number < kMostListed; ++number) {
+        const TextureView& texture = document.textures[number];
+        Json images = Json::array();
+        for (const ImageView& image : texture.images) images.push_back(image_json(image, budget));
+        list.push_back({{"name", brief(texture.name)},
+                        {"chunk", texture.chunk},
+                        {"sampler", sampler_text(texture.sampler)},
+                        {"images", std::move(images)},
+                        {"uses", std::move(uses[number])}});
+    }
+    return {{"total", document.textures.size()}, {"list", std::move(list)}};
+}
+
+/// The materials: surface parameters, textures, extensions.
+Json page_materials(const Document& document) {
+    constexpr std::array<std::string_view, kAlphaModes> kAlpha{"opaque", "mask", "blend"};
+    Json list = Json::array();
+    for (const MaterialView& material : document.materials) {
+        if (list.size() == kMostListed) break;
+        const SurfaceRecord& surface = material.surface;
+        Json textures = Json::array();
+        for (const Use& use : uses_of(surface)) {
+            if (use.record->texture == kNone) continue;
+            textures.push_back({use.slot, use.record->texture, use.record->coords});
+        }
+        std::string alpha(name_at(kAlpha, surface.alpha_mode));
+        if (alpha == "mask") alpha += ", cut-off " + brief(surface.alpha_cutoff);
+        list.push_back({{"name", brief(material.name)},
+                        {"chunk", material.chunk},
+                        {"base", short_numbers(surface.base_colour)},
+                        {"emissive", short_numbers(surface.emissive)},
+                        {"metallic", short_number(surface.metallic)},
+                        {"roughness", short_number(surface.roughness)},
+                        {"normalScale", short_number(surface.normal_scale)},
+                        {"occlusion", short_number(surface.occlusion_strength)},
+                        {"alpha", alpha},
+                        {"doubleSided", surface.double_sided != 0},
+                        {"unlit", surface.unlit != 0},
+                        {"textures", std::move(textures)},
+                        {"extensions", brief(material.extensions)}});
+    }
+    return {{"total", document.materials.size()}, {"list", std::move(list)}};
 }
 
 Json pictures_json(const InspectedFile& file) {

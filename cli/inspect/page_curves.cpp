@@ -1,12 +1,13 @@
 #include "inspect/page_curves.h"
 
-#include "inspect/page_number.h"
-#include "terminal/text.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/runtime/sample.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -103,7 +104,7 @@ Json shown_markers(const ClipView& clip) {
     constexpr std::size_t kMostMarkers = 200;
     Json markers = Json::array();
     for (const Marker& marker : std::span(clip.markers).first(std::min(clip.markers.size(), kMostMarkers)))
-        markers.push_back(Json::array({page_number(marker.seconds), brief(marker.name)}));
+        markers.push_back(Json::array({short_number(marker.seconds), brief(marker.name)}));
     return markers;
 }
 
@@ -158,7 +159,7 @@ Json CurveSampler::sampled(const TrackView& track, const ClipView& clip, const O
     std::vector<float> value(track.components);
     for (const float time : times) {
         sample_track(track, clip, time, value);
-        for (std::size_t c = 0; c < shown; ++c) curves[c].push_back(page_number(value[c]));
+        for (std::size_t c = 0; c < shown; ++c) curves[c].push_back(short_number(value[c]));
     }
     Json json{{"path", static_cast<unsigned>(track.path)},
               {"target", track.target},
@@ -200,7 +201,7 @@ void CurveSampler::add_packed(const PackedView& packed, const ClipView& clip, co
                 if (point > 0 && !group.kind.animated) continue;
                 const auto value = unpacked_value(group, t, object.skeleton.joints[group.joints[t]].rest);
                 Json& curves = tracks[track]["values"];
-                for (std::size_t c = 0; c < curves.size(); ++c) curves[c].push_back(page_number(value[c]));
+                for (std::size_t c = 0; c < curves.size(); ++c) curves[c].push_back(short_number(value[c]));
             }
         }
     }
@@ -236,9 +237,9 @@ Json CurveSampler::clips(const ObjectView& object) {
         if (clip.packed) add_packed(*clip.packed, clip, object, tracks);
         list.push_back({{"name", brief(clip.name)},
                         {"chunk", clip.chunk},
-                        {"start", page_number(clip.start)},
-                        {"end", page_number(clip.end)},
-                        {"rate", page_number(clip.frame_rate)},
+                        {"start", short_number(clip.start)},
+                        {"end", short_number(clip.end)},
+                        {"rate", short_number(clip.frame_rate)},
                         {"loop", clip.loop},
                         {"total", clip.tracks.size() + (clip.packed ? packed_tracks(*clip.packed) : 0)},
                         {"plays", shown_plays(clip, object)},
@@ -252,7 +253,7 @@ Json CurveSampler::times() const {
     Json lists = Json::array();
     for (const std::vector<float>& list : lists_) {
         Json numbers = Json::array();
-        for (const float time : list) numbers.push_back(page_number(time));
+        for (const float time : list) numbers.push_back(short_number(time));
         lists.push_back(std::move(numbers));
     }
     return lists;

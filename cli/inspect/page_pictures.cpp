@@ -1,4 +1,4 @@
-#include "inspect/page_pictures.h"
+#include "inspect/inspect_html.h"
 
 #ifdef BENDY_HAS_VIEWER
 
@@ -11,7 +11,7 @@
 namespace bendy::cli {
 namespace {
 
-constexpr std::size_t kMostClips = 6;
+constexpr std::size_t kMostPictures = 6;
 constexpr std::size_t kMostBytes = std::size_t{8} << 20u;  // of all pictures
 constexpr std::uint32_t kStillSide = 512;                  // pixels
 constexpr std::uint32_t kClipSide = 256;
@@ -53,7 +53,7 @@ PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder)
         std::size_t bytes = pictures.list.back().bytes.size();
         const auto clips = model->clips();
         std::size_t shown = 0;
-        for (; shown < std::min(clips.size(), kMostClips) && bytes < kMostBytes; ++shown) {
+        for (; shown < std::min(clips.size(), kMostPictures) && bytes < kMostBytes; ++shown) {
             const Clip& clip = clips[shown];
             const bool moves = clip.end > clip.start;
             pictures.list.push_back(

@@ -1,9 +1,8 @@
 #include "inspect/summary.h"
 
-#include "inspect/page_number.h"
-#include "terminal/colour.h"
-#include "terminal/problem.h"
-#include "terminal/text.h"
+#include "inspect/describe_chunk.h"
+#include "terminal/json.h"
+#include "terminal/messages.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/format/chunk_reader.h>
@@ -48,15 +47,14 @@ std::vector<Summary::MeshLine> list_meshes(const Model& model) {
 }
 
 std::vector<Summary::TextureLine> list_textures(const Model& model) {
-    constexpr std::array<std::string_view, kMediaTypes> kTypes{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
     std::vector<Summary::TextureLine> textures;
     for (const Texture& texture : model.textures()) {
         Summary::TextureLine& line = textures.emplace_back();
         line.name = texture.name;
         for (const ImageView& image : texture.images) {
             const auto type = static_cast<std::size_t>(image.media);
-            line.images.push_back(
-                {std::string(kTypes.at(type < kMediaTypes ? type : 0)), image.bytes.size(), std::string(image.uri)});
+            line.images.push_back({std::string(kMediaNames.at(type < kMediaTypes ? type : 0)), image.bytes.size(),
+                                   std::string(image.uri)});
         }
     }
     return textures;
@@ -92,10 +90,6 @@ Box rest_bounds(const Model& model) {
         (void)skin(pose, {.out = {.positions = points}});
     }
     return box_around(points);
-}
-
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
 }
 
 /// Lines of a label and parts with commas between them.
@@ -157,9 +151,9 @@ void add_meshes(const Summary& summary, Lines& lines) {
         influences = std::max(influences, mesh.influences);
     }
     std::vector<std::string> parts{grouped(summary.meshes.size()) + " with " + counted(vertices, "vertex", "vertices"),
-                                   counted(triangles, "triangle", "triangles")};
+                                   counted(triangles, "triangle")};
     if (summary.meshes.empty()) parts = {"0"};
-    if (influences != 0) parts.push_back("up to " + counted(influences, "influence", "influences") + " a vertex");
+    if (influences != 0) parts.push_back("up to " + counted(influences, "influence") + " a vertex");
     lines.add("meshes", parts);
 }
 
@@ -171,7 +165,7 @@ void add_levels(const Summary& summary, Lines& lines) {
         constexpr float kMillimetres = 1000.0f;
         const std::string triangles = grouped(level.triangles);
         std::string part = level.share > 0.0f ? brief(kPercent * level.share) + " % " + triangles
-                                              : "fewest " + counted(level.triangles, "triangle", "triangles");
+                                              : "fewest " + counted(level.triangles, "triangle");
         if (level.error > 0.0f) part += " (" + brief(kMillimetres * level.error) + " mm off)";
         parts.push_back(std::move(part));
     }
@@ -180,11 +174,11 @@ void add_levels(const Summary& summary, Lines& lines) {
 
 void add_rig(const Summary& summary, Lines& lines) {
     if (summary.constraints == 0 && summary.chains.empty()) return;
-    const std::string chains = counted(summary.chains.size(), "chain", "chains");
+    const std::string chains = counted(summary.chains.size(), "chain");
     std::vector<std::string> parts = listed(
         summary.chains, chains, [](const Summary::ChainLine& chain, std::size_t k) { return label_of(chain.name, k); });
     if (summary.chains.empty()) parts.clear();
-    parts.insert(parts.begin(), counted(summary.constraints, "constraint", "constraints"));
+    parts.insert(parts.begin(), counted(summary.constraints, "constraint"));
     lines.add("rig", parts);
 }
 
@@ -273,9 +267,9 @@ void fill_mesh(ordered_json& json, const Summary::MeshLine& mesh) {
 }
 
 void fill_clip(ordered_json& json, const Summary::ClipLine& clip) {
-    json["start"] = page_number(clip.start);
-    json["end"] = page_number(clip.end);
-    json["seconds"] = page_number(clip.end - clip.start);
+    json["start"] = short_number(clip.start);
+    json["end"] = short_number(clip.end);
+    json["seconds"] = short_number(clip.end - clip.start);
     json["repeats"] = clip.repeats;
 }
 
@@ -291,10 +285,10 @@ void fill_texture(ordered_json& json, const Summary::TextureLine& texture) {
 ordered_json levels_as_json(const Summary& summary) {
     ordered_json levels = ordered_json::array();
     for (const Summary::Level& level : summary.levels) {
-        levels.push_back({{"share", page_number(level.share)},
+        levels.push_back({{"share", short_number(level.share)},
                           {"triangles", level.triangles},
                           {"vertices", level.vertices},
-                          {"error", level.error > 0.0f ? page_number(level.error) : ordered_json(nullptr)}});
+                          {"error", level.error > 0.0f ? short_number(level.error) : ordered_json(nullptr)}});
     }
     if (!levels.empty()) levels.front()["error"] = 0.0;
     return levels;
@@ -385,7 +379,7 @@ ordered_json summary_as_json(const Summary& summary) {
     json["textures"] = json_list(summary.textures, fill_texture);
     json["bounds"] = nullptr;
     if (!summary.bounds.is_empty()) {
-        const auto corner = [](const glm::vec3& at) { return page_numbers(std::array{at.x, at.y, at.z}); };
+        const auto corner = [](const glm::vec3& at) { return short_numbers(std::array{at.x, at.y, at.z}); };
         json["bounds"] = {{"min", corner(summary.bounds.minimum)}, {"max", corner(summary.bounds.maximum)}};
     }
     json["bytesByKind"] = ordered_json::object();

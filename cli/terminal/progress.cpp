@@ -1,7 +1,7 @@
 #include "progress.h"
 
 #include "terminal/console.h"
-#include "terminal/text.h"
+#include "terminal/messages.h"
 
 #include <algorithm>
 #include <array>

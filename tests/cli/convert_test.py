@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""`bendy convert` of one file: outputs, summaries, linked images, dependency files, skinning.
+"""`bendy convert` of one file: outputs, summaries, linked images, dependency files, skinning, reports.
 
     convert_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,12 +20,14 @@ from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
 from program import BENDY, FULL_DISK, SOURCE, Case, main  # noqa: E402
 
+TENTACLE = SOURCE / "examples" / "tentacle.glb"
+
 
 class Convert(Case):
     def test_the_output_stands_beside_the_input_by_default(self):
         (self.folder / "in").mkdir()
         for name in ("one.glb", "two.v2.glb", "three"):
-            shutil.copy(SOURCE / "examples" / "tentacle.glb", self.folder / "in" / name)
+            shutil.copy(TENTACLE, self.folder / "in" / name)
             self.done("convert", self.folder / "in" / name)
         self.assertEqual(sorted(entry.name for entry in (self.folder / "in").iterdir()),
                          ["one.bendy", "one.glb", "three", "three.bendy", "two.v2.bendy", "two.v2.glb"])
@@ -33,9 +36,9 @@ class Convert(Case):
 
     def test_writes_where_it_is_told_and_nothing_else(self):
         (self.folder / "deeper").mkdir()
-        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "deeper/any.name")
+        self.done("convert", TENTACLE, "-o", "deeper/any.name")
         self.assertEqual([path.name for path in self.folder.rglob("*")], ["deeper", "any.name"])
-        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--output", "long.bendy")
+        self.done("convert", TENTACLE, "--output", "long.bendy")
         self.assertEqual((self.folder / "long.bendy").read_bytes(), (self.folder / "deeper" / "any.name").read_bytes())
 
     def test_convert_compact(self):
@@ -70,11 +73,11 @@ class Convert(Case):
 
     def test_replaces_an_older_file(self):
         (self.folder / "out.bendy").write_bytes(b"old")
-        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "out.bendy")
+        self.done("convert", TENTACLE, "-o", "out.bendy")
         self.assertEqual(self.done("validate", "out.bendy"), b"")
 
     def test_a_bad_input_leaves_no_output_and_an_old_one_untouched(self):
-        good = (SOURCE / "examples" / "tentacle.glb").read_bytes()
+        good = TENTACLE.read_bytes()
         (self.folder / "bad.glb").write_bytes(good[: len(good) // 2])
         self.failed("convert", "bad.glb", file="bad.glb")
         self.assertEqual(self.files(), ["bad.glb"])
@@ -85,7 +88,7 @@ class Convert(Case):
 
     def test_the_input_is_never_overwritten(self):
         source = self.folder / "a.glb"
-        shutil.copy(SOURCE / "examples" / "tentacle.glb", source)
+        shutil.copy(TENTACLE, source)
         before = source.read_bytes()
         (self.folder / "link.bendy").symlink_to(source)
         os.link(source, self.folder / "hard.bendy")
@@ -101,22 +104,22 @@ class Convert(Case):
         (self.folder / "folder").mkdir()
         (self.folder / "file").write_bytes(b"")
         for output in ("missing/out.bendy", "file/out.bendy"):
-            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output)
+            self.failed("convert", TENTACLE, "-o", output, file=output)
         self.assertEqual(self.files(), ["file", "folder"])
 
     def test_a_full_disk_leaves_nothing_behind(self):
         (self.folder / "old.bendy").write_bytes(b"old")
         for output in ("old.bendy", "new.bendy"):
-            self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", output, file=output, **FULL_DISK)
+            self.failed("convert", TENTACLE, "-o", output, file=output, **FULL_DISK)
         self.assertEqual(self.files(), ["old.bendy"])
         self.assertEqual((self.folder / "old.bendy").read_bytes(), b"old")
 
     def test_options_are_checked(self):
         self.assertIn("glue", self.misused("convert", "a.glb", "--images", "glue"))
-        line = self.failed("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "no such scene", "-o", "x")
+        line = self.failed("convert", TENTACLE, "--scene", "no such scene", "-o", "x")
         self.assertIn("no such scene", line)
         self.assertEqual(self.files(), [])
-        self.done("convert", SOURCE / "examples" / "tentacle.glb", "--scene", "0", "-o", "x")
+        self.done("convert", TENTACLE, "--scene", "0", "-o", "x")
 
     def test_what_is_left_out_is_named_on_standard_error(self):
         (self.folder / "camera.gltf").write_text(json.dumps({
@@ -260,14 +263,14 @@ class ConvertDepfile(Case):
                          "  odd\\ $$name\\ \\#1\\\\\\ .bin \\\n  picture.png\n")
         self.done("convert", "m.gltf", "-o", "out.bendy", "--depfile", "d", "--images", "link")
         self.assertNotIn("picture", (self.folder / "d").read_text())
-        self.done("convert", SOURCE / "examples" / "tentacle.glb", "-o", "a #b.bendy", "--depfile", "d")
+        self.done("convert", TENTACLE, "-o", "a #b.bendy", "--depfile", "d")
         self.assertTrue((self.folder / "d").read_text().startswith("a\\ \\#b.bendy: \\\n  /"))
 
     def test_a_failure_writes_none(self):
         self.failed("convert", "missing.gltf", "-o", "out.bendy", "--depfile", "d", file="missing.gltf")
         self.assertEqual(self.files(), [])
-        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x", "--depfile", "no/d", file="no/d")
-        self.failed("convert", SOURCE / "examples" / "tentacle.glb", "-o", "x\ny", "--depfile", "d", file="d")
+        self.failed("convert", TENTACLE, "-o", "x", "--depfile", "no/d", file="no/d")
+        self.failed("convert", TENTACLE, "-o", "x\ny", "--depfile", "d", file="d")
 
     def test_make_and_ninja_read_it(self):
         (self.folder / "Makefile").write_text(
@@ -317,10 +320,99 @@ class ConvertAutoSkin(Case):
         self.assertIn('"Higher"; did you mean "High"?', self.failed("convert", "m.gltf", "--skeleton", "Higher", file="m.gltf"))
 
     def test_nothing_to_bind_is_a_warning(self):
-        result = self.bendy("convert", SOURCE / "examples" / "tentacle.glb", "-o", "t.bendy", "--auto-skin")
+        result = self.bendy("convert", TENTACLE, "-o", "t.bendy", "--auto-skin")
         self.assertEqual(result.returncode, 0)
         self.assertIn(b"no vertices bound: every mesh has a skin", result.stderr)
         self.assertEqual((self.folder / "t.bendy").read_bytes(), self.convert("tentacle").read_bytes())
+
+
+class Report(Case):
+    """`convert --json`; the members are those that docs/convert.md lists."""
+
+    def documented(self):
+        text = (SOURCE / "docs" / "convert.md").read_text(encoding="utf-8")
+        table = text[text.index("| member |") :].split("\n\n")[0]
+        return {name: row.split("|")[2].strip() for row in table.splitlines()[2:]
+                for name in re.findall(r"`(\w+)`", row.split("|")[1])}
+
+    def report(self, *arguments, status=0):
+        result = self.bendy("convert", "--json", *arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        reports = [json.loads(line) for line in result.stdout.decode().splitlines()]
+        documented = self.documented()
+        for report in reports:
+            for member in report:
+                self.assertIn(member, documented)
+            for member, when in documented.items():
+                is_due = when == "always" or report["status"] in when.split(", ")
+                if when in ("with `--compact`", "with levels of detail"):
+                    continue
+                self.assertEqual(member in report, is_due, (member, report["status"]))
+        self.told = result.stderr.decode()
+        return reports
+
+    def test_of_a_file(self):
+        source = SOURCE / "examples" / "mannequin.glb"
+        [report] = self.report(source, "-o", "m.bendy")
+        self.assertEqual(self.told, "")
+        self.assertEqual((report["status"], report["input"], report["output"]), ("converted", str(source), "m.bendy"))
+        self.assertEqual(report["bytes"], (self.folder / "m.bendy").stat().st_size)
+        self.assertEqual((report["joints"], report["vertices"], report["materials"]), (65, 4504, 5))
+        self.assertEqual([clip["name"] for clip in report["clips"]], ["Idle", "Walk"])
+        self.assertGreater(min(clip["seconds"] for clip in report["clips"]), 0)
+        self.assertNotIn("compact", report)
+        self.assertEqual(self.report(source, "-o", "n.bendy", "--quiet")[0] | {"output": "m.bendy"}, report)
+
+    def test_compact_and_detail(self):
+        [report] = self.report(TENTACLE, "-o", "m.bendy", "--max-error", "1mm", "--lod")
+        compact = report["compact"]
+        self.assertEqual((compact["maxError"], compact["compactBytes"]), (0.001, report["bytes"]))
+        self.assertLessEqual(compact["measuredError"], 0.001)
+        self.assertEqual(sum(kind["exactBytes"] for kind in compact["kinds"]), compact["exactBytes"])
+        self.assertLess(report["fewestTriangles"], report["triangles"])
+
+    def test_warnings_and_proposals(self):
+        self.done("export", "-q", self.convert(), "-o", "m.gltf")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        document["scenes"][0].pop("extras")
+        document["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]
+        document["nodes"][0]["camera"] = 0
+        (self.folder / "m.gltf").write_text(json.dumps(document))
+        [report] = self.report("m.gltf", "-o", "m.bendy", "--auto-rig")
+        self.assertEqual(self.told, "")
+        self.assertIn(("nodes[0].camera", 1), [(each["place"], each["count"]) for each in report["warnings"]])
+        self.assertTrue(report["proposals"])
+
+    def test_errors(self):
+        (self.folder / "bad.glb").write_bytes(b"glTF")
+        [report] = self.report("bad.glb", status=1)
+        self.assertEqual((report["status"], report["output"]), ("failed", "bad.bendy"))
+        self.assertEqual(report["error"]["file"], "bad.glb")
+        self.assertIn("the GLB header is truncated", report["error"]["message"])
+        self.assertIn("bendy: error: bad.glb: the GLB header is truncated", self.told)
+        shutil.copy(TENTACLE, self.folder / "a.glb")
+        (self.folder / "a.bendy").write_bytes(b"of somebody else")
+        [report] = self.report("a.glb", status=1)
+        self.assertEqual(report["error"]["file"], "a.bendy")
+        self.assertIn("--force", report["error"]["message"])
+        [report] = self.report("a.glb", "-o", "no/such/folder", status=1)
+        self.assertEqual(report["error"]["file"], "no/such/folder")
+        self.assertIn("there is no folder no/such", report["error"]["message"])
+
+    def test_of_a_batch(self):
+        (self.folder / "in").mkdir()
+        for name in "abc":
+            shutil.copy(TENTACLE, self.folder / "in" / f"{name}.glb")
+        (self.folder / "in" / "c.glb").write_bytes(b"glTF")
+        reports = self.report("in", "-o", "out", status=1)
+        self.assertEqual({report["input"]: report["status"] for report in reports},
+                         {"in/a.glb": "converted", "in/b.glb": "converted", "in/c.glb": "failed"})
+        reports = self.report("in", "-o", "out", status=1)
+        self.assertEqual({report["input"]: report["status"] for report in reports},
+                         {"in/a.glb": "upToDate", "in/b.glb": "upToDate", "in/c.glb": "failed"})
+        shutil.copy(TENTACLE, self.folder / "in" / "a.gltf")
+        reports = self.report("in", "-o", "out", status=1)  # nothing is done: two have one output
+        self.assertEqual([(report["status"], report["output"]) for report in reports], [("failed", "out/a.bendy")])
 
 
 if __name__ == "__main__":

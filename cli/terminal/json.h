@@ -6,11 +6,26 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
+#include <string>
 
+// JSON that the program writes, whatever the names in a file hold.
 namespace bendy::cli {
 
+/// \param indentation  -1: all on one line
+template <class Json>
+std::string json_text(const Json& json, int indentation = -1) {
+    return json.dump(indentation, ' ', false, Json::error_handler_t::replace);
+}
+
+/// To standard output, with the end of the line.
+template <class Json>
+void print_report(const Json& report, int indentation = -1) {
+    std::cout << json_text(report, indentation) << '\n';
+}
+
 /// A number with six significant digits, so that JSON has it short; null if it is not finite.
-inline nlohmann::ordered_json page_number(float number) {
+inline nlohmann::ordered_json short_number(float number) {
     constexpr int kDigits = 6;
     if (!std::isfinite(number)) return nullptr;
     std::array<char, 32> digits{};
@@ -22,9 +37,9 @@ inline nlohmann::ordered_json page_number(float number) {
 }
 
 template <std::size_t N>
-nlohmann::ordered_json page_numbers(const std::array<float, N>& numbers) {
+nlohmann::ordered_json short_numbers(const std::array<float, N>& numbers) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const float number : numbers) list.push_back(page_number(number));
+    for (const float number : numbers) list.push_back(short_number(number));
     return list;
 }
 
