@@ -236,12 +236,12 @@ std::string write_ply(const PosedObject& object) {
             for (int c = 0; normals && c < 3; ++c) put_raw(out, mesh_normals[i][c]);
         }
     }
-    const auto put_all = [&](std::vector<std::uint32_t> PosedMesh::*list, std::size_t corners, bool counted) {
+    const auto put_all = [&](std::vector<std::uint32_t> PosedMesh::*list, std::size_t corners, bool with_count) {
         std::uint32_t base = 0;
         for (const PosedMesh& mesh : object.meshes) {
             const auto& indices = mesh.*list;
             for (std::size_t at = 0; at + corners <= indices.size(); at += corners) {
-                if (counted) put_raw(out, static_cast<std::uint8_t>(corners));
+                if (with_count) put_raw(out, static_cast<std::uint8_t>(corners));
                 for (std::size_t c = 0; c < corners; ++c) put_raw(out, base + indices[at + c]);
             }
             base += static_cast<std::uint32_t>(mesh.positions.size());
