@@ -25,7 +25,7 @@ struct ExportArguments {
 };
 
 /// What the output's name says, if nothing else does.
-std::string format_of(const ExportArguments& arguments) {
+std::string export_format(const ExportArguments& arguments) {
     if (!arguments.format.empty()) return arguments.format;
     const std::string suffix = suffix_of(arguments.output);
     return suffix == ".x" || suffix == ".gltf" ? suffix.substr(1) : "glb";
@@ -110,7 +110,7 @@ std::uint64_t export_x(const ExportArguments& arguments, Bytes /*file*/, Outputs
 
 void run(ExportArguments arguments) {
     require_folder_of(arguments.output);
-    const std::string format = format_of(arguments);
+    const std::string format = export_format(arguments);
     const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
     if (arguments.output.empty()) {
         arguments.output = arguments.file;
