@@ -6,8 +6,8 @@
 #include "terminal/text.h"
 
 #include <bendy/converter/compare_characters.h>
+#include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
-#include <bendy/converter/write_rig.h>
 #include <bendy/diff/compare_files.h>
 
 #include <nlohmann/json.hpp>

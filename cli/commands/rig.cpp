@@ -3,7 +3,7 @@
 #include "files/output.h"
 #include "terminal/problem.h"
 
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/check_sums.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/diagnostics.h>

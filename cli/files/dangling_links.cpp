@@ -1,6 +1,6 @@
 #include "files/dangling_links.h"
 
-#include <bendy/converter/linked_file.h>
+#include <bendy/converter/source_format.h>
 #include <bendy/format/decode_leaves.h>
 #include <bendy/format/document.h>
 
