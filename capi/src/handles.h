@@ -6,6 +6,7 @@
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/transform.h>
 
 #include <memory>
 #include <string>
@@ -14,6 +15,12 @@
 
 // The objects behind the handles. All handles of one model share the Character, which is freed with the last of them.
 namespace bendy::capi {
+
+inline bendy_transform to_c(const JointTransform& from) {
+    return {{from.rotation.x, from.rotation.y, from.rotation.z, from.rotation.w},
+            {from.translation.x, from.translation.y, from.translation.z},
+            {from.scale.x, from.scale.y, from.scale.z}};
+}
 
 struct CurveNames {
     std::string name, path;

@@ -6,8 +6,8 @@
 
 #include <bendy/converter/compare_characters.h>
 #include <bendy/converter/error_bound.h>
+#include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
-#include <bendy/converter/write_rig.h>
 #include <bendy/diff/compare_files.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>

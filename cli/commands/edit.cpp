@@ -3,11 +3,7 @@
 #include "files/output.h"
 #include "terminal/messages.h"
 
-#include <bendy/edit/extract.h>
-#include <bendy/edit/merge_clips.h>
-#include <bendy/edit/names.h>
-#include <bendy/edit/rename.h>
-#include <bendy/edit/strip.h>
+#include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
 
 #include <nlohmann/json.hpp>

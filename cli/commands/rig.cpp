@@ -3,7 +3,7 @@
 #include "files/output.h"
 #include "terminal/messages.h"
 
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>

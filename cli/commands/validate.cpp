@@ -3,7 +3,7 @@
 #include "terminal/json.h"
 #include "terminal/messages.h"
 
-#include <bendy/converter/linked_file.h>
+#include <bendy/converter/source_format.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>

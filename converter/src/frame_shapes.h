@@ -65,9 +65,6 @@ inline FramePair frames_at(const Clip& clip, const Play& play, double seconds) {
     return {number(left), number(std::min(left + 1, last)), held - left};
 }
 
-/// The same as timed keys: one for each frame, and for closed ones another of the first at the end.
-Track weights_track(const Scene& scene, const Clip& clip, const Play& play);
-
 /// From the first to the last key of tracks and frames, packed tracks apart; nothing where there are none.
 inline std::optional<ClipSpan> span_of_tracks(const Clip& clip) {
     std::optional<ClipSpan> span;

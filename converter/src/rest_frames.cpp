@@ -11,10 +11,6 @@
 namespace bendy::converter {
 namespace {
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 Rotation rotation_of(const Transform& rest) {
     const glm::vec4& q = rest.rotation;
     return to_rotation({q.x, q.y, q.z, q.w});

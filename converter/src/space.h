@@ -10,11 +10,24 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
 namespace bendy::converter {
+
+inline bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The first N components, as records have them.
+template <std::size_t N, class Vector>
+std::array<float, N> to_array(const Vector& v) {
+    std::array<float, N> a{};
+    for (std::size_t i = 0; i < N; ++i) a[i] = static_cast<float>(v[static_cast<int>(i)]);
+    return a;
+}
 
 /// x -> linear * x + origin, in double precision.
 struct Affine {

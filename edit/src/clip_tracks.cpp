@@ -1,13 +1,10 @@
 #include "clip_tracks.h"
 
-#include "encode_like.h"
-
 #include <bendy/format/packed_clip.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -306,11 +303,7 @@ private:
     /// Sets CINF.frame_rate to 0 if no track has fixed frames.
     void forget_frame_rate() {
         if (clip_.frame_rate == 0.0f) return;
-        const std::uint32_t chunk = tree_.find(clip_.chunk, FourCC("CINF"));
-        const Bytes before = tree_.payload(chunk);
-        Buffer payload(before.begin(), before.end());
-        std::memset(payload.data() + offsetof(ClipRecord, frame_rate), 0, sizeof(float));
-        rewrite_.replace(chunk, payload);
+        rewrite_.overwrite(tree_.find(clip_.chunk, FourCC("CINF")), offsetof(ClipRecord, frame_rate), bytes_of(0.0f));
     }
 
     void put(FourCC id, Bytes payload) {

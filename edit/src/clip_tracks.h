@@ -2,7 +2,6 @@
 
 #include "rewrite.h"
 
-#include <bendy/edit/outcome.h>
 #include <bendy/format/document.h>
 
 #include <cstdint>

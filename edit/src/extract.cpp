@@ -1,12 +1,6 @@
-#include <bendy/edit/extract.h>
+#include <bendy/edit/edit.h>
 
-#include "finish.h"
 #include "keep_only.h"
-#include "kept_vertices.h"
-#include "source.h"
-#include "texture_numbers.h"
-
-#include <bendy/edit/names.h>
 
 #include <algorithm>
 #include <span>
@@ -16,16 +10,64 @@
 namespace bendy::edit {
 namespace {
 
+/// Adds the vertices that kept vertices collapse to; returns true if that adds any.
+bool add_collapse_targets(const MeshCollapseView& collapse, std::vector<bool>& stays) {
+    bool adds = false;
+    for (std::uint32_t v = collapse.vertices; v-- > collapse.base;) {  // targets have smaller numbers: one pass is
+                                                                       // enough
+        if (!stays[v] || stays[collapse.target(v)]) continue;
+        stays[collapse.target(v)] = true;
+        adds = true;
+    }
+    return adds;
+}
+
+/// Marks in `kept` the vertices of each mesh that the submeshes of these joints use, and those that they collapse to; a
+/// mesh without such submeshes is removed. A rigid mesh whose vertices collapse to vertices that are no longer used
+/// loses its levels of detail.
+void keep_used_vertices(const ObjectView& object, Kept::Object& kept) {
+    for (Kept::Mesh& mesh : kept.meshes) mesh.stays = false;
+    for (const SubmeshView& submesh : object.skeleton.submeshes) {
+        if (submesh.count == 0 || !kept.polygons[submesh.joint]) continue;
+        const MeshView& mesh = object.meshes[submesh.mesh];
+        Kept::Mesh& here = kept.meshes[submesh.mesh];
+        here.stays = true;
+        here.vertices.resize(mesh.vertices, false);
+        for (std::uint32_t k = 0; k < submesh.count; ++k)
+            here.vertices[mesh.indices->index(submesh.first + k, 0)] = true;
+    }
+    if (object.collapse) {
+        for (const MeshCollapseView& collapse : object.collapse->meshes) {
+            Kept::Mesh& here = kept.meshes[collapse.mesh];
+            if (!here.stays) continue;
+            const std::vector<bool> used = here.vertices;
+            if (!add_collapse_targets(collapse, here.vertices) || !object.meshes[collapse.mesh].is_rigid()) continue;
+            here.vertices = used;
+            here.keeps_levels = false;
+        }
+    }
+}
+
+/// Marks the joints that influence a kept vertex.
+void keep_joints_of_vertices(const ObjectView& object, Kept::Object& kept) {
+    for (std::size_t p = 0; p < object.meshes.size(); ++p) {
+        const MeshView& mesh = object.meshes[p];
+        if (!kept.meshes[p].stays || mesh.is_rigid()) continue;
+        const std::vector<bool>& vertices = kept.meshes[p].vertices;
+        for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+            if (!vertices[v]) continue;
+            for (std::uint32_t k = 0; k < mesh.bones->components; ++k) {
+                if (mesh.weights->number(v, k) != 0.0f)
+                    kept.joints[mesh.palette.joints[mesh.bones->index(v, k)]] = true;
+            }
+        }
+    }
+}
+
 struct Found {
     std::size_t object = 0;
     std::uint32_t joint = 0;
 };
-
-std::vector<std::string_view> joint_names(const ObjectView& object) {
-    std::vector<std::string_view> names;
-    for (const JointView& joint : object.skeleton.joints) names.push_back(joint.name);
-    return names;
-}
 
 Result<Found, Problem> find_joint(const Document& document, std::string_view wanted) {
     if (document.objects.empty()) return Problem{"there is no object, so no joint"};
@@ -118,22 +160,18 @@ std::vector<std::size_t> those_without(const std::vector<bool>& stays) {
 void tell(const Source& source, const Found& found, const Kept& kept, Log& log) {
     const ObjectView& object = source.document.objects[found.object];
     const Kept::Object& here = kept.objects[found.object];
-    const auto names = joint_names(object);
+    const auto names = names_of(object.skeleton.joints);
     std::uint64_t vertices = 0;
     std::uint64_t of = 0;
     std::vector<bool> meshes;
-    std::vector<std::string_view> mesh_names;
-    std::vector<std::string_view> chain_names;
     for (std::size_t p = 0; p < object.meshes.size(); ++p) {
         meshes.push_back(here.meshes[p].stays);
-        mesh_names.push_back(object.meshes[p].name);
         of += object.meshes[p].vertices;
         if (!here.meshes[p].stays) continue;
         vertices += here.meshes[p].vertices.empty() ? object.meshes[p].vertices : count(here.meshes[p].vertices);
         if (!here.meshes[p].keeps_levels)
             log.warnings.push_back("mesh \"" + std::string(object.meshes[p].name) + "\" keeps no levels of detail");
     }
-    for (const ChainView& chain : object.chains) chain_names.push_back(chain.name);
     log.done.push_back("extracted " + counted(count(here.polygons), names.size(), "joint", "joints") + ", " +
                        counted(vertices, of, "vertex", "vertices"));
     std::vector<std::size_t> bare;
@@ -146,8 +184,8 @@ void tell(const Source& source, const Found& found, const Kept& kept, Log& log) 
         if (const auto gone = those_without(stays); !gone.empty())
             log.done.push_back(std::string(what) + " left out: " + list_names(all, gone));
     };
-    tell_gone(meshes, mesh_names, "meshes");
-    tell_gone(here.chains, chain_names, "chains");
+    tell_gone(meshes, names_of(object.meshes), "meshes");
+    tell_gone(here.chains, names_of(object.chains), "chains");
     if (kept.objects.size() > 1)
         log.warnings.push_back("other objects left out: " + std::to_string(kept.objects.size() - 1));
     if (vertices == 0) log.warnings.emplace_back("no polygon belongs to these joints: the file has no vertices");

@@ -3,7 +3,6 @@
 #include "clip_tracks.h"
 #include "renumber.h"
 
-#include <bendy/edit/names.h>
 #include <bendy/format/records.h>
 
 #include <algorithm>

@@ -1,10 +1,49 @@
 #pragma once
 
-#include "kept.h"
 #include "rewrite.h"
-#include "source.h"
+
+#include <bendy/format/limits.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace bendy::edit {
+
+/// What is kept of a file, by the numbers in the original.
+struct Kept {
+    struct Mesh {
+        bool stays = true;
+        std::vector<bool> targets;
+        std::vector<bool> vertices;  ///< empty: all
+        bool keeps_levels = true;    ///< of detail
+    };
+    struct Object {
+        bool stays = true;
+        std::vector<bool> joints;    ///< the parent of a kept joint is kept
+        std::vector<bool> polygons;  ///< per joint: whether its submeshes and local materials are kept
+        std::vector<bool> chains, clips;
+        std::vector<Mesh> meshes;
+    };
+    std::vector<bool> textures, materials;  ///< of HEAD
+    bool local_materials = true;
+    std::vector<Object> objects;
+};
+
+/// Returns a Kept that keeps everything.
+Kept everything(const Document& document);
+
+/// Returns the new number of each thing that is kept; kNone for what is removed.
+inline std::vector<std::uint32_t> renumbered(const std::vector<bool>& stays) {
+    std::vector<std::uint32_t> now(stays.size(), kNone);
+    std::uint32_t next = 0;
+    for (std::size_t k = 0; k < stays.size(); ++k) {
+        if (stays[k]) now[k] = next++;
+    }
+    return now;
+}
 
 /// Removes everything from the file that is not kept, and updates what refers to it.
 Result<void, Problem> keep_only(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log);
@@ -15,7 +54,11 @@ struct ObjectNumbers {
     std::vector<std::vector<std::uint32_t>> vertices;  ///< by mesh; empty: unchanged
 };
 
-/// Updates TEXT, and the texture numbers in all materials. `materials`: the document's that are kept.
+/// Returns the texture numbers in a material's extensions (EXTN): those of glTF's texture infos, which are objects with
+/// an "index" whose names end in "Texture". Returns nothing if the text is recognisably not JSON.
+std::optional<std::vector<std::uint32_t>> texture_numbers(std::string_view json);
+
+/// Updates TEXT, and the texture numbers in all materials.
 void update_textures(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log);
 
 /// Updates the streams, targets, palette and owner of a mesh that is kept. `index_runs` are the runs of INDX that are

@@ -1,19 +1,17 @@
-#include <bendy/edit/merge_clips.h>
+#include <bendy/edit/edit.h>
 
 #include "clip_tracks.h"
-#include "finish.h"
 #include "renumber.h"
-#include "rest_difference.h"
-#include "source.h"
-
-#include <bendy/edit/names.h>
+#include "rewrite.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -87,19 +85,6 @@ std::vector<std::uint32_t> pair_joints(const SkeletonView& there, const Skeleton
     return pairs;
 }
 
-template <class T>
-std::vector<std::string_view> names_of(std::span<const T> things) {
-    std::vector<std::string_view> names;
-    names.reserve(things.size());
-    for (const T& thing : things) names.push_back(thing.name);
-    return names;
-}
-
-template <class T>
-std::vector<std::string_view> names_of(const std::vector<T>& things) {
-    return names_of(std::span<const T>(things));
-}
-
 bool are_equal(const RestRecord& a, const RestRecord& b) {
     return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale && a.shear == b.shear;
 }
@@ -123,6 +108,54 @@ WeightMap pair_targets(const MeshView& there, const MeshView& here, std::uint32_
     map.first_frame_there = here.first_frame;
     for (const MorphTargetView& target : here.targets) map.at_rest.push_back(target.rest_weight);
     return map;
+}
+
+/// The difference between two rest transforms.
+struct RestDifference {
+    double metres = 0.0;
+    double degrees = 0.0;
+    double scale = 0.0;  ///< the largest factor by which a scale differs, minus 1
+
+    /// True if it is more than rounding.
+    [[nodiscard]] bool is_noticeable() const { return metres > 1e-5 || degrees > 0.01 || scale > 1e-4; }
+    /// For finding the largest: a degree, a centimetre and a hundredth of scale count the same.
+    [[nodiscard]] double weight() const { return metres * 100.0 + degrees + scale * 100.0; }
+};
+
+RestDifference rest_difference(const RestRecord& a, const RestRecord& b) {
+    RestDifference difference;
+    double square = 0.0;
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double moved = double{a.translation[c]} - b.translation[c];
+        square += moved * moved;
+        const double larger = std::max(std::abs(double{a.scale[c]}), std::abs(double{b.scale[c]}));
+        if (larger > 0.0)
+            difference.scale = std::max(difference.scale, std::abs(double{a.scale[c]} - b.scale[c]) / larger);
+    }
+    std::array<double, 4> apart{};
+    for (std::size_t c = 0; c < 4; ++c) dot += double{a.rotation[c]} * b.rotation[c];
+    for (std::size_t c = 0; c < 4; ++c) apart[c] = a.rotation[c] - (dot < 0.0 ? -1.0 : 1.0) * b.rotation[c];
+    double chord = 0.0;
+    for (const double number : apart) chord += number * number;
+    difference.metres = std::sqrt(square);
+    difference.degrees = 4.0 * std::asin(std::min(1.0, std::sqrt(chord) / 2.0)) * 180.0 / std::numbers::pi;
+    return difference;
+}
+
+/// Returns "moved by 12 mm, turned by 3.1 degrees".
+std::string describe(const RestDifference& difference) {
+    std::string text;
+    const auto add = [&](bool is_there, const char* format, double number) {
+        if (!is_there) return;
+        std::array<char, 64> part{};
+        std::snprintf(part.data(), part.size(), format, number);
+        text += (text.empty() ? "" : ", ") + std::string(part.data());
+    };
+    add(difference.metres > 1e-5, "moved by %.3g mm", difference.metres * 1e3);
+    add(difference.degrees > 0.01, "turned by %.3g degrees", difference.degrees);
+    add(difference.scale > 1e-4, "scaled by %.3g %%", difference.scale * 100.0);
+    return text;
 }
 
 /// Where the tracks of an object's clips go in another object.
@@ -372,10 +405,7 @@ private:
         BoundRecord bound = *here_.document.bound;
         bound.max_error = std::max(bound.max_error, theirs->max_error);
         bound.measured_error = std::max(bound.measured_error, theirs->measured_error);
-        const Bytes before = here_.tree.payload(chunk);
-        Buffer payload(before.begin(), before.end());
-        std::memcpy(payload.data(), &bound, sizeof bound);
-        rewrite_.replace(chunk, payload);
+        rewrite_.overwrite(chunk, 0, bytes_of(bound));
     }
 
     const Source& here_;

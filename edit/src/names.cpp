@@ -1,4 +1,4 @@
-#include <bendy/edit/names.h>
+#include <bendy/edit/edit.h>
 
 #include <charconv>
 #include <system_error>

@@ -1,9 +1,7 @@
-#include <bendy/edit/rename.h>
+#include <bendy/edit/edit.h>
 
-#include "finish.h"
-#include "source.h"
+#include "rewrite.h"
 
-#include <bendy/edit/names.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>

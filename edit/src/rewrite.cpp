@@ -1,13 +1,32 @@
 #include "rewrite.h"
 
-#include "encode_like.h"
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace bendy::edit {
 namespace {
+
+Problem problem_of(const Error& fault, Bytes file) {
+    return {describe_with_place(fault, file)};
+}
+
+std::optional<Buffer> encoded(Codec codec, Bytes payload, std::uint16_t head, std::uint16_t stride) {
+    if (payload.size() <= head) return std::nullopt;
+    auto bytes = encode_payload(codec, payload, head, stride);
+    if (!bytes || bytes->size() >= payload.size()) return std::nullopt;
+    AlignedBytes decoded(payload.size());
+    const bool is_lossless = decode_payload(codec, *bytes, decoded.span()) &&
+                             std::equal(payload.begin(), payload.end(), decoded.bytes().begin());
+    return is_lossless ? bytes : std::nullopt;
+}
 
 void copy_all(const std::map<std::uint32_t, std::vector<Buffer>>& chunks, std::uint32_t number, ChunkWriter& out) {
     const auto found = chunks.find(number);
@@ -15,7 +34,42 @@ void copy_all(const std::map<std::uint32_t, std::vector<Buffer>>& chunks, std::u
     for (const Buffer& chunk : found->second) out.copy(chunk);
 }
 
+VersionRecord counted(VersionRecord version, const Document& document) {
+    version.objects = static_cast<std::uint32_t>(document.objects.size());
+    version.materials = static_cast<std::uint32_t>(document.materials.size());
+    version.textures = static_cast<std::uint32_t>(document.textures.size());
+    version.joints = version.meshes = version.clips = 0;
+    version.vertices = 0;
+    for (const ObjectView& object : document.objects) {
+        version.joints += static_cast<std::uint32_t>(object.skeleton.joints.size());
+        version.meshes += static_cast<std::uint32_t>(object.meshes.size());
+        version.clips += static_cast<std::uint32_t>(object.clips.size());
+        for (const MeshView& mesh : object.meshes) version.vertices += mesh.vertices;
+    }
+    return version;
+}
+
+Problem broken(const Error& fault, Bytes file) {
+    return {"the result would not be valid: " + describe_with_place(fault, file)};
+}
+
 }  // namespace
+
+Result<Source, Problem> open_source(Bytes file) {
+    auto tree = read_chunk_tree(file);
+    if (!tree) return problem_of(tree.error(), file);
+    Source source;
+    source.tree = *std::move(tree);
+    Faults faults;
+    check_sums(source.tree, faults);
+    decode_leaves(source.tree);
+    source.document = read_document(source.tree, faults);
+    if (faults.empty()) check_values(source.tree, source.document, faults);
+    if (faults.empty()) return source;
+    Problem problem = problem_of(faults.list().front(), file);
+    if (faults.count() > 1) problem.message += ", and " + std::to_string(faults.count() - 1) + " more faults";
+    return problem;
+}
 
 Rewrite::Rewrite(const ChunkTree& tree) : tree_(tree), state_(tree.chunks().size()) {}
 
@@ -35,7 +89,18 @@ void Rewrite::remove(std::uint32_t number) {
 void Rewrite::replace(std::uint32_t number, Bytes payload) {
     const Bytes before = tree_.payload(number);
     if (std::equal(before.begin(), before.end(), payload.begin(), payload.end())) return;
-    replace_whole(number, encode_like(tree_, number, payload));
+    const Chunk& chunk = tree_[number];
+    CodecHeader header;
+    if (chunk.codec() != 0) copy_at(tree_.stored(number), 0, header);
+    replace_whole(number, encode_leaf(chunk.id, chunk.flags, static_cast<Codec>(chunk.codec()), header.head,
+                                      header.stride, payload));
+}
+
+void Rewrite::overwrite(std::uint32_t number, std::size_t at, Bytes bytes) {
+    const Bytes before = tree_.payload(number);
+    Buffer payload(before.begin(), before.end());
+    std::memcpy(payload.data() + at, bytes.data(), std::min(bytes.size(), payload.size() - at));
+    replace(number, payload);
 }
 
 void Rewrite::replace_whole(std::uint32_t number, Buffer chunk) {
@@ -97,6 +162,36 @@ Buffer whole_leaf(FourCC id, Bytes payload, std::uint16_t flags) {
     ChunkWriter out;
     out.leaf(id, payload, flags);
     return std::move(out).finish();
+}
+
+Buffer encode_leaf(FourCC id, std::uint16_t flags, Codec codec, std::uint16_t head, std::uint16_t stride,
+                   Bytes payload) {
+    const auto plain = static_cast<std::uint16_t>(flags & ~kCodecMask);
+    const auto with = [&](Codec used, const Buffer& bytes) {
+        return whole_leaf(id, bytes, static_cast<std::uint16_t>(plain | static_cast<unsigned>(used) << 8));
+    };
+    if (codec == Codec::raw) return whole_leaf(id, payload, plain);
+    if (const auto bytes = encoded(codec, payload, head, stride)) return with(codec, *bytes);
+    if (const auto bytes = encoded(Codec::zstd, payload, 0, 0)) return with(Codec::zstd, *bytes);
+    return whole_leaf(id, payload, plain);
+}
+
+Edited finish(const Rewrite& rewrite) {
+    Buffer file = rewrite.write();
+    auto tree = read_chunk_tree(file);
+    if (!tree) return broken(tree.error(), file);
+    decode_leaves(*tree);
+    Faults faults;
+    const Document document = read_document(*tree, faults);
+    if (!faults.empty()) return broken(faults.list().front(), file);
+    const VersionRecord version = counted(*document.version, document);
+    if (std::memcmp(&version, &*document.version, sizeof version) != 0) {
+        Rewrite renewed(*tree);
+        renewed.overwrite(tree->find(0, FourCC("VERS")), 0, bytes_of(version));
+        file = renewed.write();
+    }
+    if (const Faults found = validate(file); !found.empty()) return broken(found.list().front(), file);
+    return file;
 }
 
 }  // namespace bendy::edit

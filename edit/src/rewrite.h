@@ -1,15 +1,35 @@
 #pragma once
 
+#include <bendy/edit/edit.h>
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/chunk_writer.h>
+#include <bendy/format/document.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string_view>
 #include <vector>
 
 namespace bendy::edit {
+
+/// A whole file, checked as by `bendy validate`, and read.
+struct Source {
+    ChunkTree tree;
+    Document document;
+};
+
+Result<Source, Problem> open_source(Bytes file);
+
+/// Returns the names of joints, clips, ..., as they are in the file.
+template <class Things>
+std::vector<std::string_view> names_of(const Things& things) {
+    std::vector<std::string_view> names;
+    names.reserve(things.size());
+    for (const auto& thing : things) names.push_back(thing.name);
+    return names;
+}
 
 using Buffer = std::vector<std::byte>;
 
@@ -30,6 +50,8 @@ public:
     /// Replaces a leaf's decoded payload; it is encoded as before, if it was and can be. No change if the payload is
     /// the same.
     void replace(std::uint32_t number, Bytes payload);
+    /// The same for a part of the payload, from `at` on; bytes beyond its end are left out.
+    void overwrite(std::uint32_t number, std::size_t at, Bytes bytes);
     /// Replaces the whole chunk, including its header.
     void replace_whole(std::uint32_t number, Buffer chunk);
     /// Inserts a whole chunk directly after this one, in the same parent; after those inserted there before.
@@ -57,5 +79,13 @@ private:
 
 /// Returns a whole leaf, including its header.
 Buffer whole_leaf(FourCC id, Bytes payload, std::uint16_t flags = 0);
+
+/// The same, encoded: with this codec if that makes it smaller and is exactly reversible, otherwise with zstd,
+/// otherwise raw.
+Buffer encode_leaf(FourCC id, std::uint16_t flags, Codec codec, std::uint16_t head, std::uint16_t stride,
+                   Bytes payload);
+
+/// Returns the file with its changes and with the counts in VERS updated; a problem if it would not be valid.
+Edited finish(const Rewrite& rewrite);
 
 }  // namespace bendy::edit

@@ -1,10 +1,8 @@
-#include <bendy/edit/strip.h>
+#include <bendy/edit/edit.h>
 
-#include "finish.h"
 #include "keep_only.h"
-#include "source.h"
+#include "rewrite.h"
 
-#include <bendy/edit/names.h>
 #include <bendy/format/chunk_reader.h>
 
 #include <algorithm>

@@ -36,7 +36,7 @@ ROOMS = {
         "source": set(),
         "humanoid": set(),
         "rig": {"source"},
-        "passes": {"source", "rig", "humanoid"},
+        "passes": {"rig"},
         "collapse": {"passes"},
         "compact": {"source", "passes"},
         "compare": {"collapse"},
@@ -46,7 +46,7 @@ ROOMS = {
         "x": {"source", "rig"},
         "x_out": {"source", "passes", "x"},
         "md2": {"source"},
-        "convert": {"source", "rig", "passes", "collapse", "compact"},
+        "convert": {"source", "rig", "humanoid", "passes", "collapse", "compact"},
     },
 }
 # header: the folders that may include it

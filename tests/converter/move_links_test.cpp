@@ -1,8 +1,8 @@
-#include "passes/move_links.h"
+#include "source/source_file.h"
 
 #include "temporary_folder.h"
 
-#include <bendy/converter/linked_file.h>
+#include <bendy/converter/source_format.h>
 
 #include <gtest/gtest.h>
 

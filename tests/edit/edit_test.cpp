@@ -1,8 +1,4 @@
-#include <bendy/edit/extract.h>
-#include <bendy/edit/merge_clips.h>
-#include <bendy/edit/names.h>
-#include <bendy/edit/rename.h>
-#include <bendy/edit/strip.h>
+#include <bendy/edit/edit.h>
 
 #include "format/edit_file.h"
 

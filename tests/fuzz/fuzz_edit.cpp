@@ -1,10 +1,7 @@
 // Surgery: whatever a file holds, it is refused or another valid file comes out.
 #include "check.h"
 
-#include <bendy/edit/extract.h>
-#include <bendy/edit/merge_clips.h>
-#include <bendy/edit/rename.h>
-#include <bendy/edit/strip.h>
+#include <bendy/edit/edit.h>
 #include <bendy/format/document.h>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "bendy_file/mesh.h"
 #include "failure.h"
 #include "frame_shapes.h"
-#include "rig/markers.h"
+#include "rig/clips.h"
 
 #include <bendy/converter/import.h>
 #include <bendy/converter/report.h>

@@ -1,18 +1,404 @@
 #include "collapse/collapse_vertices.h"
 
+#include "collapse/deviation.h"
+#include "collapse/distances.h"
+#include "collapse/fan.h"
 #include "collapse/find_shapes.h"
-#include "collapse/sequence.h"
 #include "collapse/surface.h"
 #include "passes/mesh_order.h"
+#include "space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <queue>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace bendy::converter {
 namespace {
+
+/// A vertex that moves onto another one.
+struct VertexMove {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    bool is_joined = false;  ///< goes together with the move before it
+    float error = 0.0f;      ///< metres; does not fall from move to move
+};
+
+/// In the order in which they happen. What vertices are left keep their places.
+struct Sequence {
+    std::vector<VertexMove> moves;
+};
+
+constexpr float kImpossible = std::numeric_limits<float>::infinity();
+/// Of the edges at a point, so many are measured: those that the quadrics like best.
+constexpr std::size_t kMeasured = 3;
+/// On a mesh with fewer points, all; and when so few are left, how far the new surface is from the old.
+constexpr std::uint32_t kSmall = 20'000;
+/// Above so many samples round a point every other one is dropped, but for the worst: keeps the work near linear.
+constexpr std::size_t kMostHeld = 160;
+/// What looks wrong where a vertex leaves its side of a seam counts for so much more.
+constexpr double kSeamFactor = 8.0;
+constexpr float kQuadricFactor = 0.25f;  // of the mean squared distance from the planes, beside the largest distance
+constexpr std::size_t kCornerFloats = 9 * kFour;  // of four triangles
+
+/// The shapes at a common scale, each round the origin.
+struct Scaled {
+    std::vector<std::vector<glm::vec3>> places;  // of the vertices, by shape
+    float extent = 1.0f;                         // metres
+};
+
+Scaled scale(std::span<const Shape> shapes) {
+    Scaled scaled;
+    for (const Shape& shape : shapes) {
+        const auto [low, high] = box_of(shape);
+        const float extent = glm::length(high - low);
+        if (scaled.places.empty() && extent > 0.0f && std::isfinite(extent)) scaled.extent = extent;
+        std::vector<glm::vec3>& places = scaled.places.emplace_back();
+        places.reserve(shape.size());
+        for (const glm::vec3& p : shape) places.push_back((p - 0.5f * (low + high)) / scaled.extent);
+    }
+    return scaled;
+}
+
+ShapedPlaces place_points(const Surface& surface, const Scaled& scaled) {
+    ShapedPlaces places(scaled.places.size());
+    places.reserve(surface.points());
+    for (std::uint32_t point = 0; point < surface.points(); ++point)
+        places.add([&](std::size_t shape) { return scaled.places[shape][surface.vertex_of(point)]; });
+    return places;
+}
+
+/// Greedy half-edge collapses by the largest distance between the surface and the original one, in any shape.
+class Simplifier {
+public:
+    Simplifier(const Mesh& mesh, std::span<const Shape> shapes, Surface surface)
+        : surface_(std::move(surface)),
+          scaled_(scale(shapes)),
+          places_(place_points(surface_, scaled_)),
+          appearance_(make_appearance(mesh, surface_, scaled_.places.front())),
+          samples_(make_samples(surface_, scaled_.places, appearance_)),
+          original_(surface_, scaled_.places),
+          quadrics_(surface_, places_, scaled_.places.size()),
+          fan_(surface_, places_, appearance_),
+          alive_(surface_.points()),
+          changed_(surface_.points(), 0),
+          measured_(surface_.points(), 0),
+          target_(surface_.points(), kNone),
+          is_queued_(surface_.points(), false),
+          is_gone_(surface_.points(), false) {}
+
+    Sequence run() {
+        remove_unused();
+        for (std::uint32_t point = 0; point < surface_.points(); ++point) reconsider(point);
+        while (!queue_.empty()) {
+            const Entry entry = queue_.top();
+            queue_.pop();
+            const std::uint32_t point = entry.point;
+            is_queued_[point] = false;
+            const bool is_stale = changed_[point] > measured_[point] || is_gone_[target_[point]] ||
+                                  changed_[target_[point]] > measured_[point];
+            if (is_stale) {
+                if (!measure_best(point)) continue;
+                if (!queue_.empty() && queue_.top().cost < costs_.total) {
+                    push(point, costs_.total);
+                    continue;
+                }
+            }
+            collapse(point, target_[point]);
+        }
+        return std::move(sequence_);
+    }
+
+private:
+    struct Entry {
+        float cost;
+        std::uint32_t point;
+        bool operator<(const Entry& other) const {  // the least comes first out of the queue
+            return std::tie(cost, point) > std::tie(other.cost, other.point);
+        }
+    };
+    struct Costs {
+        float total = kImpossible;
+        float distance_squared = 0.0f;
+    };
+    struct Choice {
+        float estimate;
+        std::uint32_t target;
+    };
+
+    glm::vec3 place(std::size_t shape, std::uint32_t point) const { return places_.place(shape, point); }
+
+    // --- measuring
+
+    /// The corners of fan_.left() at rest, in corners_: for each corner of four triangles x, y, z; then the next four.
+    void gather_left() {
+        const std::size_t fours = (fan_.left().size() + kFour - 1) / kFour;
+        corners_.resize(fours * kCornerFloats);
+        for (std::size_t k = 0; k < fours * kFour; ++k) {
+            const Surface::Triangle& triangle =
+                fan_.left()[k < fan_.left().size() ? k : 0].second;  // the first once more
+            float* to = corners_.data() + k / kFour * kCornerFloats + k % kFour;
+            for (const std::uint32_t point : triangle.points) {
+                const glm::vec3 p = places_.rest(point);
+                for (int axis = 0; axis < 3; ++axis, to += kFour) *to = p[axis];
+            }
+        }
+    }
+
+    struct Nearest {
+        std::size_t triangle = 0;  // of fan_.left()
+        float distance_squared = 0.0f;
+    };
+
+    /// The triangle of fan_.left() that is nearest to a sample at rest, the first of several. After gather_left.
+    Nearest nearest(std::uint32_t sample) const {
+        const glm::vec3 place = samples_.places.rest(sample);
+        const FourPlaces p{FourFloats{} + place.x, FourFloats{} + place.y, FourFloats{} + place.z};
+        Nearest best{0, std::numeric_limits<float>::infinity()};
+        const float* corners = corners_.data();
+        for (std::size_t first = 0; first < fan_.left().size(); first += kFour, corners += kCornerFloats) {
+            const FourFloats distances =
+                four_distances(p, load_places(corners, kFour), load_places(corners + 3 * kFour, kFour),
+                               load_places(corners + 6 * kFour, kFour));
+            for (std::size_t k = 0; k < kFour; ++k) {
+                if ((first == 0 && k == 0) || distances[k] < best.distance_squared) best = {first + k, distances[k]};
+            }
+        }
+        return best;
+    }
+
+    float appearance_error(std::uint32_t sample, const Surface::Triangle& triangle) const {
+        const std::uint32_t components = appearance_.components;
+        if (components == 0) return 0.0f;
+        const auto& p = triangle.points;
+        const glm::vec3 weights =
+            closest_point(samples_.places.rest(sample), places_.rest(p[0]), places_.rest(p[1]), places_.rest(p[2]))
+                .weights;
+        const float* own = samples_.appearance.data() + std::size_t{sample} * components;
+        const float* a = appearance_.of(triangle.vertices[0]);
+        const float* b = appearance_.of(triangle.vertices[1]);
+        const float* c = appearance_.of(triangle.vertices[2]);
+        float sum = 0.0f;
+        for (std::uint32_t k = 0; k < components; ++k) {
+            const float apart = own[k] - (weights.x * a[k] + weights.y * b[k] + weights.z * c[k]);
+            sum += apart * apart;
+        }
+        return sum;
+    }
+
+    /// The squared distances of a sample from a triangle, in four of the other shapes.
+    FourFloats posed_distances(std::uint32_t sample, std::size_t four, const Surface::Triangle& triangle) const {
+        const std::size_t lanes = places_.lanes();
+        const auto corner = [&](std::size_t k) {
+            return load_places(places_.posed(triangle.points[k]) + four * kFour, lanes);
+        };
+        return four_distances(load_places(samples_.places.posed(sample) + four * kFour, lanes), corner(0), corner(1),
+                              corner(2));
+    }
+
+    /// The squared distance of a sample from the triangles of fan_.left(), in the other shapes: exact where it is above
+    /// `known`.
+    float posed_distance(std::uint32_t sample, std::size_t guess, float known) const {
+        for (std::size_t four = 0; four < places_.fours(); ++four) {
+            FourFloats least = posed_distances(sample, four, fan_.left()[guess].second);
+            for (std::size_t k = 0; k < fan_.left().size() && kPosedFactor * largest_of(least) > known; ++k) {
+                if (k == guess) continue;
+                const FourFloats other = posed_distances(sample, four, fan_.left()[k].second);
+                least = other < least ? other : least;
+            }
+            known = std::max(known, kPosedFactor * largest_of(least));
+        }
+        return known;
+    }
+
+    static float largest_of(const FourFloats& four) {
+        return std::max(std::max(four[0], four[1]), std::max(four[2], four[3]));
+    }
+
+    /// The squared distance of the triangles of fan_.left() from the original surface: exact where it is above `known`.
+    /// Samples alone would not notice a triangle that bridges a hollow.
+    float distance_from_original(float known, float limit) {
+        if (alive_ > kSmall) return known;
+        near_.clear();  // what is nearest in one shape is a good guess for the next
+        for (const auto& [number, triangle] : fan_.left()) near_.insert(near_.end(), 4, number);
+        for (std::size_t s = 0; s < scaled_.places.size() && known <= limit; ++s) {
+            const float factor = s == 0 ? 1.0f : kPosedFactor;
+            auto near = near_.begin();
+            const auto look = [&](const glm::vec3& p) {
+                known = std::max(known, factor * original_.distance_squared(s, p, known / factor, *near++));
+            };
+            for (const auto& [number, triangle] : fan_.left()) {
+                const glm::vec3 a = place(s, triangle.points[0]);
+                const glm::vec3 b = place(s, triangle.points[1]);
+                const glm::vec3 c = place(s, triangle.points[2]);
+                look((a + b + c) / 3.0f);
+                look(0.5f * (a + b));
+                look(0.5f * (b + c));
+                look(0.5f * (c + a));
+                if (known > limit) break;
+            }
+        }
+        return known;
+    }
+
+    /// What moving the point to the target costs, by the fan that is prepared; stops where it is above `limit`.
+    Costs measure(std::uint32_t point, std::uint32_t target, float limit) {
+        const float guess = kQuadricFactor * quadrics_.estimate(point, target);
+        if (guess > limit) return {};
+        gather_left();
+        float largest = quadrics_.border_error(point, target);
+        double appearance = 0.0;
+        std::size_t count = 0;
+        for (const std::uint32_t corner : fan_.corners()) {
+            for (std::uint32_t sample = samples_.first[corner / 3]; sample != kNone; sample = samples_.next[sample]) {
+                const Nearest closest = nearest(sample);
+                largest = posed_distance(sample, closest.triangle, std::max(largest, closest.distance_squared));
+                if (largest + guess > limit) return {};
+                appearance += appearance_error(sample, fan_.left()[closest.triangle].second);
+                ++count;
+            }
+        }
+        largest = distance_from_original(largest, limit - guess);
+        if (largest + guess > limit) return {};
+        if (count != 0) appearance /= static_cast<double>(count);
+        if (fan_.crosses_seam()) appearance *= kSeamFactor;
+        return {largest + static_cast<float>(appearance) + guess, largest};
+    }
+
+    /// The best target of a point, in target_, and what it costs, in costs_; false if it cannot go anywhere.
+    bool measure_best(std::uint32_t point) {
+        costs_ = {};
+        measured_[point] = time_;
+        if (is_gone_[point] || surface_.is_locked[point] || !fan_.find(point)) return false;
+        choices_.clear();
+        for (const Fan::Neighbour& n : fan_.neighbours())
+            choices_.push_back({quadrics_.estimate(point, n.point), n.point});
+        std::sort(choices_.begin(), choices_.end(), [](const Choice& a, const Choice& b) {
+            return std::tie(a.estimate, a.target) < std::tie(b.estimate, b.target);
+        });
+        std::size_t tried = 0;
+        for (const Choice& choice : choices_) {
+            if (!fan_.prepare(point, choice.target)) continue;
+            const Costs costs = measure(point, choice.target, costs_.total);
+            if (costs.total < costs_.total) {
+                costs_ = costs;
+                target_[point] = choice.target;
+            }
+            if (++tried == kMeasured && surface_.points() >= kSmall) break;
+        }
+        return costs_.total < kImpossible;
+    }
+
+    // --- doing
+
+    void push(std::uint32_t point, float cost) {
+        queue_.push({cost, point});
+        is_queued_[point] = true;
+    }
+
+    void reconsider(std::uint32_t point) {
+        if (measure_best(point)) push(point, costs_.total);
+    }
+
+    void collapse(std::uint32_t point, std::uint32_t target) {
+        if (!fan_.find(point) || !fan_.prepare(point, target)) return;
+        const Costs costs = measure(point, target, kImpossible);
+        ++time_;
+        error_ = std::max(error_, std::sqrt(costs.distance_squared) * scaled_.extent);
+        add_moves(point);
+        hold_samples(costs.distance_squared);
+        fan_.move_to(target);
+        is_gone_[point] = true;
+        --alive_;
+        quadrics_.add_to(target, point);
+        touch(target, costs.total);
+        for (const Fan::Neighbour& n : fan_.neighbours()) {
+            if (n.point != target) touch(n.point, costs.total);
+        }
+    }
+
+    void touch(std::uint32_t point, float cost) {
+        changed_[point] = time_;
+        if (is_queued_[point] || is_gone_[point] || surface_.is_locked[point]) return;
+        if (target_[point] == kNone) target_[point] = point;  // none yet: it will be measured
+        push(point, cost);
+    }
+
+    void add_moves(std::uint32_t point) {
+        bool is_joined = false;
+        for (const std::uint32_t vertex : surface_.vertices_of(point)) {
+            if (!surface_.is_used[vertex]) continue;
+            std::uint32_t to = fan_.moved(vertex);
+            if (to == vertex) to = fan_.moves().front().to;  // no triangle has it any more
+            sequence_.moves.push_back({vertex, to, is_joined, error_});
+            is_joined = true;
+        }
+    }
+
+    /// Gives the samples of the fan to the triangles of fan_.left() that are nearest. `largest`: their squared
+    /// distance.
+    void hold_samples(float largest) {
+        held_.clear();
+        for (const std::uint32_t corner : fan_.corners()) {
+            for (std::uint32_t sample = std::exchange(samples_.first[corner / 3], kNone); sample != kNone;
+                 sample = samples_.next[sample]) {
+                held_.push_back(sample);
+            }
+        }
+        const float far = 0.25f * largest;
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            const Nearest closest = nearest(held_[k]);
+            if (held_.size() > kMostHeld && k % 2 == 1 && closest.distance_squared < far) continue;
+            samples_.hold(fan_.left()[closest.triangle].first, held_[k]);
+        }
+    }
+
+    /// Vertices of which nothing is drawn go first.
+    void remove_unused() {
+        const auto used = std::find(surface_.is_used.begin(), surface_.is_used.end(), true);
+        if (used == surface_.is_used.end()) return;
+        const auto kept = static_cast<std::uint32_t>(used - surface_.is_used.begin());
+        for (auto vertex = static_cast<std::uint32_t>(surface_.is_used.size()); vertex-- > 0;) {
+            if (!surface_.is_used[vertex]) sequence_.moves.push_back({vertex, kept, false, 0.0f});
+        }
+    }
+
+    Surface surface_;
+    Scaled scaled_;
+    ShapedPlaces places_;  // of the points
+    Appearance appearance_;
+    Samples samples_;
+    Original original_;
+    Quadrics quadrics_;
+    Fan fan_;                                        // of the point that is looked at
+    std::uint32_t alive_;                            // points
+    std::vector<std::uint32_t> changed_, measured_;  // by point: when
+    std::vector<std::uint32_t> target_;
+    std::vector<bool> is_queued_, is_gone_;
+    std::priority_queue<Entry> queue_;
+    std::uint32_t time_ = 1;
+    float error_ = 0.0f;  // metres
+    Sequence sequence_;
+
+    // Of the point that is looked at.
+    std::vector<Choice> choices_;
+    std::vector<float> corners_;  // of what is left of the fan, at rest
+    std::vector<std::uint32_t> near_;
+    std::vector<std::uint32_t> held_;
+    Costs costs_;
+};
+
+/// The collapse sequence of a mesh. \param shapes as find_shapes has them \param surface of this mesh; used up
+Sequence find_sequence(const Mesh& mesh, std::span<const Shape> shapes, Surface surface) {
+    if (surface.triangles.empty()) return {};
+    return Simplifier(mesh, shapes, std::move(surface)).run();
+}
 
 constexpr std::size_t kMostLevels = 32;
 constexpr double kStep = 0.9;  // of the vertices that can go, so many are left at the next level

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "collapse/deviation.h"
 #include "collapse/distances.h"
-#include "collapse/original.h"
 #include "collapse/surface.h"
 
 #include <cstddef>

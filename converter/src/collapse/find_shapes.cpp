@@ -2,6 +2,7 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "space.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -21,10 +22,6 @@ constexpr std::size_t kSamplesOfClip = 12;
 constexpr int kMadeUpPoses = 3;
 constexpr std::size_t kMostTargetGroups = 6;
 constexpr std::size_t kMostShapeVertices = 6'000'000;  // shapes times vertices: what memory and time allow
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// As floats; what is no place stays where the file has it.
 Shape pose_mesh(const Mesh& mesh, const std::vector<double>& morph_weights, const EvaluatedPose& pose) {

@@ -1,10 +1,11 @@
 #include <bendy/converter/build_chunks.h>
 
-#include "convert/build_curves.h"
+#include "compact/pack_curve.h"
 #include "convert/build_meshes.h"
 #include "frame_shapes.h"
 #include "passes/mesh_order.h"
 #include "rest_frames.h"
+#include "space.h"
 
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_clip.h>
@@ -20,13 +21,6 @@
 
 namespace bendy::converter {
 namespace {
-
-template <std::size_t N, class Vector>
-std::array<float, N> to_array(const Vector& v) {
-    std::array<float, N> a{};
-    for (std::size_t i = 0; i < N; ++i) a[i] = v[static_cast<int>(i)];
-    return a;
-}
 
 // --- textures and materials
 
@@ -260,6 +254,15 @@ void put_plays(LeafWriter& out, const Clip& clip) {
         record.closed = play.closed ? 1 : 0;
     }
     out.leaf(FourCC("PLAY"), std::as_bytes(std::span(records)));
+}
+
+/// Writes a clip's curves, one CURV each; those of a compact file packed where that is smaller.
+void put_curves(LeafWriter& out, const Clip& clip) {
+    constexpr LeafShape kFloats{0, 0, sizeof(float), false};
+    for (const Curve& curve : clip.curves) {
+        const std::optional<PackedCurve> packed = out.is_compact() ? pack_curve(curve) : std::nullopt;
+        out.leaf(FourCC("CURV"), write_curve(packed ? packed->view(curve) : view_of(curve)), kFloats);
+    }
 }
 
 void put_clip(LeafWriter& out, const Clip& clip) {

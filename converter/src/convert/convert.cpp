@@ -3,11 +3,12 @@
 #include "collapse/collapse_vertices.h"
 #include "compact/build_compact.h"
 #include "failure.h"
-#include "passes/attach_rigs.h"
+#include "humanoid/auto_rig.h"
 #include "passes/auto_skin.h"
 #include "passes/merge_clips.h"
 #include "passes/mesh_order.h"
-#include "passes/move_links.h"
+#include "rig/attach_rig.h"
+#include "rig/clips.h"
 #include "rig/parse_rig.h"
 #include "source/importers.h"
 #include "source/source_file.h"
@@ -21,10 +22,68 @@
 #include <algorithm>
 #include <new>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 namespace bendy::converter {
 namespace {
+
+/// The rig that `bendy export` has left in the scene. True if nothing else may speak.
+bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, bool markers_are_told, Report& report) {
+    const std::optional<Rig> rig = take_rig_from_extras(scene, report);
+    if (!rig) return false;
+    try {
+        attach_rig(scene, *rig, index, claims, report);
+        if (!markers_are_told) attach_markers(scene, *rig, report);
+        attach_curves(scene, *rig, index, report);
+        return rig->complete;
+    } catch (const Failure& failure) {
+        report.warn("rig left out: " + failure.error.message, rig->source + failure.error.place);
+        return false;
+    }
+}
+
+/// Gives a scene its joint constraints and IK chains, and clips the markers and curves of rig files. The sources come
+/// in the order of their authority (spec/rig.md): what an earlier one says of a joint, or of a chain's name, no later
+/// one changes. Fails where the rig file does not go with the scene. \param with_proposals  what is left gets
+/// constraints and chains by the joints' names
+void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
+    const JointIndex index(scene);
+    Claims claims{std::vector<bool>(scene.joints.size()), {}};
+    if (rig_file) {
+        attach_rig(scene, *rig_file, index, claims, report);
+        attach_markers(scene, *rig_file, report);
+        attach_curves(scene, *rig_file, index, report);
+    }
+    const bool is_told = rig_file && rig_file->complete;
+    const bool markers_are_told = rig_file && rig_file->clips;
+    if (is_told || attach_exported_rig(scene, index, claims, markers_are_told, report)) return;
+    attach_extras(scene, index, claims, report);
+    add_vrm_chains(scene, report);
+    add_articulations(scene, claims.joints, report);
+    if (with_proposals) auto_rig(scene, claims.joints, report);
+}
+
+/// The same for a scene that has its rig already: only the rig file goes before what is there, "complete" ones replace
+/// all of it; extras and extensions have spoken when the rig was made.
+void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
+    const JointIndex index(scene);
+    Claims claims{std::vector<bool>(scene.joints.size()), {}};
+    if (rig_file) {
+        if (rig_file->complete) {
+            for (Joint& joint : scene.joints) joint.constraints.clear();
+        }
+        std::unordered_set<std::string_view> renewed;
+        for (const RigChain& chain : rig_file->chains) renewed.insert(chain.name);
+        std::erase_if(scene.chains,
+                      [&](const Chain& chain) { return rig_file->complete || renewed.contains(chain.name); });
+        attach_rig(scene, *rig_file, index, claims, report);
+        attach_markers(scene, *rig_file, report);
+        attach_curves(scene, *rig_file, index, report);
+        if (rig_file->complete) return;
+    }
+    if (with_proposals) auto_rig(scene, claims.joints, report);
+}
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
 

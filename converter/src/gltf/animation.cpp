@@ -4,8 +4,8 @@
 #include "further_members.h"
 #include "parts.h"
 #include "pointer.h"
-#include "rig/markers.h"
-#include "source/transform.h"
+#include "rig/clips.h"
+#include "source/normalise.h"
 
 #include <algorithm>
 #include <cmath>

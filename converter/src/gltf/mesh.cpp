@@ -4,7 +4,7 @@
 #include "further_members.h"
 #include "parts.h"
 #include "primitive.h"
-#include "source/influences.h"
+#include "source/normalise.h"
 
 #include <algorithm>
 #include <cmath>

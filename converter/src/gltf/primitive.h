@@ -1,7 +1,7 @@
 #pragma once
 
 #include "document.h"
-#include "source/influences.h"
+#include "source/normalise.h"
 
 #include <bendy/converter/scene.h>
 

@@ -3,7 +3,7 @@
 #include "failure.h"
 #include "further_members.h"
 #include "parts.h"
-#include "source/transform.h"
+#include "source/normalise.h"
 
 #include <bendy/format/names.h>
 

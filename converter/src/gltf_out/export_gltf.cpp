@@ -4,13 +4,11 @@
 #include "gltf_out/curves.h"
 #include "gltf_out/parts.h"
 #include "passes/mesh_order.h"
-#include "passes/move_links.h"
 #include "rig/parse_rig.h"
 #include "source/source_file.h"
 
 #include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
-#include <bendy/converter/write_rig.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>

@@ -2,12 +2,10 @@
 
 #include "anatomy.h"
 #include "clip_rotations.h"
-#include "find_by_shape.h"
 #include "find_humanoid.h"
-#include "fit_to_clips.h"
+#include "humanoid.h"
 #include "limb_chains.h"
 #include "rest_frames.h"
-#include "vrm.h"
 
 #include <bendy/format/trig.h>
 
@@ -428,6 +426,18 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
         joint.constraints.push_back(proposed.constraint);
         report.propose(line_of(scene, proposed));
     }
+}
+
+void add_vrm_chains(Scene& scene, Report& report) {
+    const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, report);
+    if (!vrm) return;
+    Stance stance;
+    if (vrm->faces_backward) {
+        stance.left = -stance.left;
+        stance.forward = -stance.forward;
+    }
+    const RestFrames rest(scene);
+    add_new_chains(scene, make_limb_chains(scene, rest, vrm->bones, stance, 0, vrm->place, report));
 }
 
 }  // namespace bendy::converter

@@ -13,4 +13,7 @@ namespace bendy::converter {
 /// \param claimed  by joint: somebody has said that it has no limits; empty: nobody has
 void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report);
 
+/// Adds a VRM humanoid's chains (see make_limb_chains) whose names are not taken.
+void add_vrm_chains(Scene& scene, Report& report);
+
 }  // namespace bendy::converter

@@ -7,9 +7,11 @@
 #include <bendy/format/trig.h>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace bendy::converter {
 namespace {
@@ -36,6 +38,37 @@ glm::dquat rest_rotation(const Joint& joint) {
 std::optional<glm::dquat> rotation_at(const Track& track, double seconds, std::vector<double>& numbers) {
     evaluate_track(track, seconds, numbers);
     return to_unit(numbers.data());
+}
+
+/// The unit eigenvector of a symmetric matrix that belongs to its largest eigenvalue; of equal ones the first axis'. By
+/// Jacobi's rotations, with no function but the square root: the same on every machine. X of a matrix of zeros.
+glm::dvec3 principal_axis(const glm::dmat3& symmetric) {
+    glm::dmat3 m = symmetric;
+    glm::dmat3 axes(1.0);
+    constexpr int kSweeps = 12;  // it converges quadratically: five are enough for 1e-15
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+            if (m[p][q] == 0.0) continue;
+            const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+            const double t = (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+            const double c = 1.0 / std::sqrt(t * t + 1.0);
+            const double s = t * c;
+            glm::dmat3 turn(1.0);
+            turn[p][p] = turn[q][q] = c;
+            turn[q][p] = s;
+            turn[p][q] = -s;
+            m = glm::transpose(turn) * m * turn;
+            m[p][q] = m[q][p] = 0.0;
+            axes = axes * turn;
+        }
+    }
+    int largest = 0;
+    for (const int axis : {1, 2}) {
+        if (m[axis][axis] > m[largest][largest]) largest = axis;
+    }
+    const glm::dvec3& axis = axes[largest];
+    const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
+    return std::isfinite(length) && length > 0.5 ? axis / length : glm::dvec3(1.0, 0.0, 0.0);
 }
 
 }  // namespace
@@ -142,6 +175,66 @@ std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) cons
     result.direction = *direction;
     result.agreement = glm::length(sum) / weight;
     return result;
+}
+
+SwingTwist decompose(const glm::dquat& r) {
+    const double length = std::sqrt(r.w * r.w + r.x * r.x);
+    if (length < 1e-12) return {0.0, {r.y, r.z}, 0.0};
+    const double cosine = r.w / length;
+    const double sine = r.x / length;
+    double twist = 2.0 * trig::atan2(sine, cosine) / trig::kDegree;
+    if (twist > 180.0) twist -= 360.0;
+    if (twist < -180.0) twist += 360.0;
+    return {twist, {cosine * r.y - sine * r.z, sine * r.y + cosine * r.z}, length};
+}
+
+double half_sine_of(double degrees) {
+    return trig::sin_cos(0.5 * std::clamp(degrees, 0.0, 180.0) * trig::kDegree).sin;
+}
+
+double degrees_of(double half_sine) {
+    const double sine = std::min(half_sine, 1.0);
+    return 2.0 * trig::atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))) / trig::kDegree;
+}
+
+double angle_about(const glm::dquat& r, const glm::dvec3& axis) {
+    return 2.0 * trig::atan2(glm::dot({r.x, r.y, r.z}, axis), r.w) / trig::kDegree;
+}
+
+double largest_angle(const Rotations& rotations) {
+    double most = 0.0;
+    for (const glm::dquat& r : rotations) most = std::max(most, degrees_of(glm::length(glm::dvec3(r.x, r.y, r.z))));
+    return most;
+}
+
+double wobble_about(const Rotations& rotations, const glm::dvec3& axis) {
+    double most = 0.0;
+    for (const glm::dquat& r : rotations) {
+        const double along = glm::dot({r.x, r.y, r.z}, axis);
+        const double turn = std::sqrt(r.w * r.w + along * along);
+        most = std::max(most, degrees_of(std::sqrt(std::max(0.0, (1.0 - turn) * (1.0 + turn)))));
+    }
+    return most;
+}
+
+glm::dvec3 fit_axis(const Rotations& rotations) {
+    glm::dmat3 sum(0.0);
+    for (const glm::dquat& r : rotations) {
+        const glm::dvec3 v(r.x, r.y, r.z);
+        sum += glm::outerProduct(v, v);
+    }
+    return principal_axis(sum);
+}
+
+glm::dvec3 fit_swing_axis(const Rotations& rotations) {
+    glm::dmat3 sum(0.0);
+    for (const glm::dquat& r : rotations) {
+        const SwingTwist parts = decompose(r);
+        const glm::dvec3 v(0.0, parts.swing.x, parts.swing.y);
+        sum += glm::outerProduct(v, v);
+    }
+    const glm::dvec3 axis = principal_axis(sum);
+    return std::abs(axis.x) < 0.5 ? axis : glm::dvec3(0.0, 0.0, 1.0);
 }
 
 }  // namespace bendy::converter

@@ -3,6 +3,7 @@
 #include <bendy/converter/scene.h>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -52,5 +53,37 @@ private:
     const Scene& scene_;
     std::vector<std::vector<Placed>> tracks_;  ///< rotation tracks, by joint, in the clips' order
 };
+
+/// Unit, w >= 0.
+using Rotations = std::vector<glm::dquat>;
+
+/// R = swing * twist about X, as spec/constraints.md has it.
+struct SwingTwist {
+    double twist = 0.0;     ///< degrees, -180 to 180
+    glm::dvec2 swing{0.0};  ///< Y and Z: the sine of half its angle
+    double cosine = 1.0;    ///< of half its angle
+};
+
+SwingTwist decompose(const glm::dquat& r);
+
+/// The sine of half an angle of 0 to 180 degrees.
+double half_sine_of(double degrees);
+/// The angle again.
+double degrees_of(double half_sine);
+
+/// The angle of a rotation about an axis that is nearly its own; degrees.
+double angle_about(const glm::dquat& r, const glm::dvec3& axis);
+
+/// The largest angle of rotation; degrees.
+double largest_angle(const Rotations& rotations);
+
+/// How far the rotations are from turning about the axis alone, at most; degrees.
+double wobble_about(const Rotations& rotations, const glm::dvec3& axis);
+
+/// The axis about which the rotations turn most.
+glm::dvec3 fit_axis(const Rotations& rotations);
+
+/// The same for their swings alone: at right angles to X.
+glm::dvec3 fit_swing_axis(const Rotations& rotations);
 
 }  // namespace bendy::converter

@@ -1,5 +1,3 @@
-#include "find_by_shape.h"
-
 #include "find_humanoid.h"
 
 #include <glm/geometric.hpp>

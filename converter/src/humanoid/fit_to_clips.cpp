@@ -1,4 +1,4 @@
-#include "fit_to_clips.h"
+#include "anatomy.h"
 
 #include <bendy/format/constraint.h>
 #include <bendy/format/trig.h>
@@ -18,114 +18,10 @@
 namespace bendy::converter {
 namespace {
 
-/// The unit eigenvector of a symmetric matrix that belongs to its largest eigenvalue; of equal ones the first axis'. By
-/// Jacobi's rotations, with no function but the square root: the same on every machine. X of a matrix of zeros.
-glm::dvec3 principal_axis(const glm::dmat3& symmetric) {
-    glm::dmat3 m = symmetric;
-    glm::dmat3 axes(1.0);
-    constexpr int kSweeps = 12;  // it converges quadratically: five are enough for 1e-15
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
-            if (m[p][q] == 0.0) continue;
-            const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-            const double t = (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
-            const double c = 1.0 / std::sqrt(t * t + 1.0);
-            const double s = t * c;
-            glm::dmat3 turn(1.0);
-            turn[p][p] = turn[q][q] = c;
-            turn[q][p] = s;
-            turn[p][q] = -s;
-            m = glm::transpose(turn) * m * turn;
-            m[p][q] = m[q][p] = 0.0;
-            axes = axes * turn;
-        }
-    }
-    int largest = 0;
-    for (const int axis : {1, 2}) {
-        if (m[axis][axis] > m[largest][largest]) largest = axis;
-    }
-    const glm::dvec3& axis = axes[largest];
-    const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
-    return std::isfinite(length) && length > 0.5 ? axis / length : glm::dvec3(1.0, 0.0, 0.0);
-}
-
 constexpr double kStill = 5.0;    // degrees: clips that turn a joint by less show no axis
 constexpr double kWobble = 1.0;   // degrees: a hinge may leave its axis by this much
 constexpr double kMargin = 0.25;  // degrees beyond the clips
 constexpr double kAlike = 10.0;   // degrees between a side and the other one's mirror image
-
-using Rotations = std::vector<glm::dquat>;
-
-/// R = swing * twist about X, as spec/constraints.md has it.
-struct SwingTwist {
-    double twist = 0.0;     ///< degrees, -180 to 180
-    glm::dvec2 swing{0.0};  ///< Y and Z: the sine of half its angle
-    double cosine = 1.0;    ///< of half its angle
-};
-
-SwingTwist decompose(const glm::dquat& r) {
-    const double length = std::sqrt(r.w * r.w + r.x * r.x);
-    if (length < 1e-12) return {0.0, {r.y, r.z}, 0.0};
-    const double cosine = r.w / length;
-    const double sine = r.x / length;
-    double twist = 2.0 * trig::atan2(sine, cosine) / trig::kDegree;
-    if (twist > 180.0) twist -= 360.0;
-    if (twist < -180.0) twist += 360.0;
-    return {twist, {cosine * r.y - sine * r.z, sine * r.y + cosine * r.z}, length};
-}
-
-double half_sine_of(double degrees) {
-    return trig::sin_cos(0.5 * std::clamp(degrees, 0.0, 180.0) * trig::kDegree).sin;
-}
-
-double degrees_of(double half_sine) {
-    const double sine = std::min(half_sine, 1.0);
-    return 2.0 * trig::atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))) / trig::kDegree;
-}
-
-/// The angle of a rotation about an axis that is nearly its own; degrees.
-double angle_about(const glm::dquat& r, const glm::dvec3& axis) {
-    return 2.0 * trig::atan2(glm::dot({r.x, r.y, r.z}, axis), r.w) / trig::kDegree;
-}
-
-double largest_angle(const Rotations& rotations) {
-    double most = 0.0;
-    for (const glm::dquat& r : rotations) most = std::max(most, degrees_of(glm::length(glm::dvec3(r.x, r.y, r.z))));
-    return most;
-}
-
-/// How far the rotations are from turning about the axis alone, at most; degrees.
-double wobble_about(const Rotations& rotations, const glm::dvec3& axis) {
-    double most = 0.0;
-    for (const glm::dquat& r : rotations) {
-        const double along = glm::dot({r.x, r.y, r.z}, axis);
-        const double turn = std::sqrt(r.w * r.w + along * along);
-        most = std::max(most, degrees_of(std::sqrt(std::max(0.0, (1.0 - turn) * (1.0 + turn)))));
-    }
-    return most;
-}
-
-/// The axis about which the rotations turn most.
-glm::dvec3 fit_axis(const Rotations& rotations) {
-    glm::dmat3 sum(0.0);
-    for (const glm::dquat& r : rotations) {
-        const glm::dvec3 v(r.x, r.y, r.z);
-        sum += glm::outerProduct(v, v);
-    }
-    return principal_axis(sum);
-}
-
-/// The same for their swings alone: at right angles to X.
-glm::dvec3 fit_swing_axis(const Rotations& rotations) {
-    glm::dmat3 sum(0.0);
-    for (const glm::dquat& r : rotations) {
-        const SwingTwist parts = decompose(r);
-        const glm::dvec3 v(0.0, parts.swing.x, parts.swing.y);
-        sum += glm::outerProduct(v, v);
-    }
-    const glm::dvec3 axis = principal_axis(sum);
-    return std::abs(axis.x) < 0.5 ? axis : glm::dvec3(0.0, 0.0, 1.0);
-}
 
 Range united(const Range& a, const Range& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
 #include <bendy/format/records.h>
 
 #include <array>
@@ -102,5 +104,16 @@ struct BoneName {
 /// `mixamorig:LeftArm`, `J_Bip_L_UpperArm`, `upperarm_l`, `DEF-upper_arm.L`, `Bip01 L UpperArm`. Nothing for names of
 /// controls, of twist and other helper segments, of fingers, and for names that say nothing.
 std::optional<BoneName> read_bone_name(std::string_view name);
+
+/// What a VRM extension says of a character.
+struct VrmHumanoid {
+    Humanoid bones;
+    bool faces_backward = false;  ///< VRM 0.x: looks along -Z; 1.0 along +Z
+    const char* place = "";       ///< JSON path of the humanoid
+};
+
+/// The humanoid of VRMC_vrm (1.0) or VRM (0.x) in Scene::extensions, whose nodes are joint numbers there; nothing if
+/// the scene has none. What is malformed is named in `report`, by JSON path, and left out.
+std::optional<VrmHumanoid> read_vrm_humanoid(const Scene& scene, Report& report);
 
 }  // namespace bendy::converter

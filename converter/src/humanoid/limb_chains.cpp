@@ -1,5 +1,7 @@
 #include "limb_chains.h"
 
+#include "space.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -22,13 +24,6 @@ constexpr std::array kNamedLimbs{
     NamedLimb{"LeftLeg", HumanBone::left_upper_leg, HumanBone::left_lower_leg, HumanBone::left_foot, 1.0},
     NamedLimb{"RightLeg", HumanBone::right_upper_leg, HumanBone::right_lower_leg, HumanBone::right_foot, 1.0},
 };
-
-template <std::size_t N, class Vector>
-std::array<float, N> to_array(const Vector& v) {
-    std::array<float, N> a{};
-    for (std::size_t i = 0; i < N; ++i) a[i] = static_cast<float>(v[static_cast<int>(i)]);
-    return a;
-}
 
 Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags) {
     Chain chain;

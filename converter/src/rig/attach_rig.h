@@ -45,9 +45,4 @@ void attach_extras(Scene& scene, const JointIndex& index, Claims& claims, Report
 /// that it has no limits; empty: nobody has
 void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& report);
 
-/// Gives the scene's clips the markers of a source, in place of their own; a complete one that says anything of
-/// markers leaves no others. An entry that no clip takes is named in `report`. Fails at the JSON path of a marker
-/// outside its clip, and of a second entry for one clip.
-void attach_markers(Scene& scene, const Rig& rig, Report& report);
-
 }  // namespace bendy::converter

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "curves.h"
+#include "clips.h"
 #include "fields.h"
 #include "joint_key.h"
 #include "json_text.h"
-#include "markers.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>

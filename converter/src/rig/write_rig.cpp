@@ -1,6 +1,6 @@
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 
-#include "curves.h"
+#include "clips.h"
 #include "failure.h"
 #include "fields.h"
 #include "joint_key.h"

@@ -1,35 +1,21 @@
 #include "source/source_file.h"
 
+#include "failure.h"
+
+#include <bendy/converter/source_format.h>
 #include <bendy/format/text.h>
 
 #include <utf8cpp/utf8.h>
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <system_error>
 
 namespace bendy::converter {
-
-std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place, std::uint64_t limit) {
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) fail(place, "file not found: " + quote(file.filename().string()));
-    // A device or a pipe behind a relative URI would have no end.
-    if (!std::filesystem::is_regular_file(status))
-        fail(place, "not a regular file: " + quote(file.filename().string()));
-    const std::uint64_t size = std::filesystem::file_size(file, error);
-    std::ifstream stream(file, std::ios::binary);
-    if (error || !stream) fail(place, "cannot read file " + quote(file.filename().string()));
-    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, limit)));
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-        fail(place, "cannot read file " + quote(file.filename().string()));
-    }
-    return bytes;
-}
-
 namespace {
 
 std::optional<unsigned> hex_digit(char c) {
@@ -80,7 +66,39 @@ bool ends_with_base64(std::string_view header) {
     return header.size() >= kMark.size() && header.substr(header.size() - kMark.size()) == kMark;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    auto canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(folder, error), error);
+    return error ? folder.lexically_normal() : canonical;
+}
+
+std::string uri_between(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const std::filesystem::path target = folder_of(file) / file.filename();
+    const std::filesystem::path relative = target.lexically_relative(folder);
+    if (!relative.empty()) return uri_of(relative);
+    return "file:///" + target.root_name().generic_string() + uri_of(target.root_directory() / target.relative_path());
+}
+
 }  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place, std::uint64_t limit) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) fail(place, "file not found: " + quote(file.filename().string()));
+    // A device or a pipe behind a relative URI would have no end.
+    if (!std::filesystem::is_regular_file(status))
+        fail(place, "not a regular file: " + quote(file.filename().string()));
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    if (error || !stream) fail(place, "cannot read file " + quote(file.filename().string()));
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, limit)));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
+        fail(place, "cannot read file " + quote(file.filename().string()));
+    }
+    return bytes;
+}
 
 std::optional<std::string> percent_decode(std::string_view text) {
     std::string decoded;
@@ -180,6 +198,45 @@ std::string to_utf8(std::string_view text) {
     std::string converted;
     for (const char c : text) utf8::unchecked::append(static_cast<unsigned char>(c), std::back_inserter(converted));
     return converted;
+}
+
+std::optional<std::filesystem::path> linked_file(std::string_view uri, const std::filesystem::path& file) {
+    constexpr std::string_view kFile = "file://";
+    try {
+        if (!uri.starts_with(kFile) && !uri.starts_with('/')) return resolve_uri(std::string(uri), file, {});
+        std::string_view path = uri;
+        if (uri.starts_with(kFile)) path.remove_prefix(kFile.size());
+        const bool has_drive = path.size() > 2 && path[0] == '/' && path[2] == ':';
+        if (has_drive) path.remove_prefix(1);
+        const std::string name = percent_decode(path).value_or(std::string(path));
+        return std::filesystem::path(std::u8string(name.begin(), name.end()));
+    } catch (const Failure&) {  // of another scheme, or no name of a file
+        return std::nullopt;
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
+void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to, Report& report) {
+    const std::filesystem::path source = folder_of(from);
+    const std::filesystem::path folder = folder_of(to);
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        Image& image = scene.images[i];
+        if (!image.bytes.empty() || image.uri.empty()) continue;
+        const std::string place = at("images", i);
+        const auto file = linked_file(image.uri, from);
+        if (!file) continue;  // http, for one
+        std::error_code ignored;
+        if (!std::filesystem::exists(*file, ignored))
+            report.warn("linked image does not exist: " + quote(image.uri), place);
+        const bool is_relative = !image.uri.starts_with('/') && !image.uri.starts_with("file:");
+        if (source != folder && is_relative) image.uri = uri_between(folder, *file);
+        if (image.uri.starts_with("../")) {
+            report.warn("link to an image leads out of the output's folder, where the viewer does not follow it: " +
+                            quote(image.uri),
+                        place);
+        }
+    }
 }
 
 }  // namespace bendy::converter

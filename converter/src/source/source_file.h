@@ -2,6 +2,9 @@
 
 #include "failure.h"
 
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -61,5 +64,11 @@ std::string uri_of(const std::filesystem::path& path);
 
 /// UTF-8: text of other encodings is taken for Latin-1.
 std::string to_utf8(std::string_view text);
+
+/// Makes the links to images, which are relative to the folder of `from`, relative to that of `to`: percent-encoded,
+/// with forward slashes; as a file URI where no relative path leads there (another drive). Between files of one folder
+/// links stay as they are, as do those with a scheme and absolute ones. Warns of links to files that do not exist, and
+/// of those that lead out of the folder, which the viewer does not follow.
+void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to, Report& report);
 
 }  // namespace bendy::converter

@@ -2,7 +2,7 @@
 #include "failure.h"
 #include "parts.h"
 #include "source/image_bytes.h"
-#include "source/influences.h"
+#include "source/normalise.h"
 #include "source/source_file.h"
 
 #include <glm/gtc/type_ptr.hpp>

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,234 @@
 
 namespace bendy::converter::x {
 namespace {
+
+/// Tokens of `bin` files. Lists of numbers come number by number.
+class BinaryTokens : public Tokens {
+public:
+    /// \param at         where the first stands
+    /// \param is_double  floats take 8 bytes
+    BinaryTokens(std::string_view file, std::size_t at, bool is_double)
+        : file_(file), at_(at), float_size_(is_double ? 8 : 4) {}
+
+    Token next() override;
+    /// Four bytes in a list.
+    [[nodiscard]] std::uint64_t numbers_left() const override { return (file_.size() - at_) / 4; }
+
+private:
+    /// Little-endian, of at most 8 bytes. Fails where the file ends before.
+    std::uint64_t take(std::size_t size, const Token& token);
+    std::string_view take_text(const Token& token);
+    Token take_number(Token token);
+    void begin_list(bool are_floats, const Token& token);
+
+    std::string_view file_;
+    std::size_t at_;
+    std::size_t float_size_;
+    std::uint64_t listed_ = 0;  ///< numbers of the list that are still to come
+    bool are_floats_ = false;
+};
+
+// The numbers of tokens in binary X-files.
+constexpr std::uint64_t kName = 1;
+constexpr std::uint64_t kString = 2;
+constexpr std::uint64_t kInteger = 3;
+constexpr std::uint64_t kUuid = 5;
+constexpr std::uint64_t kIntegers = 6;
+constexpr std::uint64_t kFloats = 7;
+constexpr std::uint64_t kOpen = 10;
+constexpr std::uint64_t kClose = 11;
+constexpr std::uint64_t kFirstSign = 12;  // ( ) [ ] < > .
+constexpr std::uint64_t kComma = 19;
+constexpr std::uint64_t kSemicolon = 20;
+constexpr std::uint64_t kTemplate = 31;
+constexpr std::uint64_t kFirstType = 40;  // WORD, DWORD, FLOAT, ...: in templates
+constexpr std::uint64_t kLastType = 52;
+constexpr std::size_t kUuidSize = 16;
+
+std::uint64_t BinaryTokens::take(std::size_t size, const Token& token) {
+    if (size > file_.size() - at_) fail(place_of(token), "the file ends inside of this");
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i)
+        value |= std::uint64_t{static_cast<unsigned char>(file_[at_ + i])} << (8 * i);
+    at_ += size;
+    return value;
+}
+
+std::string_view BinaryTokens::take_text(const Token& token) {
+    const std::uint64_t size = take(4, token);
+    if (size > file_.size() - at_)
+        fail(place_of(token), "a text of " + std::to_string(size) + " bytes does not fit into the file");
+    const std::string_view text = file_.substr(at_, static_cast<std::size_t>(size));
+    at_ += text.size();
+    return text;
+}
+
+void BinaryTokens::begin_list(bool are_floats, const Token& token) {
+    are_floats_ = are_floats;
+    listed_ = take(4, token);
+    if (listed_ > (file_.size() - at_) / (are_floats ? float_size_ : 4))
+        fail(place_of(token), "a list of " + std::to_string(listed_) + " numbers does not fit into the file");
+}
+
+Token BinaryTokens::take_number(Token token) {
+    token.kind = Token::Kind::number;
+    token.is_float = are_floats_;
+    if (!are_floats_) {
+        token.number = static_cast<double>(take(4, token));
+    } else if (float_size_ == 8) {
+        token.number = std::bit_cast<double>(take(8, token));
+    } else {
+        token.number = double{std::bit_cast<float>(static_cast<std::uint32_t>(take(4, token)))};
+    }
+    return token;
+}
+
+Token BinaryTokens::next() {
+    for (;;) {
+        Token token;
+        token.column = at_;
+        if (listed_ > 0) {
+            --listed_;
+            return take_number(token);
+        }
+        if (at_ == file_.size()) return token;
+        const std::uint64_t kind = take(2, token);
+        switch (kind) {
+            case kComma:
+            case kSemicolon:
+                continue;
+            case kIntegers:
+            case kFloats:
+                begin_list(kind == kFloats, token);
+                continue;
+            case kInteger:
+                are_floats_ = false;
+                return take_number(token);
+            case kName:
+            case kString:
+                token.kind = kind == kName ? Token::Kind::word : Token::Kind::string;
+                token.text = take_text(token);
+                return token;
+            case kUuid:
+                if (kUuidSize > file_.size() - at_) fail(place_of(token), "the file ends inside of this");
+                token.kind = Token::Kind::uuid;
+                token.text = file_.substr(at_, kUuidSize);
+                at_ += kUuidSize;
+                return token;
+            case kOpen:
+            case kClose:
+                token.kind = kind == kOpen ? Token::Kind::open : Token::Kind::close;
+                return token;
+            case kTemplate:
+                token.kind = Token::Kind::word;
+                token.text = "template";
+                return token;
+            default:
+                break;
+        }
+        const bool is_sign = kind >= kFirstSign && kind < kComma;
+        const bool is_type = kind >= kFirstType && kind <= kLastType;
+        if (!is_sign && !is_type) fail(place_of(token), "there is no token of number " + std::to_string(kind));
+        token.kind = Token::Kind::other;
+        return token;
+    }
+}
+
+/// Tokens of `txt` files. A comment goes from `//` or `#` to the end of its line.
+class TextTokens : public Tokens {
+public:
+    /// \param at  where the first may stand
+    TextTokens(std::string_view file, std::size_t at) : file_(file), at_(at) {}
+
+    Token next() override;
+    /// A digit and what ends it.
+    [[nodiscard]] std::uint64_t numbers_left() const override { return (file_.size() - at_ + 1) / 2; }
+
+private:
+    void skip_blanks();
+    void skip_line();
+    Token enclosed(Token token, Token::Kind kind, char end, const char* what);
+
+    std::string_view file_;
+    std::size_t at_;
+    std::size_t line_start_ = 0;
+    std::uint64_t line_ = 1;
+};
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f' || c == ';' || c == ',';
+}
+
+bool ends_word(char c) {
+    return is_blank(c) || c == '{' || c == '}' || c == '[' || c == ']' || c == '<' || c == '>' || c == '"';
+}
+
+void TextTokens::skip_line() {
+    const std::size_t end = file_.find('\n', at_);
+    at_ = end == std::string_view::npos ? file_.size() : end;
+}
+
+void TextTokens::skip_blanks() {
+    while (at_ < file_.size()) {
+        const char c = file_[at_];
+        if (c == '#' || (c == '/' && at_ + 1 < file_.size() && file_[at_ + 1] == '/')) {
+            skip_line();
+        } else if (!is_blank(c)) {
+            return;
+        } else {
+            ++at_;
+            if (c != '\n') continue;
+            ++line_;
+            line_start_ = at_;
+        }
+    }
+}
+
+/// What stands up to the next `end`.
+Token TextTokens::enclosed(Token token, Token::Kind kind, char end, const char* what) {
+    token.kind = kind;
+    const std::size_t first = ++at_;
+    for (; at_ < file_.size() && file_[at_] != end; ++at_) {
+        if (file_[at_] != '\n') continue;
+        ++line_;
+        line_start_ = at_ + 1;
+    }
+    if (at_ == file_.size()) fail(place_of(token), std::string(what) + " is not ended");
+    token.text = file_.substr(first, at_ - first);
+    ++at_;
+    return token;
+}
+
+Token TextTokens::next() {
+    skip_blanks();
+    Token token;
+    token.line = line_;
+    token.column = at_ - line_start_ + 1;
+    if (at_ == file_.size()) return token;
+    switch (const char c = file_[at_]) {
+        case '"':
+            return enclosed(token, Token::Kind::string, '"', "a string");
+        case '<':
+            return enclosed(token, Token::Kind::uuid, '>', "a template's number");
+        case '{':
+        case '}':
+        case '[':
+        case ']':
+        case '>':
+            token.kind = c == '{' ? Token::Kind::open : c == '}' ? Token::Kind::close : Token::Kind::other;
+            token.text = file_.substr(at_++, 1);
+            return token;
+        default:
+            break;
+    }
+    const std::size_t first = at_;
+    while (at_ < file_.size() && !ends_word(file_[at_])) ++at_;
+    token.kind = Token::Kind::word;
+    token.text = file_.substr(first, at_ - first);
+    return token;
+}
+
+constexpr std::size_t kHeaderSize = 16;
 
 /// from_chars knows no plus sign.
 std::string_view without_plus(std::string_view text) {
@@ -59,6 +288,26 @@ std::string shown(const Token& token) {
 }
 
 }  // namespace
+
+std::string place_of(const Token& token) {
+    if (token.line == 0) return "byte " + std::to_string(token.column);
+    return "line " + std::to_string(token.line) + ", column " + std::to_string(token.column);
+}
+
+std::unique_ptr<Tokens> open_tokens(std::string_view file) {
+    if (!file.starts_with("xof "))
+        fail({}, "this is no X-file: it does not begin with 'xof ', but with " + quote(file.substr(0, 4)));
+    if (file.size() < kHeaderSize)
+        fail({}, "the X-file's header is truncated: expected 16 bytes, found " + std::to_string(file.size()));
+    const std::string_view variant = file.substr(8, 4);
+    const std::string_view float_size = file.substr(12, 4);
+    if (variant != "txt " && variant != "bin ")
+        fail({}, "the X-file is of an unknown variant " + quote(variant) + ": txt, bin, tzip and bzip are read");
+    if (float_size != "0032" && float_size != "0064")
+        fail({}, "the X-file's floats have an unknown size " + quote(float_size) + ": 0032 and 0064 are read");
+    if (variant == "txt ") return std::make_unique<TextTokens>(file, kHeaderSize);
+    return std::make_unique<BinaryTokens>(file, kHeaderSize, float_size == "0064");
+}
 
 const Token& ObjectReader::next() {
     token_ = tokens_->next();

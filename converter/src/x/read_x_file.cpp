@@ -3,8 +3,8 @@
 #include "object_reader.h"
 #include "rig/parse_rig.h"
 #include "rig_fields.h"
+#include "source/normalise.h"
 #include "source/source_file.h"
-#include "source/transform.h"
 
 #include <algorithm>
 #include <array>

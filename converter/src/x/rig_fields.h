@@ -1,7 +1,7 @@
 #pragma once
 
+#include "parts.h"
 #include "rig/fields.h"
-#include "x_file.h"
 
 #include <limits>
 

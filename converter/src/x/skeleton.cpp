@@ -4,7 +4,7 @@
 #include "rig/attach_rig.h"
 #include "rig/fields.h"
 #include "rig/joint_key.h"
-#include "source/transform.h"
+#include "source/normalise.h"
 
 #include <glm/geometric.hpp>
 

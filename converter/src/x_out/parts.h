@@ -1,26 +1,97 @@
 #pragma once
 
-#include "text.h"
-
 #include <bendy/converter/export.h>
 #include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
 
-// The parts of an export.
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace bendy::converter::x_out {
 
-/// BendyConstraint of a joint, once for each scope.
-void write_constraints(const Joint& joint, Text& text);
+/// The text of an X-file in the making: lines, and objects that open and close. Numbers are the shortest decimals that
+/// read back as the same, without exponents, which some readers do not know.
+class Text {
+public:
+    /// `TYPE NAME {`; `name` may be empty.
+    void open(std::string_view type, std::string_view name = {});
+    void close();
+    /// A line as it is.
+    void line(std::string_view text);
 
-/// BendyIkChain of every chain.
-void write_chains(const Scene& scene, const Names& names, Text& text);
+    void begin_line();
+    void end_line() { text_ += '\n'; }
+    Text& add(std::string_view text) {
+        text_ += text;
+        return *this;
+    }
+    Text& add(float number);
+    Text& add(double number);
+    Text& add(std::uint64_t number) { return add(std::to_string(number)); }
+    /// Each with a semicolon after it.
+    template <class Vector>
+    Text& add_vector(const Vector& vector) {
+        for (int i = 0; i < Vector::length(); ++i) add(vector[i]).add(";");
+        return *this;
+    }
+    /// `1;2;3;,` ... `1;2;3;;`: a line for each.
+    template <class Vectors>
+    void vectors(const Vectors& list) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            begin_line();
+            add_vector(list[i]).add(i + 1 < list.size() ? "," : ";");
+            end_line();
+        }
+    }
+    /// 16 numbers, and two semicolons at the end.
+    void matrix(const std::array<double, 16>& matrix);
+    void matrix(const std::array<float, 16>& matrix);
+
+    [[nodiscard]] std::string take() && { return std::move(text_); }
+
+private:
+    template <class Number>
+    void write_matrix(const std::array<Number, 16>& matrix);
+
+    std::string text_;
+    std::size_t depth_ = 0;
+};
+
+/// The identifiers by which the file's objects refer to one another: letters, digits and underscores, each once.
+class Names {
+public:
+    explicit Names(const Scene& scene);
+
+    std::vector<std::string> joints;
+    std::vector<std::string> meshes;
+    std::vector<std::string> materials;
+    std::vector<std::string> clips;
+    std::string no_material;  ///< of what is drawn without one
+
+private:
+    /// \param kind  what a thing without a name is called
+    std::string make(std::string_view name, const char* kind, std::size_t number);
+
+    std::unordered_map<std::string, std::uint32_t> times_;  ///< how often an identifier was wanted
+};
+
+/// BendyName, where an identifier is not what the thing is called.
+void write_name(std::string_view identifier, std::string_view name, Text& text);
+
+// The parts of an export.
 
 /// Writes a mesh, at the place in the text of the frame that carries it.
 void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report);
-
-/// Writes every joint as a Frame inside its parent's, with its constraints and the meshes that it carries; then the
-/// meshes that no joint carries.
-void write_frames(const Scene& scene, const Names& names, Text& text, Report& report);
 
 /// Writes every material at the file's top. Images that the scene embeds become files beside it.
 void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,

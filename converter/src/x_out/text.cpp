@@ -1,4 +1,4 @@
-#include "text.h"
+#include "parts.h"
 
 #include "x/conventions.h"
 

@@ -1,4 +1,4 @@
-#include "humanoid/vrm.h"
+#include "humanoid/auto_rig.h"
 
 #include "humanoid_gltf.h"
 

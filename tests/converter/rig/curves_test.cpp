@@ -1,11 +1,11 @@
-#include "rig/curves.h"
+#include "rig/clips.h"
 
 #include "build_scene.h"
 #include "frame_shapes.h"
 #include "rig/parse_rig.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/document.h>
 
 #include <gtest/gtest.h>

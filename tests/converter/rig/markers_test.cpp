@@ -2,7 +2,7 @@
 #include "rig/attach_rig.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/document.h>
 
 #include <gtest/gtest.h>

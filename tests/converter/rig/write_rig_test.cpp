@@ -1,7 +1,7 @@
 #include "build_scene.h"
 
 #include <bendy/converter/build_chunks.h>
-#include <bendy/converter/write_rig.h>
+#include <bendy/converter/export.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 

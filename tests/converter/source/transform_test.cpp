@@ -1,4 +1,4 @@
-#include "source/transform.h"
+#include "source/normalise.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
+#include <bendy/format/document.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
@@ -62,5 +63,10 @@ Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, co
 /// The same from memory; `bytes` start on a 16-byte boundary.
 Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report,
                                      const ExportOptions& options = {});
+
+/// The constraints and chains of an object, and the markers and curves of its clips, as a rig file (spec/rig.md),
+/// "complete": convert --rig makes the same records of it, to the bit. Only ranges that a constraint's model has no use
+/// for are left out. \param object  passes check_values \param with_markers  and with curves
+std::string write_rig(const ObjectView& object, bool with_markers = true);
 
 }  // namespace bendy::converter

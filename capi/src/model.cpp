@@ -1,17 +1,48 @@
-// Opening and closing models.
+// Opening and closing models; the version of the library, and its kernels.
+#include "fail.h"
 #include "handles.h"
-#include "sized.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/text.h>
+#include <bendy/runtime/kernels.h>
 
 #include <cstring>
 #include <filesystem>
 #include <string>
 #include <type_traits>
 
+#define BENDY_TEXT_OF(number) #number
+#define BENDY_DOTTED(major, minor, patch) BENDY_TEXT_OF(major) "." BENDY_TEXT_OF(minor) "." BENDY_TEXT_OF(patch)
+
 namespace bendy::capi {
 namespace {
+
+template <class Things>
+std::vector<std::string> names_of(const Things& things) {
+    std::vector<std::string> names;
+    names.reserve(things.size());
+    for (const auto& thing : things) names.emplace_back(thing.name);
+    return names;
+}
+
+Names names_in(const Model& model) {
+    Names names{std::string(model.name()),
+                names_of(model.joints()),
+                names_of(model.clips()),
+                names_of(model.chains()),
+                {},
+                names_of(model.meshes()),
+                names_of(model.materials()),
+                {}};
+    for (const Mesh& mesh : model.meshes()) {
+        for (const MorphTargetView& target : mesh.targets) names.targets.emplace_back(target.name);
+    }
+    for (const Clip& clip : model.clips()) {
+        std::vector<CurveNames>& curves = names.curves.emplace_back();
+        for (const CurveView& curve : clip.curves) curves.push_back({std::string(curve.name), std::string(curve.path)});
+    }
+    return names;
+}
 
 bendy_status take_options(const bendy_open_options* options, OpenOptions& taken, bendy_error* error) {
     bendy_open_options values = BENDY_OPEN_OPTIONS_INIT;
@@ -56,6 +87,13 @@ std::filesystem::path path_of(const char* name) {
 }
 
 }  // namespace
+
+Character::Character(Source from, Model loaded)
+    : source(std::move(from)), model(std::move(loaded)), names(names_in(model)) {
+    for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh)
+        target_meshes.insert(target_meshes.end(), model.meshes()[mesh].targets.size(), mesh);
+}
+
 }  // namespace bendy::capi
 
 using namespace bendy::capi;
@@ -97,5 +135,32 @@ bendy_status bendy_check_sums(const bendy_model* model, bendy_error* error) {
         if (const bendy_status status = check_pointer(model, "model", error)) return status;
         const auto checked = model->get().check_sums();
         return checked ? BENDY_OK : fail(error, checked.error(), model->character->source.bytes);
+    });
+}
+
+uint32_t bendy_version() {
+    return BENDY_VERSION_MAJOR << 16U | BENDY_VERSION_MINOR << 8U | BENDY_VERSION_PATCH;
+}
+
+const char* bendy_version_string() {
+    return BENDY_DOTTED(BENDY_VERSION_MAJOR, BENDY_VERSION_MINOR, BENDY_VERSION_PATCH);
+}
+
+const char* bendy_kernel() {
+    return bendy::kernel_name(bendy::kernel()).data();  // a literal
+}
+
+bendy_status bendy_set_kernel(const char* name, bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_pointer(name, "name", error)) return status;
+        std::string there;
+        for (const bendy::Kernel kernel : bendy::kernels()) {
+            if (bendy::kernel_name(kernel) == name) {
+                return from_call(bendy::set_kernel(kernel), error);
+            }
+            there += (there.empty() ? "" : ", ") + std::string(bendy::kernel_name(kernel));
+        }
+        return fail(error, BENDY_NOT_FOUND,
+                    "there is no kernel \"" + std::string(name) + "\" on this machine; there are: " + there);
     });
 }

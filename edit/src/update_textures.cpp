@@ -1,11 +1,15 @@
-#include "texture_numbers.h"
+#include "keep_only.h"
 
-#include <bendy/format/limits.h>
+#include "renumber.h"
+
+#include <bendy/format/records.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <map>
 #include <system_error>
+#include <utility>
 
 namespace bendy::edit {
 namespace {
@@ -121,16 +125,8 @@ std::size_t skip_comma(std::string_view json, std::size_t at, std::string& out) 
     return at;
 }
 
-}  // namespace
-
-std::optional<std::vector<std::uint32_t>> texture_numbers(std::string_view json) {
-    const auto uses = Scan(json).run();
-    if (!uses) return std::nullopt;
-    std::vector<std::uint32_t> numbers;
-    for (const TextureUse& use : *uses) numbers.push_back(use.number);
-    return numbers;
-}
-
+/// Returns the text with now[number] in place of each number; a texture info is removed, with its name, if that is
+/// kNone. Returns nothing if the text is not JSON, or if a number is out of range.
 std::optional<std::string> renumber_textures(std::string_view json, std::span<const std::uint32_t> now) {
     const auto uses = Scan(json).run();
     if (!uses) return std::nullopt;
@@ -150,6 +146,90 @@ std::optional<std::string> renumber_textures(std::string_view json, std::span<co
         at = use.number_end;
     }
     return out += json.substr(at);
+}
+
+bool is_image(FourCC id) {
+    return id == FourCC("IMAG") || id == FourCC("LINK") || id == FourCC("SAME");
+}
+
+/// The images of every texture: their chunks.
+std::vector<std::vector<std::uint32_t>> image_chunks(const Source& source) {
+    std::vector<std::vector<std::uint32_t>> images;
+    for (const TextureView& texture : source.document.textures) {
+        images.emplace_back();
+        for (const std::uint32_t child : source.tree.children(texture.chunk)) {
+            if (is_image(source.tree[child].id)) images.back().push_back(child);
+        }
+    }
+    return images;
+}
+
+/// A SAME means the image where it is now: the first one that shared an image which goes has it from now on.
+void repair_shared_images(const Source& source, const std::vector<bool>& stays, std::span<const std::uint32_t> now,
+                          Rewrite& rewrite) {
+    const auto images = image_chunks(source);
+    std::map<std::uint32_t, SameRecord> moved;  // by the chunk of the image that went
+    for (std::uint32_t t = 0; t < images.size(); ++t) {
+        if (!stays[t]) continue;
+        for (std::uint32_t k = 0; k < images[t].size(); ++k) {
+            const std::uint32_t chunk = images[t][k];
+            if (!(source.tree[chunk].id == FourCC("SAME"))) continue;
+            SameRecord same;
+            copy_at(source.tree.payload(chunk), 0, same);
+            const std::uint32_t image = images[same.texture][same.image];
+            if (!stays[same.texture] && moved.try_emplace(image, SameRecord{now[t], k}).second) {
+                const Chunk& there = source.tree[image];
+                const Bytes whole = source.tree.bytes().subspan(there.offset, kChunkHeaderSize + padded(there.size));
+                rewrite.replace_whole(chunk, {whole.begin(), whole.end()});
+                continue;
+            }
+            const SameRecord updated = stays[same.texture] ? SameRecord{now[same.texture], same.image} : moved[image];
+            if (updated.texture == same.texture && updated.image == same.image) continue;
+            rewrite.overwrite(chunk, 0, bytes_of(updated));
+        }
+    }
+}
+
+void update_extensions(const ChunkTree& tree, const MaterialView& material, std::span<const std::uint32_t> now,
+                       Rewrite& rewrite, Log& log) {
+    const std::uint32_t chunk = tree.find(material.chunk, FourCC("EXTN"));
+    if (chunk == kNone) return;
+    const std::string_view before = as_text(tree.payload(chunk));
+    const auto after = renumber_textures(before, now);
+    if (!after) {
+        log.warnings.push_back("the extensions of material \"" + std::string(material.name) +
+                               "\" cannot be read; texture numbers in them stay as they are");
+    } else if (*after != before) {
+        rewrite.replace(chunk, as_byte_span(*after));
+    }
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> texture_numbers(std::string_view json) {
+    const auto uses = Scan(json).run();
+    if (!uses) return std::nullopt;
+    std::vector<std::uint32_t> numbers;
+    for (const TextureUse& use : *uses) numbers.push_back(use.number);
+    return numbers;
+}
+
+void update_textures(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log) {
+    const auto now = renumbered(kept.textures);
+    bool is_changed = false;
+    for (std::size_t t = 0; t < now.size(); ++t) {
+        if (now[t] == t) continue;
+        is_changed = true;
+        if (now[t] == kNone) rewrite.remove(source.document.textures[t].chunk);
+    }
+    if (!is_changed) return;
+    repair_shared_images(source, kept.textures, now, rewrite);
+    NewNumbers numbers;
+    numbers.of(Entity::texture) = now;
+    for (const MaterialView& material : source.document.materials) {
+        renumber_leaves(source.tree, material.chunk, numbers, nullptr, nullptr, rewrite);
+        update_extensions(source.tree, material, now, rewrite, log);
+    }
 }
 
 }  // namespace bendy::edit
