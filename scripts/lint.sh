@@ -12,8 +12,8 @@ else
 fi
 clang-format --dry-run --Werror "${files[@]}"
 if [ -n "$build" ]; then
-    # Not in this build: sources of another system, which scripts/cross.sh compiles, and those for builds without a codec,
-    # which tests/install/subproject compiles.
-    mapfile -t sources < <(printf '%s\n' "${files[@]}" | grep '\.cpp$' | grep -v -e '^tests/' -e '_windows\.cpp$' -e '/without_')
+    # Not in this build: sources of another system, which scripts/cross.sh compiles, those for builds without a codec, which
+    # tests/install/subproject compiles, and bench/peers, which needs the other runtimes.
+    mapfile -t sources < <(printf '%s\n' "${files[@]}" | grep '\.cpp$' | grep -v -e '^tests/' -e '^bench/peers/' -e '_windows\.cpp$' -e '/without_')
     scripts/tidy_in_groups.py "$build" "${sources[@]}"
 fi

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <bendy/runtime.h>
+
+#include <algorithm>
+#include <cstdint>
+
+// All that the harness does with the local transforms of our poses.
+namespace bendy::bench {
+
+inline JointTransform local_of(const Pose& pose, std::uint32_t joint) {
+    return pose.local()[joint];
+}
+
+inline void set_local(Pose& pose, std::uint32_t joint, const JointTransform& transform) {
+    pose.change_local()[joint] = transform;
+}
+
+/// Has the pose compute its matrices again, as if a joint had moved.
+inline void mark_changed(Pose& pose) {
+    (void)pose.change_local();
+}
+
+inline void copy_locals(const Pose& from, Pose& to) {
+    std::copy(from.local().begin(), from.local().end(), to.change_local().begin());
+}
+
+}  // namespace bendy::bench
