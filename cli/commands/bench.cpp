@@ -97,6 +97,7 @@ std::vector<Timing> time_stage(const stages::Stage& stage, const std::vector<Ker
             taken[k].push_back(nanoseconds(kernels[k], times[k]) / stage.items);
     }
     std::vector<Timing> timings;
+    timings.reserve(taken.size());
     for (const std::vector<double>& own : taken)
         timings.push_back({median_of(own), *std::min_element(own.begin(), own.end())});
     return timings;

@@ -22,9 +22,8 @@ struct Value {
     bool is_list = false;
 
     Value() = default;
-    Value(Scalar scalar)
-        : items{std::move(scalar)} {}  // NOLINT(google-explicit-constructor): converts implicitly by
-                                       // design
+    /// Implicit: a scalar is a value of one item.
+    Value(Scalar scalar) : items{std::move(scalar)} {}  // NOLINT(google-explicit-constructor): see above
     bool operator==(const Value&) const = default;
 };
 
