@@ -85,7 +85,7 @@ void to_model(benchmark::State& state, Character& of) {
     Pose pose(of.model);
     (void)sample(pose, &of.model.clips().front(), 0.5f);
     while (state.KeepRunning()) {
-        (void)pose.change_local();
+        pose.set_local(0, pose.local(0));
         (void)pose.model_space();
     }
 }

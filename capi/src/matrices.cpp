@@ -32,8 +32,8 @@ bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t cou
                                   bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        if (const bendy_status status = check_range(first, count, pose->pose.local().size(), "joint", error))
-            return status;
+        const std::size_t joints = pose->pose.model().joints().size();
+        if (const bendy_status status = check_range(first, count, joints, "joint", error)) return status;
         if (count == 0) return BENDY_OK;
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;
         for (const glm::mat4& matrix : pose->pose.model_space().subspan(first, count)) {

@@ -3,54 +3,50 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// Rotations of kLanes joints, one joint per lane.
-inline void load_joint_rotations(const float* local, Lanes* to) {
-    transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
-              to);
-}
-
-inline void store_joint_rotations(const Lanes* numbers, float* local) {
-    Lanes rotations[4];
-    transpose(numbers[0], numbers[1], numbers[2], numbers[3], rotations);
-    for (std::size_t k = 0; k < 4; ++k) {
-        store_quad(local + 10 * k, low(rotations[k]));
-#if BENDY_LANES == 8
-        store_quad(local + 10 * (k + 4), high(rotations[k]));
-#endif
-    }
-}
-
 inline void normalise_four(Lanes* q) {
     const Lanes scale = 1.0f / roots_of(dot_of_four(q, q));
     for (std::size_t c = 0; c < 4; ++c) q[c] = q[c] * scale;
 }
 
-/// kLanes joints.
+/// The numbers of kLanes joints of a block, in registers; number c is kBlockJoints floats after number c - 1.
+template <std::size_t count>
+inline void load_numbers(const float* from, Lanes* to) {
+    for (std::size_t c = 0; c < count; ++c) to[c] = load_lanes(from + kBlockJoints * c);
+}
+
+template <std::size_t count>
+inline void store_numbers(const Lanes* from, float* to) {
+    for (std::size_t c = 0; c < count; ++c) store_lanes(to + kBlockJoints * c, from[c]);
+}
+
+constexpr std::size_t kTranslation = std::size_t{4} * kBlockJoints;  // floats from a block's start
+constexpr std::size_t kScale = std::size_t{7} * kBlockJoints;
+
+/// kLanes joints of a block.
 inline void mix_joints(float* local, const float* other, Lanes weight) {
     Lanes a[4];
     Lanes b[4];
-    load_joint_rotations(local, a);
-    load_joint_rotations(other, b);
+    load_numbers<4>(local, a);
+    load_numbers<4>(other, b);
     const Lanes by_b = dot_of_four(a, b) < 0.0f ? -weight : weight;
     const Lanes by_a = 1.0f - weight;
     for (std::size_t c = 0; c < 4; ++c) a[c] = by_a * a[c] + by_b * b[c];
     normalise_four(a);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        const Lanes by = splat(weight[k]);
-        for (std::size_t c = 2; c < 10; c += kLanes) {  // loads the rotation's second half too; it is stored later
-            float* const to = local + 10 * k + c;
-            store_lanes(to, (1.0f - by) * load_lanes(to) + by * load_lanes(other + 10 * k + c));
-        }
-    }
-    store_joint_rotations(a, local);
+    Lanes to[6];
+    Lanes from[6];
+    load_numbers<6>(local + kTranslation, to);
+    load_numbers<6>(other + kTranslation, from);
+    for (std::size_t c = 0; c < 6; ++c) to[c] = by_a * to[c] + weight * from[c];
+    store_numbers<4>(a, local);
+    store_numbers<6>(to, local + kTranslation);
 }
 
-/// kLanes joints; `other` is a difference.
+/// kLanes joints of a block; `other` is a difference.
 inline void add_joints(float* local, const float* other, Lanes weight) {
     Lanes q[4];
     Lanes d[4];
-    load_joint_rotations(local, q);
-    load_joint_rotations(other, d);
+    load_numbers<4>(local, q);
+    load_numbers<4>(other, d);
     const Lanes by = d[3] < 0.0f ? -weight : weight;
     for (Lanes& each : d) each = by * each;
     d[3] = d[3] + (1.0f - weight);
@@ -61,49 +57,40 @@ inline void add_joints(float* local, const float* other, Lanes weight) {
         (q[3] * d[2] + q[2] * d[3]) + (q[0] * d[1] - q[1] * d[0]),
         (q[3] * d[3] - q[0] * d[0]) - (q[1] * d[1] + q[2] * d[2]),
     };
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        float* const to = local + 10 * k;
-        const float* const from = other + 10 * k;
-        for (std::size_t c = 4; c < 7; ++c) to[c] += weight[k] * from[c];
-        for (std::size_t c = 7; c < 10; ++c) to[c] *= (1.0f - weight[k]) + weight[k] * from[c];
-    }
-    store_joint_rotations(product, local);
+    Lanes translation[3];
+    Lanes moved[3];
+    load_numbers<3>(local + kTranslation, translation);
+    load_numbers<3>(other + kTranslation, moved);
+    for (std::size_t c = 0; c < 3; ++c) translation[c] = translation[c] + weight * moved[c];
+    Lanes scale[3];
+    Lanes scaled[3];
+    load_numbers<3>(local + kScale, scale);
+    load_numbers<3>(other + kScale, scaled);
+    const Lanes rest = 1.0f - weight;
+    for (std::size_t c = 0; c < 3; ++c) scale[c] = scale[c] * (rest + weight * scaled[c]);
+    store_numbers<4>(product, local);
+    store_numbers<3>(translation, local + kTranslation);
+    store_numbers<3>(scale, local + kScale);
+}
+
+/// The weights of kLanes joints; 0 after the last one, so that a block stays padded with the identity.
+inline Lanes weights_at(const BlendBlock& block, std::size_t joint) {
+    if (joint + kLanes <= block.joints)
+        return block.mask == nullptr ? splat(block.weight) : block.weight * load_lanes(block.mask + joint);
+    Lanes weights{};
+    for (std::size_t k = 0; joint + k < block.joints; ++k)
+        weights[k] = block.mask == nullptr ? block.weight : block.weight * block.mask[joint + k];
+    return weights;
 }
 
 using BlendJoints = void(float* local, const float* other, Lanes weight);
 
-/// kLanes joints from `joint` on.
-template <BlendJoints blend_joints>
-inline void blend_group(const BlendBlock& block, std::size_t joint, float* local) {
-    const Lanes mask = block.mask == nullptr ? splat(1.0f) : load_lanes(block.mask + joint);
-    blend_joints(local, block.other + 10 * joint, block.weight * mask);
-}
-
-/// For fewer joints than lanes.
-template <BlendJoints blend_joints>
-__attribute__((noinline)) void blend_few(const BlendBlock& block) {
-    float local[10 * kLanes]{};
-    float other[10 * kLanes]{};
-    Lanes weight{};
-    for (std::size_t k = 0; k < block.joints; ++k)
-        weight[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[k]);
-    __builtin_memcpy(local, block.local, 10 * block.joints * sizeof(float));
-    __builtin_memcpy(other, block.other, 10 * block.joints * sizeof(float));
-    blend_joints(local, other, weight);
-    __builtin_memcpy(block.local, local, 10 * block.joints * sizeof(float));
-}
-
 template <BlendJoints blend_joints>
 inline void blend_lanes(const BlendBlock& block) {
-    if (block.joints < kLanes) return blend_few<blend_joints>(block);
-    // The last group overlaps the one before it: it is read before the others are written.
-    const std::size_t last = block.joints - kLanes;
-    float local[10 * kLanes];
-    __builtin_memcpy(local, block.local + 10 * last, sizeof local);
-    blend_group<blend_joints>(block, last, local);
-    for (std::size_t joint = 0; joint < last; joint += kLanes)
-        blend_group<blend_joints>(block, joint, block.local + 10 * joint);
-    __builtin_memcpy(block.local + 10 * last, local, sizeof local);
+    for (std::size_t joint = 0; joint < block.joints; joint += kLanes) {
+        const std::size_t at = joint / kBlockJoints * kBlockFloats + joint % kBlockJoints;
+        blend_joints(block.local + at, block.other + at, weights_at(block, joint));
+    }
 }
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -4,6 +4,7 @@
 
 constexpr std::size_t kLanes = BENDY_LANES;
 using Lanes = float __attribute__((vector_size(4 * BENDY_LANES)));
+using Integers = std::int32_t __attribute__((vector_size(4 * BENDY_LANES)));
 using Eight = float __attribute__((vector_size(32)));
 using Quad = float __attribute__((vector_size(16)));
 

@@ -20,6 +20,10 @@ inline Lanes inverse_roots_of(Lanes squares) {
     const Lanes guess = _mm256_rsqrt_ps(squares);  // 12 bits; one step of Newton's method gives 23
     return guess + 0.5f * guess * (1.0f - squares * guess * guess);
 }
+/// Lane k: lane places[k] of `lanes`.
+inline Lanes permuted(Lanes lanes, Integers places) {
+    return _mm256_permutevar8x32_ps(lanes, reinterpret_cast<__m256i>(places));
+}
 inline void stream(float* to, Quad quad) {
     _mm_stream_ps(to, quad);
 }

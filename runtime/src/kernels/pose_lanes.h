@@ -1,15 +1,7 @@
-// The implementation of the joint matrix kernels, included after lanes.h by one source for each instruction set.
+// The implementation of the joint matrix kernels, included after lanes.h and blend_lanes.h by one source for each
+// instruction set.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
-
-/// Replaces the last number of each four by 1.
-inline Lanes with_one(Lanes lanes) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(lanes, splat(1.0f), 0, 1, 2, 11, 4, 5, 6, 15);
-#else
-    return __builtin_shufflevector(lanes, splat(1.0f), 0, 1, 2, 7);
-#endif
-}
 
 /// Stores two columns of kLanes joints' matrices, given with one joint per lane; the fourth number of `d` counts.
 inline void store_columns(const Three& c, const Lanes* d, float* to) {
@@ -28,14 +20,13 @@ inline void store_columns(const Three& c, const Lanes* d, float* to) {
     }
 }
 
-/// Computes the local matrices of kLanes joints: to_matrix without shear.
+/// Computes the local matrices of kLanes joints of a block: to_matrix without shear.
 inline void make_local(const float* local, float* to) {
-    Lanes q[4];
-    transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
-              q);
-    Lanes scale[4];  // from translation z on
-    transpose(load_quads(local + 6, 40), load_quads(local + 16, 40), load_quads(local + 26, 40),
-              load_quads(local + 36, 40), scale);
+    Lanes numbers[10];
+    load_numbers<10>(local, numbers);
+    const Lanes* const q = numbers;
+    const Lanes* const moved = numbers + 4;
+    const Lanes* const scale = numbers + 7;
     const Lanes x2 = q[0] + q[0];
     const Lanes y2 = q[1] + q[1];
     const Lanes z2 = q[2] + q[2];
@@ -43,14 +34,11 @@ inline void make_local(const float* local, float* to) {
     const Lanes xy = q[0] * y2, xz = q[0] * z2, yz = q[1] * z2;
     const Lanes wx = q[3] * x2, wy = q[3] * y2, wz = q[3] * z2;
     Lanes second[4];
-    transpose((xy - wz) * scale[2], (1.0f - (xx + zz)) * scale[2], (yz + wx) * scale[2], Lanes{}, second);
-    store_columns({(1.0f - (yy + zz)) * scale[1], (xy + wz) * scale[1], (xz - wy) * scale[1]}, second, to);
+    transpose((xy - wz) * scale[1], (1.0f - (xx + zz)) * scale[1], (yz + wx) * scale[1], Lanes{}, second);
+    store_columns({(1.0f - (yy + zz)) * scale[0], (xy + wz) * scale[0], (xz - wy) * scale[0]}, second, to);
     Lanes fourth[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-        const float* const place = local + 10 * k + 4;
-        fourth[k] = with_one(load_quads(place, 40));
-    }
-    store_columns({(xz + wy) * scale[3], (yz - wx) * scale[3], (1.0f - (xx + yy)) * scale[3]}, fourth, to + 8);
+    transpose(moved[0], moved[1], moved[2], splat(1.0f), fourth);
+    store_columns({(xz + wy) * scale[2], (yz - wx) * scale[2], (1.0f - (xx + yy)) * scale[2]}, fourth, to + 8);
 }
 
 /// a * b, column-major; the last row of b is 0 0 0 1.
@@ -73,18 +61,9 @@ inline void multiply(const float* a, const float* b, float* to) {
 }
 
 inline void make_locals(const PoseBlock& block) {
-    const std::size_t joints = block.joints;
-    if (joints < kLanes) {
-        float local[kLanes * 10]{};
-        float matrices[kLanes * 16];
-        __builtin_memcpy(local, block.local, joints * 10 * sizeof(float));
-        make_local(local, matrices);
-        __builtin_memcpy(block.model, matrices, joints * 16 * sizeof(float));
-        return;
-    }
-    for (std::size_t joint = 0; joint < joints; joint += kLanes) {
-        const std::size_t first = joint < joints - kLanes ? joint : joints - kLanes;  // some twice, at the end
-        make_local(block.local + 10 * first, block.model + 16 * first);
+    for (std::size_t joint = 0; joint < block.joints; joint += kLanes) {
+        const std::size_t at = joint / kBlockJoints * kBlockFloats + joint % kBlockJoints;
+        make_local(block.local + at, block.model + 16 * joint);
     }
 }
 

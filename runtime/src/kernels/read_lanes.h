@@ -3,8 +3,6 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-using Integers = std::int32_t __attribute__((vector_size(4 * BENDY_LANES)));
-
 /// Reads a number of `size` bytes, little-endian like everything in the file; zeros beyond the payload's end.
 template <class Number, bool is_near_end>
 inline Number read_number(const unsigned char* from, const unsigned char* end) {

@@ -1,5 +1,6 @@
 // The implementation of the packed clip kernels, included after lanes.h and sample_lanes.h by one source for each
-// instruction set, which also defines roots_of(Lanes) and read_component<is_near_end>(...): see read_lanes.h.
+// instruction set, which also defines roots_of(Lanes), permuted(Lanes, Integers) if it has eight lanes, and
+// read_component<is_near_end>(...): see read_lanes.h.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -76,9 +77,33 @@ inline Shares shares_at(const Series& left, const Series& right, Lanes x) {
     return least >= 0.55f - 1.0f ? middle_shares(left, right, x) : far_shares(left, right, x);
 }
 
+/// Stores the numbers of the group's lanes from `first` on in the joints' blocks.
+template <std::size_t count>
+inline void store_unpacked(const Lanes* numbers, const UnpackGroup& group, [[maybe_unused]] std::size_t first,
+                           [[maybe_unused]] const UnpackPart* parts, float* local) {
+#if BENDY_LANES == 8
+    for (std::uint32_t k = 0; k < group.parts; ++k) {
+        Integers lanes;
+        Integers is_animated;
+        __builtin_memcpy(&lanes, parts[k].lanes, sizeof lanes);
+        __builtin_memcpy(&is_animated, parts[k].is_animated, sizeof is_animated);
+        float* const to = local + parts[k].place;
+        for (std::size_t c = 0; c < count; ++c) {
+            const Lanes before = load_lanes(to + kBlockJoints * c);
+            store_lanes(to + kBlockJoints * c, is_animated < 0 ? permuted(numbers[c], lanes) : before);
+        }
+    }
+#else
+    for (std::size_t k = 0; k < kLanes && first + k < group.count; ++k) {
+        float* const to = local + group.places[first + k];
+        for (std::size_t c = 0; c < count; ++c) to[kBlockJoints * c] = numbers[c][k];
+    }
+#endif
+}
+
 /// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
-                             const Series& by_left, const Series& by_right, float* local) {
+                             const Series& by_left, const Series& by_right, const UnpackPart* parts, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
     const bool is_near = -least_of(-(of_v > of_w ? of_v : of_w)) <= kNearHalfTurnSquare;
@@ -98,41 +123,26 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
                     (r[3] * q[3] - r[0] * q[0]) - (r[1] * q[1] + r[2] * q[2])};
     const Lanes scale = 1.5f - 0.5f * dot_of_four(out, out);  // one Newton step towards 1 / length
     for (Lanes& number : out) number = number * scale;
-    Lanes quads[4];
-    transpose(out[0], out[1], out[2], out[3], quads);
-#if BENDY_LANES == 8
-    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k + 4], high(quads[k]));
-#endif
-    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k], low(quads[k]));
+    store_unpacked<4>(out, group, first, parts, local);
 }
 
 /// Stores rest + value in the joints' translations or scales.
 inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w, float u,
-                           float* local) {
+                           const UnpackPart* parts, float* local) {
     Lanes at[3];
     for (std::size_t c = 0; c < 3; ++c) at[c] = load_lanes(group.rest[c] + first) + ((w[c] - v[c]) * u + v[c]);
-    Lanes quads[4];
-    transpose(at[0], at[1], at[2], Lanes{}, quads);
-    for (std::size_t k = 0; k < kLanes && first + k < group.count; ++k) {
-#if BENDY_LANES == 8
-        const Quad quad = k < 4 ? low(quads[k]) : high(quads[k - 4]);
-#else
-        const Quad quad = quads[k];
-#endif
-        store_three_of(local + group.places[first + k], quad);
-    }
+    store_unpacked<3>(at, group, first, parts, local);
 }
 
 template <bool is_near_end>
 inline void unpack_groups(const UnpackBlock& block) {
-    const Series by_left(1.0f - block.fraction);
-    const Series by_right(block.fraction);
+    const Series by_left(splat(1.0f - block.fraction));
+    const Series by_right(splat(block.fraction));
     const UnpackWindows* windows = block.windows;
+    const UnpackPart* parts = block.parts;
     for (std::size_t number = 0; number < block.group_count; ++number) {
         const UnpackGroup& group = block.groups[number];
-        for (std::size_t first = UnpackGroup::kLanes; first > 0;) {  // lanes beyond the last track come first
-            first -= kLanes;
-            if (first != 0 && first >= group.count) continue;
+        for (std::size_t first = 0; first < group.count; first += kLanes) {
             Lanes v[3];
             Lanes w[3];
             for (std::size_t c = 0; c < group.components; ++c)
@@ -142,12 +152,13 @@ inline void unpack_groups(const UnpackBlock& block) {
                 w[1] = w[2] = w[0];
             }
             if (group.is_rotation) {
-                unpack_rotations(group, first, v, w, by_left, by_right, block.local);
+                unpack_rotations(group, first, v, w, by_left, by_right, parts, block.local);
             } else {
-                unpack_vectors(group, first, v, w, block.fraction, block.local);
+                unpack_vectors(group, first, v, w, block.fraction, parts, block.local);
             }
         }
         windows += group.components;
+        parts += group.parts;
     }
 }
 

@@ -2,16 +2,20 @@
 
 #include <bendy/runtime/model.h>
 
+#include "math/joint_blocks.h"
 #include "palette_rows.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
+#include <utility>
 
 namespace bendy {
 namespace {
@@ -32,16 +36,39 @@ bool is_same(const PaletteView& a, const PaletteView& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end());
 }
 
-/// Parts of a mesh usually follow the same skeleton: each mesh is compared with the last one that had a different
-/// palette.
+/// Returns a number that is equal for equal palettes.
+std::size_t hash_of(const PaletteView& palette) {
+    std::size_t hash = palette.joints.size();
+    const auto add = [&](std::uint32_t number) { hash = hash * 0x9e37'79b1u + number; };
+    for (const std::uint32_t joint : palette.joints) add(joint);
+    for (const glm::mat4& matrix : palette.inverse_bind()) {
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row)
+                add(std::bit_cast<std::uint32_t>(matrix[column][row] + 0.0f));  // 0 and -0 are equal
+        }
+    }
+    return hash;
+}
+
+/// Parts of a character usually follow the same bones: equal palettes are found, so that each is made once.
 void plan_palettes(std::span<const MeshView> meshes, PosePlan& plan) {
-    std::uint32_t first = 0;
+    std::unordered_multimap<std::size_t, std::uint32_t> by_hash;
     for (std::uint32_t number = 0; number < meshes.size(); ++number) {
         const PaletteView& palette = meshes[number].palette;
-        if (number == 0 || !is_same(palette, meshes[first].palette)) first = number;
-        plan.same_palette.push_back(first);
+        const std::size_t hash = hash_of(palette);
+        const auto [begin, end] = by_hash.equal_range(hash);
+        const auto same =
+            std::find_if(begin, end, [&](const auto& other) { return is_same(palette, meshes[other.second].palette); });
         std::vector<PaletteMatrix>& rows = plan.inverse_bind.emplace_back();
-        if (first != number) continue;
+        if (same != end) {
+            plan.same_palette.push_back(same->second);
+            plan.first_entry.push_back(plan.first_entry[same->second]);
+            continue;
+        }
+        by_hash.emplace(hash, number);
+        plan.same_palette.push_back(number);
+        plan.first_entry.push_back(plan.palette_entries);
+        plan.palette_entries += static_cast<std::uint32_t>(palette.joints.size());
         const auto inverse_bind = palette.inverse_bind();
         rows.reserve(inverse_bind.size());
         std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), to_rows);
@@ -115,41 +142,98 @@ bool is_for_kernels(const TrackView& track) {
     return track.interpolation == Interpolation::linear && track.keys >= 2 && track.path != TrackPath::weights;
 }
 
-void add_rotation(const TrackView& track, SampleLine& line) {
-    const std::size_t lane = line.rotation_tracks++ % RotationTracks::kMost;
-    if (lane == 0) line.rotations.emplace_back();
-    for (std::size_t k = lane; k < RotationTracks::kMost; ++k) {
-        line.rotations.back().keys[k] = track.values.data();
-        line.rotations.back().places[k] = kJointFloats * track.target;
+/// Makes the groups of a clip.
+class SamplePlanner {
+public:
+    explicit SamplePlanner(std::size_t joints) : rotations_(joints), translations_(joints), scales_(joints) {}
+
+    SamplePlan make(const ClipView& clip) {
+        for (const TrackView& track : clip.tracks) {
+            if (is_for_kernels(track) && track.target < rotations_.size()) {
+                placed(track.path)[track.target] = {&track, moment_of(track)};
+            } else {
+                plan_.others.push_back(&track);
+            }
+        }
+        add_groups(TrackPath::rotation, 1);
+        constexpr std::uint32_t kFew = 3;  // tracks: a group takes as long as this many
+        add_groups(TrackPath::translation, kFew + 1);
+        add_groups(TrackPath::scale, kFew + 1);
+        return std::move(plan_);
     }
-}
 
-/// Returns the line with a track's times: one of the last few, or a new one.
-SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
-    constexpr std::ptrdiff_t kLast = 8;
-    const auto first = lines.end() - std::min<std::ptrdiff_t>(kLast, std::ssize(lines));
-    const auto found = std::find_if(first, lines.end(), [&](const SampleLine& line) {
-        return line.clock->times.data() == track.times.data() && line.clock->keys == track.keys;
-    });
-    if (found != lines.end()) return *found;
-    lines.emplace_back().clock = &track;
-    return lines.back();
-}
+private:
+    /// The track of a joint's property.
+    struct Placed {
+        const TrackView* track = nullptr;
+        std::uint32_t moment = 0;
+    };
 
-SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
-    SamplePlan plan;
-    if (clip.packed) plan.packed = make_unpack_plan(*clip.packed, rest);
-    for (const TrackView& track : clip.tracks) {
-        SampleLine& line = line_of(track, plan.lines);
-        if (!is_for_kernels(track)) {
-            line.others.push_back(&track);
-        } else if (track.path == TrackPath::rotation) {
-            add_rotation(track, line);
-        } else {
-            const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
-            line.vectors.push_back({track.values.data(), kJointFloats * track.target + place});
+    std::vector<Placed>& placed(TrackPath path) {
+        if (path == TrackPath::rotation) return rotations_;
+        return path == TrackPath::translation ? translations_ : scales_;
+    }
+
+    /// Returns the number of a moment at which a track's times are looked up: that of one of the last few, or a new
+    /// one.
+    std::uint32_t moment_of(const TrackView& track) {
+        constexpr std::size_t kLast = 8;
+        std::vector<const TrackView*>& clocks = plan_.clocks;
+        for (std::size_t k = clocks.size(); k-- > clocks.size() - std::min(kLast, clocks.size());) {
+            if (clocks[k]->times.data() == track.times.data() && clocks[k]->keys == track.keys)
+                return static_cast<std::uint32_t>(k);
+        }
+        clocks.push_back(&track);
+        return static_cast<std::uint32_t>(clocks.size() - 1);
+    }
+
+    /// \param least  blocks with fewer tracks have no group
+    void add_groups(TrackPath path, std::ptrdiff_t least) {
+        const std::span<const Placed> all(placed(path));
+        for (std::size_t first = 0; first < all.size(); first += kBlockJoints) {
+            const auto block = all.subspan(first, std::min<std::size_t>(kBlockJoints, all.size() - first));
+            const auto count = std::count_if(block.begin(), block.end(), has_track);
+            if (count == 0) continue;
+            if (count >= least) {
+                auto& groups = path == TrackPath::rotation ? plan_.rotations : plan_.vectors;
+                groups.push_back(group_of(block, place_in_blocks(static_cast<std::uint32_t>(first), path)));
+                continue;
+            }
+            for (const Placed& each : block) {
+                if (each.track != nullptr)
+                    plan_.tracks.push_back(
+                        {each.track->values.data(), place_in_blocks(each.track->target, path), each.moment});
+            }
         }
     }
+
+    static bool has_track(const Placed& placed) { return placed.track != nullptr; }
+
+    static TrackGroup group_of(std::span<const Placed> block, std::uint32_t place) {
+        TrackGroup group{};
+        group.place = place;
+        group.is_full = true;
+        group.is_one_moment = true;
+        const Placed& any = *std::find_if(block.begin(), block.end(), has_track);
+        for (std::size_t lane = 0; lane < kBlockJoints; ++lane) {
+            const bool is_animated = lane < block.size() && has_track(block[lane]);
+            const Placed& placed = is_animated ? block[lane] : any;
+            group.keys[lane] = placed.track->values.data();
+            group.moments[lane] = placed.moment;
+            group.is_animated[lane] = is_animated ? -1 : 0;
+            group.is_full = group.is_full && is_animated;
+            group.is_one_moment = group.is_one_moment && placed.moment == any.moment;
+        }
+        return group;
+    }
+
+    SamplePlan plan_;
+    std::vector<Placed> rotations_, translations_, scales_;  // per joint
+};
+
+SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
+    SamplePlan plan = SamplePlanner(rest.size()).make(clip);
+    if (clip.packed) plan.packed = make_unpack_plan(*clip.packed, rest);
     return plan;
 }
 
@@ -157,8 +241,10 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
 
 PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints) {
     PosePlan plan;
-    plan.rest.reserve(joints.size());
-    for (const Joint& joint : joints) plan.rest.push_back(joint.rest);
+    std::vector<JointTransform> rest;
+    rest.reserve(joints.size());
+    for (const Joint& joint : joints) rest.push_back(joint.rest);
+    plan.rest = to_blocks(rest);
     for (const MeshView& mesh : object.meshes) {
         for (const MorphTargetView& target : mesh.targets) plan.rest_weights.push_back(target.rest_weight);
     }
@@ -169,7 +255,10 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
     plan.clips.reserve(object.clips.size());
-    for (const ClipView& clip : object.clips) plan.clips.push_back(make_sample_plan(clip, plan.rest));
+    for (const ClipView& clip : object.clips) {
+        plan.clips.push_back(make_sample_plan(clip, rest));
+        plan.most_clocks = std::max(plan.most_clocks, plan.clips.back().clocks.size());
+    }
     plan.fits_floats = fits_floats(object, joints);
     return plan;
 }

@@ -17,30 +17,27 @@ namespace bendy {
 
 struct Joint;
 
-/// The tracks of a clip that have the same times. Linear ones with two keys or more are grouped for the kernels;
-/// `others` are sampled one by one.
-struct SampleLine {
-    const TrackView* clock = nullptr;  ///< any of the tracks: for its times
-    std::size_t rotation_tracks = 0;
-    std::vector<RotationTracks> rotations;
-    std::vector<VectorTrack> vectors;
-    std::vector<const TrackView*> others;
-};
-
-/// The plan for a clip. About 12 bytes per rotation track, 16 per translation or scale track.
+/// The plan for a clip. Linear tracks with two keys or more are for the kernels: about 18 bytes each, more where only
+/// some joints of a block have one. `others` are sampled one by one, in the clip's order.
 struct SamplePlan {
-    std::vector<SampleLine> lines;
+    std::vector<const TrackView*> clocks;  ///< for each moment, any of the tracks with its times
+    std::vector<TrackGroup> rotations, vectors;
+    std::vector<VectorTrack> tracks;
+    std::vector<const TrackView*> others;
     UnpackPlan packed;  ///< for packed clips
 };
 
 struct PosePlan {
-    std::vector<JointTransform> rest;
+    std::vector<JointBlock> rest;
     std::vector<float> rest_weights;   ///< of the morph targets
     std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent comes well before it, and so is
                                        ///< already computed
     std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< per mesh; empty if same_palette is another mesh
-    std::vector<std::uint32_t> same_palette;  ///< per mesh: the first neighbouring mesh with the same palette
+    std::vector<std::uint32_t> same_palette;               ///< per mesh: the first mesh with the same palette
+    std::vector<std::uint32_t> first_entry;  ///< per mesh: of its palette, among the entries of all palettes
+    std::uint32_t palette_entries = 0;       ///< of all palettes, each counted once
     std::vector<SamplePlan> clips;
+    std::size_t most_clocks = 0;  ///< of any clip
     /// True if floats are accurate enough for joint matrices: no long chains, and no large offsets that cancel.
     bool fits_floats = false;
 };

@@ -1,38 +1,18 @@
 #include "unpack_plan.h"
 
+#include "math/joint_blocks.h"
 #include "unpack_plain.h"
 
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace bendy {
 namespace {
 
 static_assert(UnpackGroup::kLanes == kPackedGroup &&
               UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
-static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
-
-/// Returns the offset in floats from a joint's transform to one of its properties.
-std::uint32_t place_in_joint(TrackPath path) {
-    if (path == TrackPath::rotation) return offsetof(JointTransform, rotation) / sizeof(float);
-    if (path == TrackPath::translation) return offsetof(JointTransform, translation) / sizeof(float);
-    return offsetof(JointTransform, scale) / sizeof(float);
-}
-
-UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, const JointTransform& rest) {
-    JointTransform joint = rest;
-    set_unpacked(group, track, 0.0, joint);
-    const std::uint32_t place = group.joints[track] * kJointFloats + place_in_joint(group.kind.path);
-    if (group.kind.path == TrackPath::rotation) {
-        const glm::quat& q = joint.rotation;
-        return {place, 4, {q.x, q.y, q.z, q.w}};
-    }
-    const glm::vec3& v = group.kind.path == TrackPath::translation ? joint.translation : joint.scale;
-    return {place, 3, {v.x, v.y, v.z, 0.0f}};
-}
 
 /// Returns the rest values for a lane; rotations are normalised.
 glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
@@ -43,6 +23,20 @@ glm::vec4 rest_of(TrackPath path, const JointTransform& rest) {
     return square > 0.0 ? glm::vec4(q / std::sqrt(square)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
 }
 
+/// Adds the parts of a group. Its joints ascend, so those of a block are neighbours.
+void add_parts(UnpackGroup& group, std::vector<UnpackPart>& parts) {
+    for (std::uint32_t lane = 0; lane < group.count; ++lane) {
+        const std::uint32_t in_block = group.places[lane] % kBlockJoints;
+        const std::uint32_t place = group.places[lane] - in_block;
+        if (group.parts == 0 || parts.back().place != place) {
+            parts.emplace_back().place = place;
+            ++group.parts;
+        }
+        parts.back().lanes[in_block] = static_cast<std::int32_t>(lane);
+        parts.back().is_animated[in_block] = -1;
+    }
+}
+
 UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> rest) {
     UnpackGroup group;
     group.is_rotation = walked.kind.path == TrackPath::rotation;
@@ -50,7 +44,7 @@ UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> 
     group.count = walked.count;
     for (std::uint32_t lane = 0; lane < kPackedGroup; ++lane) {
         const std::uint32_t joint = walked.joints[lane < walked.count ? lane : walked.count - 1];
-        group.places[lane] = joint * kJointFloats + place_in_joint(walked.kind.path);
+        group.places[lane] = place_in_blocks(joint, walked.kind.path);
         const glm::vec4 at_rest = rest_of(walked.kind.path, rest[joint]);
         for (int c = 0; c < 4; ++c) group.rest[c][lane] = at_rest[c];
     }
@@ -111,6 +105,7 @@ void add_windows(const PackedView& packed, const PackedSegment& segment, std::ve
 UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTransform> rest) {
     UnpackPlan plan;
     plan.packed = &packed;
+    plan.still = to_blocks(rest);
     PackedGroupReader reader(packed, 0);
     std::uint32_t tables = 0;
     PackedGroup group;
@@ -119,12 +114,16 @@ UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTrans
         for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
             reader.next(group);
             if (!group.kind.animated) {
-                for (std::uint32_t track = 0; track < group.count; ++track)
-                    plan.constants.push_back(constant_of(group, track, rest[group.joints[track]]));
+                for (std::uint32_t track = 0; track < group.count; ++track) {
+                    JointTransform joint = joint_in(plan.still, group.joints[track]);
+                    set_unpacked(group, track, 0.0, joint);
+                    set_joint_in(plan.still, group.joints[track], joint);
+                }
                 continue;
             }
             plan.groups.push_back(group_of(group, rest));
             place_group(list, first, tables, plan.groups.back());
+            add_parts(plan.groups.back(), plan.parts);
         }
         if (kPackedKinds[k].animated) tables += kPackedKinds[k].components * list.count * (1 + list.base_bytes);
     }

@@ -3,9 +3,9 @@
 #include <bendy/format/packed_clip.h>
 #include <bendy/runtime/transform.h>
 
+#include "sample_block.h"
 #include "unpack_block.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,14 +13,14 @@
 // Data for playing a packed clip on a model that is the same for all frames: built once, when the model is opened.
 namespace bendy {
 
-inline constexpr std::uint32_t kJointFloats = sizeof(JointTransform) / sizeof(float);
+static_assert(sizeof(JointBlock) == kBlockFloats * sizeof(float) && JointBlock::kJoints == kBlockJoints);
 
-/// A constant track, including rest.
-struct UnpackedConstant {
-    std::uint32_t place = 0;   ///< floats from the first joint's transform to what the track sets
-    std::uint32_t floats = 4;  ///< 4: a rotation; 3
-    std::array<float, 4> value{};
-};
+/// Returns the floats from the first block to the first number of a joint's property; the others are kBlockJoints
+/// apart.
+inline std::uint32_t place_in_blocks(std::uint32_t joint, TrackPath path) {
+    const std::uint32_t number = path == TrackPath::rotation ? 0 : path == TrackPath::translation ? 4 : 7;
+    return joint / kBlockJoints * kBlockFloats + number * kBlockJoints + joint % kBlockJoints;
+}
 
 /// PackedSegment, and the location of its windows.
 struct UnpackSegment {
@@ -30,11 +30,12 @@ struct UnpackSegment {
     std::size_t windows = 0;   ///< index of the first one
 };
 
-/// About 300 bytes per eight animated tracks, 100 per eight of them in each segment, and 24 per constant track.
+/// About 450 bytes per eight animated tracks, 100 per eight of them in each segment, and 40 per joint.
 struct UnpackPlan {
     const PackedView* packed = nullptr;
-    std::vector<UnpackedConstant> constants;
+    std::vector<JointBlock> still;    ///< the rest pose with the clip's constant tracks
     std::vector<UnpackGroup> groups;  ///< in the order of a frame's bits
+    std::vector<UnpackPart> parts;    ///< by group
     std::vector<UnpackSegment> segments;
     std::vector<UnpackWindows> windows;  ///< by segment, group, component
 };

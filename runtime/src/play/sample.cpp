@@ -124,16 +124,17 @@ void normalise(std::span<float> q) {
     for (float& c : q) c = static_cast<float>(c / length);
 }
 
-void set_joint(const TrackView& track, std::span<const float> value, JointTransform& joint) {
+void set_in_block(const TrackView& track, std::span<const float> value, JointBlock& block) {
+    const std::uint32_t lane = track.target % JointBlock::kJoints;
     switch (track.path) {
         case TrackPath::translation:
-            joint.translation = {value[0], value[1], value[2]};
+            block.set_translation(lane, {value[0], value[1], value[2]});
             break;
         case TrackPath::rotation:
-            joint.rotation = glm::quat(value[3], value[0], value[1], value[2]);
+            block.set_rotation(lane, glm::quat(value[3], value[0], value[1], value[2]));
             break;
         case TrackPath::scale:
-            joint.scale = {value[0], value[1], value[2]};
+            block.set_scale(lane, {value[0], value[1], value[2]});
             break;
         case TrackPath::weights:
             break;
@@ -196,12 +197,8 @@ namespace {
 /// Samples a clip into a pose.
 class Sampling {
 public:
-    Sampling(const Clip& clip, float seconds, Pose& pose)
-        : clip_(clip),
-          seconds_(seconds),
-          model_(*PoseState::of(pose).data),
-          local_(pose.change_local()),
-          weights_(pose.change_morph_weights()) {}
+    Sampling(const Clip& clip, float seconds, PoseState& pose)
+        : clip_(clip), seconds_(seconds), pose_(pose), model_(*pose.data), weights_(pose.morph_weights) {}
 
     void run() const {
         for (const PlayView& play : clip_.plays) sample_frames(play);
@@ -209,16 +206,17 @@ public:
         const std::size_t number = model_.number_of(clip_);
         if (number >= model_.object.clips.size()) {  // a clip of another model
             sample_tracks();
-            if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}}, seconds_, local_);
+            if (clip_.packed)
+                unpack_plain({&*clip_.packed, {}, {}, {}, {}, {}}, seconds_, pose_.local, pose_.joint_count());
             return;
         }
         const SamplePlan& plan = model_.pose_plan->clips[number];
+        if (clip_.packed) unpack(plan.packed, seconds_, pose_.local, pose_.joint_count());
         if (kernels == nullptr) {
             sample_tracks();
         } else {
-            for (const SampleLine& line : plan.lines) sample_line(line, kernels->sample);
+            sample_planned(plan, *kernels);
         }
-        if (clip_.packed) unpack(plan.packed, seconds_, local_);
     }
 
 private:
@@ -240,29 +238,37 @@ private:
         const TrackView* same = nullptr;
         Interval at;
         for (const TrackView& track : clip_.tracks) {
-            if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
-                at = find_interval(track, clip_, seconds_);
+            if (!has_times_of(track, same)) at = find_interval(track, clip_, seconds_);
             same = &track;
             sample_one(track, at);
         }
     }
 
-    void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
-        const Interval at = find_interval(*line.clock, clip_, seconds_);
-        for (const TrackView* track : line.others) sample_one(*track, at);
-        if (line.rotations.empty() && line.vectors.empty()) return;
-        SampleBlock block{line.rotations.data(),
-                          line.rotations.size(),
-                          line.vectors.data(),
-                          line.vectors.size(),
-                          at.left,
-                          static_cast<float>(at.fraction),
-                          &local_.front().rotation.x};
-        if (at.left + 1 == line.clock->keys) {  // at the last key: interpolate fully from the one before it
-            block.left = at.left - 1;
-            block.fraction = 1.0f;
+    void sample_planned(const SamplePlan& plan, const PoseKernels& kernels) const {
+        for (std::size_t k = 0; k < plan.clocks.size(); ++k) pose_.moments[k] = moment_of(*plan.clocks[k]);
+        if (!plan.clocks.empty()) {
+            kernels.sample({plan.rotations.data(), plan.rotations.size(), plan.vectors.data(), plan.vectors.size(),
+                            plan.tracks.data(), plan.tracks.size(), pose_.moments.data(),
+                            &pose_.local.front().rotation[0][0]});
         }
-        kernel(block);
+        const TrackView* same = nullptr;
+        Interval at;
+        for (const TrackView* track : plan.others) {
+            if (!has_times_of(*track, same)) at = find_interval(*track, clip_, seconds_);
+            same = track;
+            sample_one(*track, at);
+        }
+    }
+
+    [[nodiscard]] SampleMoment moment_of(const TrackView& clock) const {
+        const Interval at = find_interval(clock, clip_, seconds_);
+        if (at.left + 1 == clock.keys)  // at the last key: interpolate fully from the one before it
+            return {static_cast<std::uint32_t>(at.left - 1), 1.0f};
+        return {static_cast<std::uint32_t>(at.left), static_cast<float>(at.fraction)};
+    }
+
+    static bool has_times_of(const TrackView& track, const TrackView* other) {
+        return other != nullptr && track.times.data() == other->times.data() && track.keys == other->keys;
     }
 
     void sample_one(const TrackView& track, const Interval& at) const {
@@ -273,16 +279,16 @@ private:
             sample_between(track, at, weights_.subspan(first, track.components));
             return;
         }
-        if (track.target >= local_.size()) return;
+        if (track.target >= pose_.joint_count()) return;
         std::array<float, 4> value{};
         sample_between(track, at, std::span(value).first(track.components));
-        set_joint(track, value, local_[track.target]);
+        set_in_block(track, value, pose_.local[track.target / JointBlock::kJoints]);
     }
 
     const Clip& clip_;
     float seconds_;
+    PoseState& pose_;
     const ModelData& model_;
-    std::span<JointTransform> local_;
     std::span<float> weights_;
 };
 
@@ -292,7 +298,7 @@ Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
     pose.set_rest();
     if (clip == nullptr) return CallError::missing;
     if (std::isnan(seconds)) return CallError::not_finite;
-    Sampling(*clip, seconds, pose).run();
+    Sampling(*clip, seconds, PoseState::of(pose)).run();
     return {};
 }
 

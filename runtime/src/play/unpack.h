@@ -4,7 +4,7 @@
 
 namespace bendy {
 
-/// Unpacks with the kernel in use.
+/// Unpacks with the kernel in use. Sets all joints: those without a track to rest.
 Unpack unpack;
 
 }  // namespace bendy

@@ -17,31 +17,31 @@ bool is_finite(const PaletteMatrix& entry) {
 
 bool PoseState::make_palette(std::uint32_t mesh) {
     mesh = data->pose_plan->same_palette[mesh];
-    if (palette_mesh == mesh) return is_palette_finite;
-    palette_mesh = mesh;
-    is_palette_finite = true;
+    PaletteStatus& status = palette_statuses[mesh];
+    if (status != PaletteStatus::stale) return status == PaletteStatus::finite;
     const PaletteView& bind = data->object.meshes[mesh].palette;
-    if (bind.joints.empty()) return true;
+    PaletteMatrix* const palette = palettes.data() + data->pose_plan->first_entry[mesh];
     const PoseKernels* const kernels = pose_kernels();
-    if (kernels != nullptr && !is_exact) {
+    bool are_finite = true;
+    if (kernels != nullptr && !is_exact && !bind.joints.empty()) {
         const std::vector<PaletteMatrix>& inverse_bind = data->pose_plan->inverse_bind[mesh];
-        is_palette_finite = kernels->palette({bind.joints.size(), &model_space.front().matrix[0].x, bind.joints.data(),
-                                              inverse_bind.data(), palette.data()});
-        return is_palette_finite;
+        are_finite = kernels->palette(
+            {bind.joints.size(), &model_space.front().matrix[0].x, bind.joints.data(), inverse_bind.data(), palette});
+    } else {
+        const auto inverse_bind = bind.inverse_bind();
+        for (std::size_t entry = 0; entry < bind.joints.size(); ++entry) {
+            // Large translations cancel here, so the product must be computed in doubles.
+            palette[entry] = to_rows(exact_matrix(bind.joints[entry]) * glm::dmat4(inverse_bind[entry]));
+            are_finite = are_finite && is_finite(palette[entry]);
+        }
     }
-    const auto inverse_bind = bind.inverse_bind();
-    for (std::size_t entry = 0; entry < bind.joints.size(); ++entry) {
-        // Large translations cancel here, so the product must be computed in doubles.
-        palette[entry] = to_rows(exact_matrix(bind.joints[entry]) * glm::dmat4(inverse_bind[entry]));
-        is_palette_finite = is_palette_finite && is_finite(palette[entry]);
-    }
-    return is_palette_finite;
+    status = are_finite ? PaletteStatus::finite : PaletteStatus::not_finite;
+    return are_finite;
 }
 
 bool PoseState::make_rigid_palette(std::uint32_t joint) {
-    palette_mesh = kNone;
-    palette.front() = to_rows(exact_matrix(joint));
-    return is_finite(palette.front());
+    rigid_palette = to_rows(exact_matrix(joint));
+    return is_finite(rigid_palette);
 }
 
 }  // namespace bendy

@@ -3,20 +3,23 @@
 #include "pose_state.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace bendy {
 
 PoseState::PoseState(const Model& from)
     : model(from),
       data(&ModelData::of(model)),
-      local(data->joints.size()),
-      model_space(data->joints.size()),
       exact_model_space(data->joints.size()),
       morph_weights(from.morph_target_count()),
       active_targets(data->most_targets),
       ik_links(data->longest_chain),
-      palette(std::max(data->largest_palette, 1u)) {
+      palette_statuses(data->object.meshes.size()) {
     data->make_plans();
+    local.resize(data->pose_plan->rest.size());
+    model_space.resize(local.size() * JointBlock::kJoints);
+    moments.resize(data->pose_plan->most_clocks);
+    palettes.resize(data->pose_plan->palette_entries);
     set_rest();
     find_model_space();
 }
@@ -56,12 +59,17 @@ const Model& Pose::model() const {
     return state_->model;
 }
 
-std::span<const JointTransform> Pose::local() const {
-    return state_->local;
+JointTransform Pose::local(std::uint32_t joint) const {
+    assert(joint < state_->joint_count());
+    return state_->local_of(joint);
 }
 
-std::span<JointTransform> Pose::change_local() {
-    state_->is_stale = true;
+void Pose::set_local(std::uint32_t joint, const JointTransform& transform) {
+    assert(joint < state_->joint_count());
+    state_->set_local(joint, transform);
+}
+
+std::span<const JointBlock> Pose::local_blocks() const {
     return state_->local;
 }
 
@@ -76,13 +84,13 @@ std::span<float> Pose::change_morph_weights() {
 std::span<const glm::mat4> Pose::model_space() {
     state_->refresh();
     if (state_->model_space.empty()) return {};
-    return {&state_->model_space.front().matrix, state_->model_space.size()};
+    return {&state_->model_space.front().matrix, state_->joint_count()};
 }
 
 std::span<const PaletteMatrix> Pose::palette(std::uint32_t mesh) {
     state_->refresh();
     state_->make_palette(mesh);
-    return std::span(state_->palette).first(state_->data->object.meshes[mesh].palette.joints.size());
+    return state_->palette_of(mesh);
 }
 
 }  // namespace bendy

@@ -5,7 +5,9 @@
 
 #include "active_target.h"
 #include "ik_link.h"
+#include "math/joint_blocks.h"
 #include "model/model_data.h"
+#include "plan/sample_block.h"
 #include "plan/skin_block.h"
 #include "plan/stretched_motion.h"
 
@@ -14,6 +16,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bendy {
@@ -46,6 +49,16 @@ struct alignas(64) PoseState {
     explicit PoseState(const Model& from);
 
     void set_rest();
+    [[nodiscard]] std::uint32_t joint_count() const { return static_cast<std::uint32_t>(data->joints.size()); }
+    [[nodiscard]] JointTransform local_of(std::uint32_t joint) const { return joint_in(local, joint); }
+    void set_local(std::uint32_t joint, const JointTransform& transform) {
+        is_stale = true;
+        set_joint_in(local, joint, transform);
+    }
+    void set_rotation(std::uint32_t joint, const glm::quat& rotation) {
+        is_stale = true;
+        local[joint / JointBlock::kJoints].set_rotation(joint % JointBlock::kJoints, rotation);
+    }
     /// Computes model_space from the local transforms, parents before children, if these may have changed.
     void refresh() {
         if (is_stale) find_model_space();
@@ -55,24 +68,30 @@ struct alignas(64) PoseState {
     [[nodiscard]] glm::dmat4 exact_matrix(std::uint32_t joint) const {
         return is_exact ? exact_model_space[joint] : glm::dmat4(model_space[joint].matrix);
     }
-    /// Sets `palette` for a skinned mesh, unless it is set already. Returns whether all numbers are finite. The pose
+    /// Makes the palette of a skinned mesh, unless it is made already. Returns whether all numbers are finite. The pose
     /// must not be stale.
     bool make_palette(std::uint32_t mesh);
-    /// Sets `palette` for vertices moved by one joint. Returns whether all numbers are finite. The pose must not be
+    [[nodiscard]] std::span<const PaletteMatrix> palette_of(std::uint32_t mesh) const {
+        return std::span(palettes).subspan(data->pose_plan->first_entry[mesh],
+                                           data->object.meshes[mesh].palette.joints.size());
+    }
+    /// Sets rigid_palette for vertices moved by one joint. Returns whether all numbers are finite. The pose must not be
     /// stale.
     bool make_rigid_palette(std::uint32_t joint);
 
     Model model;
     const ModelData* data;  ///< of `model`
-    std::vector<JointTransform> local;
-    std::vector<JointMatrix> model_space;
+    std::vector<JointBlock> local;
+    std::vector<JointMatrix> model_space;       ///< one per lane of `local`
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
     std::vector<float> morph_weights;
+    std::vector<SampleMoment> moments;         ///< of the clip that is being sampled
     std::vector<ActiveTarget> active_targets;  ///< of the mesh that is being skinned; room for any mesh's targets
     std::vector<IkLink> ik_links;              ///< of the chain that reaches
-    std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
-    std::uint32_t palette_mesh = kNone;        ///< whose palette is
-    bool is_palette_finite = false;
+    enum class PaletteStatus : std::uint8_t { stale, finite, not_finite };
+    std::vector<PaletteMatrix> palettes;          ///< one after another: see PosePlan::first_entry
+    std::vector<PaletteStatus> palette_statuses;  ///< per mesh; used of the first with the same palette
+    PaletteMatrix rigid_palette{};
     bool is_exact = true;             ///< in doubles, so that rounding does not accumulate along deep chains
     bool is_stale = true;             ///< a local transform may have changed since find_model_space
     std::optional<DualMotions> dual;  ///< set once the pose has been skinned by dual quaternions

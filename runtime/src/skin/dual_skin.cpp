@@ -114,7 +114,7 @@ void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
     const auto& joints = state.data->object.meshes[mesh].palette.joints;
     if (joints.empty()) return;
     state.make_palette(mesh);
-    const auto palette = std::span<const PaletteMatrix>(state.palette).first(joints.size());
+    const std::span<const PaletteMatrix> palette = state.palette_of(mesh);
     const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
     const glm::dmat3 top(matrix_of(palette[topmost]));
     dual.scale = std::cbrt(glm::determinant(top));

@@ -106,15 +106,16 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
         skin_by_dual_quaternions(state_, mesh_number, motions_of_, weights, wanted)) {
         return;
     }
-    wanted.palette = state_.palette.data();
     wanted.streams = vertices >= kManyVertices;
     if (mesh.is_rigid()) {
+        wanted.palette = &state_.rigid_palette;
         Staging staging(mesh, nullptr, weights, state_.active_targets, wanted);
         skin_rigid(mesh_number, staging, wanted);
         return;
     }
     // Kernels also multiply by weights that are zero.
     const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
+    wanted.palette = state_.palette_of(mesh_number).data();
     Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights,
                     state_.active_targets, wanted);
     run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);

@@ -37,10 +37,13 @@ public:
     void set_rest();
 
     [[nodiscard]] const Model& model() const;
-    /// Relative to the parent, one per joint.
-    [[nodiscard]] std::span<const JointTransform> local() const;
-    /// The same for writing. The next call on the pose ends the write access: later writes may go unnoticed.
-    [[nodiscard]] std::span<JointTransform> change_local();
+    /// Returns a joint's transform relative to its parent.
+    /// \param joint  less than the number of the model's joints
+    [[nodiscard]] JointTransform local(std::uint32_t joint) const;
+    void set_local(std::uint32_t joint, const JointTransform& transform);
+    /// The same transforms as they are stored, for code that reads eight joints at a time: joint 8 * k + i is lane i of
+    /// block k.
+    [[nodiscard]] std::span<const JointBlock> local_blocks() const;
     /// One per morph target, all meshes: see Model::first_morph_target.
     [[nodiscard]] std::span<const float> morph_weights() const;
     [[nodiscard]] std::span<float> change_morph_weights();
@@ -48,8 +51,8 @@ public:
     /// Valid until the pose changes.
     [[nodiscard]] std::span<const glm::mat4> model_space();
     /// The skinning palette of a mesh, for skinning elsewhere: model space * inverse bind matrix, one entry per palette
-    /// entry of the mesh; empty for a rigid mesh. Recomputed if the local transforms have changed. Valid until the pose
-    /// changes, is skinned, or the palette of another mesh is requested.
+    /// entry of the mesh; empty for a rigid mesh. Recomputed if the local transforms have changed; meshes with equal
+    /// bind palettes share one. Valid until the pose changes.
     [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t mesh);
 
 private:

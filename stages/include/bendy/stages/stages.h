@@ -50,6 +50,7 @@ private:
     void add_reaching();
     void add_levels();
     void next_frame();
+    void touch();
     /// Positions, normals, tangents: the first so many.
     void skin_attributes(std::size_t attributes);
 
