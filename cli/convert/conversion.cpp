@@ -6,11 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace bendy::cli {
 namespace {
@@ -115,7 +117,12 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
     options.lod = arguments.lod;
     options.sort_vertices = arguments.sort_vertices;
+    options.threads = jobs_of(arguments);
     return options;
+}
+
+unsigned jobs_of(const ConvertArguments& arguments) {
+    return std::max(arguments.jobs != 0 ? arguments.jobs : std::thread::hardware_concurrency(), 1u);
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {

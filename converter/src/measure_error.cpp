@@ -2,6 +2,9 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "in_parallel.h"
+#include "near_mesh.h"
+#include "near_poses.h"
 #include "space.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 namespace bendy::converter {
 namespace {
@@ -314,6 +318,20 @@ std::vector<std::uint32_t> loose_joints(const Scene& scene) {
     return loose;
 }
 
+/// Per mesh: targets may displace it in a clip. Frames of PLAY are targets, too.
+std::vector<bool> displaced_meshes(const Scene& scene, const Clip& clip) {
+    std::vector<bool> displaced;
+    for (const Mesh& mesh : scene.meshes) {
+        displaced.push_back(std::any_of(mesh.targets.begin(), mesh.targets.end(),
+                                        [](const MorphTarget& target) { return target.rest_weight != 0.0f; }));
+    }
+    for (const Track& track : clip.tracks) {
+        if (track.path == TrackPath::weights) displaced[track.target] = true;
+    }
+    for (const Play& play : clip.plays) displaced[play.mesh] = true;
+    return displaced;
+}
+
 /// Points of a joint, in its own space, that show how it moves: its origin and, where the scene has no vertex at all
 /// that would show how it turns and stretches, one on each axis.
 std::vector<glm::dvec3> points_of_joints(const Scene& scene) {
@@ -360,6 +378,7 @@ public:
         for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
             const bool is_mapped = mesh < maps.size() && !maps[mesh].empty();
             pairs_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
+            near_meshes_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
         }
         loose_ = loose_joints(exact);
         points_ = points_of_joints(exact);
@@ -376,14 +395,46 @@ public:
     }
 
     void measure_at(std::uint32_t clip, double seconds) {
+        if (!may_be_worse(clip, seconds)) return;
         evaluate(exact_, exact_.clips[clip], seconds, exact_pose_);
         evaluate(decoded_, decoded_.clips[clip], seconds, decoded_pose_);
         measure(clip, seconds);
     }
 
     [[nodiscard]] const MeasuredError& worst() const { return worst_; }
+    void take_worst(const MeasuredError& worst) { worst_ = worst; }
 
 private:
+    /// False if nothing is farther off than the worst: places that are nearly right leave no doubt.
+    bool may_be_worse(std::uint32_t clip, double seconds) {
+        if (clip != near_clip_) {
+            near_clip_ = clip;
+            near_exact_.emplace(exact_, exact_.clips[clip], NearPoses::Rotations::as_they_are);
+            near_decoded_.emplace(decoded_, decoded_.clips[clip], NearPoses::Rotations::as_they_are);
+            is_displaced_ = displaced_meshes(exact_, exact_.clips[clip]);
+            const std::vector<bool> there = displaced_meshes(decoded_, decoded_.clips[clip]);
+            for (std::size_t mesh = 0; mesh < there.size(); ++mesh)
+                is_displaced_[mesh] = is_displaced_[mesh] || there[mesh];
+        }
+        if (std::find(is_displaced_.begin(), is_displaced_.end(), true) != is_displaced_.end()) return true;
+        near_exact_->set(seconds);
+        near_decoded_->set(seconds);
+        for (NearMesh& mesh : near_meshes_) {
+            if (mesh.may_be_farther(*near_exact_, *near_decoded_, worst_.metres)) return true;
+        }
+        return std::any_of(loose_.begin(), loose_.end(), [&](std::uint32_t joint) {
+            const Affine& here = near_exact_->places()[joint];
+            const Affine& there = near_decoded_->places()[joint];
+            const Doubt& doubt = near_exact_->doubts()[joint];
+            const Doubt& doubt_there = near_decoded_->doubts()[joint];
+            return std::any_of(points_.begin(), points_.end(), [&](const glm::dvec3& point) {
+                const double open =
+                    (doubt.linear + doubt_there.linear) * glm::length(point) + doubt.origin + doubt_there.origin;
+                return !(glm::distance(here(point), there(point)) + open <= worst_.metres);
+            });
+        });
+    }
+
     void measure(std::uint32_t clip, double seconds) {
         bool has_risen = false;
         for (std::uint32_t mesh = 0; mesh < pairs_.size(); ++mesh) {
@@ -410,16 +461,47 @@ private:
     const Scene& exact_;
     const Scene& decoded_;
     std::vector<MeshPair> pairs_;
+    std::vector<NearMesh> near_meshes_;
+    std::uint32_t near_clip_ = kNone;
+    std::optional<NearPoses> near_exact_, near_decoded_;  // of this clip
+    std::vector<bool> is_displaced_;                      // by targets, at any time of this clip
     std::vector<std::uint32_t> loose_;
     std::vector<glm::dvec3> points_;  // of each of these, see points_of_joints
     EvaluatedPose exact_pose_, decoded_pose_;
     MeasuredError worst_;
 };
 
+struct Moment {
+    std::uint32_t clip = 0;
+    double seconds = 0.0;
+};
+
+/// The first of those that are worst, whatever the number of threads: each measures a part in order, and a later part
+/// counts only where it is worse.
+void measure_moments(Comparison& comparison, std::span<const Moment> moments, std::size_t threads,
+                     SharedProgress& progress) {
+    constexpr std::size_t kTold = 256;  // moments at a time
+    const std::size_t parts = std::max<std::size_t>(std::min(threads, moments.size()), 1);
+    std::vector<Comparison> others(parts - 1, comparison);
+    in_parallel(parts, parts, [&](std::size_t part) {
+        Comparison& own = part == 0 ? comparison : others[part - 1];
+        const std::size_t first = part * moments.size() / parts;
+        const std::size_t end = (part + 1) * moments.size() / parts;
+        for (std::size_t k = first; k < end; ++k) {
+            own.measure_at(moments[k].clip, moments[k].seconds);
+            if ((k + 1 - first) % kTold == 0) progress.add(kTold);
+        }
+        if ((end - first) % kTold != 0) progress.add(static_cast<double>((end - first) % kTold));
+    });
+    for (const Comparison& other : others) {
+        if (other.worst().metres > comparison.worst().metres) comparison.take_worst(other.worst());
+    }
+}
+
 }  // namespace
 
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps,
-                            const std::function<void(double)>& progress) {
+                            const std::function<void(double)>& progress, std::size_t threads) {
     MeasuredError impossible;
     impossible.metres = kInfinity;
     if (exact.joints.size() != decoded.joints.size() || exact.meshes.size() != decoded.meshes.size() ||
@@ -432,28 +514,17 @@ MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps
     if (!comparison.is_possible()) return impossible;
     comparison.measure_rest();
 
-    std::vector<std::vector<double>> times;
-    std::size_t total = 0;
-    for (std::size_t clip = 0; clip < exact.clips.size(); ++clip) {
-        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip]));
-        total += times.back().size();
-    }
-    std::size_t done = 0;
-    std::size_t told = 0;
     // Far apart first: what is found early spares the work of what is less.
     constexpr std::size_t kCoarse = 64;
-    for (const bool is_coarse : {true, false}) {
-        for (std::uint32_t clip = 0; clip < times.size(); ++clip) {
-            for (std::size_t k = 0; k < times[clip].size(); ++k) {
-                if ((k % kCoarse == 0) != is_coarse) continue;
-                comparison.measure_at(clip, times[clip][k]);
-                ++done;
-                if (!progress || done * 100 / total == told) continue;
-                told = done * 100 / total;
-                progress(static_cast<double>(done) / static_cast<double>(total));
-            }
-        }
+    std::vector<Moment> coarse;
+    std::vector<Moment> fine;
+    for (std::uint32_t clip = 0; clip < exact.clips.size(); ++clip) {
+        const std::vector<double> times = sample_times(exact.clips[clip], decoded.clips[clip]);
+        for (std::size_t k = 0; k < times.size(); ++k) (k % kCoarse == 0 ? coarse : fine).push_back({clip, times[k]});
     }
+    SharedProgress shared(progress, static_cast<double>(coarse.size() + fine.size()));
+    for (const auto& moments : {std::span(coarse), std::span(fine)})
+        measure_moments(comparison, moments, std::max<std::size_t>(threads, 1), shared);
     return comparison.worst();
 }
 

@@ -2,6 +2,7 @@
 
 #include <bendy/converter/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -30,9 +31,10 @@ using VertexMaps = std::span<const std::vector<std::uint32_t>>;
 /// ones of that length. Nothing is left out for speed: a vertex is passed over only where a bound on its displacement
 /// (docs/decisions/0013) shows that it cannot be the worst.
 /// \param decoded   joints, meshes and clips as the exact scene numbers them
-/// \param progress  is told the part that is done, 0 to 1; may be empty
+/// \param progress  is told the part that is done, 0 to 1, from one thread at a time; may be empty
+/// \param threads   how many threads measure, 1 at least; the result does not depend on it
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps = {},
-                            const std::function<void(double)>& progress = {});
+                            const std::function<void(double)>& progress = {}, std::size_t threads = 1);
 
 /// `"Hips"`, or `#3` of what has no name.
 std::string quoted_name(std::string_view name, std::uint32_t number);

@@ -185,6 +185,45 @@ TEST(MeasureError, TheBoundsPassOverNoWorstVertex) {
     }
 }
 
+/// Without what targets displace, so that places that are nearly right may decide.
+Scene undisplaced(Scene scene) {
+    for (Mesh& mesh : scene.meshes) {
+        for (MorphTarget& target : mesh.targets) target.rest_weight = 0.0f;
+    }
+    for (Clip& clip : scene.clips)
+        std::erase_if(clip.tracks, [](const Track& track) { return track.path == TrackPath::weights; });
+    return scene;
+}
+
+TEST(MeasureError, PlacesThatAreNearlyRightPassOverNoWorstVertex) {
+    for (std::uint32_t seed = 0; seed < 48; ++seed) {
+        const Scene exact = undisplaced(test::random_scene(seed));
+        const Scene decoded = coarsened(exact, seed + 100, seed % 2 == 0 ? 1e-3f : 0.0f, seed % 3 == 0 ? 1e-2f : 0.0f,
+                                        seed % 4 < 2 ? 2e-4f : 0.0f);
+        const MeasuredError expected = measure_slowly(exact, decoded);
+        const MeasuredError error = measure_error(exact, decoded);
+        EXPECT_NEAR(error.metres, expected.metres, 1e-12 + 1e-9 * expected.metres) << seed;
+        EXPECT_EQ(error.mesh, expected.mesh) << seed;
+        EXPECT_EQ(error.clip, expected.clip) << seed;
+    }
+}
+
+TEST(MeasureError, ThreadsChangeNothing) {
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        const Scene exact = seed % 2 == 0 ? test::random_scene(seed) : undisplaced(test::random_scene(seed));
+        const Scene decoded = coarsened(exact, seed + 100, 1e-3f, 1e-2f, 1e-3f);
+        const MeasuredError alone = measure_error(exact, decoded);
+        for (const std::size_t threads : {2u, 3u, 16u}) {
+            const MeasuredError error = measure_error(exact, decoded, {}, {}, threads);
+            EXPECT_EQ(error.metres, alone.metres);
+            EXPECT_EQ(error.mesh, alone.mesh);
+            EXPECT_EQ(error.vertex, alone.vertex);
+            EXPECT_EQ(error.clip, alone.clip);
+            EXPECT_EQ(error.seconds, alone.seconds);
+        }
+    }
+}
+
 TEST(MeasureError, ProgressEndsAtOne) {
     const Scene scene = test::random_scene(3);
     std::vector<double> told;

@@ -128,7 +128,7 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
 }
 
 MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
-                      const std::function<void(double)>& progress) {
+                      const std::function<void(double)>& progress, std::size_t threads) {
     Report unheard;
     const auto decoded = import_bendy(bytes, unheard);
     MeasuredError unknown;
@@ -137,7 +137,7 @@ MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
-    return measure_error(exact, *decoded, maps, progress);
+    return measure_error(exact, *decoded, maps, progress, threads);
 }
 
 /// A file with BNDS after VERS, where build_chunks puts it: what it says is known only when the file has been measured.
@@ -172,7 +172,7 @@ void count_curves(const Scene& scene, CompactReport& report) {
 }  // namespace
 
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
-                                     Report& report, const std::function<void(double)>& progress) {
+                                     Report& report, const std::function<void(double)>& progress, std::size_t threads) {
     constexpr int kAttempts = 6;            // the last leaves the clips as they are
     constexpr double kPackingShare = 0.6;   // of an attempt
     constexpr double kAttemptShare = 0.75;  // of what is left of the work
@@ -206,12 +206,13 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
         const double packing_done = done + kPackingShare * (attempt_done - done);
         Scene scene = geometry_scene;
         if (number + 1 < kAttempts)
-            pack_clips(scene, result.max_error * clip_share, part_of(progress, done, packing_done));
+            pack_clips(scene, result.max_error * clip_share, part_of(progress, done, packing_done),
+                       Probes::skin_and_shell, threads);
         BuildOptions options;
         options.compact = true;
         options.geometry = &geometry;
         attempt.bytes = build_chunks(scene, generator, unheard, options);
-        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, packing_done, attempt_done));
+        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, packing_done, attempt_done), threads);
         done = attempt_done;
         if (attempt.error.metres <= result.max_error) {
             attempt.bytes = with_bound(attempt.bytes,

@@ -15,8 +15,10 @@ namespace bendy::converter {
 /// has it. That is measured: on the file's bytes, read back, over the rest pose and all of every clip (measure_error).
 /// What was found goes to report.compact. A scene that cannot be kept inside the bound is written exactly, with a
 /// warning.
-/// \param progress  is told the part that is done, 0 to 1; may be empty
+/// \param progress  is told the part that is done, 0 to 1, from one thread at a time; may be empty
+/// \param threads   how many threads pack clips and measure, 1 at least; the bytes do not depend on it
 std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
-                                     Report& report, const std::function<void(double)>& progress);
+                                     Report& report, const std::function<void(double)>& progress,
+                                     std::size_t threads = 1);
 
 }  // namespace bendy::converter

@@ -2,6 +2,7 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "near_poses.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -158,34 +159,89 @@ class PackedPlayer {
 public:
     PackedPlayer(const Scene& scene, const PackedView& packed) : scene_(scene), packed_(packed) {}
 
+    /// As the runtime's plain decoder has it.
     void set(float seconds, std::vector<Local>& pose) {
-        const PackedMoment moment = packed_moment(packed_, seconds);
-        if (frame_ != moment.frame) decode(moment.frame);
+        const PackedMoment moment = go_to(seconds);
         for (const PackedGroup& group : groups_) {
-            for (std::uint32_t t = 0; t < group.count; ++t) set_joint(group, t, moment.fraction, pose[group.joints[t]]);
+            for (std::uint32_t t = 0; t < group.count; ++t) {
+                Local& local = pose[group.joints[t]];
+                if (group.kind.path == TrackPath::rotation) {
+                    local.rotation = rotation_of(group, t, moment.fraction);
+                } else {
+                    set_vector(group, t, moment.fraction, local);
+                }
+            }
+        }
+    }
+
+    /// The same, but rotations may be off by a small part of kRotationDoubt.
+    void set_nearly(float seconds, std::vector<Local>& pose) {
+        const PackedMoment moment = go_to(seconds);
+        auto arc = arcs_.begin();
+        for (const PackedGroup& group : groups_) {
+            for (std::uint32_t t = 0; t < group.count; ++t) {
+                Local& local = pose[group.joints[t]];
+                if (group.kind.path == TrackPath::rotation) {
+                    local.rotation = near_rotation_of(*arc++, group, t, moment.fraction);
+                } else {
+                    set_vector(group, t, moment.fraction, local);
+                }
+            }
         }
     }
 
 private:
-    void decode(std::uint32_t frame) {
-        frame_ = frame;
+    PackedMoment go_to(float seconds) {
+        const PackedMoment moment = packed_moment(packed_, seconds);
+        if (frame_ == moment.frame) return moment;
+        frame_ = moment.frame;
         groups_.clear();
-        PackedGroupReader reader(packed_, frame);
-        for (PackedGroup group; reader.next(group);) groups_.push_back(group);
+        arcs_.clear();
+        PackedGroupReader reader(packed_, frame_);
+        for (PackedGroup group; reader.next(group);) {
+            groups_.push_back(group);
+            if (group.kind.path != TrackPath::rotation) continue;
+            for (std::uint32_t t = 0; t < group.count; ++t) {
+                const glm::dquat rest = local_of(scene_.joints[group.joints[t]].rest).rotation;
+                arcs_.emplace_back(rest * turn_of(ends(group.left, t)), rest * turn_of(ends(group.right, t)));
+            }
+        }
+        return moment;
     }
 
-    void set_joint(const PackedGroup& group, std::uint32_t t, double u, Local& local) const {
-        const Transform& rest = scene_.joints[group.joints[t]].rest;
-        const auto ends = [&](const auto& numbers) {
-            return std::array<double, 3>{numbers[0][t], numbers[1][t], numbers[2][t]};
-        };
-        if (group.kind.path == TrackPath::rotation) {
-            const std::array<float, 4> at_rest{rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w};
-            const auto q = blend_packed_rotations(at_rest, ends(group.left), ends(group.right), u);
-            local.rotation = glm::normalize(glm::dquat(static_cast<float>(q[3]), static_cast<float>(q[0]),
-                                                       static_cast<float>(q[1]), static_cast<float>(q[2])));
-            return;
+    static std::array<double, 3> ends(const std::array<std::array<float, kPackedGroup>, 3>& numbers, std::uint32_t t) {
+        return {numbers[0][t], numbers[1][t], numbers[2][t]};
+    }
+
+    static glm::dquat turn_of(const std::array<double, 3>& vector) {
+        const std::array<double, 4> q = packed_rotation(vector);
+        return {q[3], q[0], q[1], q[2]};
+    }
+
+    [[nodiscard]] glm::dquat rotation_of(const PackedGroup& group, std::uint32_t t, double u) const {
+        const glm::vec4& rest = scene_.joints[group.joints[t]].rest.rotation;
+        const auto q =
+            blend_packed_rotations({rest.x, rest.y, rest.z, rest.w}, ends(group.left, t), ends(group.right, t), u);
+        return glm::normalize(glm::dquat(static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]),
+                                         static_cast<float>(q[2])));
+    }
+
+    [[nodiscard]] glm::dquat near_rotation_of(const Arc& arc, const PackedGroup& group, std::uint32_t t,
+                                              double u) const {
+        if (!arc.is_sure()) return rotation_of(group, t, u);
+        glm::dquat q = arc.at(u);
+        for (int c = 0; c < 4; ++c) {
+            constexpr double kOff = 1e-13;   // at most, and enough to be rounded to another float
+            constexpr double kSmall = 1e-6;  // floats below are so close that it does not matter
+            const auto rounded = static_cast<float>(q[c] - kOff);
+            if (rounded != static_cast<float>(q[c] + kOff) && std::abs(q[c]) > kSmall) return rotation_of(group, t, u);
+            q[c] = static_cast<float>(q[c]);
         }
+        return glm::normalize(q);
+    }
+
+    void set_vector(const PackedGroup& group, std::uint32_t t, double u, Local& local) const {
+        const Transform& rest = scene_.joints[group.joints[t]].rest;
         const bool moves = group.kind.path == TrackPath::translation;
         for (int c = 0; c < 3; ++c) {
             const auto at = static_cast<std::size_t>(c);
@@ -199,50 +255,127 @@ private:
     const PackedView& packed_;
     std::uint32_t frame_ = kNone;  // that is decoded
     std::vector<PackedGroup> groups_;
+    std::vector<Arc> arcs_;  // of the groups' rotations, one after another
+};
+
+/// A packed clip beside its source.
+class PackedComparison {
+public:
+    PackedComparison(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
+                     const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes)
+        : scene_(scene),
+          source_(source),
+          is_replaced_(is_replaced),
+          probes_(probes),
+          player_(scene, packed),
+          near_source_(scene, source, NearPoses::Rotations::of_length_one),
+          right_pose_(scene.joints.size()),
+          found_pose_(scene.joints.size()),
+          doubts_(scene.joints.size()) {
+        for (const Joint& joint : scene.joints) rest_.push_back(local_of(joint.rest));
+        for (const auto& points : probes) {
+            double reach = 0.0;
+            for (const glm::dvec3& point : points) reach = std::max(reach, glm::length(point));
+            reaches_.push_back(reach);
+        }
+    }
+
+    /// Raises `worst` to the worst probe at a time, if that is worse.
+    void measure(float time, WorstError& worst) {
+        if (may_be_worse(time, worst.metres)) measure_exactly(time, worst);
+    }
+
+private:
+    /// False if no probe is off by more than `metres`: places that are nearly right leave no doubt.
+    bool may_be_worse(float time, double metres) {
+        near_source_.set(time);
+        const auto right = near_source_.locals();
+        found_ = rest_;
+        for (std::size_t k = 0; k < source_.tracks.size(); ++k) {
+            const Track& track = source_.tracks[k];
+            if (track.path == TrackPath::weights || is_replaced_[k]) continue;
+            take_property(track.path, right[track.target], found_[track.target]);
+        }
+        player_.set_nearly(time, found_);
+        for (std::size_t j = 0; j < found_.size(); ++j) {
+            const std::uint32_t parent = scene_.joints[j].parent;
+            const bool is_root = parent == kNone;
+            place_nearly(found_[j], scene_.joints[j].rest.shear, is_root ? nullptr : &found_pose_[parent],
+                         is_root ? nullptr : &doubts_[parent], found_pose_[j], doubts_[j]);
+            const Affine& place = near_source_.places()[j];
+            const Doubt& doubt = near_source_.doubts()[j];
+            const glm::dmat3 linear = place.linear - found_pose_[j].linear;
+            const glm::dvec3 origin = place.origin - found_pose_[j].origin;
+            const double left =
+                metres - (doubt.linear + doubts_[j].linear) * reaches_[j] - doubt.origin - doubts_[j].origin;
+            if (probes_[j].empty()) continue;
+            if (!(left > 0.0)) return true;
+            for (const glm::dvec3& probe : probes_[j]) {
+                const glm::dvec3 off = linear * probe + origin;
+                if (!(glm::dot(off, off) <= left * left)) return true;
+            }
+        }
+        return false;
+    }
+
+    static void take_property(TrackPath path, const Local& from, Local& to) {
+        if (path == TrackPath::translation) to.translation = from.translation;
+        if (path == TrackPath::rotation) to.rotation = from.rotation;
+        if (path == TrackPath::scale) to.scale = from.scale;
+    }
+
+    void measure_exactly(float time, WorstError& worst) {
+        right_ = rest_;
+        found_ = rest_;
+        for (std::size_t k = 0; k < source_.tracks.size(); ++k) {
+            const Track& track = source_.tracks[k];
+            if (track.path == TrackPath::weights) continue;
+            evaluate_track(track, time, value_);
+            set_property(track.path, value_, right_[track.target]);
+            if (!is_replaced_[k]) set_property(track.path, value_, found_[track.target]);
+        }
+        player_.set(time, found_);
+        for (std::size_t j = 0; j < found_.size(); ++j) {
+            const std::uint32_t parent = scene_.joints[j].parent;
+            const glm::vec3& shear = scene_.joints[j].rest.shear;
+            right_pose_[j] = to_affine(right_[j], shear);
+            found_pose_[j] = to_affine(found_[j], shear);
+            if (parent != kNone) {
+                right_pose_[j] = right_pose_[parent] * right_pose_[j];
+                found_pose_[j] = found_pose_[parent] * found_pose_[j];
+            }
+            const glm::dmat3 linear = right_pose_[j].linear - found_pose_[j].linear;
+            const glm::dvec3 origin = right_pose_[j].origin - found_pose_[j].origin;
+            for (const glm::dvec3& probe : probes_[j]) {
+                const double error = glm::length(linear * probe + origin);
+                if (error > worst.metres || std::isnan(error))
+                    worst = {std::isnan(error) ? INFINITY : error, static_cast<std::uint32_t>(j), time};
+            }
+        }
+    }
+
+    const Scene& scene_;
+    const Clip& source_;
+    const std::vector<bool>& is_replaced_;
+    const std::vector<std::vector<glm::dvec3>>& probes_;
+    std::vector<double> reaches_;  // per joint: of its probes
+    std::vector<Local> rest_;
+    PackedPlayer player_;
+    NearPoses near_source_;
+    std::vector<Local> right_, found_;
+    std::vector<Affine> right_pose_, found_pose_;
+    std::vector<Doubt> doubts_;  // of what is found
+    std::vector<double> value_;
 };
 
 }  // namespace
 
 WorstError measure_packed(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
                           const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes, double enough) {
-    const std::size_t joints = scene.joints.size();
-    std::vector<Local> rest;
-    for (const Joint& joint : scene.joints) rest.push_back(local_of(joint.rest));
-    std::vector<Local> right(joints);
-    std::vector<Local> found(joints);
-    std::vector<Affine> right_pose(joints);
-    std::vector<Affine> found_pose(joints);
-    PackedPlayer player(scene, packed);
+    PackedComparison comparison(scene, source, is_replaced, packed, probes);
     WorstError worst;
-    std::vector<double> value;
     for (const float time : times_of(source)) {
-        right = rest;
-        found = rest;
-        for (std::size_t k = 0; k < source.tracks.size(); ++k) {
-            const Track& track = source.tracks[k];
-            if (track.path == TrackPath::weights) continue;
-            evaluate_track(track, time, value);
-            set_property(track.path, value, right[track.target]);
-            if (!is_replaced[k]) set_property(track.path, value, found[track.target]);
-        }
-        player.set(time, found);
-        for (std::size_t j = 0; j < joints; ++j) {
-            const std::uint32_t parent = scene.joints[j].parent;
-            const glm::vec3& shear = scene.joints[j].rest.shear;
-            right_pose[j] = to_affine(right[j], shear);
-            found_pose[j] = to_affine(found[j], shear);
-            if (parent != kNone) {
-                right_pose[j] = right_pose[parent] * right_pose[j];
-                found_pose[j] = found_pose[parent] * found_pose[j];
-            }
-            const glm::dmat3 linear = right_pose[j].linear - found_pose[j].linear;
-            const glm::dvec3 origin = right_pose[j].origin - found_pose[j].origin;
-            for (const glm::dvec3& probe : probes[j]) {
-                const double error = glm::length(linear * probe + origin);
-                if (error > worst.metres || std::isnan(error))
-                    worst = {std::isnan(error) ? INFINITY : error, static_cast<std::uint32_t>(j), time};
-            }
-        }
+        comparison.measure(time, worst);
         if (worst.metres > enough) break;
     }
     return worst;

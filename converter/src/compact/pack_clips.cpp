@@ -3,6 +3,7 @@
 #include "compact/grid.h"
 #include "compact/quantise_clip.h"
 #include "frame_shapes.h"
+#include "in_parallel.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_clip.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -43,7 +45,7 @@ std::uint64_t stored_size(Bytes payload) {
 
 /// The clip's tracks, packed within the bound; nothing if that cannot be.
 /// \param share  of the bound that frames may take; the rest is for what lies between them
-std::optional<Packed> pack(const Scene& scene, const Clip& clip, const GridTracks& tracks,
+std::optional<Packed> pack(const Scene& scene, const Clip& clip, const ClipFrames& frames,
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
                            double max_error, double share, bool corrects) {
     constexpr int kAttempts = 6;
@@ -51,7 +53,7 @@ std::optional<Packed> pack(const Scene& scene, const Clip& clip, const GridTrack
         0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Packed packed;
-        packed.bytes = smallest_payload(quantise(scene, clip, tracks, probes, {aim, corrects}));
+        packed.bytes = smallest_payload(quantise(frames, probes, {aim, corrects}));
         Faults faults;
         const auto joints = static_cast<std::uint32_t>(scene.joints.size());
         const auto view = read_packed(packed.bytes, joints, 0, faults);
@@ -92,9 +94,10 @@ std::optional<Packed> pack_best(const Scene& scene, const Clip& clip, const Grid
     std::optional<Packed> best;
     constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
     const bool is_large = std::uint64_t{tracks.grid.frames} * scene.joints.size() > kLarge;
+    const std::shared_ptr<const ClipFrames> frames = read_frames(scene, clip, tracks);
     for (const bool corrects : {true, false}) {
         if (is_large && best) break;
-        auto packed = pack(scene, clip, tracks, is_replaced, probes, max_error, share, corrects);
+        auto packed = pack(scene, clip, *frames, is_replaced, probes, max_error, share, corrects);
         if (packed && (!best || is_smaller(*packed, *best))) best = std::move(packed);
     }
     return best;
@@ -161,21 +164,29 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
 }  // namespace
 
 std::vector<PackedReport> pack_clips(Scene& scene, double max_error, const std::function<void(double)>& progress,
-                                     Probes kind) {
+                                     Probes kind, std::size_t threads) {
     const auto probes = find_probes(scene, kind);
-    // A clip takes about as long as it has keys.
-    double all = 0.0;
-    for (const Clip& clip : scene.clips) all += 1.0 + static_cast<double>(key_bytes(clip));
-    double before = 0.0;
-    std::vector<PackedReport> reports;
-    for (Clip& clip : scene.clips) {
-        const double own = 1.0 + static_cast<double>(key_bytes(clip));
-        reports.push_back(pack_clip(
-            scene, clip, probes, max_error,
-            !progress ? Progress() : [&](double done) { progress((before + own * done) / all); }));
-        before += own;
-        if (progress) progress(before / all);
+    // A clip takes about as long as it has keys. The longest go first, so that no thread is left with one at the end.
+    std::vector<double> sizes;
+    for (const Clip& clip : scene.clips) sizes.push_back(1.0 + static_cast<double>(key_bytes(clip)));
+    std::vector<std::size_t> order(sizes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (threads > 1) {
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
     }
+    SharedProgress shared(progress, std::accumulate(sizes.begin(), sizes.end(), 0.0));
+    std::vector<PackedReport> reports(sizes.size());
+    in_parallel(threads, sizes.size(), [&](std::size_t k) {
+        const std::size_t number = order[k];
+        double told = 0.0;
+        const auto tell = [&](double done) {
+            shared.add((done - told) * sizes[number]);
+            told = done;
+        };
+        reports[number] =
+            pack_clip(scene, scene.clips[number], probes, max_error, shared.is_heard() ? Progress(tell) : Progress());
+        tell(1.0);
+    });
     return reports;
 }
 

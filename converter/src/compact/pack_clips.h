@@ -4,6 +4,7 @@
 
 #include <bendy/converter/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -27,8 +28,9 @@ struct PackedReport {
 /// A track that cannot be packed, because it is stepped or cubic, moves weights or has keys on no grid, stays. No probe
 /// ever is farther than `max_error`, metres in model space, from where the source has it: measured on the bytes
 /// that result, 240 times a second and at all keys.
-/// \param progress  called with the share that is done, 0 to 1; may be empty
+/// \param progress  called with the share that is done, 0 to 1, from one thread at a time; may be empty
+/// \param threads   how many clips are packed at a time, 1 at least; the result does not depend on it
 std::vector<PackedReport> pack_clips(Scene& scene, double max_error, const std::function<void(double)>& progress,
-                                     Probes kind = Probes::skin_and_shell);
+                                     Probes kind = Probes::skin_and_shell, std::size_t threads = 1);
 
 }  // namespace bendy::converter

@@ -1,5 +1,6 @@
 #include "compact/quantise_clip.h"
 
+#include "compact/lanes.h"
 #include "evaluate.h"
 
 #include <bendy/format/trig.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace bendy::converter {
@@ -49,27 +51,45 @@ std::uint8_t step_code(double step) {
     return static_cast<std::uint8_t>(std::clamp((exponent - 1) * 4 + quarter + 160, 0, 255));
 }
 
-glm::dquat exp_of(const glm::dvec3& v) {
-    const auto q = packed_rotation({v.x, v.y, v.z});
-    return {q[3], q[0], q[1], q[2]};
+/// The steps of all codes: packed_step, whose power of two takes longer than what is done with it.
+float step_size(std::uint8_t code) {
+    static const auto kSteps = [] {
+        std::array<float, 256> steps{};
+        for (std::size_t k = 0; k < steps.size(); ++k) steps.at(k) = packed_step(static_cast<std::uint8_t>(k));
+        return steps;
+    }();
+    return kSteps[code];
 }
 
+// What is done to a joint at one frame is written for several frames at once too: T is double or Several.
+template <class T>
+using Vector = glm::vec<3, T>;
+template <class T>
+using Matrix = glm::mat<3, 3, T>;
+template <class T>
+using Turn = glm::qua<T>;
+
 /// The rotation vector of q that is nearest to `near`, at most a turn long.
-glm::dvec3 log_near(const glm::dquat& q, const glm::dvec3& near) {
-    const double sign = q.w < 0.0 ? -1.0 : 1.0;
-    const glm::dvec3 part(sign * q.x, sign * q.y, sign * q.z);
-    const double sine = glm::length(part);
-    const double angle = 2.0 * trig::atan2(sine, sign * q.w);
-    if (sine < 1e-9) {
-        const double length = glm::length(near);
-        return length > trig::kPi ? near * (kTwoPi / length) : 2.0 * part;
-    }
-    const glm::dvec3 axis = part / sine;
-    const glm::dvec3 other = axis * (angle - kTwoPi);
-    const glm::dvec3 v = axis * angle;
-    const glm::dvec3 a = v - near;
-    const glm::dvec3 b = other - near;
-    return glm::dot(a, a) <= glm::dot(b, b) ? v : other;
+template <class T>
+Vector<T> log_near(const Turn<T>& q, const Vector<T>& near) {
+    const T sign = select(q.w < T(0.0), T(-1.0), T(1.0));
+    const Vector<T> part(sign * q.x, sign * q.y, sign * q.z);
+    const T sine = glm::length(part);
+    const T angle = T(2.0) * atan2(sine, sign * q.w);
+    const T length = glm::length(near);
+    const Vector<T> without_axis = select(length > T(trig::kPi), near * (T(kTwoPi) / length), T(2.0) * part);
+    const Vector<T> axis = part / sine;
+    const Vector<T> other = axis * (angle - T(kTwoPi));
+    const Vector<T> v = axis * angle;
+    const Vector<T> a = v - near;
+    const Vector<T> b = other - near;
+    return select(sine < T(1e-9), without_axis, select(glm::dot(a, a) <= glm::dot(b, b), v, other));
+}
+
+template <class T>
+Matrix<T> stretch_matrix(const Vector<T>& scale, const glm::vec3& shear) {
+    const T none(0.0);
+    return {scale.x, none, none, T(double{shear.x}), scale.y, none, T(double{shear.y}), T(double{shear.z}), scale.z};
 }
 
 /// The points of a set that stick out along the axes: at most six.
@@ -85,21 +105,178 @@ std::vector<glm::dvec3> outer_points(const std::vector<glm::dvec3>& points) {
     return outer;
 }
 
+}  // namespace
+
+/// What of a clip is the same however often it is quantised.
+class ClipFrames {
+public:
+    /// A joint's transform, as Affine.
+    template <class T>
+    struct Place {
+        Matrix<T> linear{T(1.0)};
+        Vector<T> origin{T(0.0)};
+
+        Vector<T> operator()(const Vector<T>& point) const { return linear * point + origin; }
+    };
+
+    /// What the clip asks of a joint: relative to rest, as PACK stores it, and as it is where PACK has no such track.
+    template <class T>
+    struct Source {
+        Vector<T> move, turn, grow;
+        Turn<T> rotation;  // as it is
+    };
+
+    ClipFrames(const Scene& its_scene, const Clip& its_clip, const GridTracks& its_tracks)
+        : scene(its_scene), clip(its_clip), tracks(its_tracks) {
+        const std::size_t joints = scene.joints.size();
+        rest.reserve(joints);
+        for (const Joint& joint : scene.joints) rest.push_back(local_of(joint.rest));
+        is_packed_.resize(joints);
+        for (const std::uint32_t number : tracks.tracks) {
+            const Track& track = clip.tracks[number];
+            is_packed_[track.target][index(track.path)] = true;
+        }
+        read();
+        choose_frames();
+    }
+
+    [[nodiscard]] std::size_t frames() const { return tracks.grid.frames; }
+
+    /// A property relative to rest, as PACK stores it.
+    [[nodiscard]] glm::dvec3 relative(std::size_t frame, std::size_t joint, TrackPath path) const {
+        switch (path) {
+            case TrackPath::translation:
+                return local(frame, joint).translation - rest[joint].translation;
+            case TrackPath::rotation:
+                return vectors_[frame * scene.joints.size() + joint];
+            default:
+                return local(frame, joint).scale - rest[joint].scale;
+        }
+    }
+
+    [[nodiscard]] Source<double> source(std::size_t frame, std::size_t joint) const {
+        const Local& at = local(frame, joint);
+        const auto& is_packed = is_packed_[joint];
+        return {is_packed[0] ? relative(frame, joint, TrackPath::translation) : at.translation,
+                relative(frame, joint, TrackPath::rotation),
+                is_packed[2] ? relative(frame, joint, TrackPath::scale) : at.scale, at.rotation};
+    }
+
+    /// Where the clip has the joints at a frame.
+    void place(std::size_t frame, std::span<Place<double>> out) const {
+        for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+            const std::uint32_t parent = scene.joints[j].parent;
+            const Affine at = to_affine(local(frame, j), scene.joints[j].rest.shear);
+            if (parent == kNone) {
+                out[j] = {at.linear, at.origin};
+            } else {
+                out[j] = {out[parent].linear * at.linear, out[parent](at.origin)};
+            }
+        }
+    }
+
+    const Scene& scene;
+    const Clip& clip;
+    const GridTracks& tracks;
+    std::vector<Local> rest;  // per joint
+
+    // The frames that steps are chosen on, kSeveral side by side; the last ones again where they do not come out even.
+    std::size_t tried = 0;                 // frames
+    std::size_t groups = 0;                // of them
+    std::vector<Source<Several>> sources;  // group by group, per joint
+    std::vector<Place<Several>> wanted;    // the same, model space
+
+private:
+    [[nodiscard]] const Local& local(std::size_t frame, std::size_t joint) const {
+        return locals_[frame * scene.joints.size() + joint];
+    }
+
+    /// Local transforms at all frames, and rotations as vectors from rest that do not jump.
+    void read() {
+        const Grid& grid = tracks.grid;
+        const std::size_t joints = scene.joints.size();
+        locals_.resize(joints * grid.frames);
+        vectors_.resize(joints * grid.frames);
+        for (std::size_t f = 0; f < grid.frames; ++f)
+            std::copy(rest.begin(), rest.end(), locals_.begin() + static_cast<std::ptrdiff_t>(f * joints));
+        const double snap = grid.snap();
+        std::vector<double> value;
+        for (const Track& track : clip.tracks) {
+            if (track.path == TrackPath::weights) continue;
+            for (std::uint32_t f = 0; f < grid.frames; ++f) {
+                evaluate_track(track, snapped(track, grid.time_of(f), snap), value);
+                set_property(track.path, value, locals_[f * joints + track.target]);
+            }
+        }
+        for (std::size_t j = 0; j < joints; ++j) {
+            glm::dvec3 before(0.0);
+            for (std::size_t f = 0; f < grid.frames; ++f) {
+                const glm::dquat q = glm::conjugate(rest[j].rotation) * locals_[f * joints + j].rotation;
+                before = vectors_[f * joints + j] = log_near<double>(q, before);
+            }
+        }
+    }
+
+    void choose_frames() {
+        const std::size_t joints = scene.joints.size();
+        tried = std::min<std::size_t>(frames(), kMostTried);
+        groups = (tried + kSeveral - 1) / kSeveral;
+        sources.resize(groups * joints);
+        wanted.resize(groups * joints);
+        std::vector<Place<double>> pose(joints);
+        for (std::size_t k = 0; k < groups * kSeveral; ++k) {
+            const std::size_t frame = tried < 2 ? 0 : std::min(k, tried - 1) * (frames() - 1) / (tried - 1);
+            place(frame, pose);
+            for (std::size_t j = 0; j < joints; ++j) {
+                const std::size_t at = k / kSeveral * joints + j;
+                put(source(frame, j), k % kSeveral, sources[at]);
+                put(pose[j], k % kSeveral, wanted[at]);
+            }
+        }
+    }
+
+    static void put(const glm::dvec3& vector, std::size_t lane, Vector<Several>& out) {
+        for (int c = 0; c < 3; ++c) set_lane(out[c], lane, vector[c]);
+    }
+    static void put(const Source<double>& source, std::size_t lane, Source<Several>& out) {
+        put(source.move, lane, out.move);
+        put(source.turn, lane, out.turn);
+        put(source.grow, lane, out.grow);
+        for (int c = 0; c < 4; ++c) set_lane(out.rotation[c], lane, source.rotation[c]);
+    }
+    static void put(const Place<double>& place, std::size_t lane, Place<Several>& out) {
+        for (int c = 0; c < 3; ++c) put(place.linear[c], lane, out.linear[c]);
+        put(place.origin, lane, out.origin);
+    }
+
+    std::vector<std::array<bool, kPaths>> is_packed_;  // per joint
+    std::vector<Local> locals_;                        // frame by frame
+    std::vector<glm::dvec3> vectors_;                  // frame by frame: rotations from rest
+};
+
+namespace {
+
+template <class T>
+using Place = ClipFrames::Place<T>;
+template <class T>
+using Source = ClipFrames::Source<T>;
+
 class Quantiser {
 public:
-    Quantiser(const Scene& scene, const Clip& clip, const GridTracks& packed,
-              const std::vector<std::vector<glm::dvec3>>& probes, const QuantiseOptions& options)
-        : scene_(scene), clip_(clip), grid_(packed.grid), probes_(probes), options_(options) {
-        const std::size_t joints = scene.joints.size();
-        plans_.resize(joints);
-        rest_.reserve(joints);
-        for (const Joint& joint : scene.joints) rest_.push_back(local_of(joint.rest));
+    Quantiser(const ClipFrames& frames, const std::vector<std::vector<glm::dvec3>>& probes,
+              const QuantiseOptions& options)
+        : frames_(frames), scene_(frames.scene), rest_(frames.rest), probes_(probes), options_(options) {
+        plans_.resize(scene_.joints.size());
         find_subtrees();
-        read_source();
-        for (const std::uint32_t number : packed.tracks) open_property(clip.tracks[number]);
+        for (const std::uint32_t number : frames.tracks.tracks) open_property(frames.clip.tracks[number]);
         measure_reach();
         settle();
-        choose_frames();
+        decoded_.resize(frames.wanted.size());
+        trial_.resize(frames.wanted.size());
+        failed_at_.resize(frames.groups * kSeveral);
+        is_tried_.resize(frames.groups);
+        order_.resize(frames.tried);
+        std::iota(order_.begin(), order_.end(), 0);
     }
 
     PackedSamples run() {
@@ -120,61 +297,20 @@ private:
         }
     }
 
-    /// Local transforms at all frames, and rotations as vectors from rest that do not jump.
-    void read_source() {
-        const std::size_t joints = scene_.joints.size();
-        locals_.resize(joints * grid_.frames);
-        vectors_.resize(joints * grid_.frames);
-        for (std::size_t f = 0; f < grid_.frames; ++f)
-            std::copy(rest_.begin(), rest_.end(), locals_.begin() + static_cast<std::ptrdiff_t>(f * joints));
-        const double snap = grid_.snap();
-        std::vector<double> value;
-        for (const Track& track : clip_.tracks) {
-            if (track.path == TrackPath::weights) continue;
-            for (std::uint32_t f = 0; f < grid_.frames; ++f) {
-                evaluate_track(track, snapped(track, grid_.time_of(f), snap), value);
-                set_property(track.path, value, locals_[f * joints + track.target]);
-            }
-        }
-        for (std::size_t j = 0; j < joints; ++j) {
-            glm::dvec3 before(0.0);
-            for (std::size_t f = 0; f < grid_.frames; ++f) {
-                const glm::dquat q = glm::conjugate(rest_[j].rotation) * locals_[f * joints + j].rotation;
-                before = vectors_[f * joints + j] = log_near(q, before);
-            }
-        }
-    }
-
-    [[nodiscard]] const Local& local(std::size_t frame, std::size_t joint) const {
-        return locals_[frame * scene_.joints.size() + joint];
-    }
-
-    /// A property relative to rest, as PACK stores it.
-    [[nodiscard]] glm::dvec3 relative(std::size_t frame, std::size_t joint, TrackPath path) const {
-        switch (path) {
-            case TrackPath::translation:
-                return local(frame, joint).translation - rest_[joint].translation;
-            case TrackPath::rotation:
-                return vectors_[frame * scene_.joints.size() + joint];
-            default:
-                return local(frame, joint).scale - rest_[joint].scale;
-        }
-    }
-
     void open_property(const Track& track) {
         Property& property = plans_[track.target][index(track.path)];
         property.state = State::animated;
         Box<glm::dvec3> box;
         double uneven = 0.0;
-        for (std::size_t f = 0; f < grid_.frames; ++f) {
-            const glm::dvec3 v = relative(f, track.target, track.path);
+        for (std::size_t f = 0; f < frames_.frames(); ++f) {
+            const glm::dvec3 v = frames_.relative(f, track.target, track.path);
             box.add(v);
             uneven = std::max({uneven, std::abs(v.x - v.y), std::abs(v.x - v.z)});
         }
         const auto& [low, high] = box;
         property.middle = 0.5 * (low + high);
         property.half = 0.5 * (high - low);
-        if (low == high || grid_.frames < 2) property.state = State::constant;
+        if (low == high || frames_.frames() < 2) property.state = State::constant;
         if (low == glm::dvec3(0.0) && high == low) property.state = State::rest;
         constexpr double kEven = 1e-6;
         if (track.path == TrackPath::scale && uneven <= kEven) property.components = 1;
@@ -258,150 +394,154 @@ private:
 
     /// The rotation, from `turn` on, that brings the joint's aims nearest to where they should be, in the sense of
     /// least squares: one step of Gauss and Newton.
-    [[nodiscard]] glm::dquat correct(std::size_t joint, const Affine& parent, const glm::dvec3& origin,
-                                     const glm::dmat3& stretched, const glm::dquat& turn, const Affine& wanted) const {
-        const glm::dmat3 axes = parent.linear * glm::mat3_cast(turn);
-        glm::dmat3 normal(0.0);
-        glm::dvec3 right(0.0);
-        for (const glm::dvec3& aim : aims_[joint]) {
-            const glm::dvec3 arm = stretched * aim;
-            const glm::dvec3 off = wanted(aim) - (origin + axes * arm);
-            const glm::dmat3 moves(axes * glm::dvec3(0.0, -arm.z, arm.y), axes * glm::dvec3(arm.z, 0.0, -arm.x),
-                                   axes * glm::dvec3(-arm.y, arm.x, 0.0));
+    template <class T>
+    [[nodiscard]] Turn<T> correct(std::size_t joint, const Place<T>& parent, const Vector<T>& origin,
+                                  const Matrix<T>& stretched, const Turn<T>& turn, const Place<T>& wanted) const {
+        const Matrix<T> axes = parent.linear * glm::mat3_cast(turn);
+        Matrix<T> normal(T(0.0));  // symmetric: its upper half
+        Vector<T> right(T(0.0));
+        for (const glm::dvec3& point : aims_[joint]) {
+            const Vector<T> aim(point);
+            const Vector<T> arm = stretched * aim;
+            const Vector<T> off = wanted(aim) - (origin + axes * arm);
+            const std::array<Vector<T>, 3> moves{axes[1] * -arm.z + axes[2] * arm.y, axes[0] * arm.z + axes[2] * -arm.x,
+                                                 axes[0] * -arm.y + axes[1] * arm.x};
             for (int a = 0; a < 3; ++a) {
-                right[a] += glm::dot(moves[a], off);
-                for (int b = 0; b < 3; ++b) normal[b][a] += glm::dot(moves[a], moves[b]);
+                const Vector<T>& move = moves[static_cast<std::size_t>(a)];
+                right[a] += glm::dot(move, off);
+                for (int b = a; b < 3; ++b) normal[b][a] += glm::dot(move, moves[static_cast<std::size_t>(b)]);
             }
         }
-        const double damping = 1e-6 * (normal[0][0] + normal[1][1] + normal[2][2]);
-        if (!(damping > 0.0)) return turn;
-        for (int a = 0; a < 3; ++a) normal[a][a] += damping;
-        const glm::dvec3 by = glm::inverse(normal) * right;
+        const T damping = T(1e-6) * (normal[0][0] + normal[1][1] + normal[2][2]);
+        for (int a = 0; a < 3; ++a) {
+            normal[a][a] += damping;
+            for (int b = 0; b < a; ++b) normal[b][a] = normal[a][b];
+        }
+        const Vector<T> by = glm::inverse(normal) * right;
         constexpr double kMost = 0.3;  // radians: what is farther off is not a rounding error
-        const double length = glm::length(by);
-        if (!(length < kMost)) return turn;
-        return turn * exp_of(by);
+        return select(damping > T(0.0), select(glm::length(by) < T(kMost), turn * packed_turn(by), turn), turn);
     }
 
-    /// The property's numbers for a value relative to rest, and what they decode to.
-    static glm::dvec3 round(const Property& property, const glm::dvec3& value, Numbers& numbers) {
-        glm::dvec3 decoded;
-        for (std::uint32_t c = 0; c < 3; ++c) {
-            const std::uint32_t from = c < property.components ? c : 0;
-            const auto at = static_cast<int>(from);
-            if (c < property.components) {
-                const double step = packed_step(property.steps[c]);
-                numbers[c] = static_cast<std::int32_t>(std::clamp(std::nearbyint(value[at] / step), -2e9, 2e9));
-            }
-            decoded[static_cast<int>(c)] = numbers[from] * static_cast<double>(packed_step(property.steps[from]));
+    /// What the property's whole numbers for a value relative to rest decode to. \param numbers  takes them of a double
+    template <class T>
+    static Vector<T> round(const Property& property, const Vector<T>& value, Numbers& numbers) {
+        Vector<T> decoded;
+        for (std::uint32_t c = 0; c < property.components; ++c) {
+            const auto at = static_cast<int>(c);
+            const T step(double{step_size(property.steps[c])});
+            const T steps = whole(value[at] / step);
+            if constexpr (std::is_same_v<T, double>) numbers[c] = static_cast<std::int32_t>(steps);
+            decoded[at] = steps * step;
         }
+        for (auto c = static_cast<int>(property.components); c < 3; ++c) decoded[c] = decoded[0];
         return decoded;
     }
 
     /// Quantises a joint whose parent is in its decoded place. `numbers` takes them by path.
-    Affine quantise_joint(std::size_t frame, std::size_t joint, const Affine& parent, const Affine& wanted,
-                          std::array<Numbers, kPaths>& numbers) const {
+    template <class T>
+    Place<T> quantise_joint(std::size_t joint, const Source<T>& source, const Place<T>& parent, const Place<T>& wanted,
+                            std::array<Numbers, kPaths>& numbers) const {
         const Plan& plan = plans_[joint];
-        const Local& source = local(frame, joint);
-        Local out = source;
+        const Local& rest = rest_[joint];
         const Property& move = plan[index(TrackPath::translation)];
+        Vector<T> translation = source.move;
         if (move.state != State::unpacked) {
-            glm::dvec3 by = value_of(move, relative(frame, joint, TrackPath::translation));
+            Vector<T> by = value_of(move, source.move);
             if (move.state == State::animated && options_.corrects) {
-                const glm::dvec3 place =
-                    glm::inverse(parent.linear) * (wanted.origin - parent.origin) - rest_[joint].translation;
-                const glm::dvec3 shift = place - by;
+                const Vector<T> place =
+                    glm::inverse(parent.linear) * (wanted.origin - parent.origin) - Vector<T>(rest.translation);
                 const double near =
-                    64.0 * (packed_step(move.steps[0]) + packed_step(move.steps[1]) + packed_step(move.steps[2]));
-                if (glm::length(shift) < near) by = place;  // not for parents without volume
+                    64.0 * double{step_size(move.steps[0]) + step_size(move.steps[1]) + step_size(move.steps[2])};
+                by = select(glm::length(place - by) < T(near), place, by);  // not for parents without volume
             }
             if (move.state != State::rest) by = round(move, by, numbers[0]);
-            out.translation = rest_[joint].translation + by;
+            translation = Vector<T>(rest.translation) + by;
         }
         const Property& grow = plan[index(TrackPath::scale)];
+        Vector<T> scale = source.grow;
         if (grow.state != State::unpacked) {
-            glm::dvec3 by = value_of(grow, relative(frame, joint, TrackPath::scale));
+            Vector<T> by = value_of(grow, source.grow);
             if (grow.state != State::rest) by = round(grow, by, numbers[2]);
-            out.scale = rest_[joint].scale + by;
+            scale = Vector<T>(rest.scale) + by;
         }
         const Property& turn = plan[index(TrackPath::rotation)];
-        const glm::dmat3 stretched = stretch(out.scale, scene_.joints[joint].rest.shear);
-        const glm::dvec3 origin = parent(out.translation);
+        const Matrix<T> stretched = stretch_matrix(scale, scene_.joints[joint].rest.shear);
+        const Vector<T> origin = parent(translation);
+        Turn<T> rotation = source.rotation;
         if (turn.state != State::unpacked) {
-            const glm::dvec3 exact = relative(frame, joint, TrackPath::rotation);
-            glm::dvec3 by = value_of(turn, exact);
+            const Turn<T> at_rest(rest.rotation);
+            Vector<T> by = value_of(turn, source.turn);
             if (turn.state == State::animated && options_.corrects) {
-                const glm::dquat wish = correct(joint, parent, origin, stretched, source.rotation, wanted);
-                by = log_near(glm::conjugate(rest_[joint].rotation) * wish, exact);
+                const Turn<T> wish = correct(joint, parent, origin, stretched, source.rotation, wanted);
+                by = log_near(glm::conjugate(at_rest) * wish, source.turn);
             }
             if (turn.state != State::rest) by = round(turn, by, numbers[1]);
-            out.rotation = turn.state == State::rest ? rest_[joint].rotation : rest_[joint].rotation * exp_of(by);
+            rotation = turn.state == State::rest ? at_rest : at_rest * packed_turn(by);
         }
-        return {parent.linear * (glm::mat3_cast(out.rotation) * stretched), origin};
+        return {parent.linear * (glm::mat3_cast(rotation) * stretched), origin};
     }
 
-    static glm::dvec3 value_of(const Property& property, const glm::dvec3& exact) {
-        if (property.state == State::rest) return glm::dvec3(0.0);
-        return property.state == State::constant ? property.middle : exact;
+    template <class T>
+    static Vector<T> value_of(const Property& property, const Vector<T>& exact) {
+        if (property.state == State::rest) return Vector<T>(T(0.0));
+        return property.state == State::constant ? Vector<T>(property.middle) : exact;
     }
 
-    [[nodiscard]] double square_error(std::size_t joint, const Affine& a, const Affine& b) const {
-        double worst = 0.0;
-        const glm::dmat3 linear = a.linear - b.linear;
-        const glm::dvec3 origin = a.origin - b.origin;
+    template <class T>
+    [[nodiscard]] T square_error(std::size_t joint, const Place<T>& a, const Place<T>& b) const {
+        T worst(0.0);
+        const Matrix<T> linear = a.linear - b.linear;
+        const Vector<T> origin = a.origin - b.origin;
         for (const glm::dvec3& probe : probes_[joint]) {
-            const glm::dvec3 off = linear * probe + origin;
-            worst = std::max(worst, glm::dot(off, off));
+            const Vector<T> off = linear * Vector<T>(probe) + origin;
+            const T square = glm::dot(off, off);
+            worst = select(worst < square, square, worst);
         }
         return worst;
     }
 
     // --- choosing steps
 
-    void choose_frames() {
-        const std::size_t joints = scene_.joints.size();
-        const std::size_t tried = std::min<std::size_t>(grid_.frames, kMostTried);
-        for (std::size_t k = 0; k < tried; ++k) tried_.push_back(tried < 2 ? 0 : k * (grid_.frames - 1) / (tried - 1));
-        wanted_.resize(tried * joints);
-        decoded_.resize(tried * joints);
-        trial_.resize(tried * joints);
-        order_.resize(tried);
-        std::iota(order_.begin(), order_.end(), 0);
-        for (std::size_t k = 0; k < tried; ++k) {
-            place_source(tried_[k], std::span(wanted_).subspan(k * joints, joints));
-        }
-    }
-
-    void place_source(std::size_t frame, std::span<Affine> out) const {
-        for (std::size_t j = 0; j < scene_.joints.size(); ++j) {
+    /// Quantises the joint and all below it at the tried frames of a group: failed_at_ takes, for each frame, the first
+    /// joint with a probe that is farther off than allowed, or `end`. Stops where the frame `watched` fails.
+    void try_group(std::size_t group, std::size_t first, std::size_t end, std::size_t watched) {
+        const std::size_t row = group * scene_.joints.size();
+        const Several most(options_.max_error * options_.max_error);
+        std::array<Numbers, kPaths> unused;
+        const auto failed_at = std::span(failed_at_).subspan(group * kSeveral, kSeveral);
+        std::fill(failed_at.begin(), failed_at.end(), end);
+        for (std::size_t j = first; j < end; ++j) {
             const std::uint32_t parent = scene_.joints[j].parent;
-            const Affine at = to_affine(local(frame, j), scene_.joints[j].rest.shear);
-            out[j] = parent == kNone ? at : out[parent] * at;
+            const Place<Several>& wanted = frames_.wanted[row + j];
+            const Place<Several> above =
+                parent == kNone ? Place<Several>{} : (parent >= first ? trial_ : decoded_)[row + parent];
+            trial_[row + j] = quantise_joint(j, frames_.sources[row + j], above, wanted, unused);
+            const auto holds = square_error(j, trial_[row + j], wanted) <= most;
+            for (std::size_t at = 0; at < kSeveral; ++at) {
+                if (!lane(holds, at) && failed_at[at] == end) failed_at[at] = j;
+            }
+            if (failed_at_[watched] != end) return;
         }
     }
 
     /// Quantises the joint and all below it at all tried frames; true, and kept, if no probe is farther off than
-    /// allowed.
+    /// allowed. What is counted as work is what one frame after another would have taken.
     bool try_subtree(std::size_t first, std::size_t end) {
-        const std::size_t joints = scene_.joints.size();
-        const double most = options_.max_error * options_.max_error;
-        std::array<Numbers, kPaths> numbers;
+        std::fill(is_tried_.begin(), is_tried_.end(), false);
         for (std::size_t o = 0; o < order_.size(); ++o) {
             const std::size_t k = order_[o];
-            for (std::size_t j = first; j < end; ++j) {
-                const std::uint32_t parent = scene_.joints[j].parent;
-                const std::size_t row = k * joints;
-                const Affine above = parent == kNone ? Affine{} : (parent >= first ? trial_ : decoded_)[row + parent];
-                trial_[row + j] = quantise_joint(tried_[k], j, above, wanted_[row + j], numbers);
-                ++work_;
-                if (square_error(j, trial_[row + j], wanted_[row + j]) <= most) continue;
-                std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(o),
-                            order_.begin() + static_cast<std::ptrdiff_t>(o) + 1);
-                return false;
-            }
+            const std::size_t group = k / kSeveral;
+            if (!is_tried_[group]) try_group(group, first, end, k);
+            is_tried_[group] = true;
+            if (failed_at_[k] == end) continue;
+            work_ += o * (end - first) + failed_at_[k] - first + 1;
+            std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(o),
+                        order_.begin() + static_cast<std::ptrdiff_t>(o) + 1);
+            return false;
         }
-        for (std::size_t k = 0; k < order_.size(); ++k) {
-            const auto row = static_cast<std::ptrdiff_t>(k * joints);
+        work_ += order_.size() * (end - first);
+        for (std::size_t group = 0; group < frames_.groups; ++group) {
+            const auto row = static_cast<std::ptrdiff_t>(group * scene_.joints.size());
             std::copy(trial_.begin() + row + static_cast<std::ptrdiff_t>(first),
                       trial_.begin() + row + static_cast<std::ptrdiff_t>(end),
                       decoded_.begin() + row + static_cast<std::ptrdiff_t>(first));
@@ -492,10 +632,11 @@ private:
 
     PackedSamples quantise_all() {
         PackedSamples samples;
-        samples.frames = grid_.frames;
-        samples.start = grid_.start;
-        samples.frame_rate = grid_.rate;
-        samples.times = grid_.times;
+        const Grid& grid = frames_.tracks.grid;
+        samples.frames = grid.frames;
+        samples.start = grid.start;
+        samples.frame_rate = grid.rate;
+        samples.times = grid.times;
         std::vector<std::array<std::size_t, kPaths>> place(plans_.size());
         for (std::size_t j = 0; j < plans_.size(); ++j) {
             for (std::size_t path = 0; path < kPaths; ++path) {
@@ -508,25 +649,26 @@ private:
                 track.steps = property.steps;
                 track.components = property.components;
                 track.animated = property.state == State::animated;
-                track.numbers.resize(std::size_t{property.components} * (track.animated ? grid_.frames : 1));
+                track.numbers.resize(std::size_t{property.components} * (track.animated ? grid.frames : 1));
                 samples.joints = track.joint + 1;
                 samples.tracks.push_back(std::move(track));
             }
         }
         const std::size_t joints = scene_.joints.size();
-        std::vector<Affine> wanted(joints);
-        std::vector<Affine> decoded(joints);
+        std::vector<Place<double>> wanted(joints);
+        std::vector<Place<double>> decoded(joints);
         std::array<Numbers, kPaths> numbers{};
-        for (std::size_t f = 0; f < grid_.frames; ++f) {
-            place_source(f, wanted);
+        for (std::size_t f = 0; f < grid.frames; ++f) {
+            frames_.place(f, wanted);
             for (std::size_t j = 0; j < joints; ++j) {
                 const std::uint32_t parent = scene_.joints[j].parent;
-                decoded[j] = quantise_joint(f, j, parent == kNone ? Affine{} : decoded[parent], wanted[j], numbers);
+                decoded[j] = quantise_joint(j, frames_.source(f, j),
+                                            parent == kNone ? Place<double>{} : decoded[parent], wanted[j], numbers);
                 for (std::size_t path = 0; path < kPaths; ++path) {
                     const Property& property = plans_[j][path];
                     if (property.state != State::animated && property.state != State::constant) continue;
                     PackedTrack& track = samples.tracks[place[j][path]];
-                    const std::size_t stride = track.animated ? grid_.frames : 1;
+                    const std::size_t stride = track.animated ? grid.frames : 1;
                     for (std::uint32_t c = 0; c < track.components; ++c)
                         track.numbers[c * stride + (track.animated ? f : 0)] = numbers[path][c];
                 }
@@ -535,28 +677,30 @@ private:
         return samples;
     }
 
+    const ClipFrames& frames_;
     const Scene& scene_;
-    const Clip& clip_;
-    Grid grid_;
+    const std::vector<Local>& rest_;  // per joint
     const std::vector<std::vector<glm::dvec3>>& probes_;
     QuantiseOptions options_;
-    std::vector<Plan> plans_;                       // per joint
-    std::vector<Local> rest_;                       // per joint
-    std::vector<std::size_t> end_;                  // per joint: one past the last below it
-    std::vector<std::vector<glm::dvec3>> aims_;     // per joint, in its space
-    std::vector<Local> locals_;                     // frame by frame
-    std::vector<glm::dvec3> vectors_;               // frame by frame: rotations from rest
-    std::vector<std::size_t> tried_;                // frames
-    std::vector<std::size_t> order_;                // of tried frames: those that failed first
-    std::vector<Affine> wanted_, decoded_, trial_;  // by tried frame, model space
+    std::vector<Plan> plans_;                      // per joint
+    std::vector<std::size_t> end_;                 // per joint: one past the last below it
+    std::vector<std::vector<glm::dvec3>> aims_;    // per joint, in its space
+    std::vector<std::size_t> order_;               // of tried frames: those that failed first
+    std::vector<Place<Several>> decoded_, trial_;  // as ClipFrames::wanted
+    std::vector<std::size_t> failed_at_;           // per tried frame, see try_group
+    std::vector<bool> is_tried_;                   // per group
     std::uint64_t work_ = 0;
 };
 
 }  // namespace
 
-PackedSamples quantise(const Scene& scene, const Clip& clip, const GridTracks& packed,
-                       const std::vector<std::vector<glm::dvec3>>& probes, const QuantiseOptions& options) {
-    return Quantiser(scene, clip, packed, probes, options).run();
+std::shared_ptr<const ClipFrames> read_frames(const Scene& scene, const Clip& clip, const GridTracks& tracks) {
+    return std::make_shared<const ClipFrames>(scene, clip, tracks);
+}
+
+PackedSamples quantise(const ClipFrames& frames, const std::vector<std::vector<glm::dvec3>>& probes,
+                       const QuantiseOptions& options) {
+    return Quantiser(frames, probes, options).run();
 }
 
 }  // namespace bendy::converter

@@ -103,6 +103,21 @@ TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
     }
 }
 
+TEST(BuildCompact, ThreadsChangeNoByte) {
+    const Scene scene = skeleton_with_clips(4);
+    Report report;
+    const auto bytes = build_compact(scene, {1e-4, true}, "test", report, {});
+    for (const std::size_t threads : {2u, 5u}) {
+        Report other;
+        std::vector<double> told;
+        const auto tell = [&](double part) { told.push_back(part); };
+        EXPECT_EQ(build_compact(scene, {1e-4, true}, "test", other, tell, threads), bytes);
+        EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+        ASSERT_TRUE(report.compact && other.compact);
+        EXPECT_EQ(other.compact->place, report.compact->place);
+    }
+}
+
 TEST(BuildCompact, WithoutASkinTheJointsMotionIsBounded) {
     std::vector<Scene> scenes{lone_joint_that_turns(), flat_chain()};
     for (std::uint32_t seed = 1; seed <= 5; ++seed) scenes.push_back(skeleton_with_clips(seed));
