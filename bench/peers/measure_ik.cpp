@@ -150,6 +150,10 @@ std::vector<Limb> find_limbs(const Character& character) {
     std::vector<Limb> limbs;
     for (const Chain& chain : character.model.chains()) {
         if (chain.links != kLinks || (chain.solver != Solver::two_bone && chain.solver != Solver::any)) continue;
+        const bool is_known = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& limb) {
+            return limb.chain->start == chain.start && limb.chain->effector == chain.effector;
+        });
+        if (is_known) continue;  // proposed by --auto-rig for a character that has one already
         Limb limb;
         limb.chain = &chain;
         limb.middle = character.model.joints()[chain.effector].parent;
