@@ -92,18 +92,6 @@ void put_joints(ChunkWriter& out, std::uint32_t joints) {
     for (; !ancestors.empty(); ancestors.pop_back()) out.end();
 }
 
-/// Writes a plain stream.
-template <class T>
-void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t components,
-                const std::vector<T>& numbers) {
-    StreamRecord record;
-    record.component_type = static_cast<std::uint8_t>(type);
-    record.components = static_cast<std::uint16_t>(components);
-    record.elements = static_cast<std::uint32_t>(numbers.size() / components);
-    const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(numbers))};
-    out.leaf(id, pieces);
-}
-
 /// Writes a boxed stream of vec3: each component is minimum + step * integer.
 void put_boxed(ChunkWriter& out, FourCC id, const std::vector<std::int16_t>& steps, StreamBox box) {
     StreamRecord record;

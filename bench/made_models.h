@@ -1,10 +1,13 @@
 #pragma once
 
+#include <bendy/format/chunk_writer.h>
+#include <bendy/format/records.h>
 #include <bendy/runtime/model.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 // Synthetic models of any size, for measurements.
@@ -32,5 +35,17 @@ std::unique_ptr<const MadeModel> make_face(std::uint32_t vertices, std::uint32_t
 /// Makes a chain with a pole: two bones, or for Solver::aim one joint.
 /// \param is_limited  the middle joint is a hinge
 std::unique_ptr<const MadeModel> make_chain(Solver solver, bool is_limited);
+
+/// Writes a plain stream: a StreamRecord and the numbers.
+template <class T>
+void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t components,
+                const std::vector<T>& numbers) {
+    StreamRecord record;
+    record.component_type = static_cast<std::uint8_t>(type);
+    record.components = static_cast<std::uint16_t>(components);
+    record.elements = static_cast<std::uint32_t>(numbers.size() / components);
+    const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(numbers))};
+    out.leaf(id, pieces);
+}
 
 }  // namespace bendy::bench

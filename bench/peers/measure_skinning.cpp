@@ -37,17 +37,6 @@ void put_joints(ChunkWriter& out, const Model& model) {
     for (; !ancestors.empty(); ancestors.pop_back()) out.end();
 }
 
-template <class T>
-void put_stream(ChunkWriter& out, FourCC id, ComponentType type, std::uint32_t components,
-                const std::vector<T>& numbers) {
-    StreamRecord record;
-    record.component_type = static_cast<std::uint8_t>(type);
-    record.components = static_cast<std::uint16_t>(components);
-    record.elements = static_cast<std::uint32_t>(numbers.size() / components);
-    const Bytes pieces[] = {bytes_of(record), std::as_bytes(std::span(numbers))};
-    out.leaf(id, pieces);
-}
-
 void put_mesh(ChunkWriter& out, const Mesh& mesh) {
     std::vector<float> positions, normals, tangents, weights;
     std::vector<std::uint16_t> bones;
@@ -72,11 +61,11 @@ void put_mesh(ChunkWriter& out, const Mesh& mesh) {
     out.begin(FourCC("VECT"));
     out.leaf(FourCC("VINF"), bytes_of(MeshRecord{mesh.vertices, 0}));
     out.leaf(FourCC("PALT"), pieces);
-    put_stream(out, FourCC("POSI"), ComponentType::f32, 3, positions);
-    put_stream(out, FourCC("NORM"), ComponentType::f32, 3, normals);
-    put_stream(out, FourCC("TANG"), ComponentType::f32, 4, tangents);
-    put_stream(out, FourCC("BONE"), ComponentType::u16, mesh.bones->components, bones);
-    put_stream(out, FourCC("WGHT"), ComponentType::f32, mesh.bones->components, weights);
+    bench::put_stream(out, FourCC("POSI"), ComponentType::f32, 3, positions);
+    bench::put_stream(out, FourCC("NORM"), ComponentType::f32, 3, normals);
+    bench::put_stream(out, FourCC("TANG"), ComponentType::f32, 4, tangents);
+    bench::put_stream(out, FourCC("BONE"), ComponentType::u16, mesh.bones->components, bones);
+    bench::put_stream(out, FourCC("WGHT"), ComponentType::f32, mesh.bones->components, weights);
     out.end();
 }
 

@@ -39,7 +39,7 @@ public:
 
     /// Fails at its place on what can be no token.
     virtual Token next() = 0;
-    /// No more numbers than so can follow: counts are held against it before anything is allocated.
+    /// The largest count of numbers that the remaining bytes can hold: check counts against it before allocating.
     [[nodiscard]] virtual std::uint64_t numbers_left() const = 0;
 };
 
