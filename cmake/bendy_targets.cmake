@@ -70,7 +70,7 @@ function(bendy_private_options target)
   endif()
 endfunction()
 
-# Compiles sources of one folder eight at a time: docs/decisions/0037. A file that is added changes the batches of its folder only.
+# Compiles sources of one folder sixteen at a time: docs/decisions/0037. A file that is added changes the batches of its folder only.
 # A source that defines macros is compiled alone: they may change headers, as TINYGLTF_IMPLEMENTATION does.
 function(bendy_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -93,7 +93,7 @@ function(bendy_batches target)
       set(count_${name} 0)
     endif()
     math(EXPR count_${name} "${count_${name}} + 1")
-    math(EXPR batch "(${count_${name}} + 7) / 8")
+    math(EXPR batch "(${count_${name}} + 15) / 16")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${batch})
   endforeach()
 endfunction()

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::argument_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -319,4 +319,4 @@ TEST(CFiles, MemoryThatRunsOutIsAnError) {
 #endif
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::argument_test

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::contents_test {
 namespace {
 
 class CContents : public testing::Test {
@@ -132,4 +132,4 @@ TEST(CVersion, IsTheProjects) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::contents_test

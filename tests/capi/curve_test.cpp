@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::curve_test {
 namespace {
 
 /// One joint and a clip with two curves: Glow from 3 to 5, and a material's colour.
@@ -98,4 +98,4 @@ TEST(CCurve, BadArgumentsAreErrors) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::curve_test

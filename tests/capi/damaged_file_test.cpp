@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-namespace bendy::test {
+namespace bendy::test::damaged_file_test {
 namespace {
 
 /// Everything there is to ask of a model; gives a number so that nothing is optimised away.
@@ -131,4 +131,4 @@ TEST(CDamagedFile, AnyEarlyEndIsRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::damaged_file_test

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::pose_test {
 namespace {
 
 std::string seed(const char* name) {
@@ -280,4 +280,4 @@ TEST(CPose, CopiedBytesMayGo) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::pose_test

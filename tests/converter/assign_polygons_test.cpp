@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::assign_polygons_test {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
@@ -203,4 +203,4 @@ TEST(AssignPolygons, EveryPolygonComesOutOnce) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::assign_polygons_test

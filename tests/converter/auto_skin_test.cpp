@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::auto_skin_test {
 namespace {
 
 using test::JointPlan;
@@ -305,4 +305,4 @@ TEST(AutoSkin, JointsOfASkinAreKnownThoughNoVertexFollowsThem) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::auto_skin_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::build_chunks_test {
 namespace {
 
 using Buffer = std::vector<std::byte>;
@@ -605,4 +605,4 @@ TEST(BuildChunks, ALongRopeIsNoRecursion) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::build_chunks_test

@@ -18,7 +18,7 @@
 #include <tuple>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::collapse_vertices_test {
 namespace {
 
 using Place = std::tuple<float, float, float>;
@@ -386,4 +386,4 @@ TEST(CollapseVertices, IsTheSameEachTime) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::collapse_vertices_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::convert_test {
 namespace {
 
 using Buffer = std::vector<std::byte>;
@@ -199,4 +199,4 @@ TEST_F(ConvertFile, SaysInOneLineWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::convert_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::evaluate_test {
 namespace {
 
 Track make_track(TrackPath path, Interpolation interpolation, std::uint32_t components, std::vector<float> times,
@@ -121,4 +121,4 @@ TEST(Evaluate, AgreesWithTheRuntimeOnTheExamples) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::evaluate_test

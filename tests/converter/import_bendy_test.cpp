@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::import_bendy_test {
 namespace {
 
-using test::Buffer;
+using bendy::test::Buffer;
 
 const std::filesystem::path kSource = BENDY_SOURCE_DIR;
 
@@ -48,7 +48,7 @@ std::filesystem::path folder() {
 }
 
 TEST(ImportBendy, EveryKindOfChunkComesBack) {
-    const Buffer file = test::sample_file();
+    const Buffer file = bendy::test::sample_file();
     Report report;
     const Scene scene = import_good(file, report);
 
@@ -121,7 +121,7 @@ TEST(ImportBendy, EveryKindOfChunkComesBack) {
 
 TEST(ImportBendy, ARigidMeshOfSeveralJointsIsMovedAsBefore) {
     Report report;
-    const Scene scene = import_good(test::sample_file(), report);
+    const Scene scene = import_good(bendy::test::sample_file(), report);
     const Mesh& mesh = scene.meshes[1];
     ASSERT_EQ(mesh.influences, 1u);
     for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
@@ -130,7 +130,7 @@ TEST(ImportBendy, ARigidMeshOfSeveralJointsIsMovedAsBefore) {
 
 TEST(ImportBendy, WhatWasWrittenFromASceneIsWrittenAgainToTheByte) {
     Report report;
-    const Buffer once = build_chunks(import_good(test::sample_file(), report), "g", report);
+    const Buffer once = build_chunks(import_good(bendy::test::sample_file(), report), "g", report);
     Report silent;
     const Buffer twice = build_chunks(import_good(once, silent), "g", silent);
     EXPECT_EQ(once, twice);
@@ -213,13 +213,14 @@ TEST(ImportBendy, CompactFilesKeepMarkers) {
 }
 
 TEST(ImportBendy, AClipThatIsLongerThanItsKeysStaysAsLong) {
-    test::Buffer payload = write_markers(std::vector<bendy::Marker>{{0.5f, "in"}, {1.5f, "behind"}});
+    bendy::test::Buffer payload = write_markers(std::vector<bendy::Marker>{{0.5f, "in"}, {1.5f, "behind"}});
     Report report;
     Buffer file = build_chunks(marked_scene(2), "g", report);
-    test::Node root = test::to_node(file);
-    test::edit<ClipRecord>(test::at(root, "HEAD/OBJE/CYCL/CINF"), [](ClipRecord& clip) { clip.end = 2.0f; });
-    test::at(root, "HEAD/OBJE/CYCL/MARK").payload = payload;
-    file = test::to_file(root);
+    bendy::test::Node root = bendy::test::to_node(file);
+    bendy::test::edit<ClipRecord>(bendy::test::at(root, "HEAD/OBJE/CYCL/CINF"),
+                                  [](ClipRecord& clip) { clip.end = 2.0f; });
+    bendy::test::at(root, "HEAD/OBJE/CYCL/MARK").payload = payload;
+    file = bendy::test::to_file(root);
     const Scene scene = import_good(file, report);
     ASSERT_EQ(scene.clips[0].markers.size(), 2u);
     EXPECT_EQ(scene.clips[0].markers[1].name, "behind");
@@ -300,7 +301,7 @@ TEST(ImportBendy, FactsAboutTheSourceAreTakenApart) {
 }
 
 TEST(ImportBendy, ADamagedFileIsRefusedWithItsPlace) {
-    const Buffer good = test::sample_file();
+    const Buffer good = bendy::test::sample_file();
     for (std::size_t size = 0; size < good.size(); size += 48) {
         const Buffer cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
         EXPECT_NE(import_fault(cut), "") << size;
@@ -327,7 +328,7 @@ TEST(ImportBendy, TracksThatShareKeysWithoutEndAreRefused) {
     out.leaf(FourCC("VERS"), bytes_of(version));
     out.begin(FourCC("OBJE"));
     for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
-        test::begin_joint(out, "", 0.0f);
+        bendy::test::begin_joint(out, "", 0.0f);
         out.end();
     }
     out.begin(FourCC("CYCL"));
@@ -336,12 +337,12 @@ TEST(ImportBendy, TracksThatShareKeysWithoutEndAreRefused) {
     out.leaf(FourCC("CINF"), bytes_of(info));
     std::vector<TrackRecord> tracks;
     for (std::uint32_t joint = 0; joint < kJoints; ++joint)
-        tracks.push_back(test::track(joint, TrackPath::translation, Interpolation::linear, 3, kKeys, 0, 0));
+        tracks.push_back(bendy::test::track(joint, TrackPath::translation, Interpolation::linear, 3, kKeys, 0, 0));
     std::vector<float> times;
     for (std::uint32_t key = 0; key < kKeys; ++key) times.push_back(static_cast<float>(key));
-    out.leaf(FourCC("TRAK"), test::bytes_of_all(tracks));
-    out.leaf(FourCC("TIME"), test::bytes_of_all(times));
-    out.leaf(FourCC("KEYV"), test::bytes_of_all(std::vector<float>(std::size_t{kKeys} * 3)));
+    out.leaf(FourCC("TRAK"), bendy::test::bytes_of_all(tracks));
+    out.leaf(FourCC("TIME"), bendy::test::bytes_of_all(times));
+    out.leaf(FourCC("KEYV"), bendy::test::bytes_of_all(std::vector<float>(std::size_t{kKeys} * 3)));
     out.end();
     out.end();
     out.end();
@@ -350,7 +351,7 @@ TEST(ImportBendy, TracksThatShareKeysWithoutEndAreRefused) {
 
 TEST(ImportBendy, ASceneCannotBeChosen) {
     const auto path = folder() / "a.gltf";
-    ASSERT_TRUE(write_file(path, test::sample_file()));
+    ASSERT_TRUE(write_file(path, bendy::test::sample_file()));
     ConvertOptions options;
     options.gltf.scene = "0";
     Report report;
@@ -362,7 +363,7 @@ TEST(ImportBendy, ASceneCannotBeChosen) {
 TEST(ImportBendy, ARigFileGoesBeforeWhatIsThere) {
     const auto path = folder() / "a.bendy";
     const auto rig = folder() / "rig.json";
-    ASSERT_TRUE(write_file(path, test::sample_file()));
+    ASSERT_TRUE(write_file(path, bendy::test::sample_file()));
     const std::string members =
         R"("joints": {"head": {"model": "locked"}}, "chains": [{"name": "back", "start": "spine", "effector": "head"}])";
     const auto converted = [&](const std::string& text) {
@@ -387,4 +388,4 @@ TEST(ImportBendy, ARigFileGoesBeforeWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::import_bendy_test

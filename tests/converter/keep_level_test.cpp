@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::keep_level_test {
 namespace {
 
 /// A strip of five vertices, 4 collapsing to 3, 3 to 1; a mesh without a sequence beside it.
@@ -81,4 +81,4 @@ TEST(KeepLevel, NumbersThatAreNoLevelAreRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::keep_level_test

@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::measure_error_test {
 namespace {
 
 /// The worst vertex of all, the slow way: every vertex at every time.
@@ -202,4 +202,4 @@ TEST(MeasureError, AnEndlessCycleEnds) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::measure_error_test

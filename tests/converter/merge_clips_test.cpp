@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::merge_clips_test {
 namespace {
 
 Clip clip_of(std::string name, std::vector<std::pair<TrackPath, std::uint32_t>> properties, bool loop = true) {
@@ -92,4 +92,4 @@ TEST(MergeClips, AFewOrdinaryClipsAreNoSpreadMotion) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::merge_clips_test

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::move_links_test {
 namespace {
 
 class MoveLinks : public testing::Test {
@@ -35,7 +35,7 @@ protected:
                            [&](const Warning& warning) { return warning.message.find(words) != std::string::npos; });
     }
 
-    test::TemporaryFolder folder_;
+    bendy::test::TemporaryFolder folder_;
     Report report_;
 };
 
@@ -101,4 +101,4 @@ TEST(LinkedFile, IsWhatTheUriMeans) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::move_links_test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace bendy::converter {
+namespace bendy::converter::report_test {
 namespace {
 
 TEST(Report, EqualMessagesAreCountedTogetherInTheOrderInWhichTheyFirstCame) {
@@ -50,4 +50,4 @@ TEST(Report, StartsEmpty) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::report_test

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::smallest_type_test {
 namespace {
 
 /// The stored number as a reader of the format gets it: an integer over its type's largest, or the float.
@@ -147,4 +147,4 @@ TEST(SmallestExactIndices, TheLargestIndexOfEachTypeSurvives) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::smallest_type_test

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::sort_by_bones_test {
 namespace {
 
 constexpr std::uint32_t kVertices = 500;
@@ -126,4 +126,4 @@ TEST(SortByBones, RigidAndCollapsibleMeshesStay) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::sort_by_bones_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::edit {
+namespace bendy::edit::edit_test {
 namespace {
 
 using test::at;
@@ -278,4 +278,4 @@ TEST(Hostile, ARopeOfManyJoints) {
 }
 
 }  // namespace
-}  // namespace bendy::edit
+}  // namespace bendy::edit::edit_test

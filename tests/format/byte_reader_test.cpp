@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-namespace bendy {
+namespace bendy::byte_reader_test {
 namespace {
 
 constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max();
@@ -36,4 +36,4 @@ TEST(ByteReader, CopiesNoMoreThanThereIs) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::byte_reader_test

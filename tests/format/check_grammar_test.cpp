@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::check_grammar_test {
 namespace {
 
 using namespace test;
@@ -236,4 +236,4 @@ TEST(CheckGrammar, RefusesConstraintsAndChainsInTheWrongPlaceOrShape) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::check_grammar_test

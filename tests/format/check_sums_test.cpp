@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace bendy {
+namespace bendy::check_sums_test {
 namespace {
 
 using namespace test;
@@ -88,4 +88,4 @@ TEST(CheckSums, StatesTheSumThatShouldStandThere) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::check_sums_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::chunk_reader_test {
 namespace {
 
 using namespace test;
@@ -263,4 +263,4 @@ TEST(FourCC, IsStoredInReadingOrder) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::chunk_reader_test

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace bendy {
+namespace bendy::chunk_writer_test {
 namespace {
 
 using namespace test;
@@ -109,4 +109,4 @@ TEST(ChunkWriter, GivesTheSameBytesEveryTime) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::chunk_writer_test

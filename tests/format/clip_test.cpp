@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::clip_test {
 namespace {
 
 using namespace test;
@@ -336,4 +336,4 @@ TEST(Clip, RefusesTwoTracksForOneProperty) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::clip_test

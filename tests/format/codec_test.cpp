@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::codec_test {
 namespace {
 
 using Buffer = std::vector<std::byte>;
@@ -226,4 +226,4 @@ TEST(Codec, SizesHaveALimit) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::codec_test

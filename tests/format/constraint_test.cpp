@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::constraint_test {
 namespace {
 
 using namespace test;
@@ -344,4 +344,4 @@ TEST(Limit, SaysNothingOfTheRestPoseWhereTheLimitsAreWrong) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::constraint_test

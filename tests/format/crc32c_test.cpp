@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bendy {
+namespace bendy::crc32c_test {
 namespace {
 
 /// One bit at a time, straight from the polynomial.
@@ -113,4 +113,4 @@ TEST(Crc32c, LongLanesGiveTheSameSum) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::crc32c_test

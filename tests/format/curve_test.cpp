@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::curve_test {
 namespace {
 
 using namespace test;
@@ -215,4 +215,4 @@ TEST(Curves, WantGoodNumbers) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::curve_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::damage_test {
 namespace {
 
 using namespace test;
@@ -298,4 +298,4 @@ TEST(Damage, EveryLeafMayBeOfAnyLength) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::damage_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace bendy::test {
+namespace bendy::test::decode_leaves_test {
 namespace {
 
 constexpr std::uint16_t kZstd = 0x0100;
@@ -96,4 +96,4 @@ TEST(DecodeLeaves, EveryPrefixOfAnEncodedLeafIsAFault) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::decode_leaves_test

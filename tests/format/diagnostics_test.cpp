@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace bendy {
+namespace bendy::diagnostics_test {
 namespace {
 
 using namespace test;
@@ -218,4 +218,4 @@ TEST(ErrorCodes, AreUniqueAndSpelledAlike) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::diagnostics_test

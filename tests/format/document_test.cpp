@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace bendy {
+namespace bendy::document_test {
 namespace {
 
 using namespace test;
@@ -277,4 +277,4 @@ TEST(Document, SurvivesTheLossOfAnyChunk) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::document_test

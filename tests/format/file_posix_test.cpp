@@ -15,7 +15,7 @@
 #include <vector>
 #endif
 
-namespace bendy {
+namespace bendy::file_posix_test {
 namespace {
 
 using MappedFileTest = test::FileTest;
@@ -154,4 +154,4 @@ TEST_F(WriteFileTest, LeavesTheOldFileAloneWhenTheDiskIsFull) {
 #endif
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::file_posix_test

@@ -13,7 +13,7 @@
 #include <vector>
 
 // What holds on all systems; file_posix_test.cpp and file_windows_test.cpp have the rest.
-namespace bendy {
+namespace bendy::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -183,4 +183,4 @@ TEST_F(WriteFileTest, APathMayBeRelative) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::file_test

@@ -15,7 +15,7 @@
 #endif
 #include <windows.h>
 
-namespace bendy {
+namespace bendy::file_windows_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,5 +95,5 @@ TEST_F(WriteFileOnWindows, TakesEitherSlash) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::file_windows_test
 #endif

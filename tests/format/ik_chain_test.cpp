@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy {
+namespace bendy::ik_chain_test {
 namespace {
 
 using namespace test;
@@ -304,4 +304,4 @@ TEST(Chain, OfAFanHasNoSiblings) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::ik_chain_test

@@ -13,7 +13,7 @@
 #include <random>
 #include <string>
 
-namespace bendy {
+namespace bendy::joint_table_test {
 namespace {
 
 using namespace test;
@@ -196,4 +196,4 @@ TEST(Bound, IsReadAndFinite) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::joint_table_test

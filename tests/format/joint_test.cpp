@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::joint_test {
 namespace {
 
 using namespace test;
@@ -225,4 +225,4 @@ TEST(Skeleton, ReadsAWideFanOfJoints) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::joint_test

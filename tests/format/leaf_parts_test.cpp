@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::leaf_parts_test {
 namespace {
 
 using namespace test;
@@ -119,4 +119,4 @@ TEST(LeafParts, SayWhatNumbersReferTo) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::leaf_parts_test

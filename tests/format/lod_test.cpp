@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-namespace bendy::test {
+namespace bendy::test::lod_test {
 namespace {
 
 const std::string kPath = "HEAD/OBJE/LODD";
@@ -201,4 +201,4 @@ TEST(Lod, RefusesASecondOneAndAContainer) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::lod_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::marker_test {
 namespace {
 
 using namespace test;
@@ -119,4 +119,4 @@ TEST(Markers, AreNotReadFromALeafThatIsStillEncoded) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::marker_test

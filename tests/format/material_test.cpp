@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace bendy {
+namespace bendy::material_test {
 namespace {
 
 using namespace test;
@@ -194,4 +194,4 @@ TEST(Texture, RefusesAnImageThatIsNotThereOrIsItselfAnothers) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::material_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::mesh_test {
 namespace {
 
 using namespace test;
@@ -575,4 +575,4 @@ TEST(Mesh, DirectionsAreUnitVectorsOrZero) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::mesh_test

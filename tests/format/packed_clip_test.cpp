@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::packed_clip_test {
 namespace {
 
 using namespace test;
@@ -444,4 +444,4 @@ TEST(PackedClipInFile, TimesMustAscendAndBeFinite) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::packed_clip_test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy {
+namespace bendy::pair_chunks_test {
 namespace {
 
 using Named = std::vector<std::pair<std::string, std::string>>;
@@ -100,4 +100,4 @@ TEST(PairChunks, EqualSumsMeanTheSameChunk) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::pair_chunks_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::records_test {
 namespace {
 
 using namespace test;
@@ -173,4 +173,4 @@ TEST(Records, KnowTheSizesOfTheirEnumerations) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::records_test

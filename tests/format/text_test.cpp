@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace bendy {
+namespace bendy::text_test {
 namespace {
 
 using namespace test;
@@ -113,4 +113,4 @@ TEST(Utf8, AWrongByteIsFoundAtEveryPlaceOfALongText) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::text_test

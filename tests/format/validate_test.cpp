@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::validate_test {
 namespace {
 
 using namespace test;
@@ -319,4 +319,4 @@ TEST(Validate, KeepsABoundedListOfFaultsAndCountsTheRest) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::validate_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::convert_memory_test {
 namespace {
 
 const std::filesystem::path kSeeds = std::filesystem::path(BENDY_SOURCE_DIR) / "tests/seeds";
@@ -67,4 +67,4 @@ TEST(ConvertMemory, EveryFailureOfConvertingABendyFileIsSaid) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::convert_memory_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::test {
+namespace bendy::test::allocation_test {
 namespace {
 
 /// What skinning gives in the middle of a model's first clip; sizes are set before, so that only the library
@@ -121,4 +121,4 @@ TEST(FailedAllocation, OfDescribingAFaultLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::allocation_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::binding_test {
 namespace {
 
 using test::Owned;
@@ -173,4 +173,4 @@ TEST(Binding, ToTheSameSkeletonItIsSampling) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::binding_test

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::blend_test {
 namespace {
 
 using test::Owned;
@@ -276,4 +276,4 @@ TEST(MaskBelow, ReachesTheJointAndItsDescendantsOnly) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::blend_test

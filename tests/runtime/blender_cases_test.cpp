@@ -11,7 +11,7 @@
 #include <string_view>
 
 // Rotations that Blender limited: tests/blender/cases.json says what its fields mean, make_cases.py makes it.
-namespace bendy {
+namespace bendy::blender_cases_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -77,4 +77,4 @@ TEST(BlenderCases, AreLegalAndNearestWhereTheySaySo) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::blender_cases_test

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::bounds_test {
 namespace {
 
 using test::Owned;
@@ -178,4 +178,4 @@ TEST(Bounds, WhatIsNotFiniteIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::bounds_test

@@ -15,7 +15,7 @@
 #include <vector>
 
 // What is legal is said here a second time, with the mathematical library and straight from spec/constraints.md.
-namespace bendy {
+namespace bendy::constrain_test {
 namespace {
 
 constexpr double kPi = M_PI;
@@ -314,4 +314,4 @@ TEST(Constrain, NothingJumpsAtPi) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::constrain_test

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace bendy {
+namespace bendy::crossfade_test {
 namespace {
 
 using test::Owned;
@@ -143,4 +143,4 @@ TEST(Crossfade, PosesOfOtherModelsAreRefused) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::crossfade_test

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace bendy {
+namespace bendy::crowd_test {
 namespace {
 
 constexpr std::size_t kFloats = 10;  // a vertex: position, normal, tangent, interleaved
@@ -187,4 +187,4 @@ TEST(Crowd, TooLittleMemoryIsLeftAloneAndAllElseIsWritten) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::crowd_test

@@ -15,7 +15,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::curve_test {
 namespace {
 
 /// A curve with the memory of its keys.
@@ -227,4 +227,4 @@ TEST(FindCurve, OfAFile) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::curve_test

@@ -1,5 +1,6 @@
 #include <bendy/runtime.h>
 
+#include "mutation/step.h"
 #include "runtime/build_model.h"
 #include "runtime/use_model.h"
 
@@ -13,7 +14,7 @@
 
 // What is not refused must be harmless: this is most worth running under AddressSanitizer and
 // UndefinedBehaviorSanitizer.
-namespace bendy {
+namespace bendy::damaged_file_test {
 namespace {
 
 using test::Buffer;
@@ -31,7 +32,7 @@ TEST(DamagedFile, AnyBitWithSumsRepairedIsRefusedOrHarmless) {
     const Buffer good = test::sample_file();
     int accepted = 0;
     int refused = 0;
-    for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
+    for (std::size_t bit = 0; bit < good.size() * 8; bit += test::kStep) {
         Buffer file = good;
         file[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
         if (!test::resum(file)) {
@@ -70,7 +71,7 @@ TEST(DamagedFile, AnyFieldWithAnExtremeNumberIsRefusedOrHarmless) {
                                                      0x0001'0000};
     OpenOptions options;
     options.sums = Sums::later;
-    for (std::size_t at = 0; at + 4 <= good.size(); at += 4) {
+    for (std::size_t at = 0; at + 4 <= good.size(); at += 4 * test::kStep) {
         for (const std::uint32_t number : kNumbers) {
             Buffer file = good;
             test::patch(file, at, number);
@@ -117,4 +118,4 @@ TEST(DamagedFile, WhatIsMadeOfThemIsHarmless) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::damaged_file_test

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace bendy {
+namespace bendy::dual_kernels_test {
 namespace {
 
 using test::RandomBlock;
@@ -65,4 +65,4 @@ TEST(DualKernels, AnyStrideAndAnySubset) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::dual_kernels_test

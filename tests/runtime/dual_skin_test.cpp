@@ -17,7 +17,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::dual_skin_test {
 namespace {
 
 using test::Owned;
@@ -412,4 +412,4 @@ TEST(DualSkin, RefusesShortMemoryAndBearsNoNumbers) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::dual_skin_test

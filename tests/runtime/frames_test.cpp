@@ -16,7 +16,7 @@
 // Frames and the clips that play them, of spec/examples/every_chunk.bendy: mesh 1 is a triangle (0 0 0, 1 0 0, 1 1 0)
 // whose normals are 0 0 1. In frame 1 its last two vertices are at 1 0.5 0, in frame 2 at 1 1.5 0 and the first at 0
 // 0.5 0; in both the last two have the normal 0 1 0. `flap` plays the mesh, frame 1 and frame 2, 2 a second, closed.
-namespace bendy {
+namespace bendy::frames_test {
 namespace {
 
 using Places = std::vector<glm::vec3>;
@@ -149,4 +149,4 @@ TEST_F(Frames, BlendAndHaveBounds) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::frames_test

@@ -13,7 +13,7 @@
 #include <vector>
 
 // The short way of plain chains against the long one, which holds for all chains.
-namespace bendy {
+namespace bendy::ik_quick_test {
 namespace {
 
 class Dice {
@@ -196,4 +196,4 @@ TEST(IkQuick, WhatAsksForMoreGoesTheLongWay) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::ik_quick_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::ik_test {
 namespace {
 
 using test::moved;
@@ -940,4 +940,4 @@ TEST(Ik, MirroredTargetsGiveMirroredPoses) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::ik_test

@@ -14,7 +14,7 @@
 #include <vector>
 
 // Files of more than 4 GiB: sparse ones, so that next to nothing is written.
-namespace bendy {
+namespace bendy::large_file_test {
 namespace {
 
 constexpr std::uint64_t kHole = (std::uint64_t{1} << 32) + (std::uint64_t{1} << 29);  // bytes
@@ -89,4 +89,4 @@ TEST(LargeFile, AFaultBeyondFourGigabytesHasItsPlace) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::large_file_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::local_to_model_test {
 namespace {
 
 using test::Owned;
@@ -227,4 +227,4 @@ TEST(LocalToModel, BonesThatAreNotFiniteDoNotHarmVerticesWithoutThem) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::local_to_model_test

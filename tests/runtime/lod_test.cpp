@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-namespace bendy::test {
+namespace bendy::test::lod_test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -260,4 +260,4 @@ TEST(Lod, SkinsOnlyTheLivingVertices) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::lod_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::markers_test {
 namespace {
 
 const std::vector<Marker> kSteps{{1.0f, "s"}, {1.5f, "a"}, {2.0f, "b"}, {2.0f, "c"}, {3.0f, "e"}};
@@ -120,4 +120,4 @@ TEST(Markers, VisitsEndWhenTheyAreTold) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::markers_test

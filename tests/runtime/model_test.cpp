@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy {
+namespace bendy::model_test {
 namespace {
 
 using test::Buffer;
@@ -357,4 +357,4 @@ TEST(Model, TenThousandNestedJointsLoad) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::model_test

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace bendy {
+namespace bendy::morph_targets_test {
 namespace {
 
 using test::Owned;
@@ -173,4 +173,4 @@ TEST(MorphTargets, LongerSpansKeepWhatIsBehindTheVertices) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::morph_targets_test

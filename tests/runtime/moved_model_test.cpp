@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy {
+namespace bendy::moved_model_test {
 namespace {
 
 /// A character as a game keeps it: all of it moves when the game's list of them grows.
@@ -128,4 +128,4 @@ TEST(MovedModel, PosesOfCopiesAreOfOneModel) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::moved_model_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace bendy {
+namespace bendy::no_allocation_test {
 namespace {
 
 TEST(NoAllocation, TheCountCounts) {
@@ -161,4 +161,4 @@ TEST(NoAllocation, PlayingPackedClipsMakesNoneInOrderOrAtRandom) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::no_allocation_test

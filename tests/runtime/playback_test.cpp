@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::playback_test {
 namespace {
 
 /// The stretches of a walk that are not empty, one after another.
@@ -224,4 +224,4 @@ TEST(Playback, AClipSaysWhetherItLoops) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::playback_test

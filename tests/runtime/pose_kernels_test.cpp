@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-namespace bendy {
+namespace bendy::pose_kernels_test {
 namespace {
 
 TEST(PoseKernels, AreWithinTheirBoundsOfDoubles) {
@@ -36,4 +36,4 @@ TEST(PoseKernels, AreWithinTheirBoundsOfDoubles) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::pose_kernels_test

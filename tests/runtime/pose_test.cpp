@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace bendy {
+namespace bendy::pose_test {
 namespace {
 
 using test::Owned;
@@ -111,4 +111,4 @@ TEST(Pose, PalettesAreThoseOfTheirMeshesInThePoseAsItIs) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::pose_test

@@ -15,7 +15,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::root_motion_test {
 namespace {
 
 using test::Owned;
@@ -310,4 +310,4 @@ TEST(RootMotion, RepeatIsThenAgainAndAgain) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::root_motion_test

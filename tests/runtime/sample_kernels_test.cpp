@@ -11,7 +11,7 @@
 #include <vector>
 
 // Whole clips with each kernel, against sample_track in double precision.
-namespace bendy {
+namespace bendy::sample_kernels_test {
 namespace {
 
 using test::Owned;
@@ -127,4 +127,4 @@ TEST(SampleKernels, KeysComeOutExactly) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::sample_kernels_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace bendy {
+namespace bendy::sample_test {
 namespace {
 
 using test::Owned;
@@ -503,4 +503,4 @@ TEST(Sample, WeightsOfAMeshWithMoreTargetsDoNotSpillIntoTheNextMesh) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::sample_test

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy {
+namespace bendy::skin_kernels_test {
 namespace {
 
 using test::Buffer;
@@ -395,4 +395,4 @@ TEST(SkinBuffer, WhatIsTooSmallIsRefusedAndNothingIsWritten) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::skin_kernels_test

@@ -17,7 +17,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy {
+namespace bendy::skin_test {
 namespace {
 
 using test::Owned;
@@ -581,4 +581,4 @@ TEST(Skin, ADeepChainSkins) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::skin_test

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace bendy {
+namespace bendy::socket_test {
 namespace {
 
 using test::Owned;
@@ -90,4 +90,4 @@ TEST(Socket, FlatMirroredAndShearedJointsStillHoldAThing) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::socket_test

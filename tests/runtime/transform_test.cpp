@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace bendy {
+namespace bendy::transform_test {
 namespace {
 
 using Matrix = std::array<std::array<double, 4>, 4>;  // [row][column], as on paper
@@ -116,4 +116,4 @@ TEST(ToMatrix, AnyTransformAgreesWithTheDefinition) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::transform_test

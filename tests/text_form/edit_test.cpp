@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace bendy::test {
+namespace bendy::test::edit_test {
 namespace {
 
 std::string sample_text() {
@@ -154,4 +154,4 @@ TEST(EncodedIndices, AChangedOneKeepsItsValue) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::edit_test

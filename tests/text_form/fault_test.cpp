@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace bendy::test {
+namespace bendy::test::fault_test {
 namespace {
 
 /// The text with `chunks` inside HEAD; they begin in column 1 of line 2.
@@ -182,4 +182,4 @@ TEST(TextFaults, RandomChangesNeverGiveAMalformedFile) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::fault_test

@@ -5,7 +5,7 @@
 
 #include <bendy/format/packed_clip.h>
 
-namespace bendy::test {
+namespace bendy::test::packed_test {
 namespace {
 
 Buffer file_with(Bytes packed) {
@@ -65,4 +65,4 @@ TEST(PackedText, NumbersThatDoNotFitAreNamed) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::packed_test

@@ -17,7 +17,7 @@
 #include <limits>
 #include <random>
 
-namespace bendy::test {
+namespace bendy::test::round_trip_test {
 namespace {
 
 TEST(RoundTrip, FilesOfTheSpecification) {
@@ -201,4 +201,4 @@ TEST(RoundTrip, DecodedLeavesAreStoredPlainly) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::round_trip_test

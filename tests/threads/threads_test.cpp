@@ -14,7 +14,7 @@
 #include <vector>
 
 // One model, many threads: most worth running under ThreadSanitizer (the preset `tsan`).
-namespace bendy {
+namespace bendy::threads_test {
 namespace {
 
 constexpr std::size_t kThreads = 4;
@@ -198,4 +198,4 @@ TEST(Threads, PlayACrowdTogether) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::threads_test

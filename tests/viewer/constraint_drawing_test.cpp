@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bendy::viewer {
+namespace bendy::viewer::constraint_drawing_test {
 namespace {
 
 constexpr float kFree = std::numeric_limits<float>::infinity();
@@ -91,4 +91,4 @@ TEST(ConstraintDrawing, FreeSwingIsAllButABall) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::constraint_drawing_test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::viewer {
+namespace bendy::viewer::demo_test {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
@@ -327,4 +327,4 @@ TEST_F(DemoTest, ModesEaseIntoEachOther) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::demo_test

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-namespace bendy::viewer {
+namespace bendy::viewer::image_reader_test {
 namespace {
 
 constexpr std::uint64_t kPlenty = 1u << 20u;
@@ -143,4 +143,4 @@ TEST(ImageReader, OtherFormatsAreNamed) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::image_reader_test

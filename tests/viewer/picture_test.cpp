@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-namespace bendy::viewer {
+namespace bendy::viewer::picture_test {
 namespace {
 
 Picture plain(std::uint8_t red, std::uint8_t green, std::uint8_t blue, std::uint8_t alpha = 255) {
@@ -110,4 +110,4 @@ TEST(ContactSheet, FillsRowsFromTheTopLeft) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::picture_test

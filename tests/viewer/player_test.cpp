@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace bendy::viewer {
+namespace bendy::viewer::player_test {
 namespace {
 
 class PlayerTest : public testing::Test {
@@ -75,4 +75,4 @@ TEST_F(PlayerTest, AChainThatIsOnReaches) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::player_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::viewer {
+namespace bendy::viewer::reflectance_table_test {
 namespace {
 
 TEST(ReflectanceTable, IsThatOfOthers) {
@@ -35,4 +35,4 @@ TEST(ReflectanceTable, NothingIsMirroredMoreThanOnce) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::reflectance_table_test

@@ -15,7 +15,7 @@
 #include <memory>
 #include <optional>
 
-namespace bendy::viewer {
+namespace bendy::viewer::vertex_positions_test {
 namespace {
 
 constexpr std::uint32_t kSide = 500;
@@ -256,4 +256,4 @@ TEST(OffscreenContextTest, SaysWhatItTriedWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace bendy::viewer
+}  // namespace bendy::viewer::vertex_positions_test

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-namespace bendy::converter {
+namespace bendy::converter::four_distances_test {
 namespace {
 
 using Places = std::array<glm::vec3, 4>;
@@ -46,4 +46,4 @@ TEST(FourDistances, AreThoseOfClosestPointToTheBit) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::four_distances_test

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::build_compact_test {
 namespace {
 
 using test::Numbers;
@@ -169,4 +169,4 @@ TEST(BuildCompact, ClipsKeepTheirLength) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::build_compact_test

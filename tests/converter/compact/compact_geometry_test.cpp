@@ -14,7 +14,7 @@
 #include <cmath>
 #include <random>
 
-namespace bendy::converter {
+namespace bendy::converter::compact_geometry_test {
 namespace {
 
 /// Two joints, a wavy grid that they bend, one clip that turns the second.
@@ -271,4 +271,4 @@ TEST(CompactGeometry, HeightIsThatOfTheSkinAtRest) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::compact_geometry_test

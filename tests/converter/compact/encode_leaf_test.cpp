@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::encode_leaf_test {
 namespace {
 
 /// A head of 16 bytes and rows of two u16 that walk; long enough to be judged by a sample.
@@ -64,4 +64,4 @@ TEST(EncodeLeaf, WhatTheWholeCannotTakeIsNotTaken) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::encode_leaf_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::error_bound_test {
 namespace {
 
 TEST(ErrorBound, LengthsAndShares) {
@@ -33,4 +33,4 @@ TEST(ErrorBound, ErrorsSayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::error_bound_test

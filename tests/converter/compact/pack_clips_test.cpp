@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::pack_clips_test {
 namespace {
 
 constexpr double kBound = 1e-4;
@@ -337,4 +337,4 @@ TEST(FindGrid, IsTwiceAsDenseWhereKeysLieBetween) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::pack_clips_test

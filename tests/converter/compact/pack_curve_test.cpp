@@ -16,7 +16,7 @@
 #include <random>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::pack_curve_test {
 namespace {
 
 Curve curve_of(const std::string& path, std::vector<float> times, std::vector<float> values,
@@ -206,4 +206,4 @@ TEST(MergeClipsWithCurves, CurvesOfOnePropertyStayApart) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::pack_curve_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::quantise_test {
 namespace {
 
 std::vector<float> numbers(std::size_t count, float low, float high, unsigned seed) {
@@ -157,4 +157,4 @@ TEST(Quantise, WeightsSumToOneExactly) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::quantise_test

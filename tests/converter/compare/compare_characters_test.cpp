@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::compare_characters_test {
 namespace {
 
 using Kind = CharacterDifference::Kind;
@@ -266,4 +266,4 @@ TEST(CompareCharacters, OtherLooksAreNamed) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::compare_characters_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bendy::converter {
+namespace bendy::converter::accessor_test {
 namespace {
 
 using namespace test;
@@ -167,4 +167,4 @@ TEST(GltfAccessor, NumbersThatAreNotFiniteAreRefusedByPlace) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::accessor_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace bendy::converter {
+namespace bendy::converter::animation_test {
 namespace {
 
 using namespace test;
@@ -221,4 +221,4 @@ TEST(GltfAnimation, SharedSamplersCannotGrowWithoutBound) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::animation_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::buffers_test {
 namespace {
 
 using namespace test;
@@ -102,4 +102,4 @@ TEST(GltfBuffers, ViewsMustLieInTheirBuffer) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::buffers_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::check_json_test {
 namespace {
 
 using namespace test;
@@ -115,4 +115,4 @@ TEST(GltfJson, RequiredExtensionsMustBeKnown) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::check_json_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::container_test {
 namespace {
 
 using namespace test;
@@ -78,4 +78,4 @@ TEST(GltfContainer, FilesThatCannotBeReadAreRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::container_test

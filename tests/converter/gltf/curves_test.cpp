@@ -12,7 +12,7 @@
 #include <string>
 #include <tuple>
 
-namespace bendy::converter {
+namespace bendy::converter::curves_test {
 namespace {
 
 using namespace test;
@@ -366,4 +366,4 @@ TEST(GltfCurves, XFilesHaveNoPlaceForThem) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::curves_test

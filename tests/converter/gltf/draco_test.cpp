@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace bendy::converter {
+namespace bendy::converter::draco_test {
 namespace {
 
 using namespace test;
@@ -134,4 +134,4 @@ TEST(GltfDraco, CountsAreHeldAgainstTheData) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::draco_test

@@ -14,7 +14,7 @@
 #include <set>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::every_place_test {
 namespace {
 
 using namespace test;
@@ -322,4 +322,4 @@ TEST(GltfEveryPlace, OfWhatIsGoneNothingIsMade) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::every_place_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::extensions_test {
 namespace {
 
 using namespace test;
@@ -55,4 +55,4 @@ TEST(GltfExtensions, ExtrasAreKeptOrCounted) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::extensions_test

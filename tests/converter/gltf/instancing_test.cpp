@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::instancing_test {
 namespace {
 
 using namespace test;
@@ -170,4 +170,4 @@ TEST(GltfInstancing, TheirNumberIsHeldAgainstTheBytes) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::instancing_test

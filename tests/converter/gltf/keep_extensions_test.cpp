@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::keep_extensions_test {
 namespace {
 
 using namespace test;
@@ -64,4 +64,4 @@ TEST(GltfKeptExtensions, AFileMayDemandThem) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::keep_extensions_test

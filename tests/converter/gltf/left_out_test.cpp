@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::left_out_test {
 namespace {
 
 using namespace test;
@@ -54,4 +54,4 @@ TEST(GltfLeftOut, NamesThatAreNoStringsDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::left_out_test

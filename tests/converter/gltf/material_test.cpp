@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::material_test {
 namespace {
 
 using namespace test;
@@ -146,4 +146,4 @@ TEST(GltfMaterial, WrongReferencesNameTheirPlace) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::material_test

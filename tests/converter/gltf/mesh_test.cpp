@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace bendy::converter {
+namespace bendy::converter::mesh_test {
 namespace {
 
 using namespace test;
@@ -349,4 +349,4 @@ TEST(GltfMesh, MorphTargetsMustFitThePositions) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::mesh_test

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace bendy::converter {
+namespace bendy::converter::meshopt_test {
 namespace {
 
 using namespace test;
@@ -218,4 +218,4 @@ TEST(GltfMeshopt, FaultsNameTheView) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::meshopt_test

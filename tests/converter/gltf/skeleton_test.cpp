@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::skeleton_test {
 namespace {
 
 using namespace test;
@@ -147,4 +147,4 @@ TEST(GltfSkeleton, NamesAreKeptAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::skeleton_test

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::export_gltf_test {
 namespace {
 
 using bendy::test::Buffer;
@@ -435,4 +435,4 @@ TEST(ExportGltf, RandomCharactersComeBack) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::export_gltf_test

@@ -12,7 +12,7 @@
 
 #include <array>
 
-namespace bendy::converter {
+namespace bendy::converter::auto_rig_test {
 namespace {
 
 using namespace test;
@@ -616,4 +616,4 @@ TEST(AutoRig, TheExampleWalksInsideItsLimits) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::auto_rig_test

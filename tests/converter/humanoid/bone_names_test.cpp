@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::bone_names_test {
 namespace {
 
 constexpr BodySide kLeft = BodySide::left;
@@ -69,4 +69,4 @@ TEST(BoneNames, HelpersFingersAndOthersHaveNone) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::bone_names_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::vrm_test {
 namespace {
 
 using namespace test;
@@ -187,4 +187,4 @@ TEST(Vrm, TakenNamesStay) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::vrm_test

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::import_md2_test {
 namespace {
 
 /// Makes a model: a square of two triangles that lies in front, seen from +X; each frame one unit further up.
@@ -271,4 +271,4 @@ TEST(ImportMd2, EveryPrefixIsRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::import_md2_test

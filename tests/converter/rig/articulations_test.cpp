@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::articulations_test {
 namespace {
 
 using namespace test;
@@ -166,4 +166,4 @@ TEST(Articulations, PointingVectorsAreSaidToBeKept) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::articulations_test

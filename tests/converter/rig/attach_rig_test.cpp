@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace bendy::converter {
+namespace bendy::converter::attach_rig_test {
 namespace {
 
 using namespace test;
@@ -170,4 +170,4 @@ TEST(AttachRig, OfManyEntriesThatNoJointTakesTheFirstAreNamed) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::attach_rig_test

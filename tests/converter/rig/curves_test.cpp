@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::curves_test {
 namespace {
 
 using namespace test;
@@ -179,4 +179,4 @@ TEST(RigCurves, WhatIsWrittenIsReadBackToTheBit) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::curves_test

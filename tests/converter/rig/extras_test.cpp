@@ -15,7 +15,7 @@
 #include <numbers>
 #include <random>
 
-namespace bendy::converter {
+namespace bendy::converter::extras_test {
 namespace {
 
 using namespace test;
@@ -528,4 +528,4 @@ TEST(RigExtras, OtherExtrasAreNoneOfOurBusiness) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::extras_test

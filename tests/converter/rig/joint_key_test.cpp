@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bendy::converter {
+namespace bendy::converter::joint_key_test {
 namespace {
 
 using namespace test;
@@ -103,4 +103,4 @@ TEST(RigJointKey, EndlessWorkIsRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::joint_key_test

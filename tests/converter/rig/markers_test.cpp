@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bendy::converter {
+namespace bendy::converter::markers_test {
 namespace {
 
 using namespace test;
@@ -153,4 +153,4 @@ TEST(RigMarkers, AreWrittenAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::markers_test

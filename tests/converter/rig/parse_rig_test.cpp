@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace bendy::converter {
+namespace bendy::converter::parse_rig_test {
 namespace {
 
 using namespace test;
@@ -206,4 +206,4 @@ TEST(ParseRig, EveryPrefixIsRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::parse_rig_test

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <random>
 
-namespace bendy::converter {
+namespace bendy::converter::write_rig_test {
 namespace {
 
 using namespace test;
@@ -181,4 +181,4 @@ TEST(WriteRig, NumbersAreShortAndDefaultsLeftOut) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::write_rig_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace bendy::converter {
+namespace bendy::converter::importers_test {
 namespace {
 
 Bytes bytes_of(std::string_view text) {
@@ -56,4 +56,4 @@ TEST(Importers, EveryFormatHasOne) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::importers_test

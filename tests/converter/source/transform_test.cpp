@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::transform_test {
 namespace {
 
 /// T * R * U, column-major, in double.
@@ -101,4 +101,4 @@ TEST(GltfTransform, OtherQuaternionsAreNormalised) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::transform_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bendy::converter::x {
+namespace bendy::converter::x::display_colour_test {
 namespace {
 
 TEST(DisplayColour, IsTheCurveOfSrgb) {
@@ -35,4 +35,4 @@ TEST(DisplayColour, StrangeNumbersStayWhatTheyAre) {
 }
 
 }  // namespace
-}  // namespace bendy::converter::x
+}  // namespace bendy::converter::x::display_colour_test

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::export_x_test {
 namespace {
 
 const std::filesystem::path kSource = BENDY_SOURCE_DIR;
@@ -444,4 +444,4 @@ TEST(ExportX, BadFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::export_x_test

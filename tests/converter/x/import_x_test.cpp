@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::import_x_test {
 namespace {
 
 const std::string kHeader = "xof 0303txt 0032\n";
@@ -494,4 +494,4 @@ AnimationSet S { Animation { {A} AnimationKey { 0; 1; 0;4;-1,0,0,0;;; } } })";
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::import_x_test
