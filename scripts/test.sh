@@ -35,6 +35,11 @@ if [ "${1:-}" != quick ]; then
     cmake --preset no-exceptions >/dev/null
     cmake --build --preset no-exceptions
 
+    step "the libraries in the standard language only, plain kernels"
+    cmake --preset standard-cpp >/dev/null
+    cmake --build --preset standard-cpp
+    ctest --preset standard-cpp
+
     step "threads under ThreadSanitizer"
     cmake --preset tsan >/dev/null
     cmake --build --preset tsan

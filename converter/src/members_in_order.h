@@ -2,7 +2,9 @@
 
 // To clang-tidy this is the library's own header, which it goes with: copies of JSON recurse, as deep as it is nested,
 // and parse_json_text bounds that.
+#if defined(__GNUC__)
 #pragma GCC system_header
+#endif
 
 #include <nlohmann/json.hpp>
 

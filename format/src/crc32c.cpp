@@ -2,15 +2,17 @@
 
 #include "crc32c_kernels.h"
 
+#include <bendy/format/public.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
 
-#if defined(__x86_64__)
+#if defined(BENDY_GNU) && defined(__x86_64__)
 #include <nmmintrin.h>
 #define BENDY_CRC32C __attribute__((target("sse4.2")))
-#elif defined(__aarch64__) && defined(__linux__)
+#elif defined(BENDY_GNU) && defined(__aarch64__) && defined(__linux__)
 #include <arm_acle.h>
 #include <sys/auxv.h>
 #define BENDY_CRC32C __attribute__((target("+crc")))

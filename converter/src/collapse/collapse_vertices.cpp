@@ -210,7 +210,7 @@ private:
             for (std::size_t k = 0; k < fan_.left().size() && kPosedFactor * largest_of(least) > known; ++k) {
                 if (k == guess) continue;
                 const FourFloats other = posed_distances(sample, four, fan_.left()[k].second);
-                least = other < least ? other : least;
+                least = select(other < least, other, least);
             }
             known = std::max(known, kPosedFactor * largest_of(least));
         }

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <bendy/format/public.h>
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstring>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace bendy::converter {
@@ -54,9 +59,73 @@ inline ClosestPoint closest_point(const glm::vec3& p, const glm::vec3& a, const 
     return at({va / sum, vb / sum, vc / sum});
 }
 
-/// Four floats that are reckoned with at once: an extension that GCC and clang share. Each lane rounds as a float does.
-using FourFloats = float __attribute__((vector_size(16)));
 inline constexpr std::size_t kFour = 4;
+
+/// Four floats that are computed with at once; each rounds as a float does. select(which, a, b) takes a's where `which`
+/// holds.
+#if defined(BENDY_GNU)
+using FourFloats = float __attribute__((vector_size(16)));
+
+template <class Mask>
+FourFloats select(const Mask& which, const FourFloats& a, const FourFloats& b) {
+    return which ? a : b;
+}
+#else
+struct FourFloats {
+    std::array<float, kFour> lanes;
+    float operator[](std::size_t k) const { return lanes[k]; }
+};
+using FourFlags = std::array<bool, kFour>;
+
+/// The results of a function of each lane's numbers.
+template <class Result, class Function, class... Four>
+Result for_each_lane(const Function& function, const Four&... four) {
+    Result result{};
+    if constexpr (std::is_same_v<Result, FourFloats>) {
+        for (std::size_t k = 0; k < kFour; ++k) result.lanes[k] = function(four[k]...);
+    } else {
+        for (std::size_t k = 0; k < kFour; ++k) result[k] = function(four[k]...);
+    }
+    return result;
+}
+
+inline FourFloats operator+(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFloats>(std::plus<>(), a, b);
+}
+inline FourFloats operator-(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFloats>(std::minus<>(), a, b);
+}
+inline FourFloats operator*(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFloats>(std::multiplies<>(), a, b);
+}
+inline FourFloats operator/(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFloats>(std::divides<>(), a, b);
+}
+inline FourFloats operator-(const FourFloats& a) {
+    return for_each_lane<FourFloats>(std::negate<>(), a);
+}
+inline FourFloats operator+(const FourFloats& a, float b) {
+    return a + FourFloats{{b, b, b, b}};
+}
+inline FourFlags operator<(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFlags>(std::less<>(), a, b);
+}
+inline FourFlags operator>(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFlags>(std::greater<>(), a, b);
+}
+inline FourFlags operator<=(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFlags>(std::less_equal<>(), a, b);
+}
+inline FourFlags operator>=(const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFlags>(std::greater_equal<>(), a, b);
+}
+inline FourFlags operator&(const FourFlags& a, const FourFlags& b) {
+    return for_each_lane<FourFlags>(std::logical_and<>(), a, b);
+}
+inline FourFloats select(const FourFlags& which, const FourFloats& a, const FourFloats& b) {
+    return for_each_lane<FourFloats>([](bool first, float x, float y) { return first ? x : y; }, which, a, b);
+}
+#endif
 
 /// Places of points in several shapes, those of one point beside one another: first at rest, then in the other shapes,
 /// by axis, so that four shapes are looked at together. What is beyond the last shape repeats the rest.
@@ -131,7 +200,7 @@ inline FourFloats four_distances(const FourPlaces& p, const FourPlaces& a, const
     const auto dot = [](const FourPlaces& u, const FourPlaces& v) { return u.x * v.x + u.y * v.y + u.z * v.z; };
     const auto share = [&](const FourFloats& part, const FourFloats& other) {
         const FourFloats sum = part + other;
-        return sum > zero ? part / sum : zero;
+        return select(sum > zero, part / sum, zero);
     };
     const FourPlaces ab = minus(b, a);
     const FourPlaces ac = minus(c, a);
@@ -150,14 +219,14 @@ inline FourFloats four_distances(const FourPlaces& p, const FourPlaces& a, const
     const FourFloats sum = va + vb + vc;
 
     // The last case first, so that an earlier one overrules it.
-    FourFloats u = sum > zero ? va / sum : one;
-    FourFloats v = sum > zero ? vb / sum : zero;
-    FourFloats w = sum > zero ? vc / sum : zero;
+    FourFloats u = select(sum > zero, va / sum, one);
+    FourFloats v = select(sum > zero, vb / sum, zero);
+    FourFloats w = select(sum > zero, vc / sum, zero);
     const auto choose = [&](const auto& is_case, const FourFloats& first, const FourFloats& second,
                             const FourFloats& third) {
-        u = is_case ? first : u;
-        v = is_case ? second : v;
-        w = is_case ? third : w;
+        u = select(is_case, first, u);
+        v = select(is_case, second, v);
+        w = select(is_case, third, w);
     };
     const FourFloats bc = share(d4 - d3, d5 - d6);
     choose((va <= zero) & (d4 - d3 >= zero) & (d5 - d6 >= zero), zero, one - bc, bc);

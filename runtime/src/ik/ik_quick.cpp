@@ -3,6 +3,7 @@
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"
 
+#include <bendy/format/public.h>
 #include <bendy/format/trig.h>
 
 #include <glm/gtc/quaternion.hpp>
@@ -13,37 +14,34 @@
 namespace bendy {
 namespace {
 
-// Inlined even if the compiler considers the functions too large: a call costs as much as the work.
-#define BENDY_INLINE [[gnu::always_inline]] inline
-
-BENDY_INLINE double squared(const glm::dvec3& v) {
+BENDY_ALWAYS_INLINE double squared(const glm::dvec3& v) {
     return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-BENDY_INLINE double squared(const glm::dquat& q) {
+BENDY_ALWAYS_INLINE double squared(const glm::dquat& q) {
     return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
 }
 
-BENDY_INLINE glm::dvec3 vector_of(const glm::dquat& q) {
+BENDY_ALWAYS_INLINE glm::dvec3 vector_of(const glm::dquat& q) {
     return {q.x, q.y, q.z};
 }
 
 /// Rotates a vector by a unit quaternion.
-BENDY_INLINE glm::dvec3 turned(const glm::dquat& q, const glm::dvec3& v) {
+BENDY_ALWAYS_INLINE glm::dvec3 turned(const glm::dquat& q, const glm::dvec3& v) {
     const glm::dvec3 u = vector_of(q);
     const glm::dvec3 across = glm::cross(u, v) * 2.0;
     return v + across * q.w + glm::cross(u, across);
 }
 
 /// Returns the rotation with these unit x, y and z axes, with the sign nearest to `like`.
-BENDY_INLINE glm::dquat rotation_of(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z,
-                                    const glm::dquat& like) {
+BENDY_ALWAYS_INLINE glm::dquat rotation_of(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z,
+                                           const glm::dquat& like) {
     const glm::dquat q = glm::quat_cast(glm::dmat3(x, y, z));
     return q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0 ? -q : q;
 }
 
 /// Computes the unit normal of the plane through two directions; returns false if they are (nearly) parallel.
-BENDY_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dvec3& normal) {
+BENDY_ALWAYS_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dvec3& normal) {
     constexpr double kClear = 1e-12;
     normal = glm::cross(a, b);
     const double size = squared(normal);
@@ -53,7 +51,7 @@ BENDY_INLINE bool find_normal(const glm::dvec3& a, const glm::dvec3& b, glm::dve
 }
 
 /// Normalises a quaternion. Returns false for a zero quaternion and for NaN.
-BENDY_INLINE bool normalize(glm::dquat& q) {
+BENDY_ALWAYS_INLINE bool normalize(glm::dquat& q) {
     const double length = squared(q);
     constexpr double kLeast = 1e-200, kMost = 1e200;
     if (!(length > kLeast && length < kMost)) return false;
@@ -62,7 +60,7 @@ BENDY_INLINE bool normalize(glm::dquat& q) {
 }
 
 /// Reads a joint's rotation and normalises it; returns false if its length is off by more than rounding.
-BENDY_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotation) {
+BENDY_ALWAYS_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotation) {
     const glm::dquat q(joint.rotation);
     const double off = squared(q) - 1.0;
     constexpr double kMost = 1e-5;
@@ -72,7 +70,7 @@ BENDY_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& rotatio
 
 /// Whether all axes have one scale, to within what rounding leaves in files (1.00000012), and there is no shear. What
 /// turns with the bones below it is then off by a millionth at most.
-BENDY_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
+BENDY_ALWAYS_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
     constexpr float kSame = 1e-6f;
     const glm::vec3& s = transform.scale;
     return s.x > 0.0f && std::abs(s.x - s.y) <= kSame * s.x && std::abs(s.x - s.z) <= kSame * s.x &&
@@ -80,19 +78,19 @@ BENDY_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
 }
 
 /// The mean of the axes' scales.
-BENDY_INLINE double mean_scale(const JointTransform& transform) {
+BENDY_ALWAYS_INLINE double mean_scale(const JointTransform& transform) {
     const glm::dvec3 scale(transform.scale);
     return (scale.x + scale.y + scale.z) / 3.0;
 }
 
 /// A vector at right angles to a unit axis, turned about it.
-BENDY_INLINE glm::dvec3 rolled(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+BENDY_ALWAYS_INLINE glm::dvec3 rolled(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
     const trig::SinCos turn = trig::sin_cos(angle);
     return v * turn.cos + glm::cross(axis, v) * turn.sin;
 }
 
 /// Converts a point from model space to base space; not finite if the base is flat.
-BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& point) {
+BENDY_ALWAYS_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& point) {
     const glm::dvec3 x(base[0]), y(base[1]), z(base[2]);
     const glm::dvec3 way = point - glm::dvec3(base[3]);
     const glm::dvec3 across = glm::cross(y, z);
@@ -103,15 +101,15 @@ BENDY_INLINE glm::dvec3 from_model(const glm::dmat4& base, const glm::dvec3& poi
 /// A joint's constraint while its chain is solved.
 class LinkConstraint {
 public:
-    BENDY_INLINE LinkConstraint(const Model& model, std::uint32_t joint, const ReachOptions& options)
+    BENDY_ALWAYS_INLINE LinkConstraint(const Model& model, std::uint32_t joint, const ReachOptions& options)
         : constraint_(options.obey_constraints ? model.ik_constraint(joint) : nullptr),
           rest_(&model.joints()[joint].rest) {}
 
-    BENDY_INLINE bool is_there() const { return constraint_ != nullptr; }
-    BENDY_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
+    BENDY_ALWAYS_INLINE bool is_there() const { return constraint_ != nullptr; }
+    BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
     [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
     /// True if it only restricts which rotations are legal.
-    BENDY_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
+    BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// The hinge's axis in the parent's space, for a unit rotation.
     [[nodiscard]] glm::dvec3 axis(const glm::dquat& local) const {
         return turned(local, turned(constraint_->frame, {1.0, 0.0, 0.0}));
@@ -119,8 +117,10 @@ public:
 
     enum class Side : std::uint8_t { inside, edge, outside };
     /// Returns on which side of the limits a unit rotation is; the edge is what rounding could put on either side.
-    BENDY_INLINE Side side(const glm::dquat& local) const { return is_there() ? find_side(local) : Side::inside; }
-    BENDY_INLINE bool holds(const glm::dquat& local) const { return side(local) == Side::inside; }
+    BENDY_ALWAYS_INLINE Side side(const glm::dquat& local) const {
+        return is_there() ? find_side(local) : Side::inside;
+    }
+    BENDY_ALWAYS_INLINE bool holds(const glm::dquat& local) const { return side(local) == Side::inside; }
 
 private:
     [[nodiscard]] bool says_rotations_only() const {
@@ -144,8 +144,8 @@ private:
 };
 
 /// Finds the pole as seen from the chain's start, in base space; returns false if it has none.
-BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dmat4& base,
-                            const glm::dvec3& origin, glm::dvec3& pole) {
+BENDY_ALWAYS_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOptions& options,
+                                   const glm::dmat4& base, const glm::dvec3& origin, glm::dvec3& pole) {
     const auto& vector = chain.record.pole_vector;
     pole = {vector[0], vector[1], vector[2]};
     if (options.pole) {
@@ -159,8 +159,8 @@ BENDY_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOpt
 }
 
 /// In units of base space, like `length`.
-BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, const glm::dmat4& base,
-                                 double length) {
+BENDY_ALWAYS_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options, const glm::dmat4& base,
+                                        double length) {
     const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
     constexpr double kOfLength = 1e-4, kLeast = 1e-9;
     if (!(tolerance > 0.0f)) return kOfLength * length;
@@ -170,7 +170,7 @@ BENDY_INLINE double tolerance_of(const Chain& chain, const ReachOptions& options
 }
 
 /// Returns the length of a base-space vector in model space, in metres.
-BENDY_INLINE float length_in_model(const glm::dmat4& base, const glm::dvec3& v) {
+BENDY_ALWAYS_INLINE float length_in_model(const glm::dmat4& base, const glm::dvec3& v) {
     return static_cast<float>(std::sqrt(squared(glm::dmat3(base) * v)));
 }
 
@@ -191,15 +191,15 @@ struct Turn {
 };
 
 /// Returns the rotation to one side, -1 or 1.
-BENDY_INLINE Turn turn_to(const Bend& bend, double side) {
+BENDY_ALWAYS_INLINE Turn turn_to(const Bend& bend, double side) {
     const double share = 1.0 / bend.most;
     return {(bend.b * bend.wanted + side * bend.c * bend.opening) * share,
             (bend.c * bend.wanted - side * bend.b * bend.opening) * share};
 }
 
 /// Returns false if the chain is straight or cannot have the length `distance` (squared).
-BENDY_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local, const glm::dvec3& rest,
-                            double distance, Bend& bend) {
+BENDY_ALWAYS_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local, const glm::dvec3& rest,
+                                   double distance, Bend& bend) {
     const double sizes = squared(bend.bone) * squared(rest);
     constexpr double kStraight = 1e-8;
     double along = 0.0;
@@ -230,14 +230,14 @@ BENDY_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local
 }
 
 /// Computes the middle joint's rotation after the turn; returns false if the turn is half a revolution.
-BENDY_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const glm::dquat& before, glm::dquat& after) {
+BENDY_ALWAYS_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const glm::dquat& before, glm::dquat& after) {
     after = glm::dquat(1.0 + turn.cosine, bend.axis * turn.sine) * before;
     constexpr double kHalfAround = 1e-9;
     return 1.0 + turn.cosine > kHalfAround && normalize(after);
 }
 
 /// Bends by the smaller rotation, or a hinge's other one; returns false if the limits leave no side, or no clear one.
-BENDY_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
+BENDY_ALWAYS_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
     const glm::dquat before = local;
     turn = turn_to(bend, -1.0);
     if (!limit.is_there()) return turn_middle(bend, turn, before, local);
@@ -255,7 +255,8 @@ BENDY_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm
 
 /// Rotates the start by the smallest rotation that brings the tip, at `reached` relative to the start, into the
 /// direction of the target.
-BENDY_INLINE bool aim_start(const glm::dvec3& reached, const glm::dvec3& way, double distance, glm::dquat& rotation) {
+BENDY_ALWAYS_INLINE bool aim_start(const glm::dvec3& reached, const glm::dvec3& way, double distance,
+                                   glm::dquat& rotation) {
     const glm::dvec3 from = turned(rotation, reached);  // has the length of `way`
     const glm::dquat turn(distance + glm::dot(from, way), glm::cross(from, way));
     rotation = turn * rotation;
@@ -365,8 +366,6 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     pose.change_local()[joint].rotation = glm::quat(rotation);
     return ReachResult{ReachStatus::aimed, length_in_model(base, way), 0.0f, 1};
 }
-
-#undef BENDY_INLINE
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include <bendy/runtime/kernels.h>
 
+#include <bendy/format/public.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -19,12 +21,12 @@ struct Available {
 
 Available find_available() {
     Available found;
-#if defined(__x86_64__)
+#if defined(BENDY_GNU) && defined(__x86_64__)
     if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) found.add(Kernel::avx2);
     if (__builtin_cpu_supports("sse4.1") != 0) found.add(Kernel::sse4);
-#elif defined(__aarch64__)
+#elif defined(BENDY_GNU) && defined(__aarch64__)
     found.add(Kernel::neon);
-#elif defined(__wasm_simd128__)
+#elif defined(BENDY_GNU) && defined(__wasm_simd128__)
     found.add(Kernel::wasm);
 #endif
     found.add(Kernel::plain);

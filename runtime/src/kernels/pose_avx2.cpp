@@ -1,6 +1,6 @@
 #include "pose_kernels.h"
 
-#if defined(__AVX2__)
+#if defined(BENDY_GNU) && defined(__AVX2__)
 
 #include <immintrin.h>
 

@@ -4,6 +4,8 @@
 #include "plan/sample_block.h"
 #include "plan/unpack_block.h"
 
+#include <bendy/format/public.h>
+
 // The functions of one instruction set. Plain data only: see skin_block.h.
 namespace bendy {
 

@@ -1,6 +1,6 @@
 #include "pose_kernels.h"
 
-#if defined(__aarch64__)
+#if defined(BENDY_GNU) && defined(__aarch64__)
 
 #include <arm_neon.h>
 

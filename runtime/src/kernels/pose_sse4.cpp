@@ -1,6 +1,6 @@
 #include "pose_kernels.h"
 
-#if defined(__SSE4_1__)
+#if defined(BENDY_GNU) && defined(__SSE4_1__)
 
 #include <immintrin.h>
 

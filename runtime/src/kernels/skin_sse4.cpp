@@ -1,6 +1,6 @@
 #include "plan/skin_block.h"
 
-#if defined(__SSE4_1__)
+#if defined(BENDY_GNU) && defined(__SSE4_1__)
 
 #include <immintrin.h>
 

@@ -1,6 +1,6 @@
 #include "plan/skin_block.h"
 
-#if defined(__wasm_simd128__)
+#if defined(BENDY_GNU) && defined(__wasm_simd128__)
 
 #include <wasm_simd128.h>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/palette_matrix.h>
 
 #include <cstddef>
