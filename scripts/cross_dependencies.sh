@@ -2,11 +2,12 @@
 # Fills build/cross/SYSTEM/libraries with the libraries that the project needs there: scripts/cross_dependencies.sh SYSTEM
 #   aarch64   Debian's packages for that processor, unpacked
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
+#   static    zstd, meshoptimizer and draco, from the same sources, as static libraries for this machine
 # Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
 # of other processors and of sources stays in build/cross/apt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64}
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static}
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
@@ -44,23 +45,32 @@ fetch_aarch64() {
     sed -i "s,\"/usr/*,\"$root/usr/," "$root"/usr/lib/*/cmake/draco/draco-targets*.cmake
 }
 
-build_windows() { # build_windows NAME SOURCES [CMAKE-OPTION...]: a library into the root
-    local build=$here/windows/libraries/$1 source=$2
+build_library() { # build_library NAME SOURCES [CMAKE-OPTION...]: a library into the root
+    local build=$here/$system/build_$1 source=$2
     shift 2
-    cmake -S "$source" -B "$build" -G Ninja --toolchain "$PWD/cmake/windows.cmake" -DCMAKE_BUILD_TYPE=Release \
+    cmake -S "$source" -B "$build" -G Ninja --toolchain "$PWD/cmake/$system.cmake" -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_INSTALL_PREFIX="$root/usr" -DBUILD_SHARED_LIBS=OFF "$@" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
     cmake --build "$build" --target install --parallel "$(nproc)" >>"$build.log" 2>&1 || { tail -n 50 "$build.log" >&2; exit 1; }
 }
 
-fetch_windows() {
-    mkdir -p "$here/windows/sources" "$here/windows/libraries"
-    (cd "$here/windows/sources" && apt-get "${apt[@]}" source libzstd meshoptimizer draco)
-    local sources=$here/windows/sources
-    build_windows zstd "$sources"/libzstd-*/build/cmake -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF -DZSTD_BUILD_SHARED=OFF \
+build_codecs() {
+    local sources=$here/$system/sources
+    mkdir -p "$sources"
+    (cd "$sources" && apt-get "${apt[@]}" source libzstd meshoptimizer draco)
+    build_library zstd "$sources"/libzstd-*/build/cmake -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF -DZSTD_BUILD_SHARED=OFF \
         -DZSTD_LEGACY_SUPPORT=OFF -DZSTD_MULTITHREAD_SUPPORT=OFF
-    build_windows meshoptimizer "$sources"/meshoptimizer-*/
-    build_windows draco "$sources"/draco-*/
-    build_windows googletest /usr/src/googletest
+    build_library meshoptimizer "$sources"/meshoptimizer-*/
+    build_library draco "$sources"/draco-*/
+}
+
+fetch_static() {
+    build_codecs
+    cp /usr/lib/x86_64-linux-gnu/libz.a "$root/usr/lib/"
+}
+
+fetch_windows() {
+    build_codecs
+    build_library googletest /usr/src/googletest
     (cd "$here/windows/libraries" && apt-get "${apt[@]}" download libz-mingw-w64-dev && dpkg-deb -x libz-mingw-w64-dev_*.deb zlib)
     cp -r "$here"/windows/libraries/zlib/usr/x86_64-w64-mingw32/{include,lib} "$root/usr/"
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test|cross]   build (default): compiler and libraries; test: also what only the tests need;
-#                                         cross: also what scripts/cross.sh needs
+#   scripts/setup.sh [build|test|cross|static]   build (default): compiler and libraries; test: also what only the tests need;
+#                                                cross, static: also what scripts/cross.sh and scripts/static.sh need
 set -euo pipefail
 
 need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
@@ -47,6 +47,11 @@ if [ "${1:-build}" = cross ]; then
     need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
     need wine wine
     need /usr/lib/wine/wine64 wine64
+fi
+if [ "${1:-build}" = static ]; then
+    need dpkg-source dpkg-dev
+    need unshare util-linux
+    need file file
 fi
 if [ "${1:-build}" = test ]; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Builds bendy as one file that needs no shared library, for releases: build/static/cli/bendy. Without the viewer, which
+# needs the graphics drivers of the machine that it runs on.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh static
+scripts/cross_dependencies.sh static
+cmake --preset static >/dev/null
+cmake --build --preset static --target bendy
+strip -o build/static/bendy build/static/cli/bendy
+
+needed=$(readelf -d build/static/bendy | grep NEEDED || true)
+[ -z "$needed" ] || { echo "needs shared libraries: $needed" >&2; exit 1; }
+# Nothing of this machine but the kernel: an empty root folder.
+rm -rf build/static/root
+mkdir -p build/static/root
+cp build/static/bendy examples/mannequin.glb build/static/root
+unshare --user --map-root-user chroot build/static/root /bendy convert mannequin.glb --compact -o mannequin.bendy
+unshare --user --map-root-user chroot build/static/root /bendy validate mannequin.bendy
+build/static/bendy convert examples/mannequin.glb --compact --force -o build/static/mannequin.bendy
+cmp build/static/mannequin.bendy build/static/root/mannequin.bendy
+file -b build/static/bendy
+ls -l build/static/bendy
