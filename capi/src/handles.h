@@ -26,11 +26,22 @@ struct CurveNames {
     std::string name, path;
 };
 
-/// Names as C needs them: zero-terminated.
+/// JSON of a clip, mesh, material or texture.
+struct Json {
+    std::string extras, more;
+};
+
+/// Names and other texts as C needs them: zero-terminated.
 struct Names {
     std::string model;
-    std::vector<std::string> joints, clips, chains, targets, meshes, materials;
-    std::vector<std::vector<CurveNames>> curves;  ///< per clip
+    std::vector<std::string> joints, clips, chains, targets, meshes, materials, textures;
+    std::vector<std::vector<CurveNames>> curves;       ///< per clip
+    std::vector<std::vector<std::string>> markers;     ///< per clip
+    std::vector<std::vector<std::string>> attributes;  ///< per mesh
+    std::vector<std::vector<std::string>> uris;        ///< per texture, one for each image
+    std::vector<std::string> joint_extras, chain_extras;
+    std::vector<std::string> material_extensions;
+    std::vector<Json> clip_json, mesh_json, material_json, texture_json;
 };
 
 /// The bytes of a file, from one of three sources.
