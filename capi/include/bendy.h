@@ -687,6 +687,8 @@ typedef struct bendy_pose bendy_pose;
 
 /* Creates a pose, set to the rest pose. */
 BENDY_API bendy_pose* bendy_pose_new(const bendy_model* model, bendy_error* error);
+/* Creates a copy of a pose. (To copy into an existing pose: bendy_blend with weight 1.) */
+BENDY_API bendy_pose* bendy_pose_copy(const bendy_pose* pose, bendy_error* error);
 BENDY_API void bendy_pose_free(bendy_pose* pose); /* does nothing for NULL */
 
 BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
@@ -721,6 +723,11 @@ BENDY_API bendy_status bendy_get_weights(const bendy_pose* pose, uint32_t first,
                                          bendy_error* error);
 BENDY_API bendy_status bendy_set_weights(bendy_pose* pose, uint32_t first, uint32_t count, const float* weights,
                                          bendy_error* error);
+
+/* Computes the matrix of a local transform, 16 floats: translation * rotation * scale with the joint's shear
+ * (bendy_joint.shear; NULL: none). */
+BENDY_API bendy_status bendy_transform_matrix(const bendy_transform* transform, const float* shear, float* matrix,
+                                              bendy_error* error);
 
 /* Moves every joint into the range that its constraints allow. */
 BENDY_API bendy_status bendy_constrain(bendy_pose* pose, bendy_error* error);
@@ -778,6 +785,293 @@ BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, ui
  * use bendy_skin for its vertices. */
 BENDY_API bendy_status bendy_bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrices, size_t count,
                                            bendy_error* error);
+
+/* ---- Playback -------------------------------------------------------------------------------------------- */
+
+typedef enum bendy_loop_mode {
+    BENDY_LOOP_ONCE = 0,     /* stops at the end and stays there; backwards, at the start */
+    BENDY_LOOP_REPEAT = 1,   /* continues at the start after the end, which are the same moment */
+    BENDY_LOOP_PING_PONG = 2 /* forwards and backwards alternately */
+} bendy_loop_mode;
+
+/* A part of the time line, played without a turn or a jump; backwards if `to` is smaller than `from`. */
+typedef struct bendy_time_span {
+    double from; /* seconds, on the clip's time line; a marker here belongs to the span */
+    double to;   /* seconds */
+    uint32_t
+        has_end; /* 1: a marker exactly at `to` belongs to this span, not to the next: playback jumps or stops there */
+    uint32_t reserved; /* 0 */
+} bendy_time_span;
+
+/* The interval that one step has played, in order: a first span, whole passes from end to end, a last span. Any of them
+ * may be empty. Markers and root motion are computed from it, so none is reported twice or lost. */
+typedef struct bendy_played {
+    uint32_t size;
+    uint32_t turns; /* 1: every second whole pass is in the other direction */
+    bendy_time_span first;
+    bendy_time_span pass; /* the first whole pass */
+    uint64_t passes;      /* number of whole passes */
+    bendy_time_span last;
+} bendy_played;
+
+/* The clock of a clip: its current time and speed. Time does not drift, however long it plays. Calls on it allocate
+ * nothing except the text of an error. */
+typedef struct bendy_playback bendy_playback;
+
+typedef struct bendy_playback_info {
+    uint32_t size;
+    uint32_t mode;    /* a bendy_loop_mode */
+    float seconds;    /* the current time on the clip's time line, as bendy_sample takes it */
+    uint32_t is_done; /* 1: stopped at the end that it was heading for; only BENDY_LOOP_ONCE */
+    double start;     /* seconds */
+    double end;       /* seconds */
+    double share;     /* the current time as a fraction of the length, 0 to 1 */
+    double speed;     /* 1: as authored; 0: paused; negative: backwards */
+    int64_t passes;   /* completed since the last seek, minus those undone backwards; 0 with BENDY_LOOP_ONCE */
+} bendy_playback_info;
+
+/* Creates a clock at the start of a clip, which repeats if the clip loops. */
+BENDY_API bendy_playback* bendy_playback_new(const bendy_model* model, uint32_t clip, bendy_error* error);
+/* Creates a clock for a range of a time line in seconds, with a bendy_loop_mode. If `end` is not after `start`, it
+ * stands still. */
+BENDY_API bendy_playback* bendy_playback_new_range(float start, float end, uint32_t mode, bendy_error* error);
+BENDY_API void bendy_playback_free(bendy_playback* playback); /* does nothing for NULL */
+BENDY_API bendy_status bendy_get_playback(const bendy_playback* playback, bendy_playback_info* out, bendy_error* error);
+/* Advances by `seconds` times the speed, backwards if that is negative. `played` receives the interval played; may be
+ * NULL. */
+BENDY_API bendy_status bendy_playback_advance(bendy_playback* playback, double seconds, bendy_played* played,
+                                              bendy_error* error);
+BENDY_API bendy_status bendy_playback_set_speed(bendy_playback* playback, double speed, bendy_error* error);
+/* Sets the bendy_loop_mode; keeps the current time. */
+BENDY_API bendy_status bendy_playback_set_mode(bendy_playback* playback, uint32_t mode, bendy_error* error);
+/* Jump to a time in seconds, or to a fraction of the length, without playing what lies between. Clamped to the range;
+ * except in BENDY_LOOP_ONCE, the end counts as the start of the next pass. */
+BENDY_API bendy_status bendy_playback_seek(bendy_playback* playback, double seconds, bendy_error* error);
+BENDY_API bendy_status bendy_playback_seek_share(bendy_playback* playback, double share, bendy_error* error);
+
+/* Counts the markers of a clip that an interval passes, each once per pass. */
+BENDY_API bendy_status bendy_count_markers(const bendy_model* model, uint32_t clip, const bendy_played* played,
+                                           uint64_t* count, bendy_error* error);
+/* Copies the indices of the markers that an interval passes, in playback order: the first `capacity` of them. `*count`
+ * receives how many were written. */
+BENDY_API bendy_status bendy_collect_markers(const bendy_model* model, uint32_t clip, const bendy_played* played,
+                                             uint32_t* markers, size_t capacity, size_t* count, bendy_error* error);
+
+typedef enum bendy_easing {
+    BENDY_EASING_LINEAR = 0,
+    BENDY_EASING_SMOOTH = 1 /* 3t^2 - 2t^3: starts and ends smoothly */
+} bendy_easing;
+
+/* Returns the eased weight at a fraction of the way, 0 to 1 (clamped; NaN counts as 1). An easing that does not exist
+ * counts as linear. */
+BENDY_API float bendy_ease(uint32_t easing, float share);
+
+/* A weight that moves towards another over time: of a layer, of an additive pose. */
+typedef struct bendy_fade bendy_fade;
+
+BENDY_API bendy_fade* bendy_fade_new(float weight, bendy_error* error);
+BENDY_API void bendy_fade_free(bendy_fade* fade); /* does nothing for NULL */
+/* Starts a fade from the current weight that takes `seconds`; immediate if `seconds` is not above 0. */
+BENDY_API bendy_status bendy_fade_to(bendy_fade* fade, float weight, float seconds, uint32_t easing,
+                                     bendy_error* error);
+BENDY_API bendy_status bendy_fade_advance(bendy_fade* fade, double seconds, bendy_error* error);
+BENDY_API float bendy_fade_weight(const bendy_fade* fade);     /* 0 for NULL */
+BENDY_API uint32_t bendy_fade_is_done(const bendy_fade* fade); /* 1 once the weight is reached; 1 for NULL */
+
+/* A sequence of clips of one model in which each fades in over those before it. A clip that is interrupted keeps
+ * playing beneath the next one, so nothing jumps. Calls on it allocate nothing except the text of an error. */
+typedef struct bendy_crossfade bendy_crossfade;
+
+/* The largest number of clips that a crossfade plays at a time. One more drops the oldest at once. */
+#define BENDY_CROSSFADE_MOST 4
+
+typedef struct bendy_playing { /* one of the clips of a crossfade */
+    uint32_t size;
+    uint32_t clip;
+    float seconds; /* its current time */
+    float weight;  /* 0 to 1: how far it covers the clips that began before it */
+    float share;   /* its share of the result; all shares sum to 1 */
+} bendy_playing;
+
+BENDY_API bendy_crossfade* bendy_crossfade_new(const bendy_model* model, bendy_error* error);
+BENDY_API void bendy_crossfade_free(bendy_crossfade* crossfade); /* does nothing for NULL */
+/* Starts a clip, over `fade_seconds`; the first one is visible in full at once. `playback` is the clock to copy
+ * (another speed, in step with the clip that plays now), or NULL: the clip's own, as bendy_playback_new makes it. */
+BENDY_API bendy_status bendy_crossfade_play(bendy_crossfade* crossfade, uint32_t clip, const bendy_playback* playback,
+                                            float fade_seconds, uint32_t easing, bendy_error* error);
+/* Advances all clocks and fades; then drops the clips that are completely covered, with their played intervals. */
+BENDY_API bendy_status bendy_crossfade_advance(bendy_crossfade* crossfade, double seconds, bendy_error* error);
+/* Returns the number of clips that play, numbered from 0, the oldest; 0 for NULL. */
+BENDY_API uint32_t bendy_crossfade_count(const bendy_crossfade* crossfade);
+BENDY_API bendy_status bendy_get_playing(const bendy_crossfade* crossfade, uint32_t number, bendy_playing* out,
+                                         bendy_error* error);
+/* Returns the interval that one of the clips played in the last bendy_crossfade_advance. */
+BENDY_API bendy_status bendy_get_played(const bendy_crossfade* crossfade, uint32_t number, bendy_played* out,
+                                        bendy_error* error);
+/* Copies the clock of one of the clips into `playback`. */
+BENDY_API bendy_status bendy_crossfade_get_playback(const bendy_crossfade* crossfade, uint32_t number,
+                                                    bendy_playback* playback, bendy_error* error);
+/* Copies `playback` into the clock of the newest clip: changes its speed or time. Fails if nothing plays. */
+BENDY_API bendy_status bendy_crossfade_set_playback(bendy_crossfade* crossfade, const bendy_playback* playback,
+                                                    bendy_error* error);
+/* Sets the pose to the clips that play, mixed by their shares. `scratch` is another pose of the model, which is
+ * overwritten. Fails if nothing plays. */
+BENDY_API bendy_status bendy_sample_crossfade(bendy_pose* pose, const bendy_crossfade* crossfade, bendy_pose* scratch,
+                                              bendy_error* error);
+
+/* ---- Root motion ----------------------------------------------------------------------------------------- */
+
+/* A rotation followed by a translation. In double precision, since it accumulates over hours. */
+typedef struct bendy_root_motion {
+    double translation[3]; /* metres */
+    double rotation[4];    /* unit quaternion */
+} bendy_root_motion;
+
+#define BENDY_ROOT_MOTION_INIT \
+    {                          \
+        {0.0, 0.0, 0.0}, {     \
+            0.0, 0.0, 0.0, 1.0 \
+        }                      \
+    }
+
+/* Computes the matrix of a motion, 16 doubles. */
+BENDY_API bendy_status bendy_root_motion_matrix(const bendy_root_motion* motion, double* matrix, bendy_error* error);
+/* Applies `motion`, given in the axes of `before`, after `before`. Each frame: compose(&character, &motion,
+ * &character). `out` may be an input, here and below. */
+BENDY_API bendy_status bendy_root_motion_compose(const bendy_root_motion* before, const bendy_root_motion* motion,
+                                                 bendy_root_motion* out, bendy_error* error);
+BENDY_API bendy_status bendy_root_motion_inverse(const bendy_root_motion* motion, bendy_root_motion* out,
+                                                 bendy_error* error);
+/* Interpolates between two motions, weight 0 to 1, along the shorter arc: for crossfades. */
+BENDY_API bendy_status bendy_root_motion_blend(const bendy_root_motion* motion, const bendy_root_motion* other,
+                                               double weight, bendy_root_motion* out, bendy_error* error);
+/* Applies `motion` `times` times. */
+BENDY_API bendy_status bendy_root_motion_repeat(const bendy_root_motion* motion, uint64_t times, bendy_root_motion* out,
+                                                bendy_error* error);
+
+typedef enum bendy_root_turn {
+    BENDY_TURN_NONE = 0,
+    BENDY_TURN_YAW = 1, /* rotation about the model's y axis, which is up */
+    BENDY_TURN_ALL = 2
+} bendy_root_turn;
+
+/* Which parts of the root's movement move the character. The rest stays in the pose. */
+typedef struct bendy_root_axes {
+    uint32_t size;
+    uint32_t x; /* 0 or 1: translation along the model's x axis */
+    uint32_t y;
+    uint32_t z;
+    uint32_t turn; /* a bendy_root_turn */
+} bendy_root_axes;
+
+#define BENDY_ROOT_AXES_INIT \
+    { sizeof(bendy_root_axes), 1, 0, 1, BENDY_TURN_YAW }
+
+/* The root motion of the joint that carries a character over the ground: a root joint, or the hips. Immutable. */
+typedef struct bendy_root_path bendy_root_path;
+
+/* `axes` may be NULL: x, z and yaw. */
+BENDY_API bendy_root_path* bendy_root_path_new(const bendy_model* model, uint32_t joint, const bendy_root_axes* axes,
+                                               bendy_error* error);
+BENDY_API void bendy_root_path_free(bendy_root_path* path); /* does nothing for NULL */
+/* Computes the motion from the root's rest pose to its position in a clip at a time, in model space. */
+BENDY_API bendy_status bendy_root_path_at(const bendy_root_path* path, uint32_t clip, double seconds,
+                                          bendy_root_motion* out, bendy_error* error);
+/* Computes the motion from one time to another, in the axes that the character has at `from`. */
+BENDY_API bendy_status bendy_root_path_between(const bendy_root_path* path, uint32_t clip, double from, double to,
+                                               bendy_root_motion* out, bendy_error* error);
+/* Computes the motion over an interval that was played: across the ends it continues as if the next pass began where
+ * the last one ended. Takes the same time for thousands of passes as for one. */
+BENDY_API bendy_status bendy_root_path_over(const bendy_root_path* path, uint32_t clip, const bendy_played* played,
+                                            bendy_root_motion* out, bendy_error* error);
+/* Takes the motion out of a pose: along the chosen axes the root is then at rest. `out` receives it; may be NULL. */
+BENDY_API bendy_status bendy_root_path_extract(const bendy_root_path* path, bendy_pose* pose, bendy_root_motion* out,
+                                               bendy_error* error);
+
+/* ---- Sockets and bounds ---------------------------------------------------------------------------------- */
+
+/* An attachment point on a character: a hand that holds a sword, a camera behind a head. */
+typedef struct bendy_socket {
+    uint32_t size;
+    uint32_t joint;      /* or BENDY_NONE: the model's own space */
+    float offset[16];    /* matrix from socket space to joint space */
+    uint32_t keeps_size; /* 1: attached objects keep their size if joints are scaled */
+} bendy_socket;
+
+#define BENDY_SOCKET_INIT                                                                                       \
+    {                                                                                                           \
+        sizeof(bendy_socket), BENDY_NONE,                                                                       \
+            {1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f}, 1 \
+    }
+
+/* Computes the matrix from socket space to model space or, if `world` is given (model space to world space, 16 floats),
+ * to world space: world * joint * offset, 16 floats. With keeps_size the joint's axes are first made orthonormal and
+ * right-handed. `world` may be NULL. */
+BENDY_API bendy_status bendy_socket_matrix(bendy_pose* pose, const bendy_socket* socket, const float* world,
+                                           float* matrix, bendy_error* error);
+
+/* An axis-aligned box that includes both corners; empty if a minimum is above its maximum (infinity above -infinity).
+ */
+typedef struct bendy_box {
+    float minimum[3]; /* metres */
+    float maximum[3];
+} bendy_box;
+
+/* Boxes that contain everything that linear skinning makes of a model in any pose, without skinning it: for culling,
+ * level of detail, ray casts. Dual quaternions may bulge out of them. Immutable. */
+typedef struct bendy_bounds bendy_bounds;
+
+/* Takes time linear in vertices, influences and displacements. */
+BENDY_API bendy_bounds* bendy_bounds_new(const bendy_model* model, bendy_error* error);
+BENDY_API void bendy_bounds_free(bendy_bounds* bounds); /* does nothing for NULL */
+/* Computes the box of all vertices in a pose, in model space. */
+BENDY_API bendy_status bendy_bounds_of_pose(const bendy_bounds* bounds, bendy_pose* pose, bendy_box* out,
+                                            bendy_error* error);
+/* Computes the box of all vertices that a joint moves, as if that joint alone moved them: in a pose, in model space,
+ * or, if `pose` is NULL, in joint space with morph target weights 0. */
+BENDY_API bendy_status bendy_bounds_of_joint(const bendy_bounds* bounds, bendy_pose* pose, uint32_t joint,
+                                             bendy_box* out, bendy_error* error);
+
+/* ---- Clips of another file ------------------------------------------------------------------------------- */
+
+typedef enum bendy_bound_translations {
+    BENDY_TRANSLATIONS_ALL = 0,      /* every track as it is: for skeletons of the same size */
+    BENDY_TRANSLATIONS_ROOT_ONLY = 1 /* only those of the root: limbs keep the lengths of the posed model */
+} bendy_bound_translations;
+
+typedef struct bendy_binding_options {
+    uint32_t size;
+    uint32_t translations; /* a bendy_bound_translations */
+    uint32_t root;    /* for ROOT_ONLY: this joint of the posed model and its ancestors take translations; usually the
+                         hips. BENDY_NONE: only joints without a matched ancestor do */
+    float root_scale; /* for ROOT_ONLY: factor of these translations, such as the ratio of the hip heights */
+} bendy_binding_options;
+
+#define BENDY_BINDING_OPTIONS_INIT \
+    { sizeof(bendy_binding_options), BENDY_TRANSLATIONS_ALL, BENDY_NONE, 1.0f }
+
+/* Maps the clips of one model (`animated`) to another (`posed`), matching joints and morph targets by name: for files
+ * that hold only a skeleton and clips, shared by many characters. Rotations are not corrected: the rest poses should be
+ * the same. Contains a pose, so each thread needs a binding of its own. */
+typedef struct bendy_binding bendy_binding;
+
+/* `options` may be NULL. */
+BENDY_API bendy_binding* bendy_binding_new(const bendy_model* animated, const bendy_model* posed,
+                                           const bendy_binding_options* options, bendy_error* error);
+BENDY_API void bendy_binding_free(bendy_binding* binding); /* does nothing for NULL */
+/* As bendy_sample, for a clip of the animated model and a pose of the posed model. */
+BENDY_API bendy_status bendy_sample_bound(bendy_pose* pose, bendy_binding* binding, uint32_t clip, float seconds,
+                                          bendy_error* error);
+/* Return, for each joint or morph target of the animated model, the posed model's, or BENDY_NONE. Owned by the binding;
+ * NULL for NULL or an empty list. */
+BENDY_API const uint32_t* bendy_binding_joints(const bendy_binding* binding);
+BENDY_API const uint32_t* bendy_binding_targets(const bendy_binding* binding);
+/* Return the joints or morph targets of the animated model that some clip animates but that have no match, ascending,
+ * and their number in `*count`. Owned by the binding; NULL if there are none, and on failure. */
+BENDY_API const uint32_t* bendy_binding_unmatched_joints(const bendy_binding* binding, size_t* count,
+                                                         bendy_error* error);
+BENDY_API const uint32_t* bendy_binding_unmatched_targets(const bendy_binding* binding, size_t* count,
+                                                          bendy_error* error);
 
 /* ---- Levels of detail ------------------------------------------------------------------------------------ */
 
@@ -855,14 +1149,58 @@ typedef struct bendy_skin_options {
 BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, const bendy_vertices* out,
                                   bendy_error* error);
 
+/* Allocates the memory that a bendy_skin_method needs in addition to the pose's own, so that no bendy_skin does. */
+BENDY_API bendy_status bendy_prepare_skin(bendy_pose* pose, uint32_t method, bendy_error* error);
+
+/* ---- Crowds ---------------------------------------------------------------------------------------------- */
+
+/* The work memory for many characters of one model, played on the caller's threads: one pose per worker, nothing per
+ * member. Different workers may be used by different threads at the same time; one worker by one thread at a time. */
+typedef struct bendy_crowd bendy_crowd;
+
+typedef struct bendy_crowd_member { /* one character of a crowd; members must not share outputs */
+    uint32_t size;                  /* in an array, the same for all members: the distance from one to the next */
+    uint32_t clip;                  /* or BENDY_NONE: the rest pose */
+    float seconds;                  /* on the clip's time line, as for bendy_sample */
+    uint32_t reserved;              /* 0 */
+    const bendy_lod* lod;           /* writes only the vertices of that level; members may share one; NULL: all */
+    const bendy_vertices* vertices; /* vertices of all meshes, as for bendy_skin; NULL: not wanted */
+    float* palette;                 /* bendy_crowd_palette_size matrices, 16 floats each; NULL: not wanted */
+} bendy_crowd_member;
+
+#define BENDY_CROWD_MEMBER_INIT \
+    { sizeof(bendy_crowd_member), BENDY_NONE, 0.0f, 0, NULL, NULL, NULL }
+
+/* Creates a crowd for at most `workers` threads at a time, 1 to 4096; 0 counts as 1. */
+BENDY_API bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_error* error);
+BENDY_API void bendy_crowd_free(bendy_crowd* crowd);              /* does nothing for NULL */
+BENDY_API uint32_t bendy_crowd_workers(const bendy_crowd* crowd); /* 0 for NULL */
+/* Return the number of matrices of all meshes together, mesh after mesh, and the index of a mesh's first one. A skinned
+ * mesh has bendy_mesh.bones, as bendy_bone_matrices computes them; a rigid mesh has one, of the joint that moves its
+ * first vertex. 0 for NULL, and for a mesh that does not exist. */
+BENDY_API size_t bendy_crowd_palette_size(const bendy_crowd* crowd);
+BENDY_API size_t bendy_crowd_first_matrix(const bendy_crowd* crowd, uint32_t mesh);
+/* Samples and skins each of `count` members. The output does not depend on how members are split into calls, or on the
+ * worker. If one member has a bad argument, nothing is written for any. */
+BENDY_API bendy_status bendy_crowd_play(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
+                                        uint32_t worker, bendy_error* error);
+/* Sets the whole pose of a member, which is as the worker's last member left it; `user` is what the caller passed. The
+ * pose is valid during the call and must not be freed. */
+typedef void (*bendy_pose_member)(void* user, size_t member, bendy_pose* pose);
+/* As bendy_crowd_play, but the caller sets each pose: blends clips, solves IK chains. The members' clips and times are
+ * not used. */
+BENDY_API bendy_status bendy_crowd_play_posed(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
+                                              uint32_t worker, bendy_pose_member pose_member, void* user,
+                                              bendy_error* error);
+
 /* ---- Kernels --------------------------------------------------------------------------------------------- */
 
 /* Returns the name of the kernel that does the bulk of the arithmetic: "avx2", "sse4", "neon", "plain". The default
  * is the fastest that the machine can run, unless the environment variable BENDY_KERNEL or bendy_set_kernel selects
  * another. "plain" computes the same bits on every machine. */
 BENDY_API const char* bendy_kernel(void);
-/* Returns the number of kernels that this machine can run, and the name of one, the fastest first; NULL for a number that
- * is too large. */
+/* Returns the number of kernels that this machine can run, and the name of one, the fastest first; NULL for a number
+ * that is too large. */
 BENDY_API uint32_t bendy_kernel_count(void);
 BENDY_API const char* bendy_kernel_name(uint32_t number);
 /* Selects a kernel, with immediate effect in every thread. */

@@ -5,15 +5,10 @@
 
 #include <bendy/runtime/sample.h>
 
-#include <cmath>
 #include <span>
 
 namespace bendy::capi {
 namespace {
-
-bendy_status check_seconds(float seconds, bendy_error* error) {
-    return std::isnan(seconds) ? fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number") : BENDY_OK;
-}
 
 bendy_status check_track(const bendy_model* model, std::uint32_t clip, std::uint32_t track, bendy_error* error) {
     return check_in_clip(model, clip, &Clip::tracks, track, "track", error);

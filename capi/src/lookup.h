@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "handles.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,23 @@ inline bendy_status check_skinned(const Mesh& mesh, std::uint32_t number, bendy_
 inline bendy_status check_clip(const bendy_model* model, std::uint32_t clip, bendy_error* error) {
     if (const bendy_status status = check_pointer(model, "model", error)) return status;
     return check_index(clip, model->get().clips().size(), "clip", error);
+}
+
+/// Checks that a pose, which is called `name`, is one of the character that `what` belongs to.
+inline bendy_status check_pose_of(const bendy_pose* pose, const Character& character, const char* name,
+                                  const char* what, bendy_error* error) {
+    if (const bendy_status status = check_pointer(pose, name, error)) return status;
+    if (pose->character.get() == &character) return BENDY_OK;
+    return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is a pose of another model than " + what);
+}
+
+inline bendy_status check_clip_of(const Character& character, std::uint32_t clip, bendy_error* error) {
+    return check_index(clip, character.model.clips().size(), "clip", error);
+}
+
+/// Checks that a time is a number.
+inline bendy_status check_seconds(float seconds, bendy_error* error) {
+    return std::isnan(seconds) ? fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number") : BENDY_OK;
 }
 
 /// Checks a clip, and the number of one of its `things`: a member of Clip.
