@@ -107,10 +107,11 @@ bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_e
     bendy_crowd* crowd = nullptr;
     guarded(error, [&] {
         if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (workers > kMostWorkers)
+        if (workers > kMostWorkers) {
             return fail(
                 error, BENDY_BAD_ARGUMENT,
                 "expected at most " + std::to_string(kMostWorkers) + " workers, found " + std::to_string(workers));
+        }
         crowd = std::make_unique<bendy_crowd>(model->character, workers).release();
         return BENDY_OK;
     });

@@ -80,9 +80,10 @@ bendy_status check_pointer(const void* pointer, const char* name, bendy_error* e
 bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error,
                          const char* owner) {
     if (index < count) return BENDY_OK;
-    if (index == BENDY_NONE)
+    if (index == BENDY_NONE) {
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(kind) + " is BENDY_NONE: there is none of the name that was looked for");
+    }
     return fail(
         error, BENDY_BAD_ARGUMENT,
         std::string(kind) + ' ' + std::to_string(index) + " does not exist: " + owner + " has " + counted(count, kind));

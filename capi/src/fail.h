@@ -108,9 +108,10 @@ bendy_status take(const S* in, const char* name, S& value, bendy_error* error) {
     if (const bendy_status status = check_out(in, name, error)) return status;
     const std::size_t known = std::min<std::size_t>(in->size, sizeof(S));
     const auto* const bytes = reinterpret_cast<const char*>(in);  // NOLINT(*-reinterpret-cast)
-    if (std::any_of(bytes + known, bytes + in->size, [](char byte) { return byte != 0; }))
+    if (std::any_of(bytes + known, bytes + in->size, [](char byte) { return byte != 0; })) {
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(name) + " asks for something that this version of the library does not know");
+    }
     std::memcpy(&value, in, known);
     return BENDY_OK;
 }

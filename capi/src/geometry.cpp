@@ -56,9 +56,10 @@ bendy_status bendy_get_texture_coords(const bendy_model* model, uint32_t mesh, u
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
         const bendy::Mesh& view = model->get().meshes()[mesh];
         const bendy::StreamView* stream = texture_coords(view, set);
-        if (stream == nullptr)
+        if (stream == nullptr) {
             return fail(error, BENDY_BAD_ARGUMENT,
                         "mesh " + std::to_string(mesh) + " has no texture coordinates of set " + std::to_string(set));
+        }
         if (const bendy_status status = check_pointer(uv, "uv", error)) return status;
         if (const bendy_status status = check_room(count, std::uint64_t{2} * view.vertices, "uv", error)) return status;
         for (std::uint32_t vertex = 0; vertex < view.vertices; ++vertex) {

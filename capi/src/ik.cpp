@@ -78,9 +78,10 @@ bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float* position
         const auto reached = bendy::reach(pose->pose, &chains[chain], target, taken);
         if (!reached)
             return fail(error, BENDY_BAD_ARGUMENT, "the pose, or the chain, holds numbers that are not finite");
-        if (result != nullptr)
+        if (result != nullptr) {
             put(*result, {0, static_cast<std::uint32_t>(reached->status), reached->distance, reached->angle,
                           reached->iterations});
+        }
         return BENDY_OK;
     });
 }

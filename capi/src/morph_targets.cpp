@@ -61,10 +61,11 @@ bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh, 
     return guarded(error, [&] {
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
         const bendy::Mesh& view = model->get().meshes()[mesh];
-        if (count > view.vertices)
+        if (count > view.vertices) {
             return fail(error, BENDY_BAD_ARGUMENT,
                         std::to_string(count) + " vertices are meant, mesh " + std::to_string(mesh) + " has " +
                             std::to_string(view.vertices));
+        }
         const std::size_t targets = view.targets.size();
         const std::vector<float> zeros(weights == nullptr ? targets : 0);
         const std::span<const float> taken = weights == nullptr ? std::span(zeros) : std::span(weights, targets);

@@ -15,10 +15,11 @@ bendy_status take_array(float* data, std::size_t stride, std::size_t numbers, st
                         StridedFloats& out, bendy_error* error) {
     if (data == nullptr || vertices == 0) return BENDY_OK;
     if (stride == 0) stride = numbers * sizeof(float);
-    if (stride % sizeof(float) != 0 || stride < numbers * sizeof(float))
+    if (stride % sizeof(float) != 0 || stride < numbers * sizeof(float)) {
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(name) + ": a stride of " + std::to_string(stride) +
                         " bytes is no multiple of 4 that holds " + std::to_string(numbers) + " floats");
+    }
     if (reinterpret_cast<std::uintptr_t>(data) % alignof(float) != 0)  // NOLINT(*-reinterpret-cast)
         return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " does not start on a 4-byte boundary");
     out.stride = stride / sizeof(float);
