@@ -1,8 +1,7 @@
-// What is in a model: counts, names, and a struct for each thing; the values of curves.
+// What is in a model: counts, names, and a struct for each joint, clip, IK chain, morph target and mesh.
 #include "fail.h"
 #include "handles.h"
-
-#include <bendy/runtime/curve.h>
+#include "lookup.h"
 
 #include <algorithm>
 #include <span>
@@ -10,12 +9,6 @@
 
 namespace bendy::capi {
 namespace {
-
-using NameList = std::vector<std::string> Names::*;
-
-std::uint32_t count_of(const bendy_model* model, NameList list) {
-    return model == nullptr ? 0 : static_cast<std::uint32_t>((model->character->names.*list).size());
-}
 
 /// `there is no clip "Rum"; there are: "Walk", "Run"`
 std::string not_found(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
@@ -44,20 +37,21 @@ std::uint32_t find(const bendy_model* model, NameList list, const char* kind, co
     return found;
 }
 
-/// Fills `out` with make(model, names), if `index` is one of `list`.
-template <class Out, class Make>
-bendy_status get(const bendy_model* model, NameList list, const char* kind, std::uint32_t index, Out* out,
-                 bendy_error* error, const Make& make) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (const bendy_status status = check_index(index, count_of(model, list), kind, error)) return status;
-        if (const bendy_status status = check_out(out, "out", error)) return status;
-        Out value{};
-        value.name = (model->character->names.*list)[index].c_str();
-        make(model->get(), value);
-        put(*out, value);
-        return BENDY_OK;
-    });
+void describe_chain(const ChainRecord& record, bendy_chain& out) {
+    out.solver = record.solver;
+    out.flags = record.flags;
+    out.iterations = record.iterations;
+    out.priority = record.priority;
+    out.tolerance = record.tolerance;
+    std::copy(record.pole_vector.begin(), record.pole_vector.end(), out.pole_vector);
+    out.pole_angle = record.pole_angle;
+    std::copy(record.tip_offset.begin(), record.tip_offset.end(), out.tip_offset);
+    std::copy(record.tip_rotation.begin(), record.tip_rotation.end(), out.tip_rotation);
+    out.position_weight = record.position_weight;
+    out.rotation_weight = record.rotation_weight;
+    out.influence = record.influence;
+    out.stretch = record.stretch;
+    out.compress = record.compress;
 }
 
 void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
@@ -73,12 +67,10 @@ void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
     out.texture_coord_sets = static_cast<std::uint32_t>(mesh_view.texture_coords.size());
     out.bones = mesh_view.is_rigid() ? 0 : static_cast<std::uint32_t>(mesh_view.palette.joints.size());
     out.influences = mesh_view.is_rigid() ? 0 : mesh_view.bones->components;
-}
-
-bendy_status check_curve(const bendy_model* model, std::uint32_t clip, std::uint32_t curve, bendy_error* error) {
-    if (const bendy_status status = check_pointer(model, "model", error)) return status;
-    if (const bendy_status status = check_index(clip, model->get().clips().size(), "clip", error)) return status;
-    return check_index(curve, model->get().clips()[clip].curves.size(), "curve", error);
+    const bool has_one = mesh_view.is_rigid() && mesh_view.vertices != 0 && model.has_one_mover(number);
+    out.mover = has_one ? model.rigid_mover(number, 0) : BENDY_NONE;
+    out.frames = mesh_view.frames();
+    out.first_frame = mesh_view.first_frame;
 }
 
 }  // namespace
@@ -108,6 +100,9 @@ uint32_t bendy_submesh_count(const bendy_model* model) {
 uint32_t bendy_material_count(const bendy_model* model) {
     return count_of(model, &Names::materials);
 }
+uint32_t bendy_texture_count(const bendy_model* model) {
+    return count_of(model, &Names::textures);
+}
 uint64_t bendy_vertex_count(const bendy_model* model) {
     return model == nullptr ? 0 : model->get().vertex_count();
 }
@@ -130,6 +125,9 @@ uint32_t bendy_find_mesh(const bendy_model* model, const char* name, bendy_error
 uint32_t bendy_find_material(const bendy_model* model, const char* name, bendy_error* error) {
     return find(model, &Names::materials, "material", name, error);
 }
+uint32_t bendy_find_texture(const bendy_model* model, const char* name, bendy_error* error) {
+    return find(model, &Names::textures, "texture", name, error);
+}
 
 const uint32_t* bendy_joint_parents(const bendy_model* model) {
     return model == nullptr || model->get().parents().empty() ? nullptr : model->get().parents().data();
@@ -145,6 +143,7 @@ bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joi
         value.parent = view.parent;
         value.rest = to_c(view.rest);
         for (int c = 0; c < 3; ++c) value.shear[c] = view.shear[c];
+        value.extras = model->character->names.joint_extras[joint].c_str();
     });
 }
 
@@ -155,6 +154,8 @@ bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip*
         value.end = view.end;
         value.frame_rate = view.frame_rate;
         value.loops = view.loop ? 1 : 0;
+        value.is_packed = view.packed ? 1 : 0;
+        put_json(model->character->names.clip_json[clip], value);
     });
 }
 
@@ -166,6 +167,8 @@ bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_cha
         value.links = view.links;
         value.target = view.target;
         value.pole = view.pole;
+        describe_chain(view.record, value);
+        value.extras = model->character->names.chain_extras[chain].c_str();
     });
 }
 
@@ -174,78 +177,19 @@ bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t target, b
     return get(model, &Names::targets, "target", target, out, error,
                [&](const bendy::Model& from, bendy_morph_target& value) {
                    value.mesh = model->character->target_meshes[target];
-                   value.rest_weight =
-                       from.meshes()[value.mesh].targets[target - from.first_morph_target(value.mesh)].rest_weight;
+                   const bendy::Mesh& mesh = from.meshes()[value.mesh];
+                   const bendy::MorphTargetView& view = mesh.targets[target - from.first_morph_target(value.mesh)];
+                   value.rest_weight = view.rest_weight;
+                   value.vertices = view.touched(mesh.vertices);
+                   value.has_positions = view.positions ? 1 : 0;
+                   value.has_normals = view.normals && mesh.normals ? 1 : 0;
+                   value.has_tangents = view.tangents && mesh.tangents ? 1 : 0;
                });
 }
 
 bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error) {
-    return get(model, &Names::meshes, "mesh", mesh, out, error,
-               [&](const bendy::Model& from, bendy_mesh& value) { describe_mesh(from, mesh, value); });
-}
-
-bendy_status bendy_get_material(const bendy_model* model, uint32_t material, bendy_material* out, bendy_error* error) {
-    return get(model, &Names::materials, "material", material, out, error,
-               [&](const bendy::Model& from, bendy_material& value) {
-                   const bendy::SurfaceRecord& surface = from.materials()[material].surface;
-                   value.metallic = surface.metallic;
-                   value.roughness = surface.roughness;
-                   std::copy(surface.base_colour.begin(), surface.base_colour.end(), value.base_colour);
-                   std::copy(surface.emissive.begin(), surface.emissive.end(), value.emissive);
-                   value.double_sided = surface.double_sided != 0 ? 1 : 0;
-               });
-}
-
-uint32_t bendy_curve_count(const bendy_model* model, uint32_t clip) {
-    if (model == nullptr || clip >= model->get().clips().size()) return 0;
-    return static_cast<std::uint32_t>(model->get().clips()[clip].curves.size());
-}
-
-uint32_t bendy_find_curve(const bendy_model* model, uint32_t clip, const char* name_or_path, bendy_error* error) {
-    std::uint32_t number = BENDY_NONE;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (const bendy_status status = check_index(clip, model->get().clips().size(), "clip", error)) return status;
-        if (const bendy_status status = check_pointer(name_or_path, "name_or_path", error)) return status;
-        const bendy::Clip& view = model->get().clips()[clip];
-        const bendy::Curve* const found = bendy::find_curve(view, name_or_path);
-        if (found == nullptr) {
-            return fail(error, BENDY_NOT_FOUND,
-                        std::string("the clip has no curve \"") + name_or_path + "\", by name or by path");
-        }
-        number = static_cast<std::uint32_t>(found - view.curves.data());
-        return BENDY_OK;
-    });
-    return number;
-}
-
-bendy_status bendy_get_curve(const bendy_model* model, uint32_t clip, uint32_t curve, bendy_curve* out,
-                             bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_curve(model, clip, curve, error)) return status;
-        if (const bendy_status status = check_out(out, "out", error)) return status;
-        const bendy::Curve& view = model->get().clips()[clip].curves[curve];
-        const CurveNames& names = model->character->names.curves[clip][curve];
-        bendy_curve value{};
-        value.components = view.components;
-        value.name = names.name.c_str();
-        value.path = names.path.c_str();
-        value.target_kind = static_cast<std::uint32_t>(view.kind);
-        value.target = view.target;
-        value.start = view.times.front();
-        value.end = view.times.back();
-        put(*out, value);
-        return BENDY_OK;
-    });
-}
-
-bendy_status bendy_sample_curve(const bendy_model* model, uint32_t clip, uint32_t curve, double seconds, float* values,
-                                size_t count, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_curve(model, clip, curve, error)) return status;
-        if (const bendy_status status = check_pointer(values, "values", error)) return status;
-        const bendy::Curve& view = model->get().clips()[clip].curves[curve];
-        if (const bendy_status status = check_room(count, view.components, "values", error)) return status;
-        return from_call(bendy::sample_curve(view, seconds, std::span(values, count)), error);
+    return get(model, &Names::meshes, "mesh", mesh, out, error, [&](const bendy::Model& from, bendy_mesh& value) {
+        describe_mesh(from, mesh, value);
+        put_json(model->character->names.mesh_json[mesh], value);
     });
 }

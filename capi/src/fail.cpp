@@ -77,14 +77,16 @@ bendy_status check_pointer(const void* pointer, const char* name, bendy_error* e
     return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is NULL");
 }
 
-bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error) {
+bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error,
+                         const char* owner) {
     if (index < count) return BENDY_OK;
-    if (index == BENDY_NONE)
+    if (index == BENDY_NONE) {
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(kind) + " is BENDY_NONE: there is none of the name that was looked for");
+    }
     return fail(
         error, BENDY_BAD_ARGUMENT,
-        std::string(kind) + ' ' + std::to_string(index) + " does not exist: the model has " + counted(count, kind));
+        std::string(kind) + ' ' + std::to_string(index) + " does not exist: " + owner + " has " + counted(count, kind));
 }
 
 bendy_status check_range(std::uint32_t first, std::uint32_t count, std::size_t all, const char* kind,
@@ -102,20 +104,48 @@ bendy_status check_room(std::uint64_t room, std::uint64_t needed, const char* na
         std::string(name) + " has room for " + std::to_string(room) + ", " + std::to_string(needed) + " are needed");
 }
 
-bendy_status check_finite(std::span<const float> numbers, const char* name, bendy_error* error) {
-    if (std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); }))
+bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* kind, bendy_error* error) {
+    if (value < count) return BENDY_OK;
+    return fail(error, BENDY_BAD_ARGUMENT,
+                std::string(kind) + ' ' + std::to_string(value) + " is none of the known ones");
+}
+
+namespace {
+
+template <class Number>
+bendy_status check_numbers(std::span<const Number> numbers, const char* name, bendy_error* error) {
+    if (std::all_of(numbers.begin(), numbers.end(), [](Number number) { return std::isfinite(number); }))
         return BENDY_OK;
     return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " holds a number that is not finite");
 }
 
-bendy_status check_rotation(const float* rotation, bendy_error* error) {
-    const std::span numbers(rotation, 4);
-    if (const bendy_status status = check_finite(numbers, "rotation", error)) return status;
+template <class Number>
+bendy_status check_unit(const Number* rotation, bendy_error* error) {
+    const std::span<const Number> numbers(rotation, 4);
+    if (const bendy_status status = check_numbers(numbers, "rotation", error)) return status;
     double squares = 0.0;
-    for (const float number : numbers) squares += static_cast<double>(number) * number;
+    for (const Number number : numbers) squares += static_cast<double>(number) * number;
     constexpr double kTolerance = 0.01;
     if (std::abs(std::sqrt(squares) - 1.0) <= kTolerance) return BENDY_OK;
     return fail(error, BENDY_BAD_ARGUMENT, "rotation is not a unit quaternion (x, y, z, w)");
+}
+
+}  // namespace
+
+bendy_status check_finite(std::span<const float> numbers, const char* name, bendy_error* error) {
+    return check_numbers(numbers, name, error);
+}
+
+bendy_status check_finite(std::span<const double> numbers, const char* name, bendy_error* error) {
+    return check_numbers(numbers, name, error);
+}
+
+bendy_status check_rotation(const float* rotation, bendy_error* error) {
+    return check_unit(rotation, error);
+}
+
+bendy_status check_rotation(const double* rotation, bendy_error* error) {
+    return check_unit(rotation, error);
 }
 
 }  // namespace bendy::capi

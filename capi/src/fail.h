@@ -26,16 +26,21 @@ bendy_status from_call(const Result<void, CallError>& result, bendy_error* error
 
 /// Returns BENDY_OK, or the error "NAME is NULL".
 bendy_status check_pointer(const void* pointer, const char* name, bendy_error* error);
-/// Returns BENDY_OK, or an error; `kind` is the kind of thing that is indexed: "joint".
-bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error);
+/// Returns BENDY_OK, or an error; `kind` is the kind of thing that is indexed: "joint"; `owner` what has these things.
+bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error,
+                         const char* owner = "the model");
 /// Checks that [first, first + count) is within `all`.
 bendy_status check_range(std::uint32_t first, std::uint32_t count, std::size_t all, const char* kind,
                          bendy_error* error);
 /// Checks that the caller's array, with room for `room` elements, is large enough.
 bendy_status check_room(std::uint64_t room, std::uint64_t needed, const char* name, bendy_error* error);
 bendy_status check_finite(std::span<const float> numbers, const char* name, bendy_error* error);
+bendy_status check_finite(std::span<const double> numbers, const char* name, bendy_error* error);
 /// Checks that a rotation consists of four finite numbers, with length 1 within 0.01.
 bendy_status check_rotation(const float* rotation, bendy_error* error);
+bendy_status check_rotation(const double* rotation, bendy_error* error);
+/// Checks a number of an enumeration with `count` values, from 0 on; `kind` is the kind of value: "solver".
+bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* kind, bendy_error* error);
 
 /// Returns the result of call(). Converts running out of memory into an error, so that no exception reaches C.
 template <class Call>
@@ -54,10 +59,25 @@ bendy_status guarded(bendy_error* error, const Call& call) {
 
 // Structs that begin with their size, which may differ between the program and this library.
 
-/// The fields of S that version 0.1 had: every program's struct has them. Fields that are added later do not change
-/// this.
+/// The size that S had when it was added to bendy.h: every program's struct has its fields. Fields that are added later
+/// do not change this.
 template <class S>
 inline constexpr std::size_t kFirstSize = sizeof(S);
+// The structs that have grown. Padding at the end of the first form is not counted.
+template <>
+inline constexpr std::size_t kFirstSize<bendy_joint> = offsetof(bendy_joint, extras);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_clip> = offsetof(bendy_clip, is_packed);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_chain> = offsetof(bendy_chain, solver);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_morph_target> = offsetof(bendy_morph_target, vertices);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_mesh> = offsetof(bendy_mesh, mover);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_material> = offsetof(bendy_material, normal_scale);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_curve> = offsetof(bendy_curve, interpolation);
 
 /// More than any struct will ever have: a size that nobody has set.
 inline constexpr std::size_t kMostSize = 4096;
@@ -88,9 +108,10 @@ bendy_status take(const S* in, const char* name, S& value, bendy_error* error) {
     if (const bendy_status status = check_out(in, name, error)) return status;
     const std::size_t known = std::min<std::size_t>(in->size, sizeof(S));
     const auto* const bytes = reinterpret_cast<const char*>(in);  // NOLINT(*-reinterpret-cast)
-    if (std::any_of(bytes + known, bytes + in->size, [](char byte) { return byte != 0; }))
+    if (std::any_of(bytes + known, bytes + in->size, [](char byte) { return byte != 0; })) {
         return fail(error, BENDY_BAD_ARGUMENT,
                     std::string(name) + " asks for something that this version of the library does not know");
+    }
     std::memcpy(&value, in, known);
     return BENDY_OK;
 }

@@ -1,15 +1,16 @@
-// The data of a model's meshes that posing does not change: submeshes, index lists, texture coordinates, influences;
-// levels of detail.
+// The data of a model's meshes that posing does not change: index lists, texture coordinates, influences, bind
+// palettes, and the joints that move rigid meshes.
 #include "fail.h"
 #include "handles.h"
+#include "lookup.h"
+#include "matrices.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
 
 namespace bendy::capi {
 namespace {
-
-bendy_status check_mesh(const bendy_model* model, std::uint32_t mesh, bendy_error* error) {
-    if (const bendy_status status = check_pointer(model, "model", error)) return status;
-    return check_index(mesh, model->get().meshes().size(), "mesh", error);
-}
 
 /// Returns the mesh's texture coordinates of that set; null if there are none.
 const StreamView* texture_coords(const Mesh& mesh, std::uint32_t set) {
@@ -29,29 +30,11 @@ void copy_influences(const Mesh& mesh, std::uint32_t* bones, float* weights) {
     }
 }
 
-/// Fills `out` with one of `submeshes`: the model's, or those at a level of detail.
-bendy_status get_submesh(std::span<const Submesh> submeshes, std::uint32_t number, bendy_submesh* out,
-                         bendy_error* error) {
-    if (const bendy_status status = check_index(number, submeshes.size(), "submesh", error)) return status;
-    if (const bendy_status status = check_out(out, "out", error)) return status;
-    const Submesh& submesh = submeshes[number];
-    put(*out, {0, submesh.mesh, submesh.material, static_cast<std::uint32_t>(submesh.topology), submesh.first,
-               submesh.count});
-    return BENDY_OK;
-}
-
 }  // namespace
 
 }  // namespace bendy::capi
 
 using namespace bendy::capi;
-
-bendy_status bendy_get_submesh(const bendy_model* model, uint32_t submesh, bendy_submesh* out, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        return get_submesh(model->get().submeshes(), submesh, out, error);
-    });
-}
 
 bendy_status bendy_get_indices(const bendy_model* model, uint32_t mesh, uint32_t* indices, size_t count,
                                bendy_error* error) {
@@ -73,9 +56,10 @@ bendy_status bendy_get_texture_coords(const bendy_model* model, uint32_t mesh, u
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
         const bendy::Mesh& view = model->get().meshes()[mesh];
         const bendy::StreamView* stream = texture_coords(view, set);
-        if (stream == nullptr)
+        if (stream == nullptr) {
             return fail(error, BENDY_BAD_ARGUMENT,
                         "mesh " + std::to_string(mesh) + " has no texture coordinates of set " + std::to_string(set));
+        }
         if (const bendy_status status = check_pointer(uv, "uv", error)) return status;
         if (const bendy_status status = check_room(count, std::uint64_t{2} * view.vertices, "uv", error)) return status;
         for (std::uint32_t vertex = 0; vertex < view.vertices; ++vertex) {
@@ -90,8 +74,7 @@ bendy_status bendy_get_influences(const bendy_model* model, uint32_t mesh, uint3
     return guarded(error, [&] {
         if (const bendy_status status = check_mesh(model, mesh, error)) return status;
         const bendy::Mesh& view = model->get().meshes()[mesh];
-        if (view.is_rigid())
-            return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is rigid: it has no bones");
+        if (const bendy_status status = check_skinned(view, mesh, error)) return status;
         if (const bendy_status status = check_pointer(bones, "bones", error)) return status;
         if (const bendy_status status = check_pointer(weights, "weights", error)) return status;
         const std::uint64_t needed = std::uint64_t{view.vertices} * view.bones->components;
@@ -101,65 +84,36 @@ bendy_status bendy_get_influences(const bendy_model* model, uint32_t mesh, uint3
     });
 }
 
-bendy_lod* bendy_lod_new(const bendy_model* model, bendy_error* error) {
-    bendy_lod* lod = nullptr;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        lod = std::make_unique<bendy_lod>(model->character).release();
-        return BENDY_OK;
-    });
-    return lod;
-}
-
-void bendy_lod_free(bendy_lod* lod) {
-    delete lod;
-}
-
-uint32_t bendy_has_levels(const bendy_model* model) {
-    return model != nullptr && model->get().collapse() != nullptr ? 1 : 0;
-}
-
-bendy_status bendy_lod_set_share(bendy_lod* lod, float share, bendy_error* error) {
+bendy_status bendy_get_bind_palette(const bendy_model* model, uint32_t mesh, uint32_t* joints, float* inverse_bind,
+                                    size_t count, bendy_error* error) {
     return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
-        if (!(share >= 0.0f && share <= 1.0f)) return fail(error, BENDY_BAD_ARGUMENT, "share must lie between 0 and 1");
-        lod->lod.set_share(share);
+        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
+        const bendy::Mesh& view = model->get().meshes()[mesh];
+        if (const bendy_status status = check_skinned(view, mesh, error)) return status;
+        const std::span<const std::uint32_t> from = view.palette.joints;
+        if (const bendy_status status = check_room(count, from.size(), "the palette", error)) return status;
+        if (joints != nullptr) std::copy(from.begin(), from.end(), joints);
+        if (inverse_bind == nullptr) return BENDY_OK;
+        for (const glm::mat4& matrix : view.palette.inverse_bind()) {
+            put_matrix(matrix, inverse_bind);
+            inverse_bind += kMatrixNumbers;
+        }
         return BENDY_OK;
     });
 }
 
-bendy_status bendy_get_lod(const bendy_lod* lod, bendy_lod_info* out, bendy_error* error) {
+bendy_status bendy_get_movers(const bendy_model* model, uint32_t mesh, uint32_t* joints, size_t count,
+                              bendy_error* error) {
     return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
-        if (const bendy_status status = check_out(out, "out", error)) return status;
-        put(*out, {0, lod->lod.error(), lod->lod.triangles()});
+        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
+        const bendy::Mesh& view = model->get().meshes()[mesh];
+        if (!view.is_rigid())
+            return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is not rigid: its bones move it");
+        if (view.vertices == 0) return BENDY_OK;
+        if (const bendy_status status = check_pointer(joints, "joints", error)) return status;
+        if (const bendy_status status = check_room(count, view.vertices, "joints", error)) return status;
+        for (std::uint32_t vertex = 0; vertex < view.vertices; ++vertex)
+            joints[vertex] = model->get().rigid_mover(mesh, vertex);
         return BENDY_OK;
-    });
-}
-
-uint32_t bendy_lod_vertices(const bendy_lod* lod, uint32_t mesh) {
-    if (lod == nullptr || mesh >= lod->character->model.meshes().size()) return 0;
-    return lod->lod.vertices(mesh);
-}
-
-const uint32_t* bendy_lod_indices(const bendy_lod* lod, uint32_t mesh, size_t* count, bendy_error* error) {
-    const uint32_t* indices = nullptr;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
-        if (const bendy_status status = check_pointer(count, "count", error)) return status;
-        if (const bendy_status status = check_index(mesh, lod->character->model.meshes().size(), "mesh", error))
-            return status;
-        const auto list = lod->lod.indices(mesh);
-        *count = list.size();
-        if (!list.empty()) indices = list.data();
-        return BENDY_OK;
-    });
-    return indices;
-}
-
-bendy_status bendy_lod_submesh(const bendy_lod* lod, uint32_t submesh, bendy_submesh* out, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(lod, "lod", error)) return status;
-        return get_submesh(lod->lod.submeshes(), submesh, out, error);
     });
 }

@@ -1,10 +1,9 @@
-// Opening and closing models; the version of the library, and its kernels.
+// Opening and closing models; the version of the library.
 #include "fail.h"
 #include "handles.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/text.h>
-#include <bendy/runtime/kernels.h>
 
 #include <cstring>
 #include <filesystem>
@@ -17,30 +16,60 @@
 namespace bendy::capi {
 namespace {
 
+/// text(thing) of each thing.
+template <class Things, class Text>
+std::vector<std::string> texts_of(const Things& things, const Text& text) {
+    std::vector<std::string> texts;
+    texts.reserve(things.size());
+    for (const auto& thing : things) texts.emplace_back(text(thing));
+    return texts;
+}
+
 template <class Things>
 std::vector<std::string> names_of(const Things& things) {
-    std::vector<std::string> names;
-    names.reserve(things.size());
-    for (const auto& thing : things) names.emplace_back(thing.name);
-    return names;
+    return texts_of(things, [](const auto& thing) { return thing.name; });
+}
+
+template <class Things>
+std::vector<std::string> extras_of(const Things& things) {
+    return texts_of(things, [](const auto& thing) { return thing.extras; });
+}
+
+template <class Things>
+std::vector<Json> json_of(const Things& things) {
+    std::vector<Json> json;
+    json.reserve(things.size());
+    for (const auto& thing : things) json.push_back({std::string(thing.extras), std::string(thing.more)});
+    return json;
 }
 
 Names names_in(const Model& model) {
-    Names names{std::string(model.name()),
-                names_of(model.joints()),
-                names_of(model.clips()),
-                names_of(model.chains()),
-                {},
-                names_of(model.meshes()),
-                names_of(model.materials()),
-                {}};
+    Names names;
+    names.model = model.name();
+    names.joints = names_of(model.joints());
+    names.clips = names_of(model.clips());
+    names.chains = names_of(model.chains());
+    names.meshes = names_of(model.meshes());
+    names.materials = names_of(model.materials());
+    names.textures = names_of(model.textures());
+    names.joint_extras = extras_of(model.joints());
+    names.chain_extras = extras_of(model.chains());
+    names.material_extensions = texts_of(model.materials(), [](const Material& from) { return from.extensions; });
+    names.clip_json = json_of(model.clips());
+    names.mesh_json = json_of(model.meshes());
+    names.material_json = json_of(model.materials());
+    names.texture_json = json_of(model.textures());
     for (const Mesh& mesh : model.meshes()) {
         for (const MorphTargetView& target : mesh.targets) names.targets.emplace_back(target.name);
+        names.attributes.push_back(names_of(mesh.attributes));
     }
     for (const Clip& clip : model.clips()) {
         std::vector<CurveNames>& curves = names.curves.emplace_back();
         for (const CurveView& curve : clip.curves) curves.push_back({std::string(curve.name), std::string(curve.path)});
+        names.markers.push_back(names_of(clip.markers));
     }
+    for (const Texture& texture : model.textures())
+        names.uris.push_back(texts_of(texture.images, [](const ImageView& image) { return image.uri; }));
     return names;
 }
 
@@ -144,23 +173,4 @@ uint32_t bendy_version() {
 
 const char* bendy_version_string() {
     return BENDY_DOTTED(BENDY_VERSION_MAJOR, BENDY_VERSION_MINOR, BENDY_VERSION_PATCH);
-}
-
-const char* bendy_kernel() {
-    return bendy::kernel_name(bendy::kernel()).data();  // a literal
-}
-
-bendy_status bendy_set_kernel(const char* name, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(name, "name", error)) return status;
-        std::string there;
-        for (const bendy::Kernel kernel : bendy::kernels()) {
-            if (bendy::kernel_name(kernel) == name) {
-                return from_call(bendy::set_kernel(kernel), error);
-            }
-            there += (there.empty() ? "" : ", ") + std::string(bendy::kernel_name(kernel));
-        }
-        return fail(error, BENDY_NOT_FOUND,
-                    "there is no kernel \"" + std::string(name) + "\" on this machine; there are: " + there);
-    });
 }

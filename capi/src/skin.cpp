@@ -1,63 +1,22 @@
 // What comes out of a pose: the matrices of joints and bones, and skinned vertices.
 #include "fail.h"
 #include "handles.h"
+#include "lookup.h"
+#include "matrices.h"
+#include "vertices.h"
 
 #include <bendy/runtime/skin.h>
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <algorithm>
 #include <cstdint>
-#include <limits>
 
 namespace bendy::capi {
 namespace {
 
-constexpr std::size_t kNumbers = 16;  // per matrix
-
-void put_matrix(const glm::mat4& matrix, float* out) {
-    std::copy_n(glm::value_ptr(matrix), kNumbers, out);
-}
-
-/// Writes the rows of a 3x4 matrix as the columns of a 4x4 one.
-void put_matrix(const PaletteMatrix& matrix, float* out) {
-    for (int column = 0; column < 4; ++column) {
-        for (const auto& row : matrix.rows) *out++ = row[column];
-        *out++ = column == 3 ? 1.0f : 0.0f;
-    }
-}
-
-/// One attribute of `numbers` floats, for so many vertices.
-bendy_status take_array(float* data, std::size_t stride, std::size_t numbers, std::uint64_t vertices, const char* name,
-                        StridedFloats& out, bendy_error* error) {
-    if (data == nullptr || vertices == 0) return BENDY_OK;
-    if (stride == 0) stride = numbers * sizeof(float);
-    if (stride % sizeof(float) != 0 || stride < numbers * sizeof(float))
-        return fail(error, BENDY_BAD_ARGUMENT,
-                    std::string(name) + ": a stride of " + std::to_string(stride) +
-                        " bytes is no multiple of 4 that holds " + std::to_string(numbers) + " floats");
-    if (reinterpret_cast<std::uintptr_t>(data) % alignof(float) != 0)  // NOLINT(*-reinterpret-cast)
-        return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " does not start on a 4-byte boundary");
-    out.stride = stride / sizeof(float);
-    constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(float);
-    if (out.stride > kMost || vertices - 1 > (kMost - numbers) / out.stride)
-        return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + ": no memory is that large");
-    out.floats = {data, (vertices - 1) * out.stride + numbers};
-    return BENDY_OK;
-}
-
-bendy_status take_buffer(const bendy_vertices* vertices, std::uint64_t needed, VertexBuffer& out, bendy_error* error) {
-    if (const bendy_status status = check_pointer(vertices, "out", error)) return status;
-    bendy_vertices values = BENDY_VERTICES_INIT;
-    if (const bendy_status status = take(vertices, "out", values, error)) return status;
-    if (const bendy_status status = check_room(values.capacity, needed, "out", error)) return status;
-    if (const bendy_status status =
-            take_array(values.positions, values.position_stride, 3, needed, "positions", out.positions, error))
-        return status;
-    if (const bendy_status status =
-            take_array(values.normals, values.normal_stride, 3, needed, "normals", out.normals, error))
-        return status;
-    return take_array(values.tangents, values.tangent_stride, 4, needed, "tangents", out.tangents, error);
+bendy_status check_method(std::uint32_t method, bendy_error* error) {
+    if (method <= BENDY_SKIN_DUAL_QUATERNION) return BENDY_OK;
+    return fail(error, BENDY_BAD_ARGUMENT, "expected a method of bendy_skin_method, found " + std::to_string(method));
 }
 
 /// What bendy_skin is to do, but for its outputs. `options` may be NULL.
@@ -75,9 +34,7 @@ bendy_status take_options(const bendy_pose& pose, const bendy_skin_options* opti
             return fail(error, BENDY_BAD_ARGUMENT, "lod is of another model than the pose");
         taken.lod = &values.lod->lod;
     }
-    if (values.method > BENDY_SKIN_DUAL_QUATERNION)
-        return fail(error, BENDY_BAD_ARGUMENT,
-                    "expected a method of bendy_skin_method, found " + std::to_string(values.method));
+    if (const bendy_status status = check_method(values.method, error)) return status;
     taken.method = static_cast<SkinningMethod>(values.method);
     return BENDY_OK;
 }
@@ -104,7 +61,7 @@ bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t cou
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;
         for (const glm::mat4& matrix : pose->pose.model_space().subspan(first, count)) {
             put_matrix(world == nullptr ? matrix : glm::make_mat4(world) * matrix, matrices);
-            matrices += kNumbers;
+            matrices += kMatrixNumbers;
         }
         return BENDY_OK;
     });
@@ -115,14 +72,13 @@ bendy_status bendy_bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrice
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
         const auto meshes = pose->pose.model().meshes();
         if (const bendy_status status = check_index(mesh, meshes.size(), "mesh", error)) return status;
-        if (meshes[mesh].is_rigid())
-            return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(mesh) + " is rigid: it has no bones");
+        if (const bendy_status status = check_skinned(meshes[mesh], mesh, error)) return status;
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;
         const auto palette = pose->pose.palette(mesh);
         if (const bendy_status status = check_room(count, palette.size(), "matrices", error)) return status;
         for (const bendy::PaletteMatrix& matrix : palette) {
             put_matrix(matrix, matrices);
-            matrices += kNumbers;
+            matrices += kMatrixNumbers;
         }
         return BENDY_OK;
     });
@@ -137,5 +93,14 @@ bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, con
         const std::uint64_t needed = needed_by(request, pose->pose.model());
         if (const bendy_status status = take_buffer(out, needed, request.out, error)) return status;
         return from_call(bendy::skin(pose->pose, request), error);
+    });
+}
+
+bendy_status bendy_prepare_skin(bendy_pose* pose, uint32_t method, bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        if (const bendy_status status = check_method(method, error)) return status;
+        bendy::prepare_skin(pose->pose, static_cast<bendy::SkinningMethod>(method));
+        return BENDY_OK;
     });
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Holds libbendy against capi/abi.txt, what programs have been built against: check_abi.py --header H --library SO --list TXT --cc CC
 
-The functions that the library shows, and that the header declares; the sizes of structs, places of fields and values of constants, as a
-C compiler has them (64-bit machines). --renew writes the list. What stands in it after a release may be added to, but a line that
-goes or changes needs a new soname."""
+The functions that the library shows, with their symbol versions, and that the header declares; the sizes of structs, places of fields
+and values of constants, as a C compiler has them (64-bit machines). --renew writes the list. What stands in it after a release may be
+added to, and a struct that begins with its size may grow; any other line that goes or changes needs a new soname."""
 
 import argparse
 import re
@@ -42,11 +42,19 @@ def compiled(header_path, structs, constants, cc):
 
 
 def exported(library):
-    """(functions, other symbols) that the library shows."""
+    """({function: symbol version}, other symbols) that the library shows."""
     lines = subprocess.run(["nm", "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout.splitlines()
-    symbols = [(line.split()[1], line.split()[2].split("@")[0]) for line in lines]
-    return ({name for kind, name in symbols if kind == "T"},
-            [name for kind, name in symbols if kind not in "TA"])
+    symbols = [(line.split()[1], *line.split()[2].replace("@@", "@").partition("@")[::2]) for line in lines]
+    return ({name: version for kind, name, version in symbols if kind == "T"},
+            [name for kind, name, _ in symbols if kind not in "TA"])
+
+
+def grown(known, lines):
+    """The lines of structs that begin with their size, and that are larger now."""
+    sizes = dict(line.split()[1:] for line in lines if line.startswith("struct "))
+    may_grow = {line.split()[1].split(".")[0] for line in lines if re.match(r"field \w+\.size at 0,", line)}
+    old = [line.split() for line in known if line.startswith("struct ")]
+    return {f"struct {name} {size}" for _, name, size in old if name in may_grow and int(sizes.get(name, 0)) > int(size)}
 
 
 def main():
@@ -60,15 +68,16 @@ def main():
 
     functions, structs, constants = declared(arguments.header.read_text())
     shown, others = exported(arguments.library)
-    faults = [f"{name}: the library shows it, the header does not declare it" for name in sorted(shown - set(functions))]
-    faults += [f"{name}: the header declares it, the library does not show it" for name in sorted(set(functions) - shown)]
+    faults = [f"{name}: the library shows it, the header does not declare it" for name in sorted(set(shown) - set(functions))]
+    faults += [f"{name}: the header declares it, the library does not show it" for name in sorted(set(functions) - set(shown))]
     faults += [f"{name}: is no function, and must not be shown" for name in others]
 
-    lines = [f"function {name}" for name in sorted(functions)] + compiled(arguments.header, structs, constants, arguments.cc)
+    lines = [f"function {name} {shown.get(name)}" for name in sorted(functions)] + compiled(arguments.header, structs, constants, arguments.cc)
     if arguments.renew:
         arguments.list.write_text("\n".join(lines) + "\n")
     known = arguments.list.read_text().splitlines()
-    faults += [f"{line}: in {arguments.list.name}, and no more so: programs that are built break" for line in known if line not in set(lines)]
+    faults += [f"{line}: in {arguments.list.name}, and no more so: programs that are built break" for line in known
+               if line not in set(lines) | grown(known, lines)]
     faults += [f"{line}: not in {arguments.list.name}; --renew adds it" for line in lines if line not in set(known)]
     for fault in faults:
         print(fault)

@@ -8,6 +8,50 @@
 namespace bendy::test::damaged_file_test {
 namespace {
 
+void read_clip(const bendy_model* model, std::uint32_t clip) {
+    for (std::uint32_t k = 0; k < bendy_track_count(model, clip); ++k) {
+        auto track = sized<bendy_track>();
+        ASSERT_EQ(bendy_get_track(model, clip, k, &track, nullptr), BENDY_OK);
+        std::vector<float> values(track.components);
+        ASSERT_EQ(bendy_sample_track(model, clip, k, 0.6f, values.data(), values.size(), nullptr), BENDY_OK);
+    }
+    for (std::uint32_t k = 0; k < bendy_frame_sequence_count(model, clip); ++k) {
+        auto mix = sized<bendy_frame_mix>();
+        ASSERT_EQ(bendy_mix_frames(model, clip, k, 0.6f, &mix, nullptr), BENDY_OK);
+    }
+    const PlaybackHandle playback(bendy_playback_new(model, clip, nullptr));
+    auto played = sized<bendy_played>();
+    ASSERT_EQ(bendy_playback_advance(playback.get(), 0.7, &played, nullptr), BENDY_OK);
+    std::uint64_t count = 0;
+    ASSERT_EQ(bendy_count_markers(model, clip, &played, &count, nullptr), BENDY_OK);
+    const RootPathHandle path(bendy_root_path_new(model, 0, nullptr, nullptr));
+    bendy_root_motion motion = BENDY_ROOT_MOTION_INIT;
+    ASSERT_TRUE(path == nullptr || bendy_root_path_over(path.get(), clip, &played, &motion, nullptr) == BENDY_OK);
+}
+
+/// Reads every byte of an image.
+std::size_t read_image(const bendy_model* model, std::uint32_t texture, std::uint32_t number) {
+    auto image = sized<bendy_image>();
+    EXPECT_EQ(bendy_get_image(model, texture, number, &image, nullptr), BENDY_OK);
+    std::size_t sum = image.uri == nullptr ? 0 : std::strlen(image.uri);
+    for (std::size_t k = 0; k < image.byte_count; ++k) sum += static_cast<const unsigned char*>(image.bytes)[k];
+    return sum;
+}
+
+/// Reads every stream of a mesh.
+void read_streams(const bendy_model* model, std::uint32_t mesh) {
+    for (std::uint32_t k = 0; k < bendy_stream_count(model, mesh); ++k) {
+        auto stream = sized<bendy_stream>();
+        ASSERT_EQ(bendy_get_stream(model, mesh, k, &stream, nullptr), BENDY_OK);
+        std::vector<float> numbers(std::size_t{stream.elements} * stream.components);
+        const bendy_status status = bendy_get_numbers(model, mesh, k, numbers.data(), numbers.size(), nullptr);
+        ASSERT_TRUE(status == BENDY_OK || numbers.empty());
+        std::size_t sum = std::strlen(stream.name);
+        for (std::size_t b = 0; b < stream.data_size; ++b) sum += static_cast<const unsigned char*>(stream.data)[b];
+        ASSERT_GE(sum, std::strlen(stream.name));
+    }
+}
+
 /// Everything there is to ask of a model; gives a number so that nothing is optimised away.
 std::size_t read_all(const bendy_model* model) {
     std::size_t sum = 0;
@@ -29,6 +73,7 @@ std::size_t read_all(const bendy_model* model) {
             std::array<float, 4> values{};
             EXPECT_EQ(bendy_sample_curve(model, k, c, 0.5, values.data(), values.size(), nullptr), BENDY_OK);
         }
+        read_clip(model, k);
     }
     for (std::uint32_t k = 0; k < bendy_chain_count(model); ++k) {
         auto chain = sized<bendy_chain>();
@@ -41,6 +86,18 @@ std::size_t read_all(const bendy_model* model) {
     for (std::uint32_t k = 0; k < bendy_material_count(model); ++k) {
         auto material = sized<bendy_material>();
         add_name(bendy_get_material(model, k, &material, nullptr), material);
+        sum += std::strlen(material.extensions) + std::strlen(material.extras) + std::strlen(material.more);
+    }
+    for (std::uint32_t k = 0; k < bendy_texture_count(model); ++k) {
+        auto texture = sized<bendy_texture>();
+        add_name(bendy_get_texture(model, k, &texture, nullptr), texture);
+        for (std::uint32_t i = 0; i < texture.images; ++i) sum += read_image(model, k, i);
+    }
+    for (std::uint32_t k = 0; k < bendy_constraint_count(model); ++k) {
+        const std::array<double, 4> turned{0.6, 0.0, 0.0, 0.8};
+        std::array<double, 4> clamped{};
+        double violation = 0.0;
+        EXPECT_EQ(bendy_clamp_rotation(model, k, turned.data(), clamped.data(), &violation, nullptr), BENDY_OK);
     }
     return sum;
 }
@@ -54,7 +111,22 @@ void read_mesh(const bendy_model* model, std::uint32_t number) {
     for (const std::uint32_t index : indices) ASSERT_TRUE(index < mesh.vertices || index == 0);
     std::vector<float> uv(std::size_t{2} * mesh.vertices + 1);
     bendy_get_texture_coords(model, number, 0, uv.data(), uv.size(), nullptr);
-    if (mesh.influences == 0) return;
+    read_streams(model, number);
+    for (std::uint32_t k = 0; k < mesh.targets; ++k) {
+        auto target = sized<bendy_morph_target>();
+        ASSERT_EQ(bendy_get_morph_target(model, mesh.first_morph_target + k, &target, nullptr), BENDY_OK);
+        std::vector<float> shifts(std::size_t{3} * target.vertices + 1);
+        ASSERT_EQ(bendy_get_displacements(model, mesh.first_morph_target + k, nullptr, shifts.data(), shifts.data(),
+                                          shifts.data(), target.vertices, nullptr),
+                  BENDY_OK);
+    }
+    std::vector<std::uint32_t> joints(std::size_t{mesh.vertices} + mesh.bones + 1);
+    if (mesh.influences == 0) {
+        ASSERT_EQ(bendy_get_movers(model, number, joints.data(), joints.size(), nullptr), BENDY_OK);
+        return;
+    }
+    std::vector<float> matrices(std::size_t{16} * mesh.bones);
+    ASSERT_EQ(bendy_get_bind_palette(model, number, joints.data(), matrices.data(), mesh.bones, nullptr), BENDY_OK);
     std::vector<std::uint32_t> bones(std::size_t{mesh.vertices} * mesh.influences + 1);
     std::vector<float> weights(bones.size());
     ASSERT_EQ(bendy_get_influences(model, number, bones.data(), weights.data(), bones.size(), nullptr), BENDY_OK);
@@ -64,6 +136,12 @@ void read_mesh(const bendy_model* model, std::uint32_t number) {
 void pose_all(const ModelHandle& model) {
     const PoseHandle pose = new_pose(model);
     const LodHandle lod(bendy_lod_new(model.get(), nullptr));
+    const BoundsHandle bounds(bendy_bounds_new(model.get(), nullptr));
+    bendy_box box{};
+    ASSERT_EQ(bendy_bounds_of_pose(bounds.get(), pose.get(), &box, nullptr), BENDY_OK);
+    const BindingHandle binding(bendy_binding_new(model.get(), model.get(), nullptr, nullptr));
+    ASSERT_TRUE(bendy_clip_count(model.get()) == 0 ||
+                bendy_sample_bound(pose.get(), binding.get(), 0, 0.6f, nullptr) == BENDY_OK);
     std::vector<float> numbers((bendy_vertex_count(model.get()) + 1) * 10);
     bendy_vertices out = BENDY_VERTICES_INIT;
     out.capacity = bendy_vertex_count(model.get());

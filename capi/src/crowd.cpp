@@ -1,0 +1,159 @@
+// Many characters of one model.
+#include "fail.h"
+#include "handles.h"
+#include "lookup.h"
+#include "matrices.h"
+#include "vertices.h"
+
+#include <bendy/runtime/sample.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+namespace bendy::capi {
+namespace {
+
+constexpr std::uint32_t kMostWorkers = 4096;  // each takes the memory of a pose
+
+/// Member `number` of the caller's array, whose structs may have another size than this library's.
+const bendy_crowd_member* member_at(const bendy_crowd_member* members, std::size_t number) {
+    const auto* const bytes = reinterpret_cast<const char*>(members);                    // NOLINT(*-reinterpret-cast)
+    return reinterpret_cast<const bendy_crowd_member*>(bytes + number * members->size);  // NOLINT(*-reinterpret-cast)
+}
+
+/// What a member asks for, checked. `palette` is the caller's memory for matrices.
+struct Request {
+    CrowdMember member;
+    float* palette = nullptr;
+};
+
+/// \param has_clip  whether the member's clip and time are used
+bendy_status take_member(const Character& character, const bendy_crowd_member* from, std::uint32_t size, bool has_clip,
+                         Request& taken, bendy_error* error) {
+    bendy_crowd_member values = BENDY_CROWD_MEMBER_INIT;
+    if (const bendy_status status = take(from, "members", values, error)) return status;
+    if (values.size != size) return fail(error, BENDY_BAD_ARGUMENT, "members have different sizes");
+    const Model& model = character.model;
+    taken = {};
+    if (has_clip && values.clip != BENDY_NONE) {
+        if (const bendy_status status = check_clip_of(character, values.clip, error)) return status;
+        if (const bendy_status status = check_seconds(values.seconds, error)) return status;
+        taken.member.clip = &model.clips()[values.clip];
+        taken.member.seconds = values.seconds;
+    }
+    if (values.lod != nullptr) {
+        if (values.lod->character.get() != &character)
+            return fail(error, BENDY_BAD_ARGUMENT, "lod is of another model than the crowd");
+        taken.member.lod = &values.lod->lod;
+    }
+    taken.palette = values.palette;
+    if (values.vertices == nullptr) return BENDY_OK;
+    return take_buffer(values.vertices, model.vertex_count(), taken.member.out, error);
+}
+
+void write_palette(const Model& model, Pose& pose, float* out) {
+    const std::span<const Mesh> meshes = model.meshes();
+    const auto write = [&](const auto& matrix) {
+        put_matrix(matrix, out);
+        out += kMatrixNumbers;
+    };
+    for (std::uint32_t number = 0; number < meshes.size(); ++number) {
+        if (meshes[number].is_rigid()) {
+            const std::uint32_t joint = meshes[number].vertices == 0 ? kNone : model.rigid_mover(number, 0);
+            write(joint == kNone ? glm::mat4(1.0f) : pose.model_space()[joint]);
+        } else {
+            for (const PaletteMatrix& matrix : pose.palette(number)) write(matrix);
+        }
+    }
+}
+
+/// Plays the members; set_pose(number, member, pose) sets the pose of each.
+template <class SetPose>
+bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::size_t count, std::uint32_t worker,
+                  bool has_clips, const SetPose& set_pose, bendy_error* error) {
+    if (const bendy_status status = check_pointer(crowd, "crowd", error)) return status;
+    if (const bendy_status status = check_index(worker, crowd->crowd.workers(), "worker", error, "the crowd"))
+        return status;
+    if (count == 0) return BENDY_OK;
+    if (const bendy_status status = check_out(members, "members", error)) return status;
+    if (members->size % alignof(bendy_crowd_member) != 0)
+        return fail(error, BENDY_BAD_ARGUMENT, "members: their size is not that of a struct in an array");
+    Request request;
+    for (std::size_t number = 0; number < count; ++number) {  // all checks come before the first write
+        if (const bendy_status status =
+                take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
+            return status;
+    }
+    for (std::size_t number = 0; number < count; ++number) {
+        if (const bendy_status status =
+                take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
+            return status;
+        const auto played = crowd->crowd.play({&request.member, 1}, worker, [&](const CrowdMember& member, Pose& pose) {
+            set_pose(number, member, pose);
+            if (request.palette != nullptr) write_palette(crowd->character->model, pose, request.palette);
+        });
+        if (!played) return from_call(played, error);
+    }
+    return BENDY_OK;
+}
+
+}  // namespace
+}  // namespace bendy::capi
+
+using namespace bendy::capi;
+
+bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_error* error) {
+    bendy_crowd* crowd = nullptr;
+    guarded(error, [&] {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        if (workers > kMostWorkers) {
+            return fail(
+                error, BENDY_BAD_ARGUMENT,
+                "expected at most " + std::to_string(kMostWorkers) + " workers, found " + std::to_string(workers));
+        }
+        crowd = std::make_unique<bendy_crowd>(model->character, workers).release();
+        return BENDY_OK;
+    });
+    return crowd;
+}
+
+void bendy_crowd_free(bendy_crowd* crowd) {
+    delete crowd;
+}
+
+uint32_t bendy_crowd_workers(const bendy_crowd* crowd) {
+    return crowd == nullptr ? 0 : static_cast<uint32_t>(crowd->crowd.workers());
+}
+
+size_t bendy_crowd_palette_size(const bendy_crowd* crowd) {
+    return crowd == nullptr ? 0 : crowd->crowd.palette_size();
+}
+
+size_t bendy_crowd_first_matrix(const bendy_crowd* crowd, uint32_t mesh) {
+    if (crowd == nullptr || mesh >= crowd->character->model.meshes().size()) return 0;
+    return crowd->crowd.first_entry(mesh);
+}
+
+bendy_status bendy_crowd_play(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count, uint32_t worker,
+                              bendy_error* error) {
+    return guarded(error, [&] {
+        const auto sample_clip = [](std::size_t, const bendy::CrowdMember& member, bendy::Pose& pose) {
+            (void)bendy::sample(pose, member.clip, member.seconds);  // without a clip: the rest pose
+        };
+        return play(crowd, members, count, worker, true, sample_clip, error);
+    });
+}
+
+bendy_status bendy_crowd_play_posed(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
+                                    uint32_t worker, bendy_pose_member pose_member, void* user, bendy_error* error) {
+    return guarded(error, [&] {
+        if (pose_member == nullptr) return fail(error, BENDY_BAD_ARGUMENT, "pose_member is NULL");
+        const auto call = [&](std::size_t number, const bendy::CrowdMember&, bendy::Pose& pose) {
+            bendy_pose handle(crowd->character, std::move(pose));  // the worker's pose, lent to the caller
+            pose_member(user, number, &handle);
+            pose = std::move(handle.pose);
+        };
+        return play(crowd, members, count, worker, false, call, error);
+    });
+}
