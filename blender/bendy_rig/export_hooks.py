@@ -10,8 +10,10 @@ import bpy
 
 from .axes import FileAxes
 from .export_report import ExportReport
-from .ik_chains import chain_joints, chain_record, ik_constraints
+from .chain_settings import chain_joints, is_helper
+from .ik_chains import chain_record, ik_constraints
 from .joint_limits import joint_record, says_a_limit
+from .kept_records import CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
 from .shortcomings import bone_notes, chain_notes, object_notes
 
 
@@ -25,7 +27,7 @@ class RigError(Exception):
     """The export was stopped because the rig is not, or not all, in the file."""
 
 
-def kept(hook):
+def kept_error(hook):
     """A hook whose exceptions become errors of the report, each once."""
     @functools.wraps(hook)
     def wrapped(self, *arguments):
@@ -49,24 +51,39 @@ class RigExtras:
         self.joint_nodes = {}       # armature object's name -> bone's name -> its nodes; of the scene that is being exported
         self.done = set()           # armature objects whose chains are written
         self.chain_names = set()
+        self.curves = []            # that came with an import
 
-    @kept
+    @kept_error
+    def gather_tree_filter_tag_hook(self, tree, *_):
+        """Leaves out the bones that an import has made for tips, targets and poles."""
+        for node in tree.nodes.values():
+            if node.blender_bone is not None and node.keep_tag and is_helper(node.blender_bone):
+                node.keep_tag = False
+
+    @kept_error
     def gather_joint_hook(self, node, bone, *_):
         if not isinstance(bone, bpy.types.PoseBone) or node.name != bone.name:
             return                  # an added leaf
+        node.extras = without_kept(node.extras)
         self.rigs[bone.id_data.name] = bone.id_data
         self.joint_nodes.setdefault(bone.id_data.name, {}).setdefault(bone.name, []).append(node)
 
-    @kept
+    @kept_error
     def gather_node_hook(self, node, obj, *_):
         if not isinstance(obj, bpy.types.Object):
             return                  # a collection
+        node.extras = without_kept(node.extras)
+        self.curves += kept(obj, CURVES) or []
+        limits = kept(obj, CONSTRAINTS)
+        if limits is not None:
+            node.extras = {**(node.extras or {}), 'rig_joint': {'limits': in_radians(limits)}}
+            self.report.joints.append(obj.name)
         if obj.type == 'ARMATURE':
             self.rigs[obj.name] = obj
             self.rig_nodes.setdefault(obj.name, node)
         self.report.add_notes(obj.name, object_notes(obj))
 
-    @kept
+    @kept_error
     def gather_scene_hook(self, scene, _, *rest):
         """All nodes of the scene are made now, so it is known which joints are in the file."""
         axes = FileAxes(rest[-1].get('gltf_yup', True))
@@ -77,7 +94,17 @@ class RigExtras:
                 self.done.add(name)
                 rig_node = self.rig_nodes.get(name)
                 add_chains(rig_node or scene, self.chains(rig, axes, nodes, rig_node is not None))
+        if self.curves:
+            scene.extras = {**(scene.extras or {}), 'bendy_rig': {'bendy_rig': 1, 'curves': self.curves}}
         self.report.is_finished = True
+
+    @kept_error
+    def gather_animation_hook(self, animation, action, *rest):
+        """The exporter does not write the markers of an action."""
+        markers = kept_markers(action, bpy.context.scene.render.fps)
+        animation.extras = without_kept(animation.extras)
+        if markers:
+            animation.extras = {**(animation.extras or {}), 'markers': markers}
 
     def add_joints(self, rig, axes, nodes):
         """nodes: bone's name -> its nodes, which are several where a collection has instances."""
@@ -96,8 +123,15 @@ class RigExtras:
             self.report.add_notes(rig.name, [(False, f'not in the file, nor their limits: {", ".join(missing)}')])
 
     def chains(self, rig, axes, exported, has_node):
-        records = []
+        records, done, changed = kept_chains(rig, exported)
+        for record in records:
+            self.chain_names.add(record['name'])
+            self.report.chains.append(record['name'])
+        self.report.add_notes(rig.name, [(False, f'changed in Blender since the import, and written as Blender has it: {name}')
+                                         for name in changed])
         for bone, constraint in ik_constraints(rig):
+            if (bone.name, constraint.name) in done:
+                continue
             joints = chain_joints(bone, constraint)
             if not any(joint in exported for joint in joints):
                 self.report.add_notes(constraint.name, [(False, f'IK on {bone.name}: its bones are not in the file: left out')])
@@ -108,7 +142,7 @@ class RigExtras:
                 notes.append((False, f'one of several chains named {constraint.name}'))
             self.report.chains.append(name)
             self.report.add_notes(name, notes)
-            records.append(with_notes(chain_record(name, joints, rig, constraint, axes, has_node), notes))
+            records.append(with_notes(chain_record(name, joints, bone, constraint, axes, has_node), notes))
         return records
 
     def unique_name(self, name, bone):
