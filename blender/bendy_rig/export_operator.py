@@ -1,28 +1,23 @@
-"""File > Export > glTF with Bendy rig: runs Blender's glTF exporter with this add-on's hooks."""
-import json
+"""File > Export > Bendy, and > glTF with Bendy rig: both run Blender's glTF exporter with this add-on's hooks."""
 import os
+import tempfile
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from .export_hooks import LastExport
-from .written_file import count_records, read_document
+from .gltf_exporter import check_file, exporter_options, run_exporter, what_failed
+from .program import BendyError, find_program, run_program
 
-ADDON = __package__
-# What a rig needs of the exporter; an option that this version of it does not have is left away.
-ALWAYS = {'export_yup': True, 'export_extras': True, 'export_skins': True, 'export_force_sampling': True}
+# A clip is all of its action, at every frame, and a character has all the influences that it has in Blender.
+BENDY_OPTIONS = {'export_format': 'GLB', 'export_frame_range': False, 'export_optimize_animation_size': False,
+                 'export_all_influences': True}
+PARTS = 3                           # of an export, for the progress: Blender's exporter is most of it
 
 
-class EXPORT_SCENE_OT_bendy_rig(bpy.types.Operator, ExportHelper):
-    """Export glTF 2.0 with joint limits and IK chains, which "bendy convert" reads"""
-    bl_idname = 'export_scene.bendy_rig'
-    bl_label = 'Export glTF with Bendy rig'
-    bl_options = {'PRESET'}
-
-    filename_ext = '.glb'
-    check_extension = None          # .gltf is as good
-    filter_glob: StringProperty(default='*.glb;*.gltf', options={'HIDDEN'})
+class ExportOptions:
+    """What both operators offer."""
     use_selection: BoolProperty(name='Selected Objects', description='Export selected objects only', default=False)
     use_visible: BoolProperty(name='Visible Objects', description='Export visible objects only', default=False)
     export_apply: BoolProperty(name='Apply Modifiers', description='Apply modifiers other than armatures; shape keys are lost',
@@ -33,98 +28,88 @@ class EXPORT_SCENE_OT_bendy_rig(bpy.types.Operator, ExportHelper):
     options: StringProperty(name='Further Options', options={'HIDDEN'}, default='',
                             description='Options of the glTF exporter as a JSON object; they count before the ones above')
 
-    def execute(self, context):
-        try:
-            path, options = exporter_options(self, context)
-            run_exporter(context, path, options)
-            check_file(path, LastExport.report)
-        except (RuntimeError, OSError, ValueError) as error:
-            self.report({'ERROR'}, f'Bendy rig: {what_failed(error)}')
-            return {'CANCELLED'}
+    def tell(self, path):
         if LastExport.report.notes:
-            self.report({'WARNING'}, 'Bendy rig: ' + '; '.join(LastExport.report.notes))
+            self.report({'WARNING'}, f'{self.bl_label}: {"; ".join(LastExport.report.notes)}')
         self.report({'INFO'}, f'{os.path.basename(path)}: {LastExport.report.summary()}')
+
+    def fail(self, error):
+        self.report({'ERROR'}, f'{self.bl_label}: {what_failed(error)}')
+        return {'CANCELLED'}
+
+
+class EXPORT_SCENE_OT_bendy(bpy.types.Operator, ExportHelper, ExportOptions):
+    """Export characters as a Bendy file"""
+    bl_idname = 'export_scene.bendy'
+    bl_label = 'Export Bendy'
+    bl_options = {'PRESET'}
+
+    filename_ext = '.bendy'
+    filter_glob: StringProperty(default='*.bendy', options={'HIDDEN'})
+    compact: BoolProperty(name='Compact', default=False,
+                          description='Minimise the file\'s size, by an error of at most 0.005% of the character\'s height')
+
+    def execute(self, context):
+        path, manager = bpy.path.ensure_ext(bpy.path.abspath(self.filepath), '.bendy'), context.window_manager
+        manager.progress_begin(0, PARTS)
+        try:
+            find_program()          # before the long part
+            with tempfile.TemporaryDirectory(prefix='bendy') as folder:
+                glb = os.path.join(folder, 'scene.glb')
+                run_exporter(context, glb, exporter_options(self, context, glb, BENDY_OPTIONS))
+                check_file(glb, LastExport.report)
+                manager.progress_update(PARTS - 1)
+                warnings = run_program('convert', glb, '--output', path, *(['--compact'] if self.compact else []))
+        except (RuntimeError, OSError, ValueError, BendyError) as error:
+            return self.fail(error)
+        finally:
+            manager.progress_end()
+        told = [note.split(': ', 1)[1] for note in LastExport.report.notes]
+        for text in warnings:
+            if not any(note in text for note in told):
+                self.report({'WARNING'}, f'{self.bl_label}: {text.removeprefix(glb + ": ")}')
+        self.tell(path)
         return {'FINISHED'}
 
 
-def exporter_options(operator, context):
-    """The file to write and the exporter's options: what the scene remembers, this dialogue's, the script's, a rig's needs."""
-    known = exporter_properties()
-    path = operator.filepath
-    if os.path.splitext(path)[1].lower() not in ('.glb', '.gltf'):
-        path += '.glb'
-    remembered = context.scene.get('glTF2ExportSettings')
-    options = {name: value for name, value in (remembered.to_dict() if remembered else {}).items() if name in known}
-    for name in ('use_selection', 'use_visible', 'export_apply', 'export_def_bones', 'export_animations'):
-        if operator.properties.is_property_set(name) or name not in options:
-            options[name] = getattr(operator, name)
-    further = json.loads(operator.options or '{}')
-    unknown = sorted(set(further) - known)
-    if unknown:
-        raise ValueError(f'the glTF exporter has no option {", ".join(unknown)}')
-    options.update(further)
-    options.update({name: value for name, value in ALWAYS.items() if name in known})
-    is_glb = path.lower().endswith('.glb')
-    if is_glb or options.get('export_format', 'GLB') == 'GLB':
-        options['export_format'] = 'GLB' if is_glb else 'GLTF_SEPARATE'
-    return path, {**options, 'filepath': path, 'check_existing': False}
+class EXPORT_SCENE_OT_bendy_rig(bpy.types.Operator, ExportHelper, ExportOptions):
+    """Export glTF 2.0 with joint limits and IK chains, which "bendy convert" reads"""
+    bl_idname = 'export_scene.bendy_rig'
+    bl_label = 'Export glTF with Bendy rig'
+    bl_options = {'PRESET'}
+
+    filename_ext = '.glb'
+    check_extension = None          # .gltf is as good
+    filter_glob: StringProperty(default='*.glb;*.gltf', options={'HIDDEN'})
+
+    def execute(self, context):
+        path = self.filepath
+        if os.path.splitext(path)[1].lower() not in ('.glb', '.gltf'):
+            path += '.glb'
+        try:
+            run_exporter(context, path, exporter_options(self, context, path, {}))
+            check_file(path, LastExport.report)
+        except (RuntimeError, OSError, ValueError) as error:
+            return self.fail(error)
+        self.tell(path)
+        return {'FINISHED'}
 
 
-def exporter_properties():
-    if 'gltf' not in dir(bpy.ops.export_scene):
-        raise ValueError('the add-on "glTF 2.0 format" is not enabled')
-    return set(bpy.ops.export_scene.gltf.get_rna_type().properties.keys())
-
-
-def run_exporter(context, path, options):
-    """The exporter looks for hooks in the preferences, where an add-on is not that was enabled for one run (--addons)."""
-    addons = context.preferences.addons
-    is_guest = ADDON not in addons
-    if is_guest:
-        addons.new().module = ADDON
-    frame, influences = context.scene.frame_current, constraint_influences()
-    LastExport.must_succeed = True
-    try:
-        if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
-            raise RuntimeError(f'{path} was not written')
-    finally:
-        LastExport.must_succeed = False
-        if context.scene.frame_current != frame:
-            context.scene.frame_set(frame)
-        for constraint, influence in influences:
-            constraint.influence = influence
-        if is_guest:
-            addons.remove(addons[ADDON])
-
-
-def constraint_influences():
-    """Where clips animate an influence, the exporter leaves the last clip's value behind, and a second export would write that."""
-    return [(c, c.influence) for obj in bpy.data.objects if obj.pose for bone in obj.pose.bones for c in bone.constraints]
-
-
-def check_file(path, report):
-    """The exporter goes on when something goes wrong in a hook, so look at what it wrote."""
-    found = count_records(read_document(path))
-    if found != (len(report.joints), len(report.chains)):
-        raise RuntimeError(f'{path} is incomplete: {found[0]} joints with limits and {found[1]} chains are in it, '
-                           f'{report.summary()} should be')
-
-
-def what_failed(error):
-    """An operator's exception holds a traceback; its last line says what it was."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith('Location:')]
-    return lines[-1].split('RigError: ')[-1] if lines else type(error).__name__
-
-
-def draw_menu_entry(menu, context):
+def draw_menu_entries(menu, _context):
+    menu.layout.operator(EXPORT_SCENE_OT_bendy.bl_idname, text='Bendy (.bendy)')
     menu.layout.operator(EXPORT_SCENE_OT_bendy_rig.bl_idname, text='glTF with Bendy rig (.glb/.gltf)')
 
 
+CLASSES = (EXPORT_SCENE_OT_bendy, EXPORT_SCENE_OT_bendy_rig)
+
+
 def register():
-    bpy.utils.register_class(EXPORT_SCENE_OT_bendy_rig)
-    bpy.types.TOPBAR_MT_file_export.append(draw_menu_entry)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.TOPBAR_MT_file_export.append(draw_menu_entries)
 
 
 def unregister():
-    bpy.types.TOPBAR_MT_file_export.remove(draw_menu_entry)
-    bpy.utils.unregister_class(EXPORT_SCENE_OT_bendy_rig)
+    bpy.types.TOPBAR_MT_file_export.remove(draw_menu_entries)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,4 +1,5 @@
 """A pose bone's limits as node.extras["rig_joint"]; spec/rig.md says what the keys mean."""
+from .kept_records import is_muted, kept_limits
 from .shortest import quaternion_xyzw, shortest, shortest_list
 
 SPACES = {'LOCAL': 'rest', 'LOCAL_WITH_PARENT': 'rest_with_parent', 'POSE': 'armature', 'WORLD': 'world', 'CUSTOM': 'custom'}
@@ -6,19 +7,9 @@ IK_AXES = {'x': 'swing_x', 'y': 'twist_y', 'z': 'swing_z'}
 
 
 def joint_record(bone, axes):
-    """What limits the bone, or None when nothing does."""
-    record = {}
-    for key, kind, make in (('euler_limits', 'LIMIT_ROTATION', euler_limit), ('location_limits', 'LIMIT_LOCATION', location_limit)):
-        limits = [make(c, bone, axes) for c in bone.constraints if c.type == kind and is_at_work(c)]
-        limits = [limit for limit in limits if any(axis in limit for axis in 'xyz')]
-        if limits:
-            record[key] = limits
-    swing_twist = ik_limits(bone)
-    if swing_twist:
-        record['swing_twist'] = swing_twist
-    stiffness = shortest_list(getattr(bone, f'ik_stiffness_{axis}') for axis in 'xyz')
-    if any(stiffness):
-        record['stiffness'] = stiffness
+    """What limits the bone, or None when nothing does. A record that came with an import says all of it."""
+    limits, _ = kept_limits(bone)
+    record = blender_limits(bone, axes) if limits is None else {'limits': limits}
     if bone.ik_stretch:
         record['stretch'] = shortest(bone.ik_stretch)
     locks = {kind: [bool(v) for v in getattr(bone, f'lock_{kind}')] for kind in ('rotation', 'location', 'scale')}
@@ -30,13 +21,31 @@ def joint_record(bone, axes):
     return {'rest_orientation': rest_orientation(bone, axes), 'length': shortest(bone.bone.length), **record}
 
 
+def blender_limits(bone, axes):
+    """The bone's limits as Blender has them."""
+    record = {}
+    for key, kind, make in (('euler_limits', 'LIMIT_ROTATION', euler_limit), ('location_limits', 'LIMIT_LOCATION', location_limit)):
+        limits = [make(c, bone, axes) for c in bone.constraints if c.type == kind and is_at_work(bone, c)]
+        limits = [limit for limit in limits if any(axis in limit for axis in 'xyz')]
+        if limits:
+            record[key] = limits
+    swing_twist = ik_limits(bone)
+    if swing_twist:
+        record['swing_twist'] = swing_twist
+    stiffness = shortest_list(getattr(bone, f'ik_stiffness_{axis}') for axis in 'xyz')
+    if any(stiffness):
+        record['stiffness'] = stiffness
+    return record
+
+
 def says_a_limit(record):
     """Whether a record of extras, or None, says more than which channels are locked and what could not be said."""
-    return any(key in (record or {}) for key in ('euler_limits', 'location_limits', 'swing_twist', 'stiffness'))
+    return any(key in (record or {}) for key in ('limits', 'euler_limits', 'location_limits', 'swing_twist', 'stiffness'))
 
 
-def is_at_work(constraint):
-    return not constraint.mute and constraint.influence > 0.0
+def is_at_work(owner, constraint):
+    """owner: a pose bone or an object."""
+    return not is_muted(owner, constraint) and constraint.influence > 0.0
 
 
 def rest_orientation(bone, axes):

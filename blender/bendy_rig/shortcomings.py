@@ -2,18 +2,27 @@
 
 A note is (approximated, text): approximated if a record is written and Blender does something else than it says.
 """
+from .clip_curves import action_curves
+from .ik_chains import is_import_helper
 from .joint_limits import SPACES, is_at_work
+from .kept_records import is_muted, kept_limits
 
 KINDS = {'LIMIT_ROTATION': 'Limit Rotation', 'LIMIT_LOCATION': 'Limit Location', 'IK': 'Inverse Kinematics'}
 
 
 def bone_notes(bone):
     """Of a bone's limits and of its constraints that have no record."""
+    limits, has_changed = kept_limits(bone)
+    if limits is not None:
+        others = [c for c in bone.constraints if c.type not in ('LIMIT_ROTATION', 'LIMIT_LOCATION')]
+        return [note for constraint in others for note in other_notes(bone, constraint)]
     notes = []
+    if has_changed:
+        notes.append((False, 'its constraints were changed since the import: written as Blender has them'))
     for constraint in bone.constraints:
-        notes += limit_notes(bone, constraint) if constraint.type in ('LIMIT_ROTATION', 'LIMIT_LOCATION') else other_notes(constraint)
+        notes += limit_notes(bone, constraint) if constraint.type in ('LIMIT_ROTATION', 'LIMIT_LOCATION') else other_notes(bone, constraint)
     for kind in ('LIMIT_ROTATION', 'LIMIT_LOCATION'):
-        count = sum(c.type == kind and is_at_work(c) for c in bone.constraints)
+        count = sum(c.type == kind and is_at_work(bone, c) for c in bone.constraints)
         if count > 1:
             notes.append((True, f'{count} {KINDS[kind]} constraints, which Blender keeps one after the other'))
     return notes + ik_limit_notes(bone)
@@ -29,7 +38,7 @@ def ik_limit_notes(bone):
 
 def limit_notes(bone, constraint):
     what = described(constraint)
-    if constraint.mute:
+    if is_muted(bone, constraint):
         return [(False, f'{what} is muted: left out')]
     if constraint.influence <= 0.0:
         return [(False, f'{what} has no influence: left out')]
@@ -49,10 +58,10 @@ def limit_notes(bone, constraint):
     return notes
 
 
-def other_notes(constraint):
+def other_notes(bone, constraint):
     if constraint.type == 'IK':
-        return [(False, f'{described(constraint)} is muted: left out')] if constraint.mute else []
-    if not is_at_work(constraint):
+        return [(False, f'{described(constraint)} is muted: left out')] if is_muted(bone, constraint) else []
+    if not is_at_work(bone, constraint):
         return []
     return [(False, f'{described(constraint)} has no record: left out; clips are exported with its effect')]
 
@@ -71,7 +80,7 @@ def chain_notes(bone, constraint, joints, exported):
             notes.append((True, f'its {what} is the vertex group {subtarget} of {obj.name}: the object was written'))
         elif obj and subtarget and subtarget not in obj.data.bones:
             notes.append((True, f'its {what} {subtarget} does not exist: {obj.name} was written'))
-        elif obj is rig and subtarget and subtarget not in exported:
+        elif obj is rig and subtarget and subtarget not in exported and not is_import_helper(obj, subtarget):
             notes.append((True, f'its {what} {subtarget} is not in the file'))
     if not constraint.target:
         notes.append((False, 'it has no target'))
@@ -93,19 +102,13 @@ def all_curves(animation):
     yield from animation.drivers
     actions = [animation.action] + [strip.action for track in animation.nla_tracks for strip in track.strips]
     for action in filter(None, actions):
-        if hasattr(action, 'fcurves'):
-            yield from action.fcurves
-        else:                                                       # actions in layers, Blender 4.4 and later
-            for layer in action.layers:
-                for strip in layer.strips:
-                    for bag in strip.channelbags:
-                        yield from bag.fcurves
+        yield from action_curves(action)
 
 
 def object_notes(obj):
     """Of an object that is no armature's bone: its constraints have no place at all."""
     return [(False, f'{described(c)}: only bones have limits and chains: left out') for c in obj.constraints
-            if c.type in KINDS and is_at_work(c)]
+            if c.type in KINDS and is_at_work(obj, c)]
 
 
 def described(constraint):

@@ -1,0 +1,73 @@
+"""Runs Blender's glTF exporter with this add-on's hooks, and checks what it wrote."""
+import json
+
+import bpy
+
+from .export_hooks import LastExport
+from .known_hooks import hooks_in_preferences
+from .written_file import count_records, read_document
+
+# What a rig needs of the exporter; an option that this version of it does not have is left away.
+ALWAYS = {'export_yup': True, 'export_extras': True, 'export_skins': True, 'export_force_sampling': True}
+DIALOGUE = ('use_selection', 'use_visible', 'export_apply', 'export_def_bones', 'export_animations')   # what an operator offers
+
+
+def exporter_options(operator, context, path, always):
+    """The exporter's options: what the scene remembers, the operator's, the script's, and always the last ones."""
+    known = exporter_properties()
+    remembered = context.scene.get('glTF2ExportSettings')
+    options = {name: value for name, value in (remembered.to_dict() if remembered else {}).items() if name in known}
+    for name in DIALOGUE:
+        if operator.properties.is_property_set(name) or name not in options:
+            options[name] = getattr(operator, name)
+    further = json.loads(operator.options or '{}')
+    unknown = sorted(set(further) - known)
+    if unknown:
+        raise ValueError(f'the glTF exporter has no option {", ".join(unknown)}')
+    options.update(further)
+    options.update({name: value for name, value in {**ALWAYS, **always}.items() if name in known})
+    is_glb = path.lower().endswith('.glb')
+    if is_glb or options.get('export_format', 'GLB') == 'GLB':
+        options['export_format'] = 'GLB' if is_glb else 'GLTF_SEPARATE'
+    return {**options, 'filepath': path, 'check_existing': False}
+
+
+def exporter_properties():
+    if 'gltf' not in dir(bpy.ops.export_scene):
+        raise ValueError('the add-on "glTF 2.0 format" is not enabled')
+    return set(bpy.ops.export_scene.gltf.get_rna_type().properties.keys())
+
+
+def run_exporter(context, path, options):
+    """Writes the file, or raises RigError if the rig is not in it."""
+    frame, influences = context.scene.frame_current, constraint_influences()
+    LastExport.must_succeed = True
+    try:
+        with hooks_in_preferences(context):
+            if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
+                raise RuntimeError(f'{path} was not written')
+    finally:
+        LastExport.must_succeed = False
+        if context.scene.frame_current != frame:
+            context.scene.frame_set(frame)
+        for constraint, influence in influences:
+            constraint.influence = influence
+
+
+def constraint_influences():
+    """Where clips animate an influence, the exporter leaves the last clip's value behind, and a second export would write that."""
+    return [(c, c.influence) for obj in bpy.data.objects if obj.pose for bone in obj.pose.bones for c in bone.constraints]
+
+
+def check_file(path, report):
+    """The exporter goes on when something goes wrong in a hook, so look at what it wrote."""
+    found = count_records(read_document(path))
+    if found != (len(report.joints), len(report.chains)):
+        raise RuntimeError(f'{path} is incomplete: {found[0]} joints with limits and {found[1]} chains are in it, '
+                           f'{report.summary()} should be')
+
+
+def what_failed(error):
+    """An operator's exception holds a traceback; its last line says what it was."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith('Location:')]
+    return lines[-1].split('RigError: ')[-1] if lines else type(error).__name__
