@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-namespace bendy::converter {
+namespace bendy::converter::assimp_test {
 namespace {
 
 const std::filesystem::path kSource = BENDY_SOURCE_DIR;
@@ -352,4 +352,4 @@ TEST(XFileByAssimp, NodesBonesAndClipsHaveTheirNames) {
 }
 
 }  // namespace
-}  // namespace bendy::converter
+}  // namespace bendy::converter::assimp_test

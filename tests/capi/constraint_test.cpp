@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::constraint_test {
 namespace {
 
 class CConstraint : public testing::Test {
@@ -133,4 +133,4 @@ TEST_F(CConstraint, LinksGoFromStartToEffector) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::constraint_test

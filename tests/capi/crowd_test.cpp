@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::crowd_test {
 namespace {
 
 class CCrowd : public testing::Test {
@@ -350,4 +350,4 @@ TEST_F(CCrowd, MemoryThatRunsOutIsAnErrorInEveryConstructor) {
 #endif
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::crowd_test

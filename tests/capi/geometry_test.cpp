@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::geometry_test {
 namespace {
 
 using Floats = std::vector<float>;
@@ -263,4 +263,4 @@ TEST_F(CGeometry, BadArgumentsAreErrorsAndNothingIsWritten) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::geometry_test

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::material_test {
 namespace {
 
 /// A material in which every field has a value of its own, and two textures for it.
@@ -153,4 +153,4 @@ TEST(CTexture, ImageIsALinkOrBytesOrThoseOfAnotherTexture) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::material_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::playback_test {
 namespace {
 
 class CPlayback : public testing::Test {
@@ -297,4 +297,4 @@ TEST_F(CPlayback, CrossfadesRefuseBadArguments) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::playback_test

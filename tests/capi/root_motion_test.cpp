@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace bendy::test {
+namespace bendy::test::root_motion_test {
 namespace {
 
 class CMotion : public testing::Test {
@@ -209,4 +209,4 @@ TEST_F(CMotion, BoundsAreAsInCpp) {
 }
 
 }  // namespace
-}  // namespace bendy::test
+}  // namespace bendy::test::root_motion_test

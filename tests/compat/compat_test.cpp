@@ -14,7 +14,7 @@
 #include <vector>
 
 // The files of every released version open, are valid and move as they did then.
-namespace bendy {
+namespace bendy::compat_test {
 namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(BENDY_SOURCE_DIR) / "tests" / "compat";
@@ -92,4 +92,4 @@ TEST(Compat, OldFilesMoveAsTheyDid) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::compat_test

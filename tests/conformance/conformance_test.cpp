@@ -15,7 +15,7 @@
 #include <vector>
 
 // The library on the cases of tests/conformance; check_reports.py is the same for the program.
-namespace bendy {
+namespace bendy::conformance_test {
 namespace {
 
 using conformance::Case;
@@ -105,4 +105,4 @@ TEST(Conformance, EveryChunkStandsInAValidFile) {
 }
 
 }  // namespace
-}  // namespace bendy
+}  // namespace bendy::conformance_test
