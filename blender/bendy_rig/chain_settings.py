@@ -11,8 +11,8 @@ from mathutils import Quaternion, Vector
 from .axes import Y_UP
 from .shortest import as_float32
 
-HELPER = 'bendy_helper'             # custom property of a pose bone: TIP or CONTROL
-TIP, CONTROL = 'tip', 'control'
+HELPER = 'bendy_helper'             # custom property of what an import has made and an export leaves out
+TIP, CONTROL, ROOT = 'tip', 'control', 'root'       # bones for a tip, target or pole; an armature that is no joint
 DEFAULT_ITERATIONS = 500            # Blender's; a file may leave the number open
 ALONG_BONE = 1e-4                   # of the bone's length: how far the tip may be from where the tail can be
 STRAIGHT = 1e-4                     # of the chain's length
@@ -20,8 +20,8 @@ TOLERANCE = 1e-5                    # metres or radians, of what is computed fro
 NO_COUNTERPART = ('priority', 'tolerance', 'compress', 'weights')
 
 
-def is_helper(bone):
-    return HELPER in bone
+def is_helper(owner):
+    return HELPER in owner
 
 
 def links_of(rig, record):
@@ -71,7 +71,7 @@ def chain_settings(rig, record):
         settings['pole_angle'] = pole_angle(rig, links, place, settings['pole_place'], math.radians(record.get('pole_angle', 0)))
     missing = [name for key in ('target', 'pole') for name in [settings[key]] if name and name not in data]
     if missing:
-        notes.append(f'{", ".join(missing)} is no bone of {rig.name}')
+        notes.append('the target or pole is no bone of the armature')
         settings.update({key: None for key in ('target', 'pole') if settings[key] in missing})
     unused = [key.replace('_', ' ') for key in NO_COUNTERPART if record.get(key)]
     if record.get('solver', 'any') not in ('any', 'two_bone'):
@@ -81,7 +81,7 @@ def chain_settings(rig, record):
     if rotates and Quaternion(xyzw_to_wxyz(record.get('tip_rotation', (0, 0, 0, 1)))).angle > 1e-6:
         unused.append('tip rotation')
     if unused:
-        notes.append(f'Blender has no {", ".join(unused)}')
+        notes.append(f'no {", ".join(unused)}')
     return settings, notes
 
 
@@ -92,7 +92,7 @@ def xyzw_to_wxyz(q):
 def pole_place(rig, record, links, tip):
     """In the armature's space, at rest: of the pole joint, or on the pole vector, as far from the start as the tip."""
     data = rig.data.bones
-    if record.get('pole') in data:
+    if record.get('pole', '') in data:
         return data[record['pole']].head_local.copy()
     start = data[links[0]]
     direction = Vector(record.get('pole_vector', (0.0, 0.0, 1.0)))

@@ -20,6 +20,12 @@ def action_curves(action):
     return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
+def curves_to_add_to(action):
+    if hasattr(action, 'fcurves'):
+        return action.fcurves
+    return action.layers[0].strips[0].channelbags[0].fcurves
+
+
 # ------------------------------------------------------------------------------------------------- the frame rate
 
 def fitting_rate(times, current):
@@ -104,6 +110,28 @@ def write_keys(curves, keys):
         points.foreach_set('co', [number for frame, value in keys for number in (frame, value[component])])
         points.foreach_set('interpolation', [kind] * len(keys))
         curve.update()
+
+
+# ------------------------------------------------------------------------------------------------- what a clip does not move
+
+def complete(actions, rest):
+    """Gives each action of one owner a key for what only others move, and for bones that are not at rest where Blender's are.
+
+    Blender would leave it where the last clip has put it. actions: those of all clips; rest: data path -> values.
+    """
+    moving = {curve.data_path for action in actions for curve in action_curves(action)}
+    paths = [path for path in rest if path in moving or (path.startswith('pose.') and not is_identity(path, rest[path]))]
+    for action in actions:
+        own, first = {curve.data_path for curve in action_curves(action)}, action.frame_range[0]
+        for path in paths:
+            if path not in own:
+                for index, value in enumerate(rest[path]):
+                    curves_to_add_to(action).new(path, index=index).keyframe_points.insert(first, value)
+
+
+def is_identity(path, values):
+    wanted = {'scale': (1.0, 1.0, 1.0), 'location': (0.0, 0.0, 0.0)}.get(path.rsplit('.', 1)[-1], (1.0, 0.0, 0.0, 0.0))
+    return math.dist(values, wanted) < 1e-5
 
 
 # ------------------------------------------------------------------------------------------------- cubic keys

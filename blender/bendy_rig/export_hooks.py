@@ -7,6 +7,7 @@ import functools
 import traceback
 
 import bpy
+from mathutils import Matrix
 
 from .axes import FileAxes
 from .export_report import ExportReport
@@ -14,7 +15,7 @@ from .chain_settings import chain_joints, is_helper
 from .ik_chains import chain_record, ik_constraints
 from .joint_limits import joint_record, says_a_limit
 from .kept_records import CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
-from .shortcomings import bone_notes, chain_notes, object_notes
+from .shortcomings import all_curves, bone_notes, chain_notes, object_notes
 
 
 class LastExport:
@@ -93,6 +94,9 @@ class RigExtras:
             if name not in self.done:
                 self.done.add(name)
                 rig_node = self.rig_nodes.get(name)
+                if is_helper(rig) and stands_still(rig):
+                    put_in_place_of(rig_node, scene)
+                    rig_node = None
                 add_chains(rig_node or scene, self.chains(rig, axes, nodes, rig_node is not None))
         if self.curves:
             scene.extras = {**(scene.extras or {}), 'bendy_rig': {'bendy_rig': 1, 'curves': self.curves}}
@@ -110,6 +114,8 @@ class RigExtras:
         """nodes: bone's name -> its nodes, which are several where a collection has instances."""
         missing = []
         for bone in rig.pose.bones:
+            if is_helper(bone):
+                continue
             record, notes = joint_record(bone, axes), bone_notes(bone)
             if bone.name in nodes:
                 if rig.name not in self.done:
@@ -153,6 +159,19 @@ class RigExtras:
             number += 1
         self.chain_names.add(wanted)
         return wanted
+
+
+def stands_still(rig):
+    """Whether an armature is no more than the bones in it."""
+    return rig.parent is None and rig.matrix_world == Matrix.Identity(4) and not any(
+        not curve.data_path.startswith('pose.') for curve in all_curves(rig.animation_data))
+
+
+def put_in_place_of(node, scene):
+    """The children of an armature that the importer has made, for joints that hung on nothing, hang on nothing again."""
+    if node in scene.nodes:
+        at = scene.nodes.index(node)
+        scene.nodes[at:at + 1] = node.children
 
 
 def add_chains(owner, chains):

@@ -7,7 +7,8 @@ import tempfile
 import bpy
 
 from . import import_rig
-from .clip_curves import action_curves, fitting_rate, is_on_frame, put_on_frames, turn_evenly
+from .chain_settings import HELPER, ROOT
+from .clip_curves import action_curves, complete, fitting_rate, is_on_frame, put_on_frames, turn_evenly
 from .import_hooks import ImportedFile, LastImport
 from .known_hooks import hooks_in_preferences
 from .program import BendyError, run_program
@@ -23,7 +24,7 @@ class Imported:
 
     def __init__(self):
         self.warnings = []          # of the program, about what glTF cannot say
-        self.notes = []             # about what Blender cannot
+        self.notes = []             # (text, names): about what Blender cannot say
         self.clips = 0
         self.limits = 0
         self.chains = 0
@@ -41,10 +42,13 @@ def import_file(context, path, enable_constraints, set_frame_rate, progress):
             file = read_glb(context, glb, set_frame_rate, imported)
             progress(0.8)
             join_twins(file)
+            if file.root:
+                file.root[HELPER] = ROOT
+            note_scales(file, imported)
             finish_clips(context, file, imported)
             maker = import_rig.RigMaker(file, not enable_constraints)
             maker.make()
-            imported.notes += maker.notes + import_rig.keep_curves(file)
+            imported.notes += [*maker.found.items(), *import_rig.keep_curves(file)]
             imported.limits, imported.chains = maker.count - maker.chains, maker.chains
     progress(1.0)
     return imported
@@ -125,6 +129,14 @@ def set_rate(scene, times, may_set):
         scene.frame_start, scene.frame_end = int(min(times) * scene.render.fps), max(1, round(max(times) * scene.render.fps))
 
 
+def note_scales(file, imported):
+    """Bones have no scale at rest: the importer has put it into the pose, and clips have it as keys."""
+    scaled = [bone or obj.name for obj, bone in file.joints
+              if bone and max(abs(s - 1.0) for s in file.rest[obj][f'{obj.pose.bones[bone].path_from_id()}.scale']) > 1e-5]
+    if scaled:
+        imported.notes.append(('a joint that is scaled at rest is scaled in clips only', scaled))
+
+
 def join_twins(file):
     """Of a skinned mesh with moving morph targets, the importer makes two objects: the node's, which is empty, and the mesh's."""
     for joint, mesh in file.twins:
@@ -137,21 +149,25 @@ def join_twins(file):
 
 def finish_clips(context, file, imported):
     """file.clips: from the last to the first, as the importer made them."""
-    rate = context.scene.render.fps
+    rate, between_frames, by_owner = context.scene.render.fps, [], {}
     imported.clips = len(file.clips)
-    between_frames = []
     for clip in reversed(file.clips):
-        for action in clip.actions:
+        is_between = False
+        for owner, action in clip.actions:
+            by_owner.setdefault(owner, []).append(action)
             turn_evenly(action)
             put_on_frames(action_curves(action))
+            is_between |= not all(is_on_frame(point.co.x) for curve in action_curves(action) for point in curve.keyframe_points)
             for key, value in clip.extras.items():
                 if key != 'markers':
                     action[key] = value
-        if not all(is_on_frame(point.co.x) for action in clip.actions for curve in action_curves(action) for point in curve.keyframe_points):
+        if is_between:
             between_frames.append(clip.track_name)
         import_rig.add_markers(clip, clip.extras.get('markers', []), rate)
+    for owner, actions in by_owner.items():
+        complete(actions, file.rest.get(owner, {}))
     if between_frames:
-        imported.notes.append(f'keys between frames, which an export at {rate} frames a second samples: {", ".join(between_frames)}')
+        imported.notes.append((f'keys are between frames, and an export samples {rate} frames a second', between_frames))
 
 
 def what_failed(error):

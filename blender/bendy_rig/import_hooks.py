@@ -11,7 +11,7 @@ class ImportedClip:
     def __init__(self, animation, track_name, actions):
         self.extras = animation.extras if isinstance(animation.extras, dict) else {}
         self.track_name = track_name        # of the NLA tracks that hold the actions
-        self.actions = actions              # of the armature, of objects and of shape keys
+        self.actions = actions              # (owner, action): of the armature, of objects and of shape keys
 
 
 class ImportedFile:
@@ -23,6 +23,8 @@ class ImportedFile:
         self.names = []             # joint -> its name in the file
         self.locks = {}             # joint -> rig_joint.locks of an earlier export from Blender
         self.twins = []             # (joint, object with its skinned mesh) where the importer has left an empty object as the joint
+        self.rest = {}              # owner of actions -> data path -> the values that it has without a clip
+        self.root = None            # an armature that is no joint: the importer has made it, for joints that hang on nothing
         self.clips = []             # from the last to the first
         self.set_rate = None        # called with the times of all keys before the importer places them, seconds
         self.errors = []            # the importer would only print them
@@ -79,6 +81,9 @@ def take_extras(gltf, file):
 
 
 def note_joints(gltf, file):
+    root = gltf.vnodes['root']
+    if root.is_arma:
+        file.root = root.blender_object
     for joint, node in enumerate(gltf.data.nodes or []):
         vnode = gltf.vnodes[joint]
         is_bone = getattr(vnode, 'blender_bone_name', None) is not None
@@ -88,6 +93,19 @@ def note_joints(gltf, file):
         skinned = gltf.vnodes.get(f'{joint}.skinned')
         if skinned and not is_bone and not vnode.children and not moves(gltf, node):
             file.twins.append((joint, skinned.blender_object))
+    note_rest(file)
+
+
+def note_rest(file):
+    """Before the first clip: Blender keeps what a clip has set last."""
+    for obj in {obj for obj, _ in file.joints} | {mesh for _, mesh in file.twins}:
+        values = file.rest.setdefault(obj, {})
+        for place, owner in [('', obj), *((f'{bone.path_from_id()}.', bone) for bone in (obj.pose.bones if obj.pose else ()))]:
+            for name in clip_curves.COMPONENTS.values():
+                values[place + name] = list(getattr(owner, name))
+        keys = obj.data.shape_keys if obj.type == 'MESH' else None
+        if keys:
+            file.rest[keys] = {f'{block.path_from_id()}.value': [block.value] for block in keys.key_blocks}
 
 
 def moves(gltf, node):
@@ -97,7 +115,7 @@ def moves(gltf, node):
 
 
 def note_clip(gltf, file, clip, track_name):
-    actions = [entry[-1] for entry in gltf.needs_stash]
+    actions = [(entry[0], entry[-1]) for entry in gltf.needs_stash]
     file.clips.append(ImportedClip(gltf.data.animations[clip], track_name, actions))
 
 

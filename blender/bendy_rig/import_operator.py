@@ -8,6 +8,8 @@ from bpy_extras.io_utils import ImportHelper
 from .import_file import import_file
 from .program import BendyError
 
+SHOWN = 3                           # names in a report; the console has all
+
 
 class IMPORT_SCENE_OT_bendy(bpy.types.Operator, ImportHelper):
     """Import characters from Bendy files"""
@@ -46,11 +48,16 @@ class IMPORT_SCENE_OT_bendy(bpy.types.Operator, ImportHelper):
         for text in imported.warnings:
             self.report({'WARNING'}, f'Bendy: {text}')
         if imported.notes:
-            print('\n'.join(['Bendy: not as in the file, which an export will return:', *(f'  {note}' for note in imported.notes)]))
-            self.report({'WARNING'}, f'Bendy: not as in the file: {"; ".join(imported.notes)}')
+            print('\n'.join(['Bendy: what Blender does not do as the file says; an export returns the rig as it was:',
+                             *(f'  {text}: {", ".join(names)}' for text, names in imported.notes)]))
+            self.report({'WARNING'}, f'Bendy: not as in the file: {"; ".join(f"{text} ({shortened(names)})" for text, names in imported.notes)}')
         muted = '' if self.enable_constraints or not (imported.limits or imported.chains) else \
             ', muted so that clips play as stored: Pose > Constraints > Enable Imported Constraints'
         self.report({'INFO'}, f'{os.path.basename(path)}: {imported.clips} clips, {imported.limits} limits, {imported.chains} IK chains{muted}')
+
+
+def shortened(names):
+    return ', '.join(names) if len(names) <= SHOWN else f'{", ".join(names[:SHOWN])} and {len(names) - SHOWN} more'
 
 
 def draw_menu_entry(menu, _context):

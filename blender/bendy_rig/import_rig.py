@@ -15,15 +15,20 @@ LOCKED = ('rotation', 'location', 'scale')
 
 
 class RigMaker:
-    """file: an ImportedFile. notes: texts, what Blender does not do as the file says."""
+    """file: an ImportedFile."""
 
     def __init__(self, file, is_muted):
-        self.file, self.is_muted, self.notes = file, is_muted, []
+        self.file, self.is_muted = file, is_muted
+        self.found = {}             # what Blender does not do as the file says -> names of the joints or chains
         self.by_name = {}
         for joint, name in enumerate(file.names):
             self.by_name.setdefault(name, joint)
         self.count = 0              # of Limit Rotation, Limit Location and IK constraints
         self.chains = 0             # of IK constraints
+
+    def note(self, name, *texts):
+        for text in texts:
+            self.found.setdefault(text, []).append(name)
 
     def make(self):
         for key, constraints in self.file.rig.get('joints', {}).items():
@@ -47,14 +52,14 @@ class RigMaker:
         obj, name = self.file.joints[joint]
         if name is None:
             keep(obj, CONSTRAINTS, constraints)
-            self.notes.append(f'{obj.name}: only bones have limits in Blender; kept')
+            self.note(obj.name, 'only bones have limits')
             return
         bone = obj.pose.bones[name]
         keep(bone, CONSTRAINTS, constraints)
         settings, notes = joint_settings.bone_settings(constraints)
         joint_settings.apply_settings(bone, settings, self.is_muted)
         self.count += sum(settings[kind] is not None for kind in ('limit_rotation', 'limit_location'))
-        self.notes += [f'{name}: {note}' for note in notes]
+        self.note(name, *notes)
 
     def add_locks(self, joint, locks):
         obj, name = self.file.joints[joint]
@@ -72,7 +77,7 @@ class RigMaker:
             if rig is None:
                 continue
             settings, notes = chain_settings.chain_settings(rig, record)
-            self.notes += [f'{record["name"]}: {note}' for note in notes]
+            self.note(record['name'], *notes)
             plans.setdefault(rig, []).append((record, settings))
         for rig, chains in plans.items():
             tips = make_bones(rig, chains)
@@ -90,7 +95,7 @@ class RigMaker:
             obj = rig or self.file.joints[0][0]
             others = json.loads(obj.get(CHAINS, '[]'))
             keep(obj, CHAINS, others + [{'record': record, 'bone': None, 'constraint': None}])
-            self.notes.append(f'{record["name"]}: its joints are not the bones of one armature; kept')
+            self.note(record['name'], 'only bones of one armature are a chain')
             return None, record
         if 'weights' in record:
             record['weights'] = {escaped(self.bone_of(key)): value for key, value in record['weights'].items()}
@@ -165,8 +170,8 @@ def edit_mode(rig):
 
 def add_markers(clip, markers, rate):
     """As pose markers, which are at whole frames; the times are kept."""
-    for action in clip.actions:
-        if action.id_root == 'OBJECT' and markers:
+    for owner, action in clip.actions:
+        if isinstance(owner, bpy.types.Object) and markers:
             keep(action, MARKERS, markers)
             for marker in markers:
                 action.pose_markers.new(marker['name']).frame = round(marker['time'] * rate)
@@ -177,5 +182,6 @@ def keep_curves(file):
     """Blender has no place for them that exporters read."""
     if file.rig.get('curves') and file.joints:
         keep(file.joints[0][0], CURVES, file.rig['curves'])
-        return [f'{len(file.rig["curves"])} curves have no counterpart in Blender; kept']
+        return [('there are no curves for what is neither transform nor morph target', [curve.get('name') or curve.get('path', '')
+                                                                                      for curve in file.rig['curves']])]
     return []

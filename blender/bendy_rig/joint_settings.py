@@ -12,6 +12,9 @@ LETTERS = 'xyz'
 ALONG_AXIS = 1e-6                   # sine of the angle between an axis of a constraint's frame and the bone's axis that it is on
 STIFFEST = 0.99                     # Blender's largest IK stiffness
 NO_RANGE = (None, None)
+HALF_TURN = as_float32(math.pi)
+OTHER_AXES = ' about other axes than the bone\'s'
+UNUSED = {'soft_zone': 'soft zone', 'preferred': 'preferred angles'}     # keys of a constraint that Blender has no setting for
 
 
 class Axes:
@@ -65,11 +68,11 @@ def bone_settings(constraints):
     if solving:
         add_ik_limits(settings, solving, notes)
     for constraint in constraints:
-        unused = [key for key in ('soft_zone', 'preferred') if any_number(constraint.get(key, 0))]
+        unused = [key for key in UNUSED if any_number(constraint.get(key, 0))]
         if unused:
-            notes.append(f'Blender has no {" or ".join(key.replace("_", " ") for key in unused)}')
+            notes.append(f'no {" or ".join(UNUSED[key] for key in unused)}')
     if any_number([constraint.get('stiffness', 0) for constraint in constraints if constraint is not solving]):
-        notes.append('stiffness acts in IK only')
+        notes.append('stiffness is for IK only')
     return settings, notes
 
 
@@ -87,6 +90,16 @@ def limited(constraint, letters=LETTERS):
     return found
 
 
+def half_open(constraint):
+    """The swings of an ellipse or pyramid that have a limit on one side."""
+    found = {}
+    for axis in 'yz' if constraint['model'].startswith('swing_twist') else '':
+        low, high = constraint.get(axis, NO_RANGE)
+        if (low is None) != (high is None):
+            found[axis] = [-HALF_TURN if low is None else radians(low), HALF_TURN if high is None else radians(high)]
+    return found
+
+
 def add_pose_limits(settings, constraint, notes):
     """Limit Rotation and Limit Location: what everything but IK obeys."""
     axes, model = Axes(constraint.get('frame')), constraint['model']
@@ -99,8 +112,7 @@ def add_pose_limits(settings, constraint, notes):
     elif model == 'euler_box' and axes.are_bone_axes():
         ranges, order = axes.ranges(limited(constraint)), axes.order(constraint.get('order', 'XYZ'))
     elif model != 'free':
-        why = '' if model not in ('hinge', 'euler_box') else ' about axes that are not the bone\'s'
-        notes.append(f'no Limit Rotation is {named(model)}{why}')
+        notes.append(f'no Limit Rotation for {named(model)}{OTHER_AXES if model in ("hinge", "euler_box") else ""}')
     ranges = {axis: limits for axis, limits in (ranges or {}).items() if limits}
     if ranges:
         settings['limit_rotation'] = {'order': order, **ranges}
@@ -110,7 +122,7 @@ def add_pose_limits(settings, constraint, notes):
         settings['limit_location'] = {axis: tuple(None if v is None else as_float32(v) for v in limits)
                                       for axis, limits in axes.ranges(place).items()}
     elif place:
-        notes.append('no Limit Location is about axes that are not the bone\'s')
+        notes.append(f'no Limit Location for ranges{OTHER_AXES}')
 
 
 def add_ik_limits(settings, constraint, notes):
@@ -123,7 +135,7 @@ def add_ik_limits(settings, constraint, notes):
         about = LETTERS[axes.of[0][0]]
         ranges = {**{axis: (0.0, 0.0) for axis in LETTERS}, about: axes.ranges(limited(constraint, 'x')).get(about)}
     elif model in ('swing_twist_ellipse', 'swing_twist_pyramid', 'euler_box') and axes.are_bone_axes():
-        ranges = axes.ranges(limited(constraint))
+        ranges = axes.ranges({**limited(constraint), **half_open(constraint)})
         moving = [axis for axis in LETTERS if ranges.get(axis) != (0.0, 0.0)]
         is_same = len(moving) <= 1 or (model == 'swing_twist_ellipse' and axes.of[0][0] == 1)
     elif model == 'largest_angle':
@@ -131,26 +143,27 @@ def add_ik_limits(settings, constraint, notes):
         ranges = {axis: (-radians(angle), radians(angle)) for axis in LETTERS} if angle is not None and angle < 180.0 else {}
         is_same = not ranges
     elif model != 'free':
-        notes.append(f'no IK limits are {named(model)} about axes that are not the bone\'s')
+        notes.append(f'no IK limits for {named(model)}{OTHER_AXES}')
     for axis, limits in ranges.items():
         if limits:
-            low, high = max(min(limits[0], 0.0), -math.pi), min(max(limits[1], 0.0), math.pi)
+            low, high = max(min(limits[0], 0.0), -HALF_TURN), min(max(limits[1], 0.0), HALF_TURN)
             is_same = is_same and (low, high) == tuple(limits)
-            settings['ik'][axis] = (as_float32(low), as_float32(high))
+            settings['ik'][axis] = (low, high)
     if not is_same:
-        notes.append(f'IK limits are near {named(model)}, and not the same')
+        notes.append(f'IK limits are close to {named(model)}, not equal')
     stiffness = constraint.get('stiffness', [0.0, 0.0, 0.0])
     if any(stiffness) and axes.are_bone_axes():
         values = {axes.of[i][0]: as_float32(min(stiffness[i], STIFFEST)) for i in range(3)}
         settings['stiffness'] = (values[0], values[1], values[2])
         if max(stiffness) > STIFFEST:
-            notes.append(f'Blender\'s stiffness is at most {STIFFEST}')
+            notes.append(f'IK stiffness is at most {STIFFEST}')
     elif any(stiffness):
-        notes.append('no stiffness is about axes that are not the bone\'s')
+        notes.append(f'no IK stiffness for one{OTHER_AXES}')
 
 
 def named(model):
-    return {'euler_box': 'an Euler box', 'hinge': 'a hinge', 'largest_angle': 'a largest angle'}.get(model, 'a ' + model.replace('_', ' '))
+    return {'euler_box': 'an Euler box', 'swing_twist_ellipse': 'a swing-twist ellipse', 'swing_twist_pyramid': 'a swing-twist pyramid',
+            'largest_angle': 'a largest angle', 'hinge': 'a hinge'}[model]
 
 
 # ------------------------------------------------------------------------------------------------- to and from a pose bone

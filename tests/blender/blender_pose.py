@@ -6,33 +6,28 @@ from bendy_rig.axes import Y_UP
 
 def play(clip, frame):
     """clip: the name of an NLA track, or None for the rest pose."""
-    rest()
     for data in [obj for obj in bpy.data.objects] + list(bpy.data.shape_keys):
         animation = data.animation_data
         if animation:
             animation.action = next((track.strips[0].action for track in animation.nla_tracks if track.name == clip), None)
+    for armature in bpy.data.armatures:
+        armature.pose_position = 'POSE' if clip else 'REST'
+    if clip is None:
+        for keys in bpy.data.shape_keys:
+            for block in keys.key_blocks:
+                block.value = 0.0
     whole = int(frame // 1)
     bpy.context.scene.frame_set(whole, subframe=frame - whole)
 
 
-def rest():
-    """An action leaves behind what it has set last, which another one may not move."""
-    for obj in bpy.data.objects:
-        for bone in obj.pose.bones if obj.pose else ():
-            bone.matrix_basis.identity()
-    for keys in bpy.data.shape_keys:
-        for block in keys.key_blocks:
-            block.value = 0.0
-
-
 def joint_places():
-    """Name -> place, of bones and of objects."""
+    """Name -> places of the bones and objects of that name."""
     graph, places = bpy.context.evaluated_depsgraph_get(), {}
     for obj in bpy.context.scene.objects:
         evaluated = obj.evaluated_get(graph)
-        places[obj.name] = tuple((Y_UP @ evaluated.matrix_world).translation)
+        places.setdefault(obj.name, []).append(tuple((Y_UP @ evaluated.matrix_world).translation))
         for bone in evaluated.pose.bones if evaluated.pose else ():
-            places[bone.name] = tuple((Y_UP @ evaluated.matrix_world @ bone.matrix).translation)
+            places.setdefault(bone.name, []).append(tuple((Y_UP @ evaluated.matrix_world @ bone.matrix).translation))
     return places
 
 
