@@ -94,6 +94,7 @@ class RigExtras:
             if name not in self.done:
                 self.done.add(name)
                 rig_node = self.rig_nodes.get(name)
+                put_bones_first(rig_node or scene, nodes)
                 if is_helper(rig) and stands_still(rig):
                     put_in_place_of(rig_node, scene)
                     rig_node = None
@@ -165,6 +166,13 @@ def stands_still(rig):
     """Whether an armature is no more than the bones in it."""
     return rig.parent is None and rig.matrix_world == Matrix.Identity(4) and not any(
         not curve.data_path.startswith('pose.') for curve in all_curves(rig.animation_data))
+
+
+def put_bones_first(owner, joint_nodes):
+    """Where a bone and an object have the same name, a chain's joint is the first one."""
+    joints = {id(node) for nodes in joint_nodes.values() for node in nodes}
+    children = owner.nodes if hasattr(owner, 'nodes') else owner.children
+    children.sort(key=lambda node: id(node) not in joints)
 
 
 def put_in_place_of(node, scene):

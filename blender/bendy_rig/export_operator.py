@@ -13,7 +13,6 @@ from .program import BendyError, find_program, run_program
 # A clip is all of its action, at every frame, and a character has all the influences that it has in Blender.
 BENDY_OPTIONS = {'export_format': 'GLB', 'export_frame_range': False, 'export_optimize_animation_size': False,
                  'export_all_influences': True}
-RIG_NOTES = '.extras.rig_'          # the program's warnings about what the hooks have told already
 PARTS = 3                           # of an export, for the progress: Blender's exporter is most of it
 
 
@@ -65,8 +64,9 @@ class EXPORT_SCENE_OT_bendy(bpy.types.Operator, ExportHelper, ExportOptions):
             return self.fail(error)
         finally:
             manager.progress_end()
+        told = [note.split(': ', 1)[1] for note in LastExport.report.notes]
         for text in warnings:
-            if RIG_NOTES not in text:
+            if not any(note in text for note in told):
                 self.report({'WARNING'}, f'{self.bl_label}: {text.removeprefix(glb + ": ")}')
         self.tell(path)
         return {'FINISHED'}

@@ -1,5 +1,6 @@
-"""Reads a .bendy file: the program writes it as glTF, Blender's importer reads that, and the rig is made of what is in its extras."""
+"""Reads a .bendy file: the program writes it as glTF, which Blender's importer reads, and its rig as JSON, of which constraints are made."""
 import contextlib
+import json
 import os
 import re
 import tempfile
@@ -36,10 +37,14 @@ def import_file(context, path, enable_constraints, set_frame_rate, progress):
     with tempfile.TemporaryDirectory(prefix='bendy') as folder:
         stem = os.path.splitext(os.path.basename(path))[0] or 'character'
         glb = os.path.join(folder, f'{stem}.glb')
+        rig = os.path.join(folder, 'rig.json')
         imported.warnings = run_program('export', path, '--output', glb)
+        run_program('rig', path, '--output', rig)
         progress(0.3)
         with nothing_left_behind(context):
-            file = read_glb(context, glb, set_frame_rate, imported)
+            file = read_glb(context, glb, set_frame_rate)
+            with open(rig, encoding='utf-8') as text:
+                file.rig = json.load(text)
             progress(0.8)
             join_twins(file)
             if file.root:
@@ -80,7 +85,7 @@ def nothing_left_behind(context):
         raise
 
 
-def read_glb(context, glb, set_frame_rate, imported):
+def read_glb(context, glb, set_frame_rate):
     """Runs Blender's importer with this add-on's hooks."""
     if 'gltf' not in dir(bpy.ops.import_scene):
         raise BendyError('the add-on "glTF 2.0 format" is not enabled')
@@ -155,9 +160,9 @@ def finish_clips(context, file, imported):
         is_between = False
         for owner, action in clip.actions:
             by_owner.setdefault(owner, []).append(action)
-            turn_evenly(action)
             put_on_frames(action_curves(action))
             is_between |= not all(is_on_frame(point.co.x) for curve in action_curves(action) for point in curve.keyframe_points)
+            turn_evenly(action)
             for key, value in clip.extras.items():
                 if key != 'markers':
                     action[key] = value

@@ -1,6 +1,6 @@
 """The hooks that Blender's glTF importer calls: which object or bone each joint became, and which actions each clip.
 
-`bendy export` writes joint n as node n, and the rig as a rig file into the scene's extras (spec/rig.md).
+`bendy export` writes joint n as node n.
 """
 from . import clip_curves
 
@@ -18,7 +18,7 @@ class ImportedFile:
     """What the importer made of a file that `bendy export` wrote."""
 
     def __init__(self):
-        self.rig = {}               # the rig file
+        self.rig = {}               # the output of `bendy rig`
         self.joints = []            # joint -> (object, name of the bone in it, or None)
         self.names = []             # joint -> its name in the file
         self.locks = {}             # joint -> rig_joint.locks of an earlier export from Blender
@@ -70,7 +70,8 @@ def guarded(work, *arguments):
 def take_extras(gltf, file):
     """Takes the rig out of the extras, so that it becomes no custom properties, which would be exported again unchanged."""
     for scene in gltf.data.scenes or []:
-        file.rig = (scene.extras or {}).pop('bendy_rig', file.rig)
+        if isinstance(scene.extras, dict):
+            scene.extras.pop('bendy_rig', None)
     for joint, node in enumerate(gltf.data.nodes or []):
         extras = node.extras if isinstance(node.extras, dict) else {}
         record = extras.get('rig_joint')

@@ -24,7 +24,18 @@ class BendyFile:
         return self.json('pose', self.path, *options, '--format', 'json', '--output', '-')
 
     def rig(self):
-        return self.json('rig', self.path)
+        """The output of `bendy rig`, with names for the numbers of joints that have no name of their own: an export numbers them anew."""
+        rig = {'joints': {}, 'chains': [], **self.json('rig', self.path)}
+        named = {}
+        for key, record in rig['joints'].items():
+            named.setdefault(self.joint_name(key), []).append(record)
+        rig['joints'] = named
+        for chain in rig['chains']:
+            chain.update({key: self.joint_name(chain[key]) for key in ('start', 'effector', 'target', 'pole') if key in chain})
+        return rig
+
+    def joint_name(self, key):
+        return self.summary['joints'][int(key[1:])]['name'] if key.startswith('#') else key
 
     def clips(self):
         return self.summary['clips']

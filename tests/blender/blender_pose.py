@@ -20,12 +20,18 @@ def play(clip, frame):
     bpy.context.scene.frame_set(whole, subframe=frame - whole)
 
 
+def skinned_meshes():
+    """Names of the objects whose meshes are placed by their bones, wherever the objects are."""
+    return {obj.name for obj in bpy.context.scene.objects if any(modifier.type == 'ARMATURE' for modifier in obj.modifiers)}
+
+
 def joint_places():
-    """Name -> places of the bones and objects of that name."""
-    graph, places = bpy.context.evaluated_depsgraph_get(), {}
+    """Name -> places of the bones and objects of that name, without skinned meshes."""
+    graph, places, skinned = bpy.context.evaluated_depsgraph_get(), {}, skinned_meshes()
     for obj in bpy.context.scene.objects:
         evaluated = obj.evaluated_get(graph)
-        places.setdefault(obj.name, []).append(tuple((Y_UP @ evaluated.matrix_world).translation))
+        if obj.name not in skinned:
+            places.setdefault(obj.name, []).append(tuple((Y_UP @ evaluated.matrix_world).translation))
         for bone in evaluated.pose.bones if evaluated.pose else ():
             places.setdefault(bone.name, []).append(tuple((Y_UP @ evaluated.matrix_world @ bone.matrix).translation))
     return places

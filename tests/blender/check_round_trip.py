@@ -5,6 +5,7 @@ blender -b --factory-startup --python check_round_trip.py -- BENDY FOLDER FILE.b
 Blender's poses are compared with those of `bendy pose` at several times of each clip: every joint's place, and every vertex. Then the
 character is exported, and the new file is compared with the first in the same way; limits and chains record for record.
 """
+import math
 import os
 import sys
 
@@ -13,7 +14,7 @@ import bpy
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from posing import arguments, check         # first: it makes the add-on known
 from bendy_file import BendyFile, enable_addon
-from blender_pose import joint_places, play, vertex_places
+from blender_pose import joint_places, play, skinned_meshes, vertex_places
 
 TOLERANCE = 1e-4                    # of the character's height
 PLACES = (0.0, 0.21, 0.5, 0.83, 1.0)        # of a clip's length
@@ -35,15 +36,25 @@ class Worst:
 
     def compare(self, what, wanted, joints, vertices):
         """wanted: the output of `bendy pose`; joints: name -> places of those of that name; vertices: mesh -> places."""
-        for joint in wanted['joints']:
-            check(joint['name'] in joints, f'{what}: no {joint["name"]}')
-            off = min(distance(joint['world'][12:15], place) for place in joints[joint['name']])
-            self.joint = max(self.joint, self.add(what, joint['name'], off))
+        for name, places in joint_groups(wanted).items():
+            own = joints.get(name, [])
+            for place in own if name in skinned_meshes() else places:       # another joint may have a skinned mesh's name
+                others = places if name in skinned_meshes() else own
+                off = min((distance(place, other) for other in others), default=math.inf)
+                self.joint = max(self.joint, self.add(what, name, off))
         places = [place for mesh in vertices.values() for place in mesh]
         wanted_places = [mesh['positions'][i:i + 3] for mesh in wanted['meshes'] for i in range(0, len(mesh['positions']), 3)]
         self.vertex = max(self.vertex, self.add(what, 'a vertex', farthest(wanted_places, places)),
                           self.add(what, 'a vertex of Blender', farthest(places, wanted_places)))
         self.poses += 1
+
+
+def joint_groups(pose):
+    """Name -> places of the joints of that name, of the output of `bendy pose`."""
+    groups = {}
+    for joint in pose['joints']:
+        groups.setdefault(joint['name'], []).append(joint['world'][12:15])
+    return groups
 
 
 def distance(a, b):
@@ -88,16 +99,13 @@ def compare_files(first, second, rate):
                   for time in times_of(clip, rate)]
     for name, time in poses:
         pose = second.pose(name, time - (first.start(name) - second.start(name)) if name else 0.0)
-        joints = {}
-        for joint in pose['joints']:
-            joints.setdefault(joint['name'], []).append(joint['world'][12:15])
         vertices = {mesh['name']: [mesh['positions'][i:i + 3] for i in range(0, len(mesh['positions']), 3)] for mesh in pose['meshes']}
-        worst.compare(f'exported: {name or "rest"} at {time:.4f} s', first.pose(name, time), joints, vertices)
+        worst.compare(f'exported: {name or "rest"} at {time:.4f} s', first.pose(name, time), joint_groups(pose), vertices)
     return worst
 
 
 def compare_rigs(first, second):
-    a, b = ({'joints': {}, 'chains': [], **file.rig()} for file in (first, second))
+    a, b = first.rig(), second.rig()
     check(a['joints'].keys() == b['joints'].keys(), f'joints with constraints: {sorted(a["joints"].keys() ^ b["joints"].keys())}')
     for name, record in a['joints'].items():
         check(record == b['joints'][name], f'{name}: {record} is now {b["joints"][name]}')
