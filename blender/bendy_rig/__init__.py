@@ -7,16 +7,14 @@ from .import_hooks import ImportHooks as glTF2ImportUserExtension
 __all__ = ['glTF2ExportUserExtension', 'glTF2ImportUserExtension', 'glTF2_post_export_callback', 'register', 'unregister']
 
 bl_info = {
-    'name': 'Bendy rig',
+    'name': 'Bendy',
     'author': 'The Bendy authors',
-    'description': 'Joint limits and IK chains in the extras of glTF files',
+    'description': 'Import and export characters with joint limits and IK chains',
     'version': (0, 1, 0),
     'blender': (3, 4, 0),
-    'location': 'File > Export > glTF with Bendy rig',
+    'location': 'File > Import, File > Export',
     'category': 'Import-Export',
 }
-
-
 PARTS = (preferences, import_operator, export_operator, pose_constraints)
 
 

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Holds the Blender add-on and its records against Blender: blender_test.py --source SOURCE_DIR [--blender PROGRAM]
+"""Holds the Blender add-on and its records against Blender:
 
-Makes the example characters, exports them with the add-on, and runs each check_*.py of this folder inside Blender; what each
-one asks stands at its top. Exit 0: all is well; 1: something is not; 77: there is no Blender, or not 3.4 or later, or its Python
-lacks numpy, which its glTF exporter needs.
+    blender_test.py records|files --source SOURCE_DIR [--bendy PROGRAM] [--corpus FOLDER] [--blender PROGRAM]
+
+Makes the example characters, and runs each check_*.py of this folder inside Blender; what each one asks stands at its top.
+records: what the add-on writes into glTF; files: imports and exports of .bendy files, by the program. Exit 0: all is well; 1:
+something is not; 77: there is no Blender, or not 3.4 or later, or its Python lacks numpy, which its glTF exporter needs.
 """
 
 import argparse
+import ast
 import json
 import os
 import re
@@ -15,13 +18,22 @@ import struct
 import subprocess
 import sys
 import tempfile
+import tomllib
+import zipfile
 from pathlib import Path
+
+from strange_rig import strange_rig
 
 SKIPPED = 77
 # A distribution's Blender looks for its Python by PATH, and one of a virtual environment would mislead it.
 ENVIRONMENT = {**os.environ, "PATH": os.defpath, "PYTHONDONTWRITEBYTECODE": "1"}
 NOISE = re.compile(r"^(Blender quit|Blender \d|Read blend|Info: |.* \| (INFO|ERROR): (?!.*fail)|\s*$)")
-SAID = ("Limit Rotation: ", "IK limits: ", "Cases of ", "Export: ", "Spaces: ", "Reports: ", "  - ")   # by the checks
+SAID = ("Limit Rotation: ", "IK limits: ", "Cases of ", "Export: ", "Spaces: ", "Reports: ", "Settings: ", "Import", "Round trip", "  - ")
+# Of the corpus: 24 joints, 3 clips; a hand with cubic keys and a mirrored armature; STEP, LINEAR and cubic keys on objects, and on
+# joints; clips that move some of the joints; morph targets. CONVERT: with proposed chains, whose tips are beside Blender's bones.
+CORPUS = ("models/fox.glb", "models/left_hand_high.glb", "models/interpolation_test/InterpolationTest.gltf",
+          "generated/mixed_interpolation.glb", "generated/partial_clips.glb", "models/morph_stress_test.gltf")
+CONVERT = ("convert", "--quiet", "--auto-rig")
 
 
 def skip(reason):
@@ -80,27 +92,90 @@ def extras(path):
     return {node["name"]: node["extras"] for node in document["nodes"] if "extras" in node}
 
 
+def check_records(runner, folder):
+    tests = Path("tests") / "blender"
+    for character in ("tentacle", "mannequin"):
+        glb, blend = folder / f"{character}.glb", folder / f"{character}.blend"
+        if not runner.run(f"{character}: made", f"examples/blender/make_{character}.py", glb, blend):
+            continue
+        runner.same_extras(character, glb, runner.source / "examples" / f"{character}.glb")
+        runner.run(f"{character}: extras", tests / "check_export.py", folder / f"{character}_again.glb", blend=blend)
+        runner.run(f"{character}: Limit Rotation", tests / "check_limit_rotation.py", glb, blend=blend)
+        runner.run(f"{character}: IK limits", tests / "check_ik_limits.py", glb, blend=blend)
+    runner.run("spaces", tests / "check_spaces.py")
+    (folder / "reports").mkdir()
+    runner.run("reports", tests / "check_reports.py", folder / "reports")
+    runner.run("cases.json", tests / "make_cases.py", runner.source / tests / "cases.json", "check")
+    runner.run("settings", tests / "check_settings.py")
+    check_zip(runner, folder)
+
+
+def check_zip(runner, folder):
+    """What the preferences install: all modules, and the manifest, which says what __init__.py says."""
+    subprocess.run([runner.source / "blender" / "make_zip.sh", folder], check=True)
+    package = runner.source / "blender" / "bendy_rig"
+    with zipfile.ZipFile(folder / "bendy_rig.zip") as archive:
+        names = set(archive.namelist())
+        manifest = tomllib.loads(archive.read("bendy_rig/blender_manifest.toml").decode())
+    bl_info = next(ast.literal_eval(node.value) for node in ast.parse((package / "__init__.py").read_text()).body
+                   if isinstance(node, ast.Assign) and node.targets[0].id == "bl_info")
+    is_well = (names == {f"bendy_rig/{path.name}" for path in package.iterdir() if path.suffix in (".py", ".toml")}
+               and (manifest["id"], manifest["name"], manifest["tagline"]) == ("bendy_rig", bl_info["name"], bl_info["description"])
+               and manifest["version"] == ".".join(map(str, bl_info["version"]))
+               and all(len(text) <= 64 for text in (manifest["tagline"], *manifest["permissions"].values())))
+    print(f"{'ok  ' if is_well else 'FAIL'} bendy_rig.zip")
+    if not is_well:
+        print(f"     {sorted(names)}, {manifest}, {bl_info}")
+        runner.failed.append("bendy_rig.zip")
+
+
+def check_files(runner, folder, bendy, corpus):
+    tests, out, files = Path("tests") / "blender", folder / "out", []
+    out.mkdir()
+    for character in ("tentacle", "mannequin"):
+        blend, file = folder / f"{character}.blend", folder / f"{character}.bendy"
+        bendy("convert", "--quiet", runner.source / "examples" / f"{character}.glb", "-o", file)
+        files.append(file)
+        if runner.run(f"{character}: made", f"examples/blender/make_{character}.py", folder / f"{character}.glb", blend):
+            runner.run(f"{character}: import", tests / "check_import.py", bendy.program, file, out, blend=blend)
+    rig = folder / "strange.rig.json"
+    rig.write_text(json.dumps(strange_rig()), encoding="utf-8")
+    files.append(folder / "strange.bendy")
+    bendy("convert", "--quiet", runner.source / "examples" / "tentacle.glb", "--rig", rig, "-o", files[-1])
+    if corpus and (corpus / "visible").is_dir():
+        for name in CORPUS:
+            files.append(folder / f"{Path(name).stem}.bendy")
+            bendy(*CONVERT, corpus / "visible" / name, "-o", files[-1])
+    else:
+        print("no corpus: the examples only")
+    runner.run("round trips", tests / "check_round_trip.py", bendy.program, out, *files)
+    (folder / "errors").mkdir()
+    runner.run("import errors", tests / "check_import_errors.py", bendy.program, files[0], runner.source / "examples" / "tentacle.glb",
+               folder / "errors")
+
+
+class Bendy:
+    def __init__(self, program):
+        self.program = program.resolve()
+
+    def __call__(self, *arguments):
+        subprocess.run([self.program, *map(str, arguments)], check=True, stderr=subprocess.DEVNULL)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("part", choices=("records", "files"))
     parser.add_argument("--source", type=Path, required=True)
+    parser.add_argument("--bendy", type=Path)
+    parser.add_argument("--corpus", type=Path)
     parser.add_argument("--blender", default="blender")
     options = parser.parse_args()
     runner = Runner(find_blender(options.blender), options.source.resolve())
-    tests = Path("tests") / "blender"
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for character in ("tentacle", "mannequin"):
-            glb, blend = folder / f"{character}.glb", folder / f"{character}.blend"
-            if not runner.run(f"{character}: made", f"examples/blender/make_{character}.py", glb, blend):
-                continue
-            runner.same_extras(character, glb, runner.source / "examples" / f"{character}.glb")
-            runner.run(f"{character}: extras", tests / "check_export.py", folder / f"{character}_again.glb", blend=blend)
-            runner.run(f"{character}: Limit Rotation", tests / "check_limit_rotation.py", glb, blend=blend)
-            runner.run(f"{character}: IK limits", tests / "check_ik_limits.py", glb, blend=blend)
-        runner.run("spaces", tests / "check_spaces.py")
-        (folder / "reports").mkdir()
-        runner.run("reports", tests / "check_reports.py", folder / "reports")
-        runner.run("cases.json", tests / "make_cases.py", options.source / tests / "cases.json", "check")
+        if options.part == "records":
+            check_records(runner, Path(name))
+        else:
+            check_files(runner, Path(name), Bendy(options.bendy), options.corpus)
     if runner.failed:
         print(f"failed: {', '.join(runner.failed)}")
     return 1 if runner.failed else 0

@@ -10,10 +10,12 @@ import os
 import sys
 
 import bpy
+from mathutils import Matrix, Vector
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from posing import arguments, check         # first: it makes the add-on known
 from bendy_file import BendyFile, enable_addon
+from bendy_rig.axes import Y_UP
 from blender_pose import joint_places, play, skinned_meshes, vertex_places
 
 TOLERANCE = 1e-4                    # of the character's height
@@ -37,10 +39,10 @@ class Worst:
     def compare(self, what, wanted, joints, vertices):
         """wanted: the output of `bendy pose`; joints: name -> places of those of that name; vertices: mesh -> places."""
         for name, places in joint_groups(wanted).items():
-            own = joints.get(name, [])
-            for place in own if name in skinned_meshes() else places:       # another joint may have a skinned mesh's name
-                others = places if name in skinned_meshes() else own
-                off = min((distance(place, other) for other in others), default=math.inf)
+            offs = sorted(min((distance(place, other) for other in joints.get(name, [])), default=math.inf) for place in places)
+            if name in skinned_meshes():
+                offs.pop()          # its bones place it, wherever its own joint is
+            for off in offs:
                 self.joint = max(self.joint, self.add(what, name, off))
         places = [place for mesh in vertices.values() for place in mesh]
         wanted_places = [mesh['positions'][i:i + 3] for mesh in wanted['meshes'] for i in range(0, len(mesh['positions']), 3)]
@@ -104,6 +106,20 @@ def compare_files(first, second, rate):
     return worst
 
 
+def compare_tips(file):
+    """At rest, the bone with a chain's IK constraint ends where the file has the chain's tip."""
+    play(None, 0.0)
+    pose, rig = file.pose(), file.json('rig', file.path)
+    ends = {constraint.name: tuple((Y_UP @ obj.matrix_world) @ bone.tail) for obj in bpy.data.objects if obj.pose
+            for bone in obj.pose.bones for constraint in bone.constraints if constraint.type == 'IK'}
+    check(len(ends) == len(rig.get('chains', [])), f'{len(ends)} IK constraints')
+    for chain in rig.get('chains', []):
+        joint = next(joint for joint in pose['joints'] if joint['name'] == file.joint_name(chain['effector']))
+        world = Matrix([joint['world'][row::4] for row in range(4)])
+        tip = world @ Vector(chain.get('tip_offset', (0, 0, 0)))
+        check(distance(tip, ends[chain['name']]) < TOLERANCE * file.height(), f'{chain["name"]}: {ends[chain["name"]]} is not at {tip}')
+
+
 def compare_rigs(first, second):
     a, b = first.rig(), second.rig()
     check(a['joints'].keys() == b['joints'].keys(), f'joints with constraints: {sorted(a["joints"].keys() ^ b["joints"].keys())}')
@@ -130,6 +146,10 @@ def check_file(bendy, folder, path):
     first = BendyFile(bendy, path)
     check(bpy.ops.import_scene.bendy(filepath=path) == {'FINISHED'}, f'{path}: not imported')
     imported = compare_with_blender(first)
+    if not is_scaled(first):
+        compare_tips(first)
+    for armature in bpy.data.armatures:
+        armature.pose_position = 'POSE'         # Blender exports what it shows
     out = os.path.join(folder, os.path.basename(path))
     check(bpy.ops.export_scene.bendy(filepath=out) == {'FINISHED'}, f'{path}: not exported')
     second = BendyFile(bendy, out)
