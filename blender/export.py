@@ -1,6 +1,6 @@
 """Exports a Blender file without a display and without installing the add-on.
 
-blender -b fox.blend --python-exit-code 1 --python export.py -- fox.glb [EXPORTER-OPTION=JSON-VALUE ...]
+blender -b fox.blend --python-exit-code 1 --python export.py -- fox.bendy|fox.glb|fox.gltf [EXPORTER-OPTION=JSON-VALUE ...]
 """
 import json
 import os
@@ -20,8 +20,8 @@ def main():
     path, *options = arguments
     options = dict(option.split('=', 1) for option in options)
     addon_utils.enable('bendy_rig')
-    bpy.ops.export_scene.bendy_rig(filepath=os.path.abspath(path),
-                                   options=json.dumps({name: json.loads(value) for name, value in options.items()}))
+    export = bpy.ops.export_scene.bendy if path.lower().endswith('.bendy') else bpy.ops.export_scene.bendy_rig
+    export(filepath=os.path.abspath(path), options=json.dumps({name: json.loads(value) for name, value in options.items()}))
 
 
 main()

@@ -148,7 +148,7 @@ def chain_tip(bone, constraint):
     """In the space of the last bone that turns: its tail, or that of the bone that an import has made for the tip."""
     bone = bone if constraint.use_tail else bone.parent
     if not is_helper(bone):
-        return [0.0, bone.length, 0.0]
+        return [0.0, bone.bone.length, 0.0]
     return list(bone.parent.bone.matrix_local.inverted() @ bone.bone.tail_local)
 
 

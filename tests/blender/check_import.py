@@ -40,7 +40,7 @@ def chains_of(rig):
     for bone in rig.pose.bones:
         for constraint in bone.constraints:
             if constraint.type == 'IK':
-                chains[constraint.name] = {'bone': bone.name, 'length': bone.length, 'pole_angle': constraint.pole_angle,
+                chains[constraint.name] = {'bone': bone.name, 'length': bone.bone.length, 'pole_angle': constraint.pole_angle,
                                            **{key: getattr(constraint, key) for key in EXACT}}
     return chains
 
