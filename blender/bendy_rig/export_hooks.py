@@ -14,7 +14,7 @@ from .export_report import ExportReport
 from .chain_settings import chain_joints, is_helper
 from .ik_chains import chain_record, ik_constraints
 from .joint_limits import joint_record, says_a_limit
-from .kept_records import CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
+from .kept_records import CLIP, CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
 from .shortcomings import all_curves, bone_notes, chain_notes, object_notes
 
 
@@ -52,7 +52,9 @@ class RigExtras:
         self.joint_nodes = {}       # armature object's name -> bone's name -> its nodes; of the scene that is being exported
         self.done = set()           # armature objects whose chains are written
         self.chain_names = set()
+        self.joint_names = set()    # of the rigs whose chains are written
         self.curves = []            # that came with an import
+        self.clips = {}             # id of the exporter's animation -> number of the imported clip
 
     @kept_error
     def gather_tree_filter_tag_hook(self, tree, *_):
@@ -106,10 +108,17 @@ class RigExtras:
     @kept_error
     def gather_animation_hook(self, animation, action, *rest):
         """The exporter does not write the markers of an action."""
+        if isinstance(action.get(CLIP), int):
+            self.clips[id(animation)] = action[CLIP]
         markers = kept_markers(action, bpy.context.scene.render.fps)
         animation.extras = without_kept(animation.extras)
         if markers:
             animation.extras = {**(animation.extras or {}), 'markers': markers}
+
+    @kept_error
+    def gather_gltf_hook(self, _scene, _scenes, animations, *_):
+        """Imported clips come first, in the file's order; the exporter has ordered all by name."""
+        animations.sort(key=lambda animation: self.clips.get(id(animation), len(animations) + len(self.clips)))
 
     def add_joints(self, rig, axes, nodes):
         """nodes: bone's name -> its nodes, which are several where a collection has instances."""
@@ -131,6 +140,11 @@ class RigExtras:
 
     def chains(self, rig, axes, exported, has_node):
         records, done, changed = kept_chains(rig, exported)
+        twice = sorted(set(exported) & self.joint_names)
+        self.joint_names.update(exported)
+        if records and twice:
+            self.report.add_notes(rig.name, [(False, f'another armature has bones of the same names, and its chains may be taken for that '
+                                              f'one\'s: {", ".join(twice)}')])
         for record in records:
             self.chain_names.add(record['name'])
             self.report.chains.append(record['name'])

@@ -11,11 +11,12 @@ from . import import_rig
 from .chain_settings import HELPER, ROOT
 from .clip_curves import action_curves, complete, fitting_rate, is_on_frame, put_on_frames, turn_evenly
 from .import_hooks import ImportedFile, LastImport
+from .kept_records import CLIP
 from .known_hooks import hooks_in_preferences
 from .program import BendyError, run_program
 
 # Bones get the joints' own axes, which limits and an export need, and the rest pose of the file.
-IMPORTER_OPTIONS = {'bone_heuristic': 'BLENDER', 'guess_original_bind_pose': False, 'merge_vertices': False}
+IMPORTER_OPTIONS = {'bone_heuristic': 'BLENDER', 'guess_original_bind_pose': False, 'merge_vertices': False, 'disable_bone_shape': True}
 COLLECTIONS = ('objects', 'armatures', 'meshes', 'shape_keys', 'actions', 'materials', 'images', 'textures', 'cameras', 'lights',
                'collections', 'node_groups')
 
@@ -156,9 +157,10 @@ def finish_clips(context, file, imported):
     """file.clips: from the last to the first, as the importer made them."""
     rate, between_frames, by_owner = context.scene.render.fps, [], {}
     imported.clips = len(file.clips)
-    for clip in reversed(file.clips):
+    for number, clip in enumerate(reversed(file.clips)):
         is_between = False
         for owner, action in clip.actions:
+            action[CLIP] = number
             by_owner.setdefault(owner, []).append(action)
             put_on_frames(action_curves(action))
             is_between |= not all(is_on_frame(point.co.x) for curve in action_curves(action) for point in curve.keyframe_points)

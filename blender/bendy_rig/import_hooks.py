@@ -2,6 +2,8 @@
 
 `bendy export` writes joint n as node n.
 """
+import bpy
+
 from . import clip_curves
 
 RIG_EXTRAS = ('rig_joint', 'rig_ik')        # of nodes; an earlier export wrote them, and the next one will write new ones
@@ -116,8 +118,13 @@ def moves(gltf, node):
 
 
 def note_clip(gltf, file, clip, track_name):
-    actions = [(entry[0], entry[-1]) for entry in gltf.needs_stash]
+    actions = [(entry[0], action_of(entry)) for entry in gltf.needs_stash]
     file.clips.append(ImportedClip(gltf.data.animations[clip], track_name, actions))
+
+
+def action_of(entry):
+    """Newer importers stash a slot of it too."""
+    return next(part for part in entry if isinstance(part, bpy.types.Action))
 
 
 def note_weights(gltf, vnode, animation):
@@ -125,7 +132,7 @@ def note_weights(gltf, vnode, animation):
     clip = gltf.data.animations.index(animation)
     node = gltf.data.nodes[vnode.mesh_node_idx]
     if any(animation.channels[channel].target.path == 'weights' for channel in node.animations.get(clip, [])):
-        clip_curves.set_weight_tangents(gltf, vnode, animation, clip, gltf.needs_stash[-1][-1])
+        clip_curves.set_weight_tangents(gltf, vnode, animation, clip, action_of(gltf.needs_stash[-1]))
 
 
 def key_times(gltf):
