@@ -140,6 +140,11 @@ def compare_names(first, second):
         check(sorted(a) == sorted(b), f'{what}: {a} are now {b}')
 
 
+def compare_textures(first, second):
+    a, b = ([[image['type'] for image in texture['images']] for texture in file.summary['textures']] for file in (first, second))
+    check(a == b, f'textures: {a} are now {b}')
+
+
 def check_file(bendy, folder, path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     enable_addon(bendy)
@@ -156,6 +161,7 @@ def check_file(bendy, folder, path):
     exported = compare_files(first, second, bpy.context.scene.render.fps)
     joints, chains, markers = compare_rigs(first, second)
     compare_names(first, second)
+    compare_textures(first, second)
     print(f'Round trip of {os.path.basename(path)}: {imported.poses} poses in Blender, joints {imported.joint:.1e}, '
           f'vertices {imported.vertex:.1e} of the height; exported: joints {exported.joint:.1e}, vertices {exported.vertex:.1e}')
     print(f'  - returned: {joints} joints with constraints, {chains} chains, {markers} markers')
