@@ -194,7 +194,8 @@ def set_handles(curve, times, tangents_in, tangents_out, values):
         if values:
             point.co.y = values[i]
         point.handle_left_type = point.handle_right_type = 'FREE'
-        for handle, other, tangent in ((point.handle_left, max(i - 1, 0), tangents_in[i]), (point.handle_right, min(i + 1, last), tangents_out[i])):
+        for handle, other, tangent in ((point.handle_left, max(i - 1, 0), tangents_in[i]),
+                                       (point.handle_right, min(i + 1, last), tangents_out[i])):
             handle.x = point.co.x + (points[other].co.x - point.co.x) / 3.0
             handle.y = point.co.y + (times[other] - times[i]) * tangent / 3.0
 

@@ -148,7 +148,7 @@ class RigExtras:
         for record in records:
             self.chain_names.add(record['name'])
             self.report.chains.append(record['name'])
-        self.report.add_notes(rig.name, [(False, f'changed in Blender since the import, and written as Blender has it: {name}')
+        self.report.add_notes(rig.name, [(False, f'IK chain {name} was changed since the import: written as Blender has it')
                                          for name in changed])
         for bone, constraint in ik_constraints(rig):
             if (bone.name, constraint.name) in done:

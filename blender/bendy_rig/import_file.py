@@ -1,4 +1,4 @@
-"""Reads a .bendy file: the program writes it as glTF, which Blender's importer reads, and its rig as JSON, of which constraints are made."""
+"""Reads a .bendy file: the program writes it as glTF, for Blender's importer, and its rig as JSON, for constraints."""
 import contextlib
 import json
 import os

@@ -50,10 +50,16 @@ class IMPORT_SCENE_OT_bendy(bpy.types.Operator, ImportHelper):
         if imported.notes:
             print('\n'.join(['Bendy: what Blender does not do as the file says; an export returns the rig as it was:',
                              *(f'  {text}: {", ".join(names)}' for text, names in imported.notes)]))
-            self.report({'WARNING'}, f'Bendy: not as in the file: {"; ".join(f"{text} ({shortened(names)})" for text, names in imported.notes)}')
+            notes = '; '.join(f'{text} ({shortened(names)})' for text, names in imported.notes)
+            self.report({'WARNING'}, f'Bendy: not as in the file: {notes}')
         muted = '' if self.enable_constraints or not (imported.limits or imported.chains) else \
             ', muted so that clips play as stored: Pose > Constraints > Enable Imported Constraints'
-        self.report({'INFO'}, f'{os.path.basename(path)}: {imported.clips} clips, {imported.limits} limits, {imported.chains} IK chains{muted}')
+        self.report({'INFO'}, f'{os.path.basename(path)}: {count(imported.clips, "clip")}, {count(imported.limits, "limit")}, '
+                              f'{count(imported.chains, "IK chain")}{muted}')
+
+
+def count(number, name):
+    return f'{number} {name}' + ('' if number == 1 else 's')
 
 
 def shortened(names):

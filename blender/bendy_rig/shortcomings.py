@@ -14,8 +14,11 @@ def bone_notes(bone):
     """Of a bone's limits and of its constraints that have no record."""
     limits, has_changed = kept_limits(bone)
     if limits is not None:
-        return [note for c in bone.constraints if c.type not in ('LIMIT_ROTATION', 'LIMIT_LOCATION') for note in other_notes(bone, c)]
-    notes = [(False, 'its constraints were changed in Blender since the import; they are written as Blender has them')] if has_changed else []
+        others = [c for c in bone.constraints if c.type not in ('LIMIT_ROTATION', 'LIMIT_LOCATION')]
+        return [note for constraint in others for note in other_notes(bone, constraint)]
+    notes = []
+    if has_changed:
+        notes.append((False, 'its constraints were changed since the import: written as Blender has them'))
     for constraint in bone.constraints:
         notes += limit_notes(bone, constraint) if constraint.type in ('LIMIT_ROTATION', 'LIMIT_LOCATION') else other_notes(bone, constraint)
     for kind in ('LIMIT_ROTATION', 'LIMIT_LOCATION'):

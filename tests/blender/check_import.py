@@ -83,7 +83,7 @@ def check_reach(rig, name):
 
 
 def check_changes(bendy, path, rig, folder):
-    """What was changed is exported as Blender has it, also where it is muted; the rest as it came."""
+    """What was changed is exported as Blender has it, even if it is muted; the rest as it came."""
     first = BendyFile(bendy, path).rig()
     limited = [bone for bone in rig.pose.bones if any(c.type == 'LIMIT_ROTATION' for c in bone.constraints)]
     chain = first['chains'][0]['name']

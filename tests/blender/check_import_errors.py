@@ -17,7 +17,8 @@ BLOCKS = ('objects', 'meshes', 'armatures', 'actions', 'materials', 'images', 's
 def state():
     scene = bpy.context.scene
     blocks = {name: sorted(block.name for block in getattr(bpy.data, name)) for name in BLOCKS}
-    return blocks, sorted(scene.keys()), scene.render.fps, scene.frame_start, scene.frame_end, [obj.name for obj in bpy.context.selected_objects]
+    selected = [obj.name for obj in bpy.context.selected_objects]
+    return blocks, sorted(scene.keys()), scene.render.fps, scene.frame_start, scene.frame_end, selected
 
 
 def error_of(operator, **options):

@@ -22,8 +22,8 @@ TOLERANCE = 1e-4                    # of the character's height
 PLACES = (0.0, 0.21, 0.5, 0.83, 1.0)        # of a clip's length
 
 
-def times_of(clip, rate):
-    """At keys, at the ends and between."""
+def times_of(clip):
+    """At its ends and between."""
     return [clip['start'] + place * clip['seconds'] for place in PLACES]
 
 
@@ -84,7 +84,7 @@ def compare_with_blender(file):
     if not is_scaled(file):
         worst.compare('rest', file.pose(), joint_places(), vertex_places())
     for clip in file.clips():
-        for time in times_of(clip, rate):
+        for time in times_of(clip):
             play(clip['name'], time * rate)
             worst.compare(f'{clip["name"]} at {time:.4f} s', file.pose(clip['name'], time), joint_places(), vertex_places())
     return worst
@@ -98,7 +98,7 @@ def compare_files(first, second, rate):
     poses = [] if is_scaled(first) else [(None, 0.0)]
     for clip in first.clips():
         poses += [(clip['name'], min(max(round(time * rate) / rate, clip['start']), clip['start'] + clip['seconds']))
-                  for time in times_of(clip, rate)]
+                  for time in times_of(clip)]
     for name, time in poses:
         pose = second.pose(name, time - (first.start(name) - second.start(name)) if name else 0.0)
         vertices = {mesh['name']: [mesh['positions'][i:i + 3] for i in range(0, len(mesh['positions']), 3)] for mesh in pose['meshes']}
