@@ -4,6 +4,8 @@ import ast
 import csv
 import inspect
 import os
+import re
+import shutil
 import subprocess
 import sys
 import venv
@@ -86,3 +88,15 @@ def test_pip_installs_it(tmp_path):
     assert suffixes.split() == [".py", ".py", ".pyi", ".so", ".typed"]
     module = next((tmp_path / "venv").rglob("_bendy*.so"))
     assert os.environ["BENDY_BUILD_DIR"].encode() not in module.read_bytes()
+
+
+@pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
+def test_the_documentations_blocks_run(page, tmp_path):
+    blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    assert blocks
+    shutil.copy(ROOT / "examples/mannequin.glb", tmp_path)
+    for block in blocks:
+        if "render" in block and not bendy._bendy.has_viewer:
+            continue
+        done = subprocess.run([sys.executable, "-c", block], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, f"{block}\n{done.stderr}"
