@@ -16,6 +16,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parent
+# Where setuptools puts its own files: the package's folder stays as it is.
+WORK = Path(os.environ.get("BENDY_BUILD_DIR", ROOT / "build")) / "python_wheel"
 
 
 class CMakeBuild(build_ext):
@@ -49,4 +51,5 @@ class CMakeBuild(build_ext):
 
 
 version = re.search(r"project\(bendy VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
-setup(version=version, ext_modules=[Extension("bendy._bendy", [])], cmdclass={"build_ext": CMakeBuild})
+WORK.mkdir(parents=True, exist_ok=True)
+setup(version=version, options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}}, ext_modules=[Extension("bendy._bendy", [])], cmdclass={"build_ext": CMakeBuild})

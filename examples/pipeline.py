@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A folder of characters in; bendy files, a report and a contact sheet out.
 
-    ./pipeline.py SOURCES OUT [--compact] [--overwrite] [--size 320x240]
+    ./pipeline.py SOURCES OUT [--compact] [--lod] [--overwrite] [--size 320x240]
 
 OUT/report.csv has a row for each source; OUT/sheet.png a picture of each character in the middle of its first clip. Exit status 1: some
 source failed, and its row says why. Needs the Python package bendy: docs/python.md.
@@ -22,7 +22,7 @@ def convert(source, target, options):
     """A row of the report, and the model; None if it failed. pandas.DataFrame(rows) takes a list of rows as it is."""
     row = {"file": source.name}
     try:
-        made = bendy.convert(source, target, compact=options.compact, lod=True, overwrite=options.overwrite)
+        made = bendy.convert(source, target, compact=options.compact, lod=options.lod, overwrite=options.overwrite)
         model = bendy.open(made)
     except bendy.Error as error:
         return {**row, "error": str(error)}, None
@@ -44,6 +44,7 @@ def main():
     parser.add_argument("sources", type=Path)
     parser.add_argument("out", type=Path)
     parser.add_argument("--compact", action="store_true")
+    parser.add_argument("--lod", action="store_true")
     parser.add_argument("--overwrite", action="store_true")
     parser.add_argument("--size", default="320x240", type=lambda text: tuple(int(side) for side in text.split("x")))
     options = parser.parse_args()

@@ -84,7 +84,7 @@ void bind_source(py::module_& module) {
             "is_mapped", [](const Source& self) { return self.is_mapped(); }, "Whether the bytes are a mapped file.")
         .def_property_readonly(
             "format", [](const Source& self) { return format_of(self); },
-            "What the bytes are: \"bendy\", \"gltf\", \"x\", \"md2\", \"other\" or \"unknown\".")
+            "What the bytes are: bendy, gltf, x, md2, other or unknown.")
         .def(
             "write",
             [](const Source& self, const std::filesystem::path& file) {

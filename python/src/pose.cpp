@@ -184,9 +184,10 @@ StridedFloats strided(const py::handle& given, std::size_t rows, std::size_t col
     const bool is_aligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
     if (rows == 0) return {};
     if (!is_aligned || array.strides(1) != kFloat || row % kFloat != 0 ||
-        (rows > 1 && row < kFloat * static_cast<py::ssize_t>(columns)))
+        (rows > 1 && row < kFloat * static_cast<py::ssize_t>(columns))) {
         throw py::value_error("out: " + std::string(name) +
                               " must have its components next to each other and its rows in order");
+    }
     const std::size_t stride = rows > 1 ? static_cast<std::size_t>(row / kFloat) : columns;
     auto* data = static_cast<float*>(py::array(array).mutable_data());
     return {{data, stride * (rows - 1) + columns}, stride};
@@ -203,11 +204,13 @@ Outputs make_outputs(std::size_t vertices, bool normals, bool tangents, const py
     if (tangents) wanted.push_back({"tangents", 4, &VertexBuffer::tangents});
     Outputs outputs{py::tuple(wanted.size()), {}};
     py::tuple given;
-    if (!out.is_none())
+    if (!out.is_none()) {
         given = wanted.size() == 1 && !py::isinstance<py::tuple>(out) ? py::make_tuple(out) : py::tuple(out);
-    if (!out.is_none() && given.size() != wanted.size())
+    }
+    if (!out.is_none() && given.size() != wanted.size()) {
         throw py::value_error("out must have one array for each of the " + std::to_string(wanted.size()) +
                               " attributes");
+    }
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         const Attribute& attribute = wanted[k];
         const py::object array = out.is_none()
@@ -335,7 +338,7 @@ PyPose rest_pose(const py::handle& model) {
 // Many poses at once.
 
 /// Finite times, in any shape that is one-dimensional.
-std::vector<float> times_of(const py::object& times) {
+std::vector<float> checked_times(const py::object& times) {
     const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(times);
     if (!array) {
         PyErr_Clear();
@@ -350,7 +353,7 @@ std::vector<float> times_of(const py::object& times) {
 py::array skin_clip(const py::object& model, const py::object& clip, const py::object& times) {
     const SharedCharacter character = character_of(model);
     const Clip& found = find_clip(character, clip);
-    const std::vector<float> list = times_of(times);
+    const std::vector<float> list = checked_times(times);
     const std::size_t floats = 3 * character->model.vertex_count();
     py::array_t<float> array({static_cast<py::ssize_t>(list.size()),
                               static_cast<py::ssize_t>(character->model.vertex_count()), py::ssize_t{3}});
@@ -373,7 +376,7 @@ py::array skin_clip(const py::object& model, const py::object& clip, const py::o
 py::array pose_clip(const py::object& model, const py::object& clip, const py::object& times) {
     const SharedCharacter character = character_of(model);
     const Clip& found = find_clip(character, clip);
-    const std::vector<float> list = times_of(times);
+    const std::vector<float> list = checked_times(times);
     const std::size_t joints = character->model.joints().size();
     py::array_t<float> array(
         {static_cast<py::ssize_t>(list.size()), static_cast<py::ssize_t>(joints), py::ssize_t{4}, py::ssize_t{4}});

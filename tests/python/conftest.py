@@ -24,7 +24,8 @@ def mannequin(folder):
 
 @pytest.fixture(scope="session")
 def compact(folder):
-    return bendy.convert(ROOT / "examples/mannequin.glb", folder / "compact.bendy", compact=True).output
+    """The same, compact: a Conversion."""
+    return bendy.convert(ROOT / "examples/mannequin.glb", folder / "compact.bendy", compact=True)
 
 
 @pytest.fixture

@@ -94,7 +94,8 @@ def test_pip_installs_it(tmp_path):
 def test_the_documentations_blocks_run(page, tmp_path):
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     assert blocks
-    shutil.copy(ROOT / "examples/mannequin.glb", tmp_path)
+    for name in ("mannequin.glb", "tentacle.glb"):
+        shutil.copy(ROOT / "examples" / name, tmp_path)
     for block in blocks:
         if "render" in block and not bendy._bendy.has_viewer:
             continue

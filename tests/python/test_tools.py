@@ -9,22 +9,24 @@ from conftest import ROOT
 
 
 def test_conversion_equals_the_programs(tmp_path, program, mannequin):
-    source = ROOT / "examples/mannequin.glb"
+    source = ROOT / "examples/tentacle.glb"
     report = json.loads(program("convert", source, "-o", tmp_path / "by_program.bendy", "--json", "--force", "--lod"))
     made = bendy.convert(source, tmp_path / "by_module.bendy", lod=True)
     assert made.output.read_bytes() == (tmp_path / "by_program.bendy").read_bytes() == bytes(made.data)
     report = report[0] if isinstance(report, list) else report.get("files", [report])[0]
     assert made.warnings == report["warnings"] and made.report["vertices"] == report["vertices"]
     assert source in [path for path in made.sources]
+    source = ROOT / "examples/mannequin.glb"
     in_memory = bendy.convert(source)
     assert in_memory.output is None and bytes(in_memory.data) == mannequin.read_bytes()
     assert bytes(bendy.convert(source.read_bytes()).data) == mannequin.read_bytes()
 
 
-def test_compact_conversion(compact, tmp_path):
-    made = bendy.convert(ROOT / "examples/mannequin.glb", compact="0.1mm")
-    assert 0 < made.compact["measuredError"] <= made.compact["maxError"] == pytest.approx(1e-4)
-    assert len(made.data) < 100_000
+def test_compact_conversion(compact, mannequin):
+    assert 0 < compact.compact["measuredError"] <= compact.compact["maxError"]
+    assert len(compact.data) < mannequin.stat().st_size / 2 and "compact.bendy" in repr(compact)
+    made = bendy.convert(ROOT / "examples/tentacle.glb", compact="1mm")
+    assert 0 < made.compact["measuredError"] <= made.compact["maxError"] == pytest.approx(1e-3)
     with pytest.raises(ValueError, match="compact"):
         bendy.convert(ROOT / "examples/mannequin.glb", compact="1 parsec")
 
