@@ -55,6 +55,11 @@ if [ "${1:-build}" = static ]; then
 fi
 if [ "${1:-build}" = test ]; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
+    for module in numpy pytest setuptools wheel pip venv; do # of the system's Python, for which the Python package is built
+        /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
+    done
+    need /usr/include/pybind11/pybind11.h pybind11-dev
+    compgen -G '/usr/include/python3*/Python.h' >/dev/null || missing+=(python3-dev)
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need /usr/include/tbb/parallel_for.h libtbb-dev

@@ -142,33 +142,6 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
     }
 }
 
-/// The chunks from `root` on as a JSON array in file order; nesting is told by "parent", the number of an entry before
-/// it, so that a skeleton of ten thousand levels is no deep JSON.
-Json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
-    Json chunks = Json::array();
-    for (std::uint32_t number = root; number < tree[root].end; ++number) {
-        const Chunk& chunk = tree[number];
-        std::array<char, 11> sum{};
-        std::snprintf(sum.data(), sum.size(), "0x%08x", chunk.sum);
-        Json entry{{"number", number - root},
-                   {"parent", number == root ? Json(nullptr) : Json(chunk.parent - root)},
-                   {"id", chunk.id.letters().data()},
-                   {"meaning", chunk_meaning(chunk.id)},
-                   {"offset", chunk.offset},
-                   {"size", chunk.size},
-                   {"sum", sum.data()},
-                   {"container", chunk.is_container()}};
-        if (chunk.is_required()) entry["required"] = true;
-        if (chunk.codec() != 0) {
-            entry["codec"] = chunk.codec();
-            entry["decoded"] = tree.payload(number).size();
-        }
-        if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
-        chunks.push_back(std::move(entry));
-    }
-    return chunks;
-}
-
 void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
                 const std::optional<Summary>& summary) {
     Json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};

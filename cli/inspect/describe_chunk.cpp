@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <optional>
 #include <string_view>
 
@@ -464,6 +465,31 @@ Json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
         return {{"markers", markers}};
     }
     return leaf_fields(*leaf, tree.payload(number));
+}
+
+Json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
+    Json chunks = Json::array();
+    for (std::uint32_t number = root; number < tree[root].end; ++number) {
+        const Chunk& chunk = tree[number];
+        std::array<char, 11> sum{};
+        std::snprintf(sum.data(), sum.size(), "0x%08x", chunk.sum);
+        Json entry{{"number", number - root},
+                   {"parent", number == root ? Json(nullptr) : Json(chunk.parent - root)},
+                   {"id", chunk.id.letters().data()},
+                   {"meaning", chunk_meaning(chunk.id)},
+                   {"offset", chunk.offset},
+                   {"size", chunk.size},
+                   {"sum", sum.data()},
+                   {"container", chunk.is_container()}};
+        if (chunk.is_required()) entry["required"] = true;
+        if (chunk.codec() != 0) {
+            entry["codec"] = chunk.codec();
+            entry["decoded"] = tree.payload(number).size();
+        }
+        if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
+        chunks.push_back(std::move(entry));
+    }
+    return chunks;
 }
 
 std::string_view chunk_meaning(FourCC id) {

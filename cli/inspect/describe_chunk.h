@@ -27,6 +27,10 @@ std::string encoding_text(const ChunkTree& tree, std::uint32_t number);
 /// without a record.
 nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number);
 
+/// The chunks from `root` on as a JSON array in file order; nesting is told by "parent", the number of an entry before
+/// it, so that a skeleton of ten thousand levels is no deep JSON.
+nlohmann::ordered_json chunks_as_json(const ChunkTree& tree, std::uint32_t root);
+
 /// What the id stands for ("joint", "key times", ...), or "unknown".
 std::string_view chunk_meaning(FourCC id);
 

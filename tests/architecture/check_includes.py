@@ -17,6 +17,7 @@ MAY_USE = {
     "text_form": {"format"},
     "stages": {"format", "runtime"},
     "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "text_form", "stages"},
+    "python": {"format", "runtime", "converter", "edit", "viewer"},
 }
 # Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
 # in no room, all of them may use.
@@ -64,6 +65,7 @@ PRIVATE = {
     "imgui.h": "viewer/src/",
     "backends/": "viewer/src/",
     "png.h": "viewer/src/",
+    "pybind11/": "python/src/",
     "gtest/": "tests/",
 }
 # What format and runtime may take from outside: the C++ library and the system have no folder in their names.

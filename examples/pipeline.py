@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""A folder of characters in; bendy files, a report and a contact sheet out.
+
+    ./pipeline.py SOURCES OUT [--compact] [--lod] [--overwrite] [--size 320x240]
+
+OUT/report.csv has a row for each source; OUT/sheet.png a picture of each character in the middle of its first clip. Exit status 1: some
+source failed, and its row says why. Needs the Python package bendy: docs/python.md.
+"""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+import bendy
+
+SUFFIXES = {".glb", ".gltf", ".vrm", ".x", ".md2", ".bendy"}
+COLUMNS = ["file", "bytes", "joints", "constraints", "chains", "vertices", "triangles", "clips", "seconds", "faults", "warnings", "error"]
+
+
+def convert(source, target, options):
+    """A row of the report, and the model; None if it failed. pandas.DataFrame(rows) takes a list of rows as it is."""
+    row = {"file": source.name}
+    try:
+        made = bendy.convert(source, target, compact=options.compact, lod=options.lod, overwrite=options.overwrite)
+        model = bendy.open(made)
+    except bendy.Error as error:
+        return {**row, "error": str(error)}, None
+    row.update({name: made.report[name] for name in ("bytes", "joints", "constraints", "chains", "vertices", "triangles")})
+    row.update(clips=len(model.clips), seconds=round(sum(clip.seconds for clip in model.clips), 3), faults=len(made.validate()),
+               warnings="; ".join(warning["message"] for warning in made.warnings))
+    return row, model
+
+
+def draw(model, size):
+    if not model.clips:
+        return bendy.render(model, size=size)
+    clip = model.clips[0]
+    return bendy.render(model, clip, (clip.start + clip.end) / 2, size=size)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("sources", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--compact", action="store_true")
+    parser.add_argument("--lod", action="store_true")
+    parser.add_argument("--overwrite", action="store_true")
+    parser.add_argument("--size", default="320x240", type=lambda text: tuple(int(side) for side in text.split("x")))
+    options = parser.parse_args()
+    report = options.out / "report.csv"
+    if report.exists() and not options.overwrite:
+        parser.error(f"{report} exists: give another folder, or --overwrite")
+    options.out.mkdir(parents=True, exist_ok=True)
+
+    rows, pictures = [], []
+    for source in sorted(path for path in options.sources.iterdir() if path.suffix.lower() in SUFFIXES):
+        row, model = convert(source, options.out / f"{source.stem}.bendy", options)
+        rows.append(row)
+        print(f"{source.name}: {row.get('error') or str(row['bytes']) + ' bytes'}")
+        if model is not None:
+            try:
+                pictures.append(draw(model, options.size))
+            except (bendy.RenderError, NotImplementedError) as error:
+                print(f"{source.name}: no picture: {error}", file=sys.stderr)
+
+    with report.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    if pictures:
+        bendy.save_png(bendy.contact_sheet(pictures), options.out / "sheet.png", overwrite=options.overwrite)
+    return 1 if any("error" in row for row in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

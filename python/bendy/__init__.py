@@ -1,0 +1,557 @@
+"""Bendy: animated characters in one file. docs/python.md is the guide.
+
+    import bendy
+
+    model = bendy.open("fox.bendy")                    # or fox.glb, converted in memory
+    positions = model.sample("Run", 0.35).skin()       # (N, 3) float32, metres
+    bendy.convert("fox.glb", "fox.bendy", lod=True)    # the warnings are in the result
+    bendy.validate("fox.bendy")                        # a list of faults
+    bendy.inspect("fox.bendy")["OBJE/SKIN"].fields     # the chunk tree
+
+A source is a path, bytes, or what convert, edit and open return. Lengths are metres, angles radians (of cameras degrees), times
+seconds; Y is up; quaternions are x, y, z, w; matrices are [row, column].
+"""
+
+import builtins as _builtins
+import collections.abc as _abc
+import contextlib as _contextlib
+import html as _html
+import math as _math
+import os as _os
+from pathlib import Path as _Path
+
+import numpy as _np
+
+from . import _bendy
+from ._bendy import (Chain, Clip, Constraint, Curve, Items, Joint, Marker, Material, Mesh, MorphTarget, Pose, ReachResult, Submesh,
+                     Texture, Track, __version__)
+from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
+
+__all__ = [
+    "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Curve", "Edit", "EditError", "Error", "Export", "Fault",
+    "Faults", "File", "InvalidError", "Items", "Joint", "MalformedError", "Marker", "Material", "Mesh", "Model", "MorphTarget", "Pose",
+    "ReachResult", "RenderError", "Submesh", "Texture", "Track", "UnsupportedError", "contact_sheet", "convert", "edit", "encode_png",
+    "export", "inspect", "open", "render", "save_png", "validate",
+]
+
+_abc.Sequence.register(Items)
+
+
+class File:
+    """A bendy file in memory: what convert, edit and open make."""
+
+    def __init__(self, source):
+        self._source = source
+
+    @property
+    def data(self):
+        """The file's bytes without a copy: (size,) uint8, read-only; bytes(file.data) copies them."""
+        return self._source.bytes
+
+    def save(self, path, *, overwrite=False):
+        """Writes the file, whole or not at all, and returns its path. Raises FileExistsError unless overwrite, OSError."""
+        _claim([path], overwrite, [])
+        self._source.write(path)
+        return _Path(path)
+
+    def open(self, **options):
+        """The character: see bendy.open."""
+        return open(self, **options)
+
+    def validate(self):
+        """The file's faults: see bendy.validate."""
+        return validate(self)
+
+    def inspect(self):
+        """The file's chunks: see bendy.inspect."""
+        return inspect(self)
+
+
+class Model(_bendy.Model):
+    """A character, as bendy.open returns it: a mapped file. Immutable; threads may share it.
+
+    Arrays of meshes and clips are views of the file: read-only, not copied, and valid as long as they are used, also after close().
+    As a context manager it closes itself.
+    """
+
+    conversion = None  # of a source that was converted in memory: the Conversion, with its warnings
+
+    def pose(self):
+        """A Pose at rest. Raises ValueError if the model is closed."""
+        return Pose(self)
+
+    def sample(self, clip, seconds):
+        """A Pose of a clip (its name, number or object) at a time. Raises KeyError, IndexError, ValueError."""
+        return Pose(self).sample(clip, seconds)
+
+    def skin_clip(self, clip, times):
+        """The vertices of a clip at many times, (T,) seconds: (T, N, 3) float32, metres, fresh. Raises KeyError, ValueError."""
+        return _bendy.skin_clip(self, clip, times)
+
+    def pose_clip(self, clip, times):
+        """The joint matrices of a clip at many times, (T,) seconds: (T, J, 4, 4) float32, fresh. Raises KeyError, ValueError."""
+        return _bendy.pose_clip(self, clip, times)
+
+    def summary(self):
+        """What the character consists of: the dict of `bendy inspect --json`, described in docs/inspect.md."""
+        return _bendy.summarize(self.source)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __repr__(self):
+        if self.closed:
+            return "<bendy.Model, closed>"
+        return (f"<bendy.Model {self.name!r}: {len(self.joints)} joints, {len(self.meshes)} meshes, {self.vertices} vertices, "
+                f"{len(self.clips)} clips>")
+
+    def _repr_html_(self):
+        if self.closed:
+            return _html.escape(repr(self))
+        file = self.source.file
+        return _summary_table(self.summary(), _Path(file).name if file else self.name, len(self.source.bytes))
+
+
+class Fault:
+    """One thing that is wrong with a file.
+
+    code: "CHUNK_TOO_LONG"; kind: malformed, invalid or unsupported; message: a sentence; path: the chunk's path; offset: bytes from
+    the start of the file.
+    """
+
+    __slots__ = ("code", "kind", "message", "path", "offset")
+
+    def __init__(self, code, kind, message, path, offset):
+        self.code, self.kind, self.message, self.path, self.offset = code, kind, message, path, offset
+
+    def __eq__(self, other):
+        return isinstance(other, Fault) and self.as_dict() == other.as_dict()
+
+    def __hash__(self):
+        return hash((self.code, self.offset))
+
+    def as_dict(self):
+        """The fields as a dict: a row for pandas."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def __str__(self):
+        return f"{self.code}: {self.message} ({self.path}, offset {self.offset})"
+
+    def __repr__(self):
+        return f"<bendy.Fault {self}>"
+
+
+class Faults(list):
+    """The faults of a file: an empty list if it is valid. `left_out`: how many more there are than the first thousand."""
+
+    def __init__(self, faults=(), left_out=0):
+        super().__init__(faults)
+        self.left_out = left_out
+
+
+class Conversion(File):
+    """What bendy.convert made.
+
+    output: the path that was written, or None. report: the dict of `bendy convert --json`: counts, clips, sizes. warnings: dicts with
+    message, place and count, for what the file cannot hold. proposals: lines for what auto_rig and auto_skin guessed. suggestions:
+    lines with options worth trying. compact: the measured error and sizes, or None. sources: the files that were read.
+    """
+
+    def __init__(self, source, output, report, sources):
+        super().__init__(source)
+        self.output = output
+        self.report = report
+        self.warnings = report["warnings"]
+        self.proposals = report["proposals"]
+        self.suggestions = report["suggestions"]
+        self.compact = report.get("compact")
+        self.sources = sources
+
+    def __repr__(self):
+        name = f" {str(self.output)!r}" if self.output else ""
+        return f"<bendy.Conversion{name}: {len(self.data)} bytes, {len(self.warnings)} warnings>"
+
+
+class Edit(File):
+    """A file that is being changed, chunk by chunk; what a change does not concern keeps its bytes. Every method returns the edit:
+
+        bendy.edit("fox.bendy").strip("clip:Run").rename("joint", {"b_*": "*"}).save("walks.bendy")
+
+    done, warnings: lines about what was done, and what to look at. A method that fails changes nothing and raises EditError.
+    """
+
+    def __init__(self, source):
+        super().__init__(source)
+        self.done = []
+        self.warnings = []
+
+    def _take(self, result):
+        self._source, done, warnings = result
+        self.done += done
+        self.warnings += warnings
+        return self
+
+    def strip(self, *parts):
+        """Removes parts: "textures", "clips", "clip:Run", "mesh:Hat*", "lod", "extras", ... Raises ValueError for another word."""
+        for part in parts:
+            self._take(_bendy.strip(self._source, part))
+        return self
+
+    def rename(self, kind, names, *, all_must_match=True):
+        """Renames things of a kind (joint, clip, chain, mesh, target, material, texture, object): {"mixamorig:*": "*"}."""
+        return self._take(_bendy.rename(self._source, kind, list(dict(names).items()), all_must_match))
+
+    def merge_clips(self, other, *, same_name="refuse"):
+        """Appends the clips of another source, by the joints' names. same_name: refuse, replace or number."""
+        return self._take(_bendy.merge_clips(self._source, _bendy_source(other), same_name))
+
+    def extract(self, joint):
+        """Keeps the joint with this name and all below it, with what belongs to them."""
+        return self._take(_bendy.extract(self._source, joint))
+
+    def __repr__(self):
+        return f"<bendy.Edit: {len(self.data)} bytes>"
+
+
+class Export:
+    """What bendy.export wrote. files: the paths, the main one first. warnings: dicts with message, place and count."""
+
+    def __init__(self, files, warnings):
+        self.files, self.warnings = files, warnings
+
+    def __repr__(self):
+        return f"<bendy.Export {str(self.files[0])!r}, {len(self.warnings)} warnings>"
+
+
+class Chunk:
+    """A chunk of a file, as bendy.inspect gives it.
+
+    id: four letters; meaning: what it stands for; number: its place in the file's order; offset: bytes from the start of the file;
+    size: bytes of the payload as stored; sum: the stored CRC-32C; is_container; codec: 0 or the payload's encoding; fields: its
+    record by name, as `bendy inspect --json` has it; parent: the chunk around it, or None; children: a tuple.
+    """
+
+    __slots__ = ("_tree", "children", "codec", "fields", "id", "is_container", "meaning", "number", "offset", "parent", "size", "sum")
+
+    def __init__(self, tree, entry, parent):
+        self._tree = tree
+        self.id, self.meaning, self.number = entry["id"], entry["meaning"], entry["number"]
+        self.offset, self.size, self.sum = entry["offset"], entry["size"], int(entry["sum"], 16)
+        self.is_container, self.codec, self.fields = entry["container"], entry.get("codec", 0), entry.get("fields", {})
+        self.parent, self.children = parent, ()
+
+    @property
+    def path(self):
+        """Its path from the root: "HEAD/OBJE/SKIN[1]/NAME"."""
+        return self._tree.path(self.number)
+
+    @property
+    def payload(self):
+        """(size,) uint8, read-only, without a copy: the payload, decoded if it is encoded."""
+        return self._tree.payload(self.number)
+
+    @property
+    def name(self):
+        """The text of its NAME; "" without."""
+        return next((child.fields.get("text", "") for child in self.children if child.id == "NAME"), "")
+
+    def walk(self):
+        """Iterates over the chunk and everything in it, in file order."""
+        pending = [self]
+        while pending:
+            chunk = pending.pop()
+            yield chunk
+            pending.extend(reversed(chunk.children))
+
+    def find(self, id):
+        """A list of all chunks with this id, the chunk itself included."""
+        return [chunk for chunk in self.walk() if chunk.id == id]
+
+    def __iter__(self):
+        return iter(self.children)
+
+    def __len__(self):
+        return len(self.children)
+
+    def __bool__(self):
+        return True
+
+    def __getitem__(self, path):
+        """The chunk at a path below this one, "OBJE/SKIN[1]", or the child with this number. Raises KeyError, IndexError."""
+        if not isinstance(path, str):
+            return self.children[path]
+        chunk = self
+        for step in path.split("/"):
+            id, _, place = step.partition("[")
+            same = [child for child in chunk.children if child.id == id]
+            index = place.rstrip("]") or "0"
+            if not index.isdecimal() or int(index) >= len(same):
+                raise KeyError(f"there is no chunk {step} in {chunk.path}")
+            chunk = same[int(index)]
+        return chunk
+
+    def __repr__(self):
+        name = f" {self.name!r}" if self.name else ""
+        return f"<bendy.Chunk {self.id}{name}: {self.meaning}, {self.size} bytes at {self.offset}>"
+
+    def _repr_html_(self):
+        rows = []
+        for chunk in self.walk():
+            if len(rows) == 500:
+                rows.append("<tr><td colspan=4>...</td></tr>")
+                break
+            name = _html.escape(chunk.name)
+            rows.append(f"<tr><td style='text-align:left'>{_html.escape(chunk.path)}</td><td>{name}</td><td>{chunk.offset:,}</td>"
+                        f"<td>{chunk.size:,}</td></tr>")
+        return ("<table><tr><th>chunk</th><th>name</th><th>offset</th><th>bytes</th></tr>" + "".join(rows) + "</table>")
+
+
+def open(source, *, object=0, check_sums=True):
+    """Opens a character. A path is mapped; what is no bendy file (glTF, X-files, Quake II models) is converted in memory, and
+    Model.conversion has the warnings.
+
+    object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums.
+    Raises FileNotFoundError and other OSErrors; MalformedError, InvalidError, UnsupportedError with code, path and offset;
+    ConversionError.
+    """
+    if isinstance(source, Model):
+        return source
+    found = _source(source)
+    conversion = None
+    if found.format in ("gltf", "x", "md2"):
+        conversion = convert(source)
+        found = conversion._source
+    model = Model(found, object, check_sums)
+    model.conversion = conversion
+    return model
+
+
+def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, skeleton="", compact=False, lod=False,
+            sort_vertices=False, images="embed", scene=None, instances=False, merge_clips=False, ticks_per_second=0.0, name="source.glb",
+            overwrite=False):
+    """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
+
+    output: the path to write; None: nothing is written, see File.save. The other arguments are the options of `bendy convert`.
+    rig: a rig file. auto_rig: propose IK chains and constraints. auto_skin, skeleton: bind meshes without a skin to bones. compact:
+    True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". scene: of a glTF file, its name
+    or number. name: of a source that is bytes, in front the folder of the files that it refers to.
+    Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
+    """
+    if images not in ("embed", "link"):
+        raise ValueError("images must be embed or link")
+    if output is not None:
+        _claim([output], overwrite, [source, rig])
+    if isinstance(source, (str, _os.PathLike)):
+        file, found = source, None
+        _must_exist(file)
+    else:
+        found = _source(source)
+        file = found.file or name
+    if rig is not None:
+        _must_exist(rig)
+    bound = None if compact is False else "" if compact is True else compact
+    made, report, sources = _bendy.convert(
+        file, found, "" if output is None else output, None if scene is None else str(scene), images == "embed", instances, rig,
+        ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices)
+    if output is not None:
+        _claim([output], overwrite, sources)
+        made.write(output)
+        output = _Path(output)
+    return Conversion(made, output, report, sources)
+
+
+def validate(source):
+    """Every fault of a bendy file: Faults, an empty list if it is valid. Raises MalformedError for a file of another kind, OSError."""
+    faults, left_out = _bendy.validate(_source(source))
+    return Faults((Fault(**fault) for fault in faults), left_out)
+
+
+def inspect(source):
+    """The root Chunk of a bendy file, whatever its chunks hold. Raises MalformedError if the grammar is broken, OSError."""
+    tree = _bendy.Tree(_source(source))
+    chunks, children = [], []
+    for entry in tree.chunks():
+        parent = None if entry["parent"] is None else chunks[entry["parent"]]
+        chunk = Chunk(tree, entry, parent)
+        chunks.append(chunk)
+        children.append([])
+        if parent is not None:
+            children[parent.number].append(chunk)
+    for chunk, list_of in zip(chunks, children):
+        chunk.children = tuple(list_of)
+    return chunks[0]
+
+
+def edit(source):
+    """An Edit of a bendy file, or of what bendy.open accepts. Nothing is written before Edit.save."""
+    return Edit(_bendy_source(source))
+
+
+def export(source, output, *, lod=1.0, overwrite=False):
+    """Writes a bendy file as glTF (.glb, or .gltf with a .bin beside it) or as an X-file (.x), by the output's suffix. Returns an
+    Export.
+
+    lod: the share of the triangles, 0 to 1, for a file with levels of detail. Raises ValueError for another suffix,
+    FileExistsError unless overwrite, ConversionError, OSError.
+    """
+    output = _Path(output)
+    files, warnings = _bendy.export(_bendy_source(source), output.suffix[1:].lower(), output, lod)
+    paths = [output.parent / name for name in files]
+    _claim(paths, overwrite, [source])
+    for path, made in reversed(list(zip(paths, files.values()))):
+        made.write(path)
+    return Export(paths, warnings)
+
+
+def render(subject, clip=None, times=None, *, size=(512, 512), yaw=34.4, pitch=11.5, distance=1.0, bones=False, axes=False,
+           constraints=False, wireframe=False, background=None):
+    """A picture without a display: (height, width, 4) uint8, red, green, blue, alpha, sRGB. With `times`, a list of seconds of the
+    clip, one picture for each: (T, height, width, 4).
+
+    subject: a Pose, or a source at rest or in a clip. times: also one number; None: the clip's start. size: width and height, pixels.
+    yaw, pitch: degrees round the character, 0, 0 is its front; distance: 1 fits the whole clip into the picture. background: None,
+    "transparent", or red, green, blue, alpha, linear, 0 to 1. Raises RenderError without OpenGL 3.3, NotImplementedError if the
+    package was built without the viewer, KeyError, ValueError.
+    """
+    _need_viewer()
+    if isinstance(subject, Pose):
+        if clip is not None or times is not None:
+            raise ValueError("a pose has no clip and times: sample it instead")
+    else:
+        subject = open(subject)
+    if clip is None and times is not None:
+        raise ValueError("times need a clip")
+    is_one = times is None or not _np.iterable(times)
+    if times is None:
+        times = [_start_of(subject, clip)]
+    elif is_one:
+        times = [times]
+    if background is None:
+        background = (0.086, 0.1, 0.122, 1.0)
+    elif isinstance(background, str):
+        if background != "transparent":
+            raise ValueError("background must be None, transparent or four numbers")
+        background = (0.0, 0.0, 0.0, 0.0)
+    drawn = [name for name, wanted in (("bones", bones), ("axes", axes), ("constraints", constraints), ("wireframe", wireframe)) if wanted]
+    width, height = size
+    pictures = _bendy.render(subject, clip, [float(time) for time in times], width, height, _math.radians(yaw), _math.radians(pitch),
+                             distance, tuple(background), drawn)
+    return pictures[0] if is_one else pictures
+
+
+def contact_sheet(pictures, columns=None):
+    """Arranges pictures of one size, (T, height, width, 4) uint8, in rows: one picture. columns: None: about a square. Empty places
+    are transparent. Raises ValueError."""
+    pictures = _np.asarray(pictures, dtype=_np.uint8)
+    if pictures.ndim != 4 or len(pictures) == 0:
+        raise ValueError("pictures must have the shape (T, height, width, 4), and be one at least")
+    count, height, width, channels = pictures.shape
+    columns = columns or _math.ceil(_math.sqrt(count))
+    if columns < 1:
+        raise ValueError("columns must be 1 or more")
+    rows = -(-count // columns)
+    sheet = _np.zeros((rows * columns, height, width, channels), _np.uint8)
+    sheet[:count] = pictures
+    return sheet.reshape(rows, columns, height, width, channels).swapaxes(1, 2).reshape(rows * height, columns * width, channels)
+
+
+def encode_png(picture):
+    """The bytes of a PNG file: of (height, width, 4) uint8. Raises ValueError; NotImplementedError without the viewer."""
+    _need_viewer()
+    return _bendy.encode_png(picture)
+
+
+def save_png(picture, path, *, overwrite=False):
+    """Writes a picture as a PNG file and returns its path. Raises FileExistsError unless overwrite, ValueError, OSError."""
+    _claim([path], overwrite, [])
+    _bendy.Source.copy(encode_png(picture)).write(path)
+    return _Path(path)
+
+
+def _need_viewer():
+    if not _bendy.has_viewer:
+        raise NotImplementedError("this package was built without the viewer (BENDY_VIEWER=OFF): there are no pictures")
+
+
+def _start_of(subject, clip):
+    if clip is None:
+        return 0.0
+    return clip.start if isinstance(clip, Clip) else subject.clips[clip].start
+
+
+def _source(source):
+    """The bytes behind anything that the functions accept."""
+    if isinstance(source, File):
+        return source._source
+    if isinstance(source, _bendy.Model):
+        return source.source
+    if isinstance(source, _bendy.Source):
+        return source
+    if isinstance(source, (str, _os.PathLike)):
+        return _bendy.Source.map(source)
+    if isinstance(source, (bytes, bytearray, memoryview, _np.ndarray)):
+        return _bendy.Source.copy(source)
+    raise TypeError(f"a source is a path, bytes, a bendy.File or a bendy.Model, not {type(source).__name__}")
+
+
+def _bendy_source(source):
+    """The same, of a bendy file; other formats are converted in memory."""
+    found = _source(source)
+    return convert(source)._source if found.format in ("gltf", "x", "md2") else found
+
+
+def _must_exist(path):
+    """Raises the OSError of a file that cannot be opened."""
+    with _builtins.open(path, "rb"):
+        pass
+
+
+def _claim(outputs, overwrite, inputs):
+    """Raises FileExistsError for outputs that are there, and ValueError for one that is an input, overwrite or not."""
+    for output in outputs:
+        output = _Path(output)
+        if not output.exists():
+            continue
+        for file in inputs:
+            if isinstance(file, _bendy.Model) and not file.closed:
+                file = file.source.file
+            if isinstance(file, (str, _os.PathLike)):
+                with _contextlib.suppress(OSError):
+                    if _os.path.samefile(file, output):
+                        raise ValueError(f"{output} is an input as well as an output: give another name")
+        if not overwrite:
+            raise FileExistsError(17, "the file exists; overwrite=True replaces it", str(output))
+
+
+def _summary_table(summary, name, size):
+    """The facts of `bendy inspect --html`, as a table for a notebook."""
+    def listed(things, text):
+        shown = [text(thing) for thing in things[:12]]
+        more = [] if len(things) <= 12 else [f"... {len(things) - 12:,} more"]
+        return f"{len(things):,}" + (": " + ", ".join(shown + more) if shown else "")
+
+    def named(thing):
+        return thing["name"] or f"#{thing['number']}"
+
+    if summary is None:
+        return _html.escape(f"{name}: {size:,} bytes, with faults")
+    rows = [("joints", f"{len(summary['joints']):,}")]
+    if summary["constraints"] or summary["chains"]:
+        rows.append(("rig", f"{summary['constraints']:,} constraints, chains " + listed(summary["chains"], named)))
+    rows.append(("meshes", listed(summary["meshes"], lambda m: f"{named(m)} ({m['vertices']:,} vertices, {m['triangles']:,} triangles)")))
+    targets = [target for mesh in summary["meshes"] for target in mesh["morphTargets"]]
+    if targets:
+        rows.append(("morph targets", listed(targets, str)))
+    rows.append(("clips", listed(summary["clips"], lambda clip: f"{named(clip)} {clip['seconds']:.4g} s")))
+    rows.append(("materials", listed(summary["materials"], named)))
+    rows.append(("textures", listed(summary["textures"], named)))
+    if summary["bounds"]:
+        low, high = summary["bounds"]["min"], summary["bounds"]["max"]
+        rows.append(("bounds", " x ".join(f"{b - a:.4g}" for a, b in zip(low, high)) + " m"))
+    rows.append(("bytes", ", ".join(f"{kind} {count:,}" for kind, count in summary["bytesByKind"].items())))
+    cells = "".join(f"<tr><th style='text-align:left'>{_html.escape(label)}</th><td style='text-align:left'>{_html.escape(text)}</td></tr>"
+                    for label, text in rows)
+    return f"<table><caption><b>{_html.escape(name)}</b>, {size:,} bytes</caption>{cells}</table>"

@@ -1,0 +1,195 @@
+#include "bindings.h"
+
+#include <bendy/converter/source_format.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/runtime/kernels.h>
+
+#include <cmath>
+#include <cstring>
+
+// The module bendy._bendy: its errors, and the bytes of files.
+namespace bendy::python {
+namespace {
+
+py::object name_of_file(const std::filesystem::path& file) {
+    if (file.empty()) return py::none();
+    return py::str(file.string());
+}
+
+[[noreturn]] void raise_object(const py::object& exception) {
+    PyErr_SetObject(py::type::of(exception).ptr(), exception.ptr());
+    throw py::error_already_set();
+}
+
+std::shared_ptr<const Source> map_file(const std::filesystem::path& file) {
+    Result<MappedFile> mapped = [&] {
+        const py::gil_scoped_release released;
+        return MappedFile::open(file);
+    }();
+    if (!mapped) raise_os_error(mapped.error(), file);
+    return std::make_shared<const Source>(*std::move(mapped), file);
+}
+
+std::shared_ptr<const Source> copy_bytes(const py::buffer& buffer, const std::filesystem::path& name) {
+    Py_buffer view{};
+    if (PyObject_GetBuffer(buffer.ptr(), &view, PyBUF_C_CONTIGUOUS) != 0) throw py::error_already_set();
+    const auto* first = static_cast<const std::byte*>(view.buf);
+    std::vector<std::byte> bytes;
+    if (view.len > 0) bytes.assign(first, first + view.len);
+    PyBuffer_Release(&view);
+    return std::make_shared<const Source>(std::move(bytes), name);
+}
+
+/// "bendy", "gltf", "x", "md2"; "other": a file that is known to be something else; "unknown".
+const char* format_of(const Source& source) {
+    const auto kind = converter::find_file_kind(source.bytes(), source.file());
+    if (!kind) return "unknown";
+    if (!kind->format) return "other";
+    switch (*kind->format) {
+        case converter::SourceFormat::gltf:
+            return "gltf";
+        case converter::SourceFormat::bendy:
+            return "bendy";
+        case converter::SourceFormat::x:
+            return "x";
+        case converter::SourceFormat::md2:
+            return "md2";
+    }
+    return "unknown";
+}
+
+void bind_source(py::module_& module) {
+    py::class_<Source, std::shared_ptr<Source>>(module, "Source", "The bytes of a file, mapped or in memory.")
+        .def_static(
+            "map", [](const std::filesystem::path& file) { return std::const_pointer_cast<Source>(map_file(file)); },
+            py::arg("file"), "Maps a file. Raises FileNotFoundError or another OSError.")
+        .def_static(
+            "copy",
+            [](const py::buffer& data, const std::filesystem::path& name) {
+                return std::const_pointer_cast<Source>(copy_bytes(data, name));
+            },
+            py::arg("data"), py::arg("name") = "", "Copies bytes. `name` is for messages.")
+        .def_property_readonly(
+            "bytes",
+            [](const std::shared_ptr<Source>& self) {
+                const Bytes bytes = self->bytes();
+                const std::shared_ptr<const Source> owner = self;
+                return view(owner, reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                            {static_cast<py::ssize_t>(bytes.size())});
+            },
+            "The bytes without a copy: (size,) uint8, read-only.")
+        .def_property_readonly(
+            "file", [](const Source& self) { return name_of_file(self.file()); }, "The file's name, or None.")
+        .def_property_readonly(
+            "is_mapped", [](const Source& self) { return self.is_mapped(); }, "Whether the bytes are a mapped file.")
+        .def_property_readonly(
+            "format", [](const Source& self) { return format_of(self); },
+            "What the bytes are: bendy, gltf, x, md2, other or unknown.")
+        .def(
+            "write",
+            [](const Source& self, const std::filesystem::path& file) {
+                const auto written = [&] {
+                    const py::gil_scoped_release released;
+                    return write_file(file, self.bytes());
+                }();
+                if (!written) raise_os_error(written.error(), file);
+            },
+            py::arg("file"), "Writes the whole file or nothing: beside it, then renamed over it. Raises OSError.");
+}
+
+}  // namespace
+
+py::str text(std::string_view utf8) {
+    PyObject* decoded = PyUnicode_DecodeUTF8(utf8.data(), static_cast<Py_ssize_t>(utf8.size()), "replace");
+    if (decoded == nullptr) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(decoded);
+}
+
+py::object text_or_none(std::string_view utf8) {
+    if (utf8.empty()) return py::none();
+    return text(utf8);
+}
+
+py::object parse_json(std::string_view json) {
+    if (json.empty()) return py::none();
+    return py::module_::import("json").attr("loads")(text(json));
+}
+
+py::object number_or_none(std::uint32_t number) {
+    if (number == kNone) return py::none();
+    return py::int_(number);
+}
+
+std::uint32_t index_of(const py::handle& index, std::size_t count, const char* kind) {
+    const Py_ssize_t given = PyNumber_AsSsize_t(index.ptr(), PyExc_IndexError);
+    if (given == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+    const auto last = static_cast<Py_ssize_t>(count);
+    const Py_ssize_t number = given < 0 ? given + last : given;
+    if (number < 0 || number >= last) {
+        throw py::index_error("there is no " + std::string(kind) + ' ' + std::to_string(given) + ": the model has " +
+                              std::to_string(count));
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
+std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, const char* name) {
+    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(numbers);
+    if (!array) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + " must be numbers");
+    }
+    const auto size = static_cast<std::size_t>(array.size());
+    if (size != count || array.ndim() > 1) {
+        throw py::value_error(std::string(name) + " must have the shape (" + std::to_string(count) + ",)");
+    }
+    std::vector<float> values(array.data(), array.data() + size);
+    for (const float value : values) {
+        if (!std::isfinite(value)) throw py::value_error(std::string(name) + " must be finite numbers");
+    }
+    return values;
+}
+
+void raise_os_error(const Error& error, const std::filesystem::path& file) {
+    const auto number = static_cast<int>(error.value);
+    // OSError makes an object of the subclass that belongs to the number.
+    raise_object(py::reinterpret_borrow<py::object>(PyExc_OSError)(number, std::strerror(number), name_of_file(file)));
+}
+
+void raise_fault(const Error& error, const Source& source) {
+    const ErrorClass kind = error_class(error.code);
+    if (kind == ErrorClass::io) raise_os_error(error, source.file());
+    const char* const name = kind == ErrorClass::malformed ? "MalformedError"
+                             : kind == ErrorClass::invalid ? "InvalidError"
+                                                           : "UnsupportedError";
+    const auto errors = py::module_::import("bendy._errors");
+    raise_object(errors.attr(name)(describe(error), py::arg("code") = code_name(error.code),
+                                   py::arg("path") = whole_chunk_path(source.bytes(), error.offset),
+                                   py::arg("offset") = error.offset, py::arg("file") = name_of_file(source.file())));
+}
+
+void raise(const char* name, const std::string& message, const char* code, const std::filesystem::path& file,
+           const std::string& place) {
+    const auto errors = py::module_::import("bendy._errors");
+    raise_object(errors.attr(name)(text(message), py::arg("code") = code, py::arg("path") = text_or_none(place),
+                                   py::arg("file") = name_of_file(file)));
+}
+
+void raise_call(CallError error) {
+    const std::string message = error_text(error);
+    if (error == CallError::not_available) throw std::runtime_error(message);
+    if (error == CallError::out_of_range) throw py::index_error(message);
+    throw py::value_error(message);
+}
+
+}  // namespace bendy::python
+
+PYBIND11_MODULE(_bendy, module) {
+    namespace python = bendy::python;
+    module.doc() = "Bindings of the C++ library; import bendy instead.";
+    module.attr("__version__") = BENDY_VERSION;
+    python::bind_source(module);
+    python::bind_model(module);
+    python::bind_pose(module);
+    python::bind_tools(module);
+    python::bind_render(module);
+}

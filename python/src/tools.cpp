@@ -1,0 +1,332 @@
+#include "bindings.h"
+#include "convert/conversion.h"
+#include "inspect/describe_chunk.h"
+#include "inspect/summary.h"
+#include "terminal/json.h"
+
+#include <bendy/converter/convert.h>
+#include <bendy/converter/export.h>
+#include <bendy/converter/source_format.h>
+#include <bendy/edit/edit.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
+#include <bendy/runtime/lod.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+// convert, validate, inspect, edit and export.
+namespace bendy::python {
+namespace {
+
+using SourcePointer = std::shared_ptr<Source>;
+
+/// Raises for what is known to be a file of another kind, with the way to make a bendy file of it.
+void require_bendy(const Source& source) {
+    const auto kind = converter::find_file_kind(source.bytes(), source.file());
+    if (!kind || kind->format == converter::SourceFormat::bendy) return;
+    const std::string why = converter::why_not_bendy(*kind, source.file());
+    if (!why.empty()) raise("MalformedError", why, code_name(ErrorCode::kNotABendyFile), source.file());
+}
+
+py::list warnings_of(const converter::Report& report) {
+    py::list list;
+    for (const converter::Warning& warning : report.warnings()) {
+        py::dict one;
+        one["message"] = text(warning.message);
+        one["place"] = text(warning.first_place);
+        one["count"] = warning.count;
+        list.append(one);
+    }
+    return list;
+}
+
+[[noreturn]] void raise_import(const converter::ImportError& error, const std::filesystem::path& file) {
+    raise("ConversionError", error.message, "CONVERSION", error.file.empty() ? file : error.file, error.place);
+}
+
+// Conversion.
+
+py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
+                         const std::filesystem::path& output, const std::optional<std::string>& scene,
+                         bool embed_images, bool instances, const std::optional<std::filesystem::path>& rig,
+                         double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
+                         const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
+                         bool sort_vertices) {
+    converter::ConvertOptions options;
+    options.output = output;
+    options.gltf.scene = scene;
+    options.gltf.embed_images = embed_images;
+    options.gltf.instances = instances;
+    options.rig = rig;
+    options.ticks_per_second = ticks_per_second;
+    options.merge_clips = merge_clips;
+    options.auto_rig = auto_rig;
+    options.auto_skin = auto_skin || !skeleton.empty();
+    options.skeleton = skeleton;
+    options.lod = lod;
+    options.sort_vertices = sort_vertices;
+    if (max_error) {
+        const auto bound = max_error->empty() ? converter::ErrorBound() : converter::parse_error_bound(*max_error);
+        if (!bound) throw py::value_error("compact: " + bound.error());
+        options.compact = *bound;
+    }
+    converter::Report report;
+    std::string json;
+    auto converted = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
+        const py::gil_scoped_release released;
+        if (source == nullptr) {
+            if (const std::string why = converter::why_not_convertible(file); !why.empty())
+                return converter::ImportError{{}, why};
+        } else if (const std::string why = converter::why_not_convertible(source->bytes(), file); !why.empty()) {
+            return converter::ImportError{{}, why};
+        }
+        auto bytes = source == nullptr
+                         ? converter::convert(file, options, report)
+                         : converter::convert(std::vector<std::byte>(source->bytes().begin(), source->bytes().end()),
+                                              file, options, report);
+        if (bytes) json = cli::json_text(cli::converted_report(file, output, report, *bytes));
+        return bytes;
+    }();
+    if (!converted) raise_import(converted.error(), file);
+    py::list sources;
+    for (const converter::SourceFile& one : report.sources()) {
+        if (one.stamp.is_there) sources.append(py::cast(one.file));
+    }
+    return py::make_tuple(std::make_shared<Source>(*std::move(converted), output), parse_json(json), sources);
+}
+
+// Faults.
+
+py::tuple validate_source(const SourcePointer& source) {
+    require_bendy(*source);
+    const Faults faults = [&] {
+        const py::gil_scoped_release released;
+        return validate(source->bytes());
+    }();
+    py::list list;
+    for (const Error& fault : faults.list()) {
+        py::dict one;
+        constexpr const char* kKinds[] = {"malformed", "invalid", "unsupported", "io"};
+        one["code"] = code_name(fault.code);
+        one["kind"] = kKinds[static_cast<std::size_t>(error_class(fault.code))];
+        one["message"] = text(describe(fault));
+        one["path"] = whole_chunk_path(source->bytes(), fault.offset);
+        one["offset"] = fault.offset;
+        list.append(one);
+    }
+    return py::make_tuple(list, faults.left_out());
+}
+
+// Inspection.
+
+/// The chunks of a file, leaves decoded.
+struct PyTree {
+    std::shared_ptr<const Source> source;
+    ChunkTree tree;
+};
+
+std::shared_ptr<PyTree> read_tree(const SourcePointer& source) {
+    require_bendy(*source);
+    auto tree = [&] {
+        const py::gil_scoped_release released;
+        Result<ChunkTree> read = read_chunk_tree(source->bytes());
+        if (read) decode_leaves(*read);
+        return read;
+    }();
+    if (!tree) raise_fault(tree.error(), *source);
+    return std::make_shared<PyTree>(PyTree{source, *std::move(tree)});
+}
+
+void check_number(const PyTree& self, std::uint32_t number) {
+    if (number >= self.tree.chunks().size()) throw py::index_error("there is no such chunk");
+}
+
+py::array payload_of(const std::shared_ptr<PyTree>& self, std::uint32_t number) {
+    check_number(*self, number);
+    const Bytes payload = self->tree.payload(number);
+    const std::shared_ptr<const PyTree> owner = self;
+    return view(owner, reinterpret_cast<const std::uint8_t*>(payload.data()),
+                {static_cast<py::ssize_t>(payload.size())});
+}
+
+/// None for a file with faults, which has chunks to show, but no character to sum up.
+py::object summarize_source(const SourcePointer& source) {
+    require_bendy(*source);
+    std::string json;
+    {
+        const py::gil_scoped_release released;
+        const Bytes bytes = source->bytes();
+        const Result<ChunkTree> tree = read_chunk_tree(bytes);
+        if (tree) {
+            const auto chunks = tree->chunks();
+            const bool is_empty = std::none_of(chunks.begin(), chunks.end(),
+                                               [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
+            const Result<Model> model = Model::from_memory(bytes);
+            if (is_empty) {
+                json = cli::json_text(cli::summary_as_json(cli::summarize_empty(bytes)));
+            } else if (model) {
+                json = cli::json_text(cli::summary_as_json(cli::summarize(*model, bytes)));
+            }
+        }
+    }
+    return parse_json(json);
+}
+
+// Editing.
+
+/// Does an edit without the GIL. Gives the new file, what was done, and warnings.
+template <class Work>
+py::tuple edited(const SourcePointer& source, const Work& work) {
+    require_bendy(*source);
+    edit::Log log;
+    auto result = [&] {
+        const py::gil_scoped_release released;
+        return work(source->bytes(), log);
+    }();
+    if (!result) raise("EditError", result.error().message, "EDIT", source->file());
+    const auto texts = [](const std::vector<std::string>& lines) {
+        py::list list;
+        for (const std::string& line : lines) list.append(text(line));
+        return list;
+    };
+    return py::make_tuple(std::make_shared<Source>(*std::move(result)), texts(log.done), texts(log.warnings));
+}
+
+py::tuple strip_part(const SourcePointer& source, const std::string& part) {
+    const auto what = edit::parse_strip(part);
+    if (!what) throw py::value_error(what.error().message);
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::strip(bytes, *what, log); });
+}
+
+py::tuple rename_things(const SourcePointer& source, const std::string& kind,
+                        const std::vector<std::pair<std::string, std::string>>& names, bool all_must_match) {
+    const auto named = edit::parse_named(kind);
+    if (!named) throw py::value_error(named.error().message);
+    const edit::Rename rename{*named, names, all_must_match};
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::rename(bytes, rename, log); });
+}
+
+py::tuple merge_clips(const SourcePointer& source, const SourcePointer& other, const std::string& same_name) {
+    require_bendy(*other);
+    edit::SameName rule = edit::SameName::refuse;
+    if (same_name == "replace") {
+        rule = edit::SameName::replace;
+    } else if (same_name == "number") {
+        rule = edit::SameName::number;
+    } else if (same_name != "refuse") {
+        throw py::value_error("same_name must be refuse, replace or number");
+    }
+    return edited(source,
+                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), rule, log); });
+}
+
+py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
+}
+
+// Export.
+
+/// The level of detail that has this share of the triangles.
+std::vector<std::uint32_t> vertices_at(const Source& source, float share) {
+    if (!(share < 1.0f)) return {};
+    const auto model = Model::from_memory(source.bytes());
+    if (!model) raise_fault(model.error(), source);
+    if (model->collapse() == nullptr) throw py::value_error("the file has no levels of detail");
+    Lod lod(*model);
+    lod.set_share(share);
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) vertices.push_back(lod.vertices(mesh));
+    return vertices;
+}
+
+SourcePointer bytes_of_text(const std::string& written) {
+    const auto bytes = std::as_bytes(std::span(written));
+    return std::make_shared<Source>(std::vector<std::byte>(bytes.begin(), bytes.end()));
+}
+
+/// The files by name, the main one first, and warnings.
+py::tuple export_source(const SourcePointer& source, const std::string& format, const std::filesystem::path& output,
+                        float share) {
+    require_bendy(*source);
+    const converter::ExportOptions options{vertices_at(*source, share), output};
+    const std::string name = output.filename().string();
+    const std::string stem = output.stem().string();
+    const std::filesystem::path buffer = format == "gltf" ? stem + ".bin" : "";
+    converter::Report report;
+    py::dict files;
+    const auto finish = [&] { return py::make_tuple(files, warnings_of(report)); };
+    const bool is_mapped = source->is_mapped();  // so that links to images are relative to the file
+#ifdef BENDY_X_FILES
+    if (format == "x") {
+        auto asset = [&] {
+            const py::gil_scoped_release released;
+            return is_mapped ? converter::export_x(source->file(), stem, report, options)
+                             : converter::export_x(source->bytes(), stem, report, options);
+        }();
+        if (!asset) raise_import(asset.error(), source->file());
+        files[py::str(name)] = bytes_of_text(asset->text);
+        for (converter::XAsset::File& image : asset->images)
+            files[py::str(image.name)] = std::make_shared<Source>(std::move(image.bytes));
+        return finish();
+    }
+#endif
+    if (format != "glb" && format != "gltf") throw py::value_error("cannot export ." + format + " files");
+    auto asset = [&] {
+        const py::gil_scoped_release released;
+        return is_mapped ? converter::export_gltf(source->file(), buffer, report, options)
+                         : converter::export_gltf(source->bytes(), buffer, report, options);
+    }();
+    if (!asset) raise_import(asset.error(), source->file());
+    if (format == "glb") {
+        auto glb = converter::make_glb(*asset);
+        if (!glb) raise_import(glb.error(), source->file());
+        files[py::str(name)] = std::make_shared<Source>(*std::move(glb));
+        return finish();
+    }
+    files[py::str(name)] = bytes_of_text(asset->json);
+    if (!asset->buffer.empty()) files[py::str(buffer.string())] = std::make_shared<Source>(std::move(asset->buffer));
+    return finish();
+}
+
+}  // namespace
+
+void bind_tools(py::module_& module) {
+    module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
+               py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("ticks_per_second"),
+               py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"), py::arg("skeleton"),
+               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), "See bendy.convert.");
+    module.def("validate", &validate_source, py::arg("source"), "See bendy.validate.");
+    module.def("summarize", &summarize_source, py::arg("source"), "See bendy.Model.summary.");
+
+    py::class_<PyTree, std::shared_ptr<PyTree>>(module, "Tree", "The chunks of a file.")
+        .def(py::init(&read_tree), py::arg("source"))
+        .def(
+            "chunks", [](const PyTree& self) { return parse_json(cli::json_text(cli::chunks_as_json(self.tree, 0))); },
+            "A dict for each chunk, in file order, as `bendy inspect --json` has them.")
+        .def("payload", &payload_of, py::arg("number"), "(size,) uint8, read-only: a chunk's payload, decoded.")
+        .def(
+            "find",
+            [](const PyTree& self, const std::string& path) { return number_or_none(find_path(self.tree, path)); },
+            py::arg("path"), "The number of the chunk at a path, or @OFFSET; None without.")
+        .def(
+            "path",
+            [](const PyTree& self, std::uint32_t number) {
+                check_number(self, number);
+                return whole_chunk_path(self.source->bytes(), self.tree[number].offset);
+            },
+            py::arg("number"), "The path of a chunk.");
+
+    module.def("strip", &strip_part, py::arg("source"), py::arg("part"), "See bendy.Edit.strip.");
+    module.def("rename", &rename_things, py::arg("source"), py::arg("kind"), py::arg("names"),
+               py::arg("all_must_match"), "See bendy.Edit.rename.");
+    module.def("merge_clips", &merge_clips, py::arg("source"), py::arg("other"), py::arg("same_name"),
+               "See bendy.Edit.merge_clips.");
+    module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");
+    module.def("export", &export_source, py::arg("source"), py::arg("format"), py::arg("output"), py::arg("share"),
+               "See bendy.export.");
+}
+
+}  // namespace bendy::python

@@ -1,0 +1,209 @@
+"""convert, validate, inspect, edit, export, render: the program's answers, and files that are never lost."""
+
+import json
+
+import bendy
+import numpy
+import pytest
+from conftest import ROOT
+
+
+def test_conversion_equals_the_programs(tmp_path, program, mannequin):
+    source = ROOT / "examples/tentacle.glb"
+    report = json.loads(program("convert", source, "-o", tmp_path / "by_program.bendy", "--json", "--force", "--lod"))
+    made = bendy.convert(source, tmp_path / "by_module.bendy", lod=True)
+    assert made.output.read_bytes() == (tmp_path / "by_program.bendy").read_bytes() == bytes(made.data)
+    report = report[0] if isinstance(report, list) else report.get("files", [report])[0]
+    assert made.warnings == report["warnings"] and made.report["vertices"] == report["vertices"]
+    assert source in [path for path in made.sources]
+    source = ROOT / "examples/mannequin.glb"
+    in_memory = bendy.convert(source)
+    assert in_memory.output is None and bytes(in_memory.data) == mannequin.read_bytes()
+    assert bytes(bendy.convert(source.read_bytes()).data) == mannequin.read_bytes()
+
+
+def test_compact_conversion(compact, mannequin):
+    assert 0 < compact.compact["measuredError"] <= compact.compact["maxError"]
+    assert len(compact.data) < mannequin.stat().st_size / 2 and "compact.bendy" in repr(compact)
+    made = bendy.convert(ROOT / "examples/tentacle.glb", compact="1mm")
+    assert 0 < made.compact["measuredError"] <= made.compact["maxError"] == pytest.approx(1e-3)
+    with pytest.raises(ValueError, match="compact"):
+        bendy.convert(ROOT / "examples/mannequin.glb", compact="1 parsec")
+
+
+def test_conversions_that_fail(tmp_path):
+    broken = tmp_path / "broken.gltf"
+    broken.write_text('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [5]}]}')
+    with pytest.raises(bendy.ConversionError) as caught:
+        bendy.convert(broken, tmp_path / "out.bendy")
+    assert caught.value.path and "scenes" in caught.value.path and caught.value.code == "CONVERSION"
+    assert not (tmp_path / "out.bendy").exists()
+    with pytest.raises(bendy.ConversionError):
+        bendy.convert(b"not a model at all")
+    with pytest.raises(FileNotFoundError):
+        bendy.convert(ROOT / "examples/mannequin.glb", rig=tmp_path / "no_rig.json")
+    with pytest.raises(ValueError):
+        bendy.convert(ROOT / "examples/mannequin.glb", images="both")
+
+
+def test_nothing_is_overwritten_unless_asked(tmp_path, mannequin):
+    target = tmp_path / "precious.bendy"
+    target.write_text("precious")
+    edit = bendy.edit(mannequin)
+    for write in (
+        lambda **options: bendy.convert(ROOT / "examples/tentacle.glb", target, **options),
+        lambda **options: edit.save(target, **options),
+    ):
+        target.write_text("precious")
+        with pytest.raises(FileExistsError):
+            write()
+        assert target.read_text() == "precious"
+        write(overwrite=True)
+        assert bendy.validate(target) == []
+    glb = tmp_path / "out.gltf"
+    (tmp_path / "out.bin").write_text("precious")
+    with pytest.raises(FileExistsError):
+        bendy.export(mannequin, glb)
+    assert not glb.exists() and (tmp_path / "out.bin").read_text() == "precious"
+
+
+def test_an_input_is_never_an_output(tmp_path, mannequin):
+    copy = tmp_path / "copy.bendy"
+    copy.write_bytes(mannequin.read_bytes())
+    (tmp_path / "link.bendy").symlink_to(copy)
+    with pytest.raises(ValueError, match="input"):
+        bendy.convert(copy, tmp_path / "link.bendy", overwrite=True)
+    glb = tmp_path / "model.glb"
+    glb.symlink_to(copy)
+    with pytest.raises(ValueError, match="input"):
+        bendy.export(copy, glb, overwrite=True)
+    assert copy.read_bytes() == mannequin.read_bytes()
+
+
+def test_validate(mannequin, damaged, program):
+    assert bendy.validate(mannequin) == [] and bendy.validate(mannequin).left_out == 0
+    path = damaged(bendy.inspect(mannequin)["OBJE/CYCL/CINF"].offset + 16, b"\x00\x00\xc0\x7f")  # a start that is NaN
+    faults = bendy.validate(path)
+    expected = json.loads(program("validate", "--json", path, status=1))
+    expected = expected[0] if isinstance(expected, list) else expected
+    listed = expected.get("faults") or expected["files"][0]["faults"]
+    assert [(fault.code, fault.path, fault.offset) for fault in faults] == [
+        (fault["code"], fault["path"], fault["offset"]) for fault in listed]
+    assert len(faults) >= 2 and {fault.kind for fault in faults} == {"invalid", "malformed"}
+    assert set(faults[0].as_dict()) == {"code", "kind", "message", "path", "offset"}
+    assert faults[0].code in str(faults[0]) and faults[0].path in str(faults[0])
+    with pytest.raises(bendy.MalformedError) as caught:
+        bendy.validate(ROOT / "examples/mannequin.glb")
+    assert caught.value.code == "NOT_A_BENDY_FILE" and "convert" in str(caught.value)
+    assert [fault.kind for fault in bendy.validate(mannequin.read_bytes()[:1000])] == ["malformed"]
+    assert bendy.validate(b"")[0].kind == "malformed"
+
+
+def test_inspect(mannequin, program):
+    root = bendy.inspect(mannequin)
+    expected = json.loads(program("inspect", mannequin, "--json"))["chunks"]
+    walked = list(root.walk())
+    assert [(c.id, c.offset, c.size, c.meaning) for c in walked] == [
+        (e["id"], e["offset"], e["size"], e["meaning"]) for e in expected]
+    assert [c.fields for c in walked] == [e.get("fields", {}) for e in expected]
+    assert [c.number for c in walked] == list(range(len(walked)))
+    name = root["OBJE/CYCL[1]/NAME"]
+    assert name.path == "HEAD/OBJE/CYCL[1]/NAME" and bytes(name.payload) == b"Walk" and name.parent.name == "Walk"
+    assert name.parent.parent.parent is root and root.parent is None
+    assert not name.payload.flags.writeable
+    assert len(root.find("SKIN")) == len(bendy.open(mannequin).joints)
+    with pytest.raises(KeyError):
+        root["OBJE/CYCL[9]"]
+    with pytest.raises(KeyError):
+        root["OBJE/CYCL[x]"]
+    with pytest.raises(bendy.MalformedError):
+        bendy.inspect(mannequin.read_bytes()[:2000])
+    assert "HEAD/OBJE" in root._repr_html_() and "SKIN" in repr(root["OBJE/SKIN"])
+
+
+def test_payloads_are_views(mannequin):
+    model = bendy.open(mannequin)
+    payload = bendy.inspect(model)["OBJE/VECT/POSI"].payload
+    assert numpy.shares_memory(payload, model.source.bytes)
+    assert numpy.shares_memory(payload, model.meshes[0].positions)
+
+
+def test_edit(mannequin, tmp_path):
+    edit = bendy.edit(mannequin).strip("clip:Walk", "textures").rename("joint", {"mixamorig:*": "*"})
+    saved = edit.save(tmp_path / "edited.bendy")
+    assert bendy.validate(saved) == [] and edit.done
+    model = bendy.open(saved)
+    assert model.clips.names == ["Idle"] and not model.textures and "Hips" in model.joints
+    merged = bendy.edit(saved).rename("joint", {"*": "mixamorig:*"}, all_must_match=False)
+    assert merged.merge_clips(mannequin, same_name="number").open().clips.names == ["Idle", "Idle.001", "Walk"]
+    arm = bendy.edit(mannequin).extract("mixamorig:LeftArm").open()
+    assert 0 < arm.vertices < model.vertices
+
+
+def test_edits_that_fail_change_nothing(mannequin):
+    edit = bendy.edit(mannequin)
+    with pytest.raises(bendy.EditError, match="Wlak"):
+        edit.strip("clip:Wlak")
+    with pytest.raises(ValueError):
+        edit.strip("everything")
+    with pytest.raises(ValueError):
+        edit.rename("nose", {"a": "b"})
+    with pytest.raises(bendy.EditError):
+        edit.merge_clips(mannequin)
+    with pytest.raises(ValueError):
+        edit.merge_clips(mannequin, same_name="magic")
+    with pytest.raises(bendy.EditError):
+        edit.extract("Nose")
+    assert bytes(edit.data) == mannequin.read_bytes() and edit.done == []
+
+
+@pytest.mark.parametrize("suffix, files", [("glb", 1), ("gltf", 2), ("x", 1)])
+def test_export_and_back(mannequin, tmp_path, suffix, files):
+    made = bendy.export(mannequin, tmp_path / f"back.{suffix}")
+    assert len(made.files) >= files and all(path.exists() for path in made.files)
+    back = bendy.open(made.files[0])
+    model = bendy.open(mannequin)
+    assert back.clips.names == model.clips.names and len(back.joints) == len(model.joints)
+    if suffix == "glb":
+        assert bytes(back.source.bytes) == mannequin.read_bytes()
+    with pytest.raises(ValueError):
+        bendy.export(mannequin, tmp_path / "back.fbx")
+    with pytest.raises(ValueError):
+        bendy.export(mannequin, tmp_path / "far.glb", lod=0.25)  # no levels
+
+
+def test_render(model):
+    if not bendy._bendy.has_viewer:
+        with pytest.raises(NotImplementedError):
+            bendy.render(model)
+        pytest.skip("built without the viewer")
+    picture = bendy.render(model, "Walk", 0.3, size=(96, 64), background="transparent")
+    assert picture.shape == (64, 96, 4) and picture.dtype == numpy.uint8
+    assert 0.02 < (picture[..., 3] > 0).mean() < 0.9
+    pose = bendy.render(model.sample("Walk", 0.3), size=(96, 64))
+    assert pose.shape == (64, 96, 4) and len(numpy.unique(pose)) > 10
+    pictures = bendy.render(model, "Walk", [0.0, 0.5, 0.9], size=(48, 32))
+    assert pictures.shape == (3, 32, 48, 4) and not numpy.array_equal(pictures[0], pictures[1])
+    sheet = bendy.contact_sheet(pictures, columns=2)
+    assert sheet.shape == (64, 96, 4)
+    numpy.testing.assert_array_equal(sheet[32:, :48], pictures[2])
+    assert not sheet[32:, 48:].any()
+    for call in (lambda: bendy.render(model, size=(0, 5)), lambda: bendy.render(model, times=0.5),
+                 lambda: bendy.render(model.pose(), "Walk"), lambda: bendy.render(model, "Walk", float("nan")),
+                 lambda: bendy.render(model, distance=0.0), lambda: bendy.contact_sheet([]),
+                 lambda: bendy.encode_png(numpy.zeros((3, 3), numpy.uint8))):
+        with pytest.raises(ValueError):
+            call()
+    with pytest.raises(KeyError):
+        bendy.render(model, "Fly")
+
+
+def test_png(model, tmp_path):
+    if not bendy._bendy.has_viewer:
+        pytest.skip("built without the viewer")
+    pixels = numpy.arange(4 * 5 * 4, dtype=numpy.uint8).reshape(4, 5, 4)
+    path = bendy.save_png(pixels, tmp_path / "a.png")
+    data = path.read_bytes()
+    assert data.startswith(b"\x89PNG\r\n\x1a\n") and data[16:24] == b"\x00\x00\x00\x05\x00\x00\x00\x04"
+    with pytest.raises(FileExistsError):
+        bendy.save_png(pixels, path)
