@@ -85,7 +85,6 @@ if [ "${1:-build}" = test ]; then
     need /usr/share/doc/mkdocs-material mkdocs-material
     need xdotool xdotool
     need blender blender
-    need /usr/lib/python3/dist-packages/numpy python3-numpy
     need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
     need qemu-aarch64 qemu-user
     need /usr/lib/wasm32-wasi/libc.a wasi-libc
