@@ -444,7 +444,7 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=34.4, pitch=1
 
 def contact_sheet(pictures, columns=None):
     """Arranges pictures of one size, (T, height, width, 4) uint8, in rows: one picture. columns: None: about a square. Empty places
-    are transparent. Raises ValueError."""
+    have the colour of the first picture's top left corner. Raises ValueError."""
     pictures = _np.asarray(pictures, dtype=_np.uint8)
     if pictures.ndim != 4 or len(pictures) == 0:
         raise ValueError("pictures must have the shape (T, height, width, 4), and be one at least")
@@ -453,7 +453,8 @@ def contact_sheet(pictures, columns=None):
     if columns < 1:
         raise ValueError("columns must be 1 or more")
     rows = -(-count // columns)
-    sheet = _np.zeros((rows * columns, height, width, channels), _np.uint8)
+    sheet = _np.empty((rows * columns, height, width, channels), _np.uint8)
+    sheet[:] = pictures[0, 0, 0]
     sheet[:count] = pictures
     return sheet.reshape(rows, columns, height, width, channels).swapaxes(1, 2).reshape(rows * height, columns * width, channels)
 
