@@ -32,8 +32,9 @@ struct Request {
 bendy_status take_member(const Character& character, const bendy_crowd_member* from, std::uint32_t size, bool has_clip,
                          Request& taken, bendy_error* error) {
     bendy_crowd_member values = BENDY_CROWD_MEMBER_INIT;
+    // Before it is read: a member that claims to be larger than the first would be read past the end of the array.
+    if (from->size != size) return fail(error, BENDY_BAD_ARGUMENT, "members have different sizes");
     if (const bendy_status status = take(from, "members", values, error)) return status;
-    if (values.size != size) return fail(error, BENDY_BAD_ARGUMENT, "members have different sizes");
     const Model& model = character.model;
     taken = {};
     if (has_clip && values.clip != BENDY_NONE) {
