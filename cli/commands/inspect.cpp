@@ -203,18 +203,6 @@ void run_html(const InspectArguments& arguments) {
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
 }
 
-/// Nothing of a file with faults, which has chunks to show, but no character to sum up.
-std::optional<Summary> summarize_file(const InspectArguments& arguments, const ChunkTree& tree, Bytes bytes) {
-    const auto& chunks = tree.chunks();
-    const bool is_empty =
-        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
-    if (is_empty) return summarize_empty(bytes);
-    const Result<Model> model = Model::from_memory(bytes);
-    if (model) return summarize(*model, bytes);
-    if (arguments.summary) fail(arguments.file, model.error(), bytes);
-    return std::nullopt;
-}
-
 void run(const InspectArguments& arguments) {
     require_folder_of(arguments.html);
     if (!arguments.html.empty()) {
@@ -230,9 +218,11 @@ void run(const InspectArguments& arguments) {
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
     }
 
-    std::optional<Summary> summary;
+    std::optional<Summary> summary;  // none for a file with faults, which has chunks to show
     if (root == 0 && !arguments.hex) {
-        summary = summarize_file(arguments, tree, file.bytes());
+        Result<Summary> found = summarize_file(tree, file.bytes());
+        if (!found && arguments.summary) fail(arguments.file, found.error(), file.bytes());
+        if (found) summary = *std::move(found);
     }
     if (arguments.json) {
         print_json(arguments, tree, root, summary);

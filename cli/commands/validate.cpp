@@ -23,20 +23,6 @@ struct ValidateArguments {
     bool json = false;
 };
 
-const char* class_name(ErrorClass kind) {
-    switch (kind) {
-        case ErrorClass::malformed:
-            return "malformed";
-        case ErrorClass::invalid:
-            return "invalid";
-        case ErrorClass::unsupported:
-            return "unsupported";
-        case ErrorClass::io:
-            return "io";
-    }
-    return "";
-}
-
 /// What is wrong with a file that is no bendy file at all: it cannot be opened, or is known to be something else.
 /// Empty for all others, whose faults tell.
 std::string why_no_file(const std::filesystem::path& file, const Result<InputBytes>& mapped) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "files/suffixes.h"
+
 #include <bendy/format/byte_reader.h>
 
 #include <cstdint>
@@ -82,12 +84,6 @@ std::ostream& print_size(const std::filesystem::path& output, std::uint64_t byte
 
 /// Fails, naming the folder, where the one that an output goes to is not there: before the work, not after it.
 void require_folder_of(const std::filesystem::path& output);
-
-/// The suffix in small letters, ".glb".
-std::string suffix_of(const std::filesystem::path& file);
-
-/// The format that the suffix means, as "binary glTF"; empty if it has no meaning.
-std::string_view format_named_by(const std::filesystem::path& file);
 
 /// What a subcommand writes.
 struct Writes {

@@ -345,6 +345,16 @@ Summary summarize(const Model& model, Bytes file) {
     return summary;
 }
 
+Result<Summary> summarize_file(const ChunkTree& tree, Bytes file) {
+    const auto& chunks = tree.chunks();
+    const bool is_empty =
+        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
+    if (is_empty) return summarize_empty(file);
+    const Result<Model> model = Model::from_memory(file);
+    if (!model) return model.error();
+    return summarize(*model, file);
+}
+
 std::string summary_as_text(const Summary& summary, const std::string& file, std::size_t columns,
                             bool with_bytes_by_kind) {
     std::uint64_t images = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/byte_reader.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/result.h>
 #include <bendy/runtime/bounds.h>
 #include <bendy/runtime/model.h>
 
@@ -77,6 +79,10 @@ Summary summarize(const Model& model, Bytes file);
 
 /// Of a file without an object: only its size.
 Summary summarize_empty(Bytes file);
+
+/// Of the first object, or of a file without one. \return why the object cannot be opened, if it has faults
+/// \param tree  the file's chunks
+Result<Summary> summarize_file(const ChunkTree& tree, Bytes file);
 
 /// What count_bytes calls a kind, in words: "POSI" is "positions".
 std::string kind_in_words(const std::string& kind);

@@ -29,6 +29,19 @@ const char* code_name(ErrorCode code) {
 ErrorClass error_class(ErrorCode code) {
     return entry(code).kind;
 }
+const char* class_name(ErrorClass kind) {
+    switch (kind) {
+        case ErrorClass::malformed:
+            return "malformed";
+        case ErrorClass::invalid:
+            return "invalid";
+        case ErrorClass::unsupported:
+            return "unsupported";
+        case ErrorClass::io:
+            return "io";
+    }
+    return "";
+}
 const char* error_text(ErrorCode code) {
     return entry(code).text;
 }

@@ -1,5 +1,6 @@
 #include "bindings.h"
 #include "convert/conversion.h"
+#include "files/suffixes.h"
 #include "inspect/describe_chunk.h"
 #include "inspect/summary.h"
 #include "terminal/json.h"
@@ -13,7 +14,6 @@
 #include <bendy/format/document.h>
 #include <bendy/runtime/lod.h>
 
-#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -109,11 +109,10 @@ py::tuple validate_source(const SourcePointer& source) {
     py::list list;
     for (const Error& fault : faults.list()) {
         py::dict one;
-        constexpr const char* kKinds[] = {"malformed", "invalid", "unsupported", "io"};
         one["code"] = code_name(fault.code);
-        one["kind"] = kKinds[static_cast<std::size_t>(error_class(fault.code))];
+        one["kind"] = class_name(error_class(fault.code));
         one["message"] = text(describe(fault));
-        one["path"] = whole_chunk_path(source->bytes(), fault.offset);
+        one["path"] = text(whole_chunk_path(source->bytes(), fault.offset));
         one["offset"] = fault.offset;
         list.append(one);
     }
@@ -161,15 +160,8 @@ py::object summarize_source(const SourcePointer& source) {
         const Bytes bytes = source->bytes();
         const Result<ChunkTree> tree = read_chunk_tree(bytes);
         if (tree) {
-            const auto chunks = tree->chunks();
-            const bool is_empty = std::none_of(chunks.begin(), chunks.end(),
-                                               [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
-            const Result<Model> model = Model::from_memory(bytes);
-            if (is_empty) {
-                json = cli::json_text(cli::summary_as_json(cli::summarize_empty(bytes)));
-            } else if (model) {
-                json = cli::json_text(cli::summary_as_json(cli::summarize(*model, bytes)));
-            }
+            if (const auto summary = cli::summarize_file(*tree, bytes))
+                json = cli::json_text(cli::summary_as_json(*summary));
         }
     }
     return parse_json(json);
@@ -298,6 +290,9 @@ void bind_tools(py::module_& module) {
                py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("ticks_per_second"),
                py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"), py::arg("skeleton"),
                py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), "See bendy.convert.");
+    module.def(
+        "format_named_by", [](const std::filesystem::path& file) { return text(cli::format_named_by(file)); },
+        py::arg("file"), "The format that a file's suffix means, as \"binary glTF\"; empty if it has no meaning.");
     module.def("validate", &validate_source, py::arg("source"), "See bendy.validate.");
     module.def("summarize", &summarize_source, py::arg("source"), "See bendy.Model.summary.");
 
@@ -308,14 +303,10 @@ void bind_tools(py::module_& module) {
             "A dict for each chunk, in file order, as `bendy inspect --json` has them.")
         .def("payload", &payload_of, py::arg("number"), "(size,) uint8, read-only: a chunk's payload, decoded.")
         .def(
-            "find",
-            [](const PyTree& self, const std::string& path) { return number_or_none(find_path(self.tree, path)); },
-            py::arg("path"), "The number of the chunk at a path, or @OFFSET; None without.")
-        .def(
             "path",
             [](const PyTree& self, std::uint32_t number) {
                 check_number(self, number);
-                return whole_chunk_path(self.source->bytes(), self.tree[number].offset);
+                return text(whole_chunk_path(self.source->bytes(), self.tree[number].offset));
             },
             py::arg("number"), "The path of a chunk.");
 

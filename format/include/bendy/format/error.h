@@ -32,6 +32,8 @@ struct Error {
 const char* code_name(ErrorCode code);
 /// Returns the class of a code, and its text with the placeholders {v} and {l}.
 ErrorClass error_class(ErrorCode code);
+/// Returns the name of a class: "malformed".
+const char* class_name(ErrorClass kind);
 const char* error_text(ErrorCode code);
 
 /// A list of faults, where more than the first is wanted. Keeps at most kMost, so that a hostile file cannot make the
