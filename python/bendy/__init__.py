@@ -40,8 +40,9 @@ _abc.Sequence.register(Items)
 class File:
     """A bendy file in memory: what convert, edit and open make."""
 
-    def __init__(self, source):
+    def __init__(self, source, inputs=()):
         self._source = source
+        self._inputs = inputs  # the files that it was made of, which it never replaces
 
     @property
     def data(self):
@@ -49,8 +50,9 @@ class File:
         return self._source.bytes
 
     def save(self, path, *, overwrite=False):
-        """Writes the file, whole or not at all, and returns its path. Raises FileExistsError unless overwrite, OSError."""
-        _claim([path], overwrite, [])
+        """Writes the file, whole or not at all, and returns its path. Raises FileExistsError unless overwrite, ValueError for a file
+        that it was made of and for the suffix of another format, OSError."""
+        _claim_bendy(path, overwrite, self._inputs)
         self._source.write(path)
         return _Path(path)
 
@@ -161,7 +163,7 @@ class Conversion(File):
     """
 
     def __init__(self, source, output, report, sources):
-        super().__init__(source)
+        super().__init__(source, sources)
         self.output = output
         self.report = report
         self.warnings = report["warnings"]
@@ -180,11 +182,11 @@ class Edit(File):
 
         bendy.edit("fox.bendy").strip("clip:Run").rename("joint", {"b_*": "*"}).save("walks.bendy")
 
-    done, warnings: lines about what was done, and what to look at. A method that fails changes nothing and raises EditError.
+    done, warnings: lines about what was done, and what to look at. A method that fails changes nothing; it raises EditError.
     """
 
-    def __init__(self, source):
-        super().__init__(source)
+    def __init__(self, source, inputs=()):
+        super().__init__(source, inputs)
         self.done = []
         self.warnings = []
 
@@ -196,9 +198,12 @@ class Edit(File):
 
     def strip(self, *parts):
         """Removes parts: "textures", "clips", "clip:Run", "mesh:Hat*", "lod", "extras", ... Raises ValueError for another word."""
+        source, done, warnings = self._source, [], []
         for part in parts:
-            self._take(_bendy.strip(self._source, part))
-        return self
+            source, more_done, more_warnings = _bendy.strip(source, part)
+            done += more_done
+            warnings += more_warnings
+        return self._take((source, done, warnings))
 
     def rename(self, kind, names, *, all_must_match=True):
         """Renames things of a kind (joint, clip, chain, mesh, target, material, texture, object): {"mixamorig:*": "*"}."""
@@ -206,7 +211,9 @@ class Edit(File):
 
     def merge_clips(self, other, *, same_name="refuse"):
         """Appends the clips of another source, by the joints' names. same_name: refuse, replace or number."""
-        return self._take(_bendy.merge_clips(self._source, _bendy_source(other), same_name))
+        self._take(_bendy.merge_clips(self._source, _bendy_source(other), same_name))
+        self._inputs = [*self._inputs, other]
+        return self
 
     def extract(self, joint):
         """Keeps the joint with this name and all below it, with what belongs to them."""
@@ -343,7 +350,7 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     if images not in ("embed", "link"):
         raise ValueError("images must be embed or link")
     if output is not None:
-        _claim([output], overwrite, [source, rig])
+        _claim_bendy(output, overwrite, [source, rig])
     if isinstance(source, (str, _os.PathLike)):
         file, found = source, None
         _must_exist(file)
@@ -357,7 +364,7 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         file, found, "" if output is None else output, None if scene is None else str(scene), images == "embed", instances, rig,
         ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices)
     if output is not None:
-        _claim([output], overwrite, sources)
+        _claim_bendy(output, overwrite, sources)
         made.write(output)
         output = _Path(output)
     return Conversion(made, output, report, sources)
@@ -387,7 +394,7 @@ def inspect(source):
 
 def edit(source):
     """An Edit of a bendy file, or of what bendy.open accepts. Nothing is written before Edit.save."""
-    return Edit(_bendy_source(source))
+    return Edit(_bendy_source(source), [source])
 
 
 def export(source, output, *, lod=1.0, overwrite=False):
@@ -406,15 +413,15 @@ def export(source, output, *, lod=1.0, overwrite=False):
     return Export(paths, warnings)
 
 
-def render(subject, clip=None, times=None, *, size=(512, 512), yaw=34.4, pitch=11.5, distance=1.0, bones=False, axes=False,
+def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=None, distance=1.0, bones=False, axes=False,
            constraints=False, wireframe=False, background=None):
     """A picture without a display: (height, width, 4) uint8, red, green, blue, alpha, sRGB. With `times`, a list of seconds of the
     clip, one picture for each: (T, height, width, 4).
 
     subject: a Pose, or a source at rest or in a clip. times: also one number; None: the clip's start. size: width and height, pixels.
-    yaw, pitch: degrees round the character, 0, 0 is its front; distance: 1 fits the whole clip into the picture. background: None,
-    "transparent", or red, green, blue, alpha, linear, 0 to 1. Raises RenderError without OpenGL 3.3, NotImplementedError if the
-    package was built without the viewer, KeyError, ValueError.
+    yaw, pitch: degrees around the character, 0, 0 is its front; None: as in `bendy render`, 34 and 11. distance: 1 fits the whole clip
+    into the picture. background: None, "transparent", or red, green, blue, alpha, linear, 0 to 1. Raises RenderError without OpenGL
+    3.3, NotImplementedError if the package was built without the viewer, KeyError, ValueError.
     """
     _need_viewer()
     if isinstance(subject, Pose):
@@ -429,16 +436,15 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=34.4, pitch=1
         times = [_start_of(subject, clip)]
     elif is_one:
         times = [times]
-    if background is None:
-        background = (0.086, 0.1, 0.122, 1.0)
-    elif isinstance(background, str):
+    if isinstance(background, str):
         if background != "transparent":
             raise ValueError("background must be None, transparent or four numbers")
         background = (0.0, 0.0, 0.0, 0.0)
     drawn = [name for name, wanted in (("bones", bones), ("axes", axes), ("constraints", constraints), ("wireframe", wireframe)) if wanted]
     width, height = size
-    pictures = _bendy.render(subject, clip, [float(time) for time in times], width, height, _math.radians(yaw), _math.radians(pitch),
-                             distance, tuple(background), drawn)
+    yaw, pitch = (None if angle is None else _math.radians(angle) for angle in (yaw, pitch))
+    pictures = _bendy.render(subject, clip, [float(time) for time in times], width, height, yaw, pitch, distance,
+                             None if background is None else tuple(background), drawn)
     return pictures[0] if is_one else pictures
 
 
@@ -466,7 +472,10 @@ def encode_png(picture):
 
 
 def save_png(picture, path, *, overwrite=False):
-    """Writes a picture as a PNG file and returns its path. Raises FileExistsError unless overwrite, ValueError, OSError."""
+    """Writes a picture as a PNG file and returns its path. Raises FileExistsError unless overwrite, ValueError, also for another suffix,
+    OSError."""
+    if _Path(path).suffix.lower() not in (".png", ""):
+        raise ValueError(f"{path} is not the name of a PNG file: give it the suffix .png")
     _claim([path], overwrite, [])
     _bendy.Source.copy(encode_png(picture)).write(path)
     return _Path(path)
@@ -510,19 +519,39 @@ def _must_exist(path):
         pass
 
 
+def _claim_bendy(output, overwrite, inputs):
+    """The same as _claim, for a bendy file: raises ValueError, too, for a name that means another format."""
+    named = _bendy.format_named_by(output)
+    if named not in ("", "a bendy file"):
+        raise ValueError(f"{output} names {named}, but a bendy file is written: give it the suffix .bendy, or use bendy.export")
+    _claim([output], overwrite, inputs)
+
+
+def _files_of(inputs):
+    """The paths behind inputs, as far as they have some."""
+    for given in inputs:
+        if isinstance(given, File):
+            yield from _files_of([*given._inputs, given._source])
+        elif isinstance(given, Model):
+            if not given.closed:
+                yield from _files_of([given.source, given.conversion])
+        elif isinstance(given, _bendy.Source):
+            if given.is_mapped:
+                yield given.file
+        elif isinstance(given, (str, _os.PathLike)):
+            yield given
+
+
 def _claim(outputs, overwrite, inputs):
     """Raises FileExistsError for outputs that are there, and ValueError for one that is an input, overwrite or not."""
     for output in outputs:
         output = _Path(output)
         if not output.exists():
             continue
-        for file in inputs:
-            if isinstance(file, _bendy.Model) and not file.closed:
-                file = file.source.file
-            if isinstance(file, (str, _os.PathLike)):
-                with _contextlib.suppress(OSError):
-                    if _os.path.samefile(file, output):
-                        raise ValueError(f"{output} is an input as well as an output: give another name")
+        for file in _files_of(inputs):
+            with _contextlib.suppress(OSError):
+                if _os.path.samefile(file, output):
+                    raise ValueError(f"{output} is an input as well as an output: give another name")
         if not overwrite:
             raise FileExistsError(17, "the file exists; overwrite=True replaces it", str(output))
 

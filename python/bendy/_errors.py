@@ -6,7 +6,7 @@ class Error(Exception):
 
     code: what is wrong, as `bendy validate` prints it: "CHUNK_TOO_LONG".
     path: where: the chunk's path, "HEAD/OBJE/SKIN[1]"; for a source that is converted, its own path
-    ("meshes[2].primitives[0]") or place; None if the whole file is meant.
+    ("meshes[2].primitives[0]") or place; None if the error concerns the whole file.
     offset: bytes from the start of the file; None if that has no meaning.
     file: the file's name; None for bytes in memory.
     message: the text alone.

@@ -3,6 +3,7 @@
 #include <bendy/converter/report.h>
 #include <bendy/format/error.h>
 #include <bendy/format/file.h>
+#include <bendy/runtime/bounds.h>
 #include <bendy/runtime/call_error.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/pose.h>
@@ -17,6 +18,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,9 +50,19 @@ private:
 };
 
 /// An opened model with the bytes that it refers to. Everything made from a model holds one.
-struct Character {
-    std::shared_ptr<const Source> source;
-    Model model;
+class Character {
+public:
+    Character(std::shared_ptr<const Source> from, Model opened) : source(std::move(from)), model(std::move(opened)) {}
+
+    /// Made at the first use.
+    [[nodiscard]] const Bounds& bounds() const;
+
+    const std::shared_ptr<const Source> source;
+    const Model model;
+
+private:
+    mutable std::once_flag is_bounded_;
+    mutable std::optional<Bounds> bounds_;
 };
 using SharedCharacter = std::shared_ptr<const Character>;
 
@@ -79,8 +91,11 @@ py::array view(const std::shared_ptr<const Owner>& owner, const T* data, std::ve
 /// An index that Python was given, -1 being the last. Raises IndexError with `kind`, the name of what is counted.
 std::uint32_t index_of(const py::handle& index, std::size_t count, const char* kind);
 
-/// Numbers of an array, or of anything that numpy makes one of. Raises ValueError if there are not `count`, or if one
+/// An array of any shape that numpy makes of what was given. Raises TypeError if it makes none, ValueError if a number
 /// is not finite. \param name  of the argument
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+Floats floats_of(const py::handle& numbers, const char* name);
+/// The same, for `count` numbers. Raises ValueError if there are not as many.
 std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, const char* name);
 
 // Raising. `file` is None or the name of the file that is at fault.

@@ -84,8 +84,8 @@ void bind_clips(py::module_& module) {
         .def_readonly("interpolation", &PyTrack::interpolation, "step, linear or cubic.")
         .def_readonly("times", &PyTrack::times, "(K,) float32, seconds, ascending.")
         .def_readonly("values", &PyTrack::values,
-                      "(K, components) float32: metres, unit quaternions x, y, z, w, factors or weights. For cubic "
-                      "(K, 3, components): in-tangent, value, out-tangent.")
+                      "(K, components) float32: metres, unit quaternions x, y, z, w, factors or weights. For cubic (K, "
+                      "3, components): in-tangent, value, out-tangent.")
         .def("__repr__", [](const PyTrack& self) {
             return py::str("<bendy.Track {} of {}, {} keys>").format(self.path, self.target, py::len(self.times));
         });

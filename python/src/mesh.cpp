@@ -188,11 +188,10 @@ void bind_meshes(py::module_& module) {
             "(K, 3) float32: displacements of normals; None without.")
         .def("__repr__", [](const PyMorphTarget& self) { return repr_of("MorphTarget", self); });
 
-    py::class_<PyMesh>(
-        module, "Mesh",
-        "A mesh with N vertices. Arrays are read-only and keep the file open. They are views of the file, "
-        "without a copy, if it stores floats, as exact files do; compact files are decoded at the first "
-        "access. `stored` has all streams as they are, never copied.")
+    py::class_<PyMesh>(module, "Mesh",
+                       "A mesh with N vertices. Arrays are read-only and keep the file open. They are views of the "
+                       "file, without a copy, if it stores floats, as exact files do; compact files are decoded at the "
+                       "first access. `stored` has all streams as they are, never copied.")
         .def_property_readonly(
             "name", [](const PyMesh& self) { return text(self.get().name); }, "May be empty.")
         .def_readonly("number", &PyMesh::number, "Index among the meshes of the model.")
@@ -270,8 +269,7 @@ void bind_meshes(py::module_& module) {
             "(M,) uint16 or uint32: the index list that submeshes are ranges of; None without.")
         .def("triangles", &triangles_of, py::arg("share") = 1.0f,
              "(T, 3) uint32, fresh: the mesh's triangles, of all submeshes. `share`, 0 to 1, is the level of detail: "
-             "that "
-             "share of the model's triangles, if the file has a collapse sequence. Raises ValueError.")
+             "that share of the model's triangles, if the file has a collapse sequence. Raises ValueError.")
         .def_property_readonly(
             "morph_targets",
             [](PyMesh& self) {
@@ -291,8 +289,7 @@ void bind_meshes(py::module_& module) {
             "Items of MorphTarget.")
         .def_property_readonly(
             "stored", &stored_streams,
-            "All streams by name as they are stored, never copied: (elements, components) of the file's "
-            "own type.")
+            "All streams by name as they are stored, never copied: (elements, components) of the file's own type.")
         .def_property_readonly(
             "extras", [](const PyMesh& self) { return parse_json(self.get().extras); },
             "The author's own data, parsed; None without. Raises ValueError if it is not JSON.")
@@ -352,8 +349,7 @@ void bind_meshes(py::module_& module) {
         .def_property_readonly(
             "images", &images_of,
             "In order of preference: a dict with type (png, jpeg, ktx2, webp, avif, other), bytes ((size,) uint8 "
-            "without a "
-            "copy, or None), uri (or None), same_as (the number of the texture whose image it is, or None).")
+            "without a copy, or None), uri (or None), same_as (the number of the texture whose image it is, or None).")
         .def("__repr__", [](const PyTexture& self) { return repr_of("Texture", self); });
 }
 

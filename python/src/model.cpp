@@ -69,7 +69,7 @@ PyModel open_model(const std::shared_ptr<Source>& source, std::uint32_t object, 
         return Model::from_memory(source->bytes(), options);
     }();
     if (!model) raise_fault(model.error(), *source);
-    return {std::make_shared<const Character>(Character{source, *std::move(model)}), {}};
+    return {std::make_shared<const Character>(source, *std::move(model)), {}};
 }
 
 py::tuple links_of(const PyChain& self) {
@@ -88,16 +88,14 @@ py::dict chain_weights_of(const PyChain& self) {
 }
 
 void bind_items(py::module_& module) {
-    py::class_<Items>(
-        module, "Items",
-        "A list of things that are found by number or by name: clips[0], clips[\"Walk\"]. Names need not be "
-        "unique; the first one counts.")
+    py::class_<Items>(module, "Items",
+                      "A list of things that are found by number or by name: clips[0], clips[\"Walk\"]. Names need not "
+                      "be unique; the first one counts.")
         .def("__len__", [](const Items& self) { return self.names.size(); })
         .def("__iter__", [](const Items& self) { return py::iter(self.list); })
         .def("__getitem__", &get_item, py::arg("key"),
              "One by its number (-1 is the last) or its name; a slice gives a tuple. Raises IndexError, or KeyError "
-             "with "
-             "the names that there are.")
+             "with the names that there are.")
         .def("__contains__", &has_item, py::arg("key"), "Whether there is one with that name, or that object.")
         .def_property_readonly(
             "names",
@@ -137,10 +135,9 @@ void bind_joints(py::module_& module) {
         .def("__repr__", [](const PyJoint& self) { return repr_of("Joint", self); });
 
     const auto record = [](const PyConstraint& self) -> const ConstraintRecord& { return self.get().record; };
-    py::class_<PyConstraint>(
-        module, "Constraint",
-        "What a joint may do, relative to its rest pose, in the constraint's frame: X is the twist "
-        "axis, Y and Z are the swing axes.")
+    py::class_<PyConstraint>(module, "Constraint",
+                             "What a joint may do, relative to its rest pose, in the constraint's frame: X is the "
+                             "twist axis, Y and Z are the swing axes.")
         .def_property_readonly(
             "joint", [](const PyConstraint& self) { return self.get().joint; }, "The joint's number.")
         .def_property_readonly(
@@ -265,6 +262,11 @@ std::uint32_t find_thing(const SharedCharacter& character, const py::handle& wan
 }
 
 }  // namespace
+
+const Bounds& Character::bounds() const {
+    std::call_once(is_bounded_, [&] { bounds_.emplace(model); });
+    return *bounds_;
+}
 
 SharedCharacter character_of(const py::handle& model) {
     return model.cast<const PyModel&>().get();

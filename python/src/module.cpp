@@ -13,7 +13,7 @@ namespace {
 
 py::object name_of_file(const std::filesystem::path& file) {
     if (file.empty()) return py::none();
-    return py::str(file.string());
+    return py::str(py::cast(file));  // a name that is not UTF-8 as Python has it
 }
 
 [[noreturn]] void raise_object(const py::object& exception) {
@@ -132,21 +132,23 @@ std::uint32_t index_of(const py::handle& index, std::size_t count, const char* k
     return static_cast<std::uint32_t>(number);
 }
 
-std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, const char* name) {
-    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(numbers);
+Floats floats_of(const py::handle& numbers, const char* name) {
+    Floats array = Floats::ensure(numbers);
     if (!array) {
         PyErr_Clear();
         throw py::type_error(std::string(name) + " must be numbers");
     }
-    const auto size = static_cast<std::size_t>(array.size());
-    if (size != count || array.ndim() > 1) {
+    for (py::ssize_t k = 0; k < array.size(); ++k) {
+        if (!std::isfinite(array.data()[k])) throw py::value_error(std::string(name) + " must be finite numbers");
+    }
+    return array;
+}
+
+std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, const char* name) {
+    const Floats array = floats_of(numbers, name);
+    if (static_cast<std::size_t>(array.size()) != count || array.ndim() > 1)
         throw py::value_error(std::string(name) + " must have the shape (" + std::to_string(count) + ",)");
-    }
-    std::vector<float> values(array.data(), array.data() + size);
-    for (const float value : values) {
-        if (!std::isfinite(value)) throw py::value_error(std::string(name) + " must be finite numbers");
-    }
-    return values;
+    return {array.data(), array.data() + array.size()};
 }
 
 void raise_os_error(const Error& error, const std::filesystem::path& file) {
@@ -162,8 +164,8 @@ void raise_fault(const Error& error, const Source& source) {
                              : kind == ErrorClass::invalid ? "InvalidError"
                                                            : "UnsupportedError";
     const auto errors = py::module_::import("bendy._errors");
-    raise_object(errors.attr(name)(describe(error), py::arg("code") = code_name(error.code),
-                                   py::arg("path") = whole_chunk_path(source.bytes(), error.offset),
+    raise_object(errors.attr(name)(text(describe(error)), py::arg("code") = code_name(error.code),
+                                   py::arg("path") = text(whole_chunk_path(source.bytes(), error.offset)),
                                    py::arg("offset") = error.offset, py::arg("file") = name_of_file(source.file())));
 }
 

@@ -1,5 +1,7 @@
 #include "bindings.h"
 
+#include <bendy/format/clip.h>
+#include <bendy/format/read_record.h>
 #include <bendy/format/record_table.h>
 #include <bendy/runtime/blend.h>
 #include <bendy/runtime/bounds.h>
@@ -91,19 +93,12 @@ py::array local_array(const PyPose& self, Component<N> (*get)(const JointTransfo
 }
 
 /// What was given for all joints: finite floats of the shape (rows, columns).
-py::array_t<float> table_of(const py::handle& numbers, std::size_t rows, std::size_t columns, const char* name) {
-    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(numbers);
-    if (!array) {
-        PyErr_Clear();
-        throw py::type_error(std::string(name) + " must be numbers");
-    }
+Floats table_of(const py::handle& numbers, std::size_t rows, std::size_t columns, const char* name) {
+    Floats array = floats_of(numbers, name);
     if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(0)) != rows ||
         static_cast<std::size_t>(array.shape(1)) != columns) {
         throw py::value_error(std::string(name) + " must have the shape (" + std::to_string(rows) + ", " +
                               std::to_string(columns) + ")");
-    }
-    for (py::ssize_t k = 0; k < array.size(); ++k) {
-        if (!std::isfinite(array.data()[k])) throw py::value_error(std::string(name) + " must be finite numbers");
     }
     return array;
 }
@@ -112,9 +107,7 @@ void set_rotations(PyPose& self, const py::object& numbers) {
     const Use pose(self);
     const auto table = table_of(numbers, self.pose.local().size(), 4, "rotations");
     for (py::ssize_t k = 0; k < table.shape(0); ++k) {
-        double square = 0.0;
-        for (int c = 0; c < 4; ++c) square += double{table.at(k, c)} * double{table.at(k, c)};
-        if (std::abs(std::sqrt(square) - 1.0) > double{kUnitTolerance})
+        if (!is_unit(std::span<const float, 4>(table.data(k), 4), kUnitTolerance))
             throw py::value_error("rotation " + std::to_string(k) + " must be a unit quaternion x, y, z, w");
     }
     const auto local = (*pose).change_local();
@@ -263,9 +256,7 @@ ReachTarget target_of(const py::object& position, const py::object& rotation) {
     ReachTarget target(glm::vec3(p[0], p[1], p[2]));
     if (rotation.is_none()) return target;
     const std::vector<float> q = numbers_of(rotation, 4, "rotation");
-    const double length =
-        std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3]);
-    if (std::abs(length - 1.0) > double{kUnitTolerance})
+    if (!is_unit(std::span(q).first<4>(), kUnitTolerance))
         throw py::value_error("rotation must be a unit quaternion x, y, z, w");
     target.rotation = glm::quat(q[3], q[0], q[1], q[2]);
     return target;
@@ -337,17 +328,11 @@ PyPose rest_pose(const py::handle& model) {
 
 // Many poses at once.
 
-/// Finite times, in any shape that is one-dimensional.
+/// Finite times, (T,).
 std::vector<float> checked_times(const py::object& times) {
-    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(times);
-    if (!array) {
-        PyErr_Clear();
-        throw py::type_error("times must be numbers");
-    }
+    const Floats array = floats_of(times, "times");
     if (array.ndim() != 1) throw py::value_error("times must have the shape (T,)");
-    std::vector<float> list(array.data(), array.data() + array.size());
-    for (const float time : list) check_finite(double{time}, "times");
-    return list;
+    return {array.data(), array.data() + array.size()};
 }
 
 py::array skin_clip(const py::object& model, const py::object& clip, const py::object& times) {
@@ -395,7 +380,7 @@ py::array pose_clip(const py::object& model, const py::object& clip, const py::o
 
 py::array bounds_of(PyPose& self) {
     const Use pose(self);
-    const Box box = without_gil([&] { return Bounds((*pose).model()).of(*pose); });
+    const Box box = without_gil([&] { return self.character->bounds().of(*pose); });
     const std::array<float, 6> corners{box.minimum.x, box.minimum.y, box.minimum.z,
                                        box.maximum.x, box.maximum.y, box.maximum.z};
     return py::array_t<float>({2, 3}, corners.data());
@@ -427,16 +412,14 @@ std::optional<GivenPose> pose_of(const py::handle& pose) {
 
 void bind_pose(py::module_& module) {
     bind_results(module);
-    py::class_<PyPose>(
-        module, "Pose",
-        "A model in one position: local transforms, morph target weights, and what follows from them. For "
-        "one thread at a time: a call while another thread uses the pose raises RuntimeError. Methods that "
-        "change the pose return it, except reach.")
+    py::class_<PyPose>(module, "Pose",
+                       "A model in one position: local transforms, morph target weights, and what follows from them. "
+                       "For one thread at a time: a call while another thread uses the pose raises RuntimeError. "
+                       "Methods that change the pose return it, except reach.")
         .def(py::init(&rest_pose), py::arg("model"), "At rest. Raises ValueError if the model is closed.")
         .def("sample", &sample_clip, py::arg("clip"), py::arg("seconds"), py::return_value_policy::reference,
              "Sets the pose to a clip (its name, number or object) at a time on the clip's time line, held at the ends "
-             "of "
-             "the keys. What the clip does not animate is at rest. Raises KeyError, IndexError, ValueError.")
+             "of the keys. What the clip does not animate is at rest. Raises KeyError, IndexError, ValueError.")
         .def(
             "reset",
             [](PyPose& self) -> PyPose& {
@@ -461,8 +444,7 @@ void bind_pose(py::module_& module) {
             },
             py::arg("other"), py::arg("weight"), py::arg("mask") = py::none(), py::return_value_policy::reference,
             "Blends towards another pose of the same opened model: weight 0 changes nothing, 1 makes it equal. `mask`, "
-            "(J,) "
-            "numbers, scales the weight by joint: see Model.mask_below. Raises ValueError.")
+            "(J,) numbers, scales the weight by joint: see Model.mask_below. Raises ValueError.")
         .def(
             "make_additive",
             [](PyPose& self, const PyPose& reference) -> PyPose& {
@@ -496,15 +478,11 @@ void bind_pose(py::module_& module) {
             py::arg("influence") = 1.0, py::arg("tolerance") = 0.0, py::arg("iterations") = 0,
             py::arg("obey_constraints") = true, py::arg("carry_target") = false,
             "Moves an IK chain (its name, number or object) so that its tip reaches `target`, (3,) metres in model "
-            "space, "
-            "and there has `rotation`, a unit quaternion x, y, z, w. Joints stay within their constraints. A target "
-            "that "
-            "is not reached is a result, not an error.\n\n"
-            "solver: any (the chain's own), pull, two_bone, ccd, fabrik, aim, least_squares. pole: (3,) metres, the "
-            "point "
-            "to bend towards. influence: 0 to 1, how far the solution is blended in. tolerance: metres; 0: the chain's "
-            "own. iterations: at most; 0: the chain's own. carry_target: also moves the joint that the chain follows. "
-            "Raises KeyError, IndexError, ValueError.")
+            "space, and there has `rotation`, a unit quaternion x, y, z, w. Joints stay within their constraints. A "
+            "target that is not reached is a result, not an error.\n\nsolver: any (the chain's own), pull, two_bone, "
+            "ccd, fabrik, aim, least_squares. pole: (3,) metres, the point to bend towards. influence: 0 to 1, how far "
+            "the solution is blended in. tolerance: metres; 0: the chain's own. iterations: at most; 0: the chain's "
+            "own. carry_target: also moves the joint that the chain follows. Raises KeyError, IndexError, ValueError.")
         .def(
             "reach_all",
             [](PyPose& self) -> PyPose& {
@@ -517,19 +495,17 @@ void bind_pose(py::module_& module) {
              py::arg("tangents") = false, py::arg("method") = "linear", py::arg("out") = py::none(),
              "The posed vertices in model space: (N, 3) float32 positions in metres, of all meshes one after another "
              "(Mesh.first_vertex) or of one `mesh`. With normals, (N, 3) unit, or tangents, (N, 4), a tuple in that "
-             "order. method: linear or dual_quaternion.\n\n"
-             "Fresh arrays, or those in `out` (one, or a tuple): float32, writeable, of the same shapes; rows may have "
-             "gaps between them, as in interleaved buffers. Raises TypeError, ValueError, KeyError, IndexError.")
+             "order. method: linear or dual_quaternion.\n\nFresh arrays, or those in `out` (one, or a tuple): float32, "
+             "writeable, of the same shapes; rows may have gaps between them, as in interleaved buffers. Raises "
+             "TypeError, ValueError, KeyError, IndexError.")
         .def_property_readonly("matrices", &matrices_of,
                                "(J, 4, 4) float32, [row, column], fresh: joint space to model space.")
         .def("palette", &palette_of, py::arg("mesh"),
              "(B, 3, 4) float32, fresh: the skinning matrices of a mesh, for skinning elsewhere; the last row, 0 0 0 "
-             "1, is "
-             "left out. Empty for a rigid mesh. Raises KeyError, IndexError.")
-        .def_property_readonly(
-            "bounds", &bounds_of,
-            "(2, 3) float32, fresh: minimum and maximum corner of a box around all vertices, metres; the "
-            "minimum is above the maximum if there are none.")
+             "1, is left out. Empty for a rigid mesh. Raises KeyError, IndexError.")
+        .def_property_readonly("bounds", &bounds_of,
+                               "(2, 3) float32, fresh: minimum and maximum corner of a box around all vertices, "
+                               "metres; the minimum is above the maximum if there are none.")
         .def_property(
             "rotations",
             [](const PyPose& self) {
@@ -573,8 +549,7 @@ void bind_pose(py::module_& module) {
                 std::copy(weights.begin(), weights.end(), (*pose).change_morph_weights().begin());
             },
             "(M,) float32, fresh: usually 0 to 1, of all meshes (Mesh.first_morph_target). Assign the whole array; "
-            "raises "
-            "ValueError.")
+            "raises ValueError.")
         .def("__copy__",
              [](const PyPose& self) {
                  check_free(self);

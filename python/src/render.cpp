@@ -23,8 +23,9 @@ namespace {
 constexpr py::ssize_t kChannels = 4;
 
 py::array render_model(const py::object& subject, const py::object& clip, const std::vector<float>& times,
-                       std::uint32_t width, std::uint32_t height, float yaw, float pitch, float distance,
-                       const std::array<float, 4>& background, const std::vector<std::string>& drawn) {
+                       std::uint32_t width, std::uint32_t height, std::optional<float> yaw, std::optional<float> pitch,
+                       float distance, const std::optional<std::array<float, 4>>& background,
+                       const std::vector<std::string>& drawn) {
     const std::optional<GivenPose> given = pose_of(subject);
     const SharedCharacter character = given ? given->character : character_of(subject);
     viewer::RenderOptions options;
@@ -33,15 +34,20 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
     if (width < 1 || height < 1 || width > viewer::kMostPixels || height > viewer::kMostPixels)
         throw py::value_error("size must be 1 to " + std::to_string(viewer::kMostPixels) + " pixels each way");
     if (!clip.is_none()) options.clip = &find_clip(character, clip);
-    for (const float number : {yaw, pitch, distance}) {
+    if (yaw) options.camera.yaw = *yaw;
+    if (pitch) options.camera.pitch = *pitch;
+    options.camera.distance = distance;
+    for (const float number : {options.camera.yaw, options.camera.pitch, distance}) {
         if (!std::isfinite(number)) throw py::value_error("camera must be finite numbers");
     }
     if (distance <= 0.0f) throw py::value_error("the camera's distance must be above 0");
     for (const float time : times) {
         if (!std::isfinite(time)) throw py::value_error("times must be finite numbers");
     }
-    options.camera = {yaw, pitch, distance};
-    options.draw.background = glm::vec4(background[0], background[1], background[2], background[3]);
+    if (background) {
+        const auto& [red, green, blue, alpha] = *background;
+        options.draw.background = glm::vec4(red, green, blue, alpha);
+    }
     for (const std::string& what : drawn) {
         if (what == "bones") options.draw.bones = true;
         if (what == "axes") options.draw.axes = true;

@@ -1,6 +1,7 @@
 """convert, validate, inspect, edit, export, render: the program's answers, and files that are never lost."""
 
 import json
+import os
 
 import bendy
 import numpy
@@ -77,7 +78,36 @@ def test_an_input_is_never_an_output(tmp_path, mannequin):
     glb.symlink_to(copy)
     with pytest.raises(ValueError, match="input"):
         bendy.export(copy, glb, overwrite=True)
+    with pytest.raises(ValueError, match="input"):
+        bendy.edit(copy).strip("clips").save(copy, overwrite=True)
+    with pytest.raises(ValueError, match="input"):
+        bendy.edit(mannequin).merge_clips(copy, same_name="number").save(copy, overwrite=True)
+    with pytest.raises(ValueError, match="input"):
+        bendy.edit(bendy.open(copy)).save(copy, overwrite=True)
     assert copy.read_bytes() == mannequin.read_bytes()
+
+
+def test_the_suffix_names_the_format(tmp_path):
+    source = tmp_path / "mannequin.glb"
+    source.write_bytes((ROOT / "examples/mannequin.glb").read_bytes())
+    made = bendy.convert(source)
+    for name in ("mannequin.glb", "mannequin.gltf", "mannequin.x", "mannequin.obj"):
+        with pytest.raises(ValueError, match=r"\.bendy"):
+            made.save(tmp_path / name, overwrite=True)
+        with pytest.raises(ValueError, match=r"\.bendy"):
+            bendy.convert(ROOT / "examples/mannequin.glb", tmp_path / name, overwrite=True)
+    with pytest.raises(ValueError, match=r"\.png"):
+        bendy.save_png(numpy.zeros((1, 1, 4), numpy.uint8), source, overwrite=True)
+    assert source.read_bytes() == (ROOT / "examples/mannequin.glb").read_bytes() and len(list(tmp_path.iterdir())) == 1
+
+
+def test_names_that_are_not_utf_8(tmp_path, mannequin):
+    odd = os.fsdecode(bytes(tmp_path) + b"/caf\xe9.bendy")
+    assert bendy.convert(ROOT / "examples/mannequin.glb", odd).output.read_bytes() == mannequin.read_bytes()
+    assert bendy.open(odd).joints.names and bendy.validate(odd) == []
+    assert str(bendy.open(odd).source.file) == odd
+    with pytest.raises(FileNotFoundError):
+        bendy.open(odd + "x")
 
 
 def test_validate(mannequin, damaged, program):
@@ -143,7 +173,7 @@ def test_edit(mannequin, tmp_path):
 def test_edits_that_fail_change_nothing(mannequin):
     edit = bendy.edit(mannequin)
     with pytest.raises(bendy.EditError, match="Wlak"):
-        edit.strip("clip:Wlak")
+        edit.strip("textures", "clip:Wlak")
     with pytest.raises(ValueError):
         edit.strip("everything")
     with pytest.raises(ValueError):
