@@ -12,13 +12,13 @@ strip -o build/static/bendy build/static/cli/bendy
 
 needed=$(readelf -d build/static/bendy | grep NEEDED || true)
 [ -z "$needed" ] || { echo "needs shared libraries: $needed" >&2; exit 1; }
-# Nothing of this machine but the kernel: an empty root folder.
-rm -rf build/static/root
-mkdir -p build/static/root
-cp build/static/bendy examples/mannequin.glb build/static/root
-unshare --user --map-root-user chroot build/static/root /bendy convert mannequin.glb --compact -o mannequin.bendy
-unshare --user --map-root-user chroot build/static/root /bendy validate mannequin.bendy
+# Try it where there is nothing but the kernel: in an empty root folder.
+rm -rf build/static/empty
+mkdir -p build/static/empty
+cp build/static/bendy examples/mannequin.glb build/static/empty
+unshare --user --map-root-user chroot build/static/empty /bendy convert mannequin.glb --compact -o mannequin.bendy
+unshare --user --map-root-user chroot build/static/empty /bendy validate mannequin.bendy
 build/static/bendy convert examples/mannequin.glb --compact --force -o build/static/mannequin.bendy
-cmp build/static/mannequin.bendy build/static/root/mannequin.bendy
+cmp build/static/mannequin.bendy build/static/empty/mannequin.bendy
 file -b build/static/bendy
 ls -l build/static/bendy

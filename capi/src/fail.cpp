@@ -93,8 +93,8 @@ bendy_status check_range(std::uint32_t first, std::uint32_t count, std::size_t a
                          bendy_error* error) {
     if (first <= all && count <= all - first) return BENDY_OK;
     return fail(error, BENDY_BAD_ARGUMENT,
-                counted(count, kind) + " from number " + std::to_string(first) + " on are meant, the model has " +
-                    counted(all, kind));
+                "the model has " + counted(all, kind) + "; asked for " + std::to_string(count) + " from number " +
+                    std::to_string(first));
 }
 
 bendy_status check_room(std::uint64_t room, std::uint64_t needed, const char* name, bendy_error* error) {

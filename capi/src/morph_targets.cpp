@@ -63,8 +63,8 @@ bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh, 
         const bendy::Mesh& view = model->get().meshes()[mesh];
         if (count > view.vertices) {
             return fail(error, BENDY_BAD_ARGUMENT,
-                        std::to_string(count) + " vertices are meant, mesh " + std::to_string(mesh) + " has " +
-                            std::to_string(view.vertices));
+                        "expected at most " + std::to_string(view.vertices) + " vertices, as many as mesh " +
+                            std::to_string(mesh) + " has; found " + std::to_string(count));
         }
         const std::size_t targets = view.targets.size();
         const std::vector<float> zeros(weights == nullptr ? targets : 0);

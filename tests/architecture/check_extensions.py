@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Holds the sources to the standard language: what only GCC and clang know stands in the kernels and behind BENDY_GNU:
-check_extensions.py SOURCE_DIR"""
+"""Checks that sources use extensions of GCC and clang only in the kernels and behind BENDY_GNU: check_extensions.py SOURCE_DIR"""
 
 import re
 import sys
 from pathlib import Path
 
 EXTENSION = re.compile(r"__builtin_\w+|__attribute__|\[\[gnu::|vector_size|__int128|__restrict|\btypeof\b|^ *asm\b")
-# Each either has a standard way beside it or, the lanes of the kernels, is included only where BENDY_GNU is defined.
+# These have a standard alternative beside each extension, or are included only where BENDY_GNU is defined (kernels in lanes).
 MAY_USE = re.compile(r"format/include/bendy/format/public\.h|format/src/crc32c\.cpp|runtime/src/kernels/\w+_(lanes|avx2|sse4|neon|wasm)\.h"
                      r"|runtime/src/kernels/(lanes\w*|lane_types|kernels)\.(h|cpp)|converter/src/collapse/distances\.h"
                      r"|capi/include/bendy\.h")

@@ -5,7 +5,7 @@ ALONG = [0.5, 0.5, 0.5, 0.5]        # the frame's X is the bone's Y
 
 
 def joints():
-    """Each joint with what becomes of it in Blender."""
+    """Lists each joint and how Blender represents it."""
     return {
         # both are there, and the ellipse is in the bone's axes
         'seg_00': [{'model': 'euler_box', 'order': 'ZXY', 'scope': 'all_but_ik', 'x': [-10, 20], 'y': [-5, 8], 'z': [None, 15]},

@@ -110,7 +110,7 @@ TEST_F(CArguments, IndicesOutOfRangeAreErrors) {
     EXPECT_EQ(message(bendy_skin(pose_.get(), &options, &out, &error_)),
               "mesh 2 does not exist: the model has 2 meshes");
     EXPECT_EQ(message(bendy_get_local(pose_.get(), 3, 2, &transform_, &error_)),
-              "2 joints from number 3 on are meant, the model has 4 joints");
+              "the model has 4 joints; asked for 2 from number 3");
     message(bendy_set_local(pose_.get(), 0xffff'ffff, 2, &transform_, &error_));  // which would wrap
     message(bendy_get_weights(pose_.get(), 1, 2, numbers_.data(), &error_));
     message(bendy_joint_matrices(pose_.get(), 4, 1, nullptr, numbers_.data(), &error_));

@@ -202,7 +202,7 @@ TEST_F(CGeometry, MorphTargetsAreAppliedAsInCpp) {
     EXPECT_EQ(made[1], glm::vec3(1, 0, 0));
     EXPECT_EQ(made[3], glm::vec3(1, 19, 2));
     EXPECT_EQ(message(bendy_apply_morph_targets(model_.get(), 0, nullptr, &made[0].x, nullptr, nullptr, 5, &error_)),
-              "5 vertices are meant, mesh 0 has 4");
+              "expected at most 4 vertices, as many as mesh 0 has; found 5");
     const Floats bad{NAN, 0.0f};
     EXPECT_EQ(message(bendy_apply_morph_targets(model_.get(), 0, bad.data(), &made[0].x, nullptr, nullptr, 2, &error_)),
               "weights holds a number that is not finite");
