@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "diff/reports.h"
 #include "files/input.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
@@ -6,11 +7,8 @@
 
 #include <bendy/converter/compare_characters.h>
 #include <bendy/converter/error_bound.h>
-#include <bendy/converter/export.h>
-#include <bendy/converter/import.h>
 #include <bendy/diff/compare_files.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/document.h>
 
 #include <array>
 #include <charconv>
@@ -26,8 +24,6 @@
 namespace bendy::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Json = nlohmann::ordered_json;
 using converter::CharacterComparison;
 using converter::CharacterDifference;
 using diff::Difference;
@@ -64,22 +60,6 @@ std::string value_text(const diff::Value& value) {
     std::string text;
     for (const diff::Scalar& item : value.items) text += (text.empty() ? "" : " ") + scalar_text(item);
     return text;
-}
-
-Json to_json(const diff::Value& value) {
-    Json list = Json::array();
-    for (const diff::Scalar& item : value.items) {
-        std::visit(
-            [&](const auto& scalar) {
-                if constexpr (std::is_same_v<decltype(scalar), const std::monostate&>) {
-                    list.push_back(nullptr);
-                } else {
-                    list.push_back(scalar);
-                }
-            },
-            item);
-    }
-    return value.is_list ? list : list.front();
 }
 
 /// "3 of 300 numbers differ, by up to 0.25; the first: element 4, component 1: 0 -> 0.25".
@@ -120,22 +100,6 @@ std::string what_text(const Difference& difference) {
     return text;
 }
 
-const char* kind_name(Kind kind) {
-    constexpr std::array kNames{"onlyInA", "onlyInB", "order", "value", "numbers", "bytes", "storage"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-/// The name of a chunk, or of the nearest around it that has one.
-std::string name_of(const ChunkTree& tree, std::uint32_t number) {
-    constexpr unsigned kMostSteps = 3;
-    for (unsigned step = 0; step < kMostSteps && number != 0; ++step) {
-        const std::uint32_t name = tree[number].is_container() ? tree.find(number, FourCC("NAME")) : kNone;
-        if (name != kNone) return std::string(as_text(tree.payload(name)));
-        number = tree[number].parent;
-    }
-    return {};
-}
-
 void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differences) {
     for (const Difference& difference : differences.list()) {
         const auto& [here, there] = difference.chunks;
@@ -145,7 +109,7 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
         const std::string path = chunk_path(file.tree.bytes(), file.tree[chunk].offset);
         const char mark = difference.kind == Kind::only_in_a ? '-' : difference.kind == Kind::only_in_b ? '+' : '!';
         std::string line = std::string(1, mark) + ' ' + path;
-        if (const std::string name = name_of(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
+        if (const std::string name = name_around(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
         if (here != kNone && there != kNone) {
             const std::string other = chunk_path(b.tree.bytes(), b.tree[there].offset);
             if (other != path) line += " (in B: " + other + ')';
@@ -155,43 +119,6 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
     if (differences.left_out() != 0) std::cout << grouped(differences.left_out()) << " more differences\n";
 }
 
-Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
-    Json list = Json::array();
-    for (const Difference& difference : differences.list()) {
-        const auto& [here, there] = difference.chunks;
-        Json entry{{"kind", kind_name(difference.kind)}};
-        if (here != kNone) entry["pathInA"] = whole_chunk_path(a.tree.bytes(), a.tree[here].offset);
-        if (there != kNone) entry["pathInB"] = whole_chunk_path(b.tree.bytes(), b.tree[there].offset);
-        const std::string name = here != kNone ? name_of(a.tree, here) : name_of(b.tree, there);
-        if (!name.empty()) entry["name"] = name;
-        if (!difference.part.empty()) entry["part"] = difference.part;
-        if (difference.kind == Kind::value || difference.kind == Kind::numbers) {
-            entry["a"] = to_json(difference.a_value);
-            entry["b"] = to_json(difference.b_value);
-        }
-        if (difference.kind == Kind::bytes) {
-            entry["bytesInA"] = to_json(difference.a_value);
-            entry["bytesInB"] = to_json(difference.b_value);
-            entry["first"] = difference.first_element;
-        }
-        if (difference.kind == Kind::numbers) {
-            entry["largest"] = difference.largest;
-            entry["element"] = difference.first_element;
-            entry["component"] = difference.first_component;
-        }
-        if (difference.kind == Kind::numbers || difference.kind == Kind::bytes) {
-            entry["differing"] = difference.count;
-            entry["of"] = difference.of;
-        }
-        list.push_back(std::move(entry));
-    }
-    Json report{
-        {"a", arguments.files[0].string()}, {"b", arguments.files[1].string()}, {"same", differences.count() == 0}};
-    report["differences"] = std::move(list);
-    report["differencesLeftOut"] = differences.left_out();
-    return report;
-}
-
 /// A damaged file is refused before anything is compared: its sums would say nothing.
 std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
     const Faults faults = validate(file.bytes());
@@ -199,21 +126,16 @@ std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputByt
     return diff::read_file(file.bytes());
 }
 
-struct ComparedCharacter {
-    converter::Scene scene;
-    std::string rig;  // as a rig file
-};
-
-ComparedCharacter read_compared(const std::filesystem::path& path) {
+ComparedCharacter open_compared(const std::filesystem::path& path) {
     const InputBytes file = open_bendy_file(path);
     converter::Report report;
-    auto scene = converter::import_bendy(file.bytes(), report);
-    if (!scene) fail(path, printable(scene.error().message));
+    auto character = read_compared(file.bytes(), report);
+    if (!character) fail(path, printable(character.error().message));
     for (const converter::Warning& warning : report.warnings()) {
         const std::string place = warning.first_place.empty() ? "" : warning.first_place + ": ";
         warn(path, printable("not compared: " + place + warning.message));
     }
-    return {*std::move(scene), converter::write_rig(diff::read_file(file.bytes())->document.objects.front(), false)};
+    return *std::move(character);
 }
 
 std::string three_digits(double number) {
@@ -255,42 +177,17 @@ void print_text(const CharacterComparison& comparison) {
     }
 }
 
-Json to_json(const std::array<std::filesystem::path, 2>& files, const CharacterComparison& comparison) {
-    constexpr std::array kKinds{"onlyInA", "onlyInB", "value", "distance"};
-    Json report{{"a", files[0].string()},
-                {"b", files[1].string()},
-                {"same", comparison.differences.empty()},
-                {"tolerance", comparison.tolerance},
-                {"unit", "metres"},
-                {"worst", comparison.worst},
-                {"worstPlace", comparison.worst_place}};
-    Json looks = Json::array();
-    for (const converter::LookDifference& look : comparison.looks)
-        looks.push_back({{"place", look.place}, {"apart", look.apart}, {"allowed", look.allowed}, {"unit", look.unit}});
-    report["looks"] = std::move(looks);
-    Json list = Json::array();
-    for (const CharacterDifference& difference : comparison.differences) {
-        Json entry{{"kind", kKinds[static_cast<std::size_t>(difference.kind)]}, {"place", difference.place}};
-        if (!difference.what.empty()) entry["what"] = difference.what;
-        if (difference.kind == CharacterDifference::Kind::distance) entry["metres"] = difference.metres;
-        list.push_back(std::move(entry));
-    }
-    report["differences"] = std::move(list);
-    report["differencesLeftOut"] = comparison.left_out;
-    return report;
-}
-
 /// Compares what two bendy files mean and prints what differs by more than the tolerance, and the worst distance met.
 /// True if nothing does. Throws Failed where a file is bad, or the tolerance too large to tell anything apart.
 bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, const converter::ErrorBound& tolerance,
                           bool as_json) {
-    const ComparedCharacter a = read_compared(files[0]);
-    const ComparedCharacter b = read_compared(files[1]);
+    const ComparedCharacter a = open_compared(files[0]);
+    const ComparedCharacter b = open_compared(files[1]);
     CharacterComparison comparison;
     {
         ProgressBar bar("comparing");
         std::uint64_t shown = 0;
-        comparison = converter::compare_characters(a.scene, b.scene, tolerance, [&](double share) {
+        comparison = compare_characters(a, b, tolerance, [&](double share) {
             const auto percent = static_cast<std::uint64_t>(100.0 * share);
             if (percent > shown) bar.show(shown = percent, 100);
         });
@@ -299,12 +196,8 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
         fail(files[0], "too many polygons lie within " + length_text(comparison.tolerance) +
                            " of one another; a smaller tolerance can tell them apart");
     }
-    if (a.rig != b.rig) {
-        comparison.differences.push_back(
-            {CharacterDifference::Kind::value, "rig", "constraints or IK chains differ; `bendy rig` writes them", 0.0});
-    }
     if (as_json) {
-        print_report(to_json(files, comparison), 2);
+        print_report(comparison_as_json(files[0].string(), files[1].string(), comparison), 2);
     } else {
         print_text(comparison);
     }
@@ -321,7 +214,9 @@ bool are_same(const DiffArguments& arguments) {
     }
     const Differences differences = diff::compare_files(*read[0], *read[1]);
     if (arguments.json) {
-        print_report(to_json(arguments, *read[0], *read[1], differences), 2);
+        print_report(differences_as_json(arguments.files[0].string(), arguments.files[1].string(), *read[0], *read[1],
+                                         differences),
+                     2);
     } else {
         print_lines(*read[0], *read[1], differences);
     }

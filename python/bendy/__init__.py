@@ -16,6 +16,7 @@ import builtins as _builtins
 import collections.abc as _abc
 import contextlib as _contextlib
 import html as _html
+import json as _json
 import math as _math
 import os as _os
 from pathlib import Path as _Path
@@ -23,15 +24,16 @@ from pathlib import Path as _Path
 import numpy as _np
 
 from . import _bendy
-from ._bendy import (Chain, Clip, Constraint, Curve, Items, Joint, Marker, Material, Mesh, MorphTarget, Pose, ReachResult, Submesh,
-                     Texture, Track, __version__)
+from ._bendy import (Binding, Chain, Clip, Constraint, Crossfade, Crowd, Curve, Items, Joint, Lod, Marker, Material, Mesh, MorphTarget,
+                     PlayedInterval, Playback, Playing, Pose, ReachResult, RootMotion, RootPath, Submesh, Texture, Track, __version__)
 from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
 
 __all__ = [
-    "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Curve", "Edit", "EditError", "Error", "Export", "Fault",
-    "Faults", "File", "InvalidError", "Items", "Joint", "MalformedError", "Marker", "Material", "Mesh", "Model", "MorphTarget", "Pose",
-    "ReachResult", "RenderError", "Submesh", "Texture", "Track", "UnsupportedError", "contact_sheet", "convert", "edit", "encode_png",
-    "export", "inspect", "open", "render", "save_png", "validate",
+    "Binding", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
+    "EditError", "Error", "Export", "Fault", "Faults", "File", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
+    "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachResult", "RenderError",
+    "RootMotion", "RootPath", "Submesh", "Texture", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
+    "dump", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
 ]
 
 _abc.Sequence.register(Items)
@@ -338,13 +340,14 @@ def open(source, *, object=0, check_sums=True):
 
 def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, skeleton="", compact=False, lod=False,
             sort_vertices=False, images="embed", scene=None, instances=False, merge_clips=False, ticks_per_second=0.0, name="source.glb",
-            overwrite=False):
+            progress=None, overwrite=False):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
 
     output: the path to write; None: nothing is written, see File.save. The other arguments are the options of `bendy convert`.
     rig: a rig file. auto_rig: propose IK chains and constraints. auto_skin, skeleton: bind meshes without a skin to bones. compact:
     True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". scene: of a glTF file, its name
-    or number. name: of a source that is bytes, in front the folder of the files that it refers to.
+    or number. name: of a source that is bytes, in front the folder of the files that it refers to. progress: is called with the share
+    that is done, 0 to 1, while a compact file is made; what it raises ends the call after the conversion.
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
     if images not in ("embed", "link"):
@@ -362,7 +365,7 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     bound = None if compact is False else "" if compact is True else compact
     made, report, sources = _bendy.convert(
         file, found, "" if output is None else output, None if scene is None else str(scene), images == "embed", instances, rig,
-        ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices)
+        ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)
         made.write(output)
@@ -395,6 +398,31 @@ def inspect(source):
 def edit(source):
     """An Edit of a bendy file, or of what bendy.open accepts. Nothing is written before Edit.save."""
     return Edit(_bendy_source(source), [source])
+
+
+def diff(a, b, *, tolerance=None):
+    """How two bendy files differ: the dict of `bendy diff --json`, described in docs/cli.md; ["same"] says whether they do not.
+
+    tolerance: compares the characters instead of the chunks, for example an exact file with its compact version: the largest distance
+    by which a point of the skin may differ in any clip, "0.1mm" or "0.005%". Raises Error for a file with faults, ValueError, OSError.
+    """
+    a, b = _bendy_source(a), _bendy_source(b)
+    return _bendy.diff(a, b) if tolerance is None else _bendy.compare(a, b, tolerance)
+
+
+def dump(source, *, decode=False):
+    """The text form of a bendy file as a dict, described in spec/text.md: to read, to change, and to give to assemble.
+
+    decode: encoded leaves as plain ones. Raises MalformedError, OSError.
+    """
+    # A negative zero keeps its sign: JSON's -0 would be an int.
+    return _json.loads(_bendy.dump(_bendy_source(source), decode), parse_int=lambda digits: -0.0 if digits == "-0" else int(digits))
+
+
+def assemble(text):
+    """A File made of a text form: the dict that dump returns, or JSON. Its content is not checked: see File.validate. Raises ValueError
+    with line and column."""
+    return File(_bendy.assemble(text if isinstance(text, str) else _json.dumps(text, indent=1)))
 
 
 def export(source, output, *, lod=1.0, overwrite=False):

@@ -113,6 +113,7 @@ std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, cons
 
 void bind_model(py::module_& module);
 void bind_pose(py::module_& module);
+void bind_play(py::module_& module);
 void bind_tools(py::module_& module);
 /// render, if the viewer is built.
 void bind_render(py::module_& module);

@@ -1,4 +1,5 @@
 #include "parts.h"
+#include "poses.h"
 
 #include <bendy/runtime/lod.h>
 
@@ -117,18 +118,60 @@ py::array inverse_bind_of(const PyMesh& mesh) {
                 {static_cast<py::ssize_t>(matrices.size()), 4, 4}, {kMatrix, kFloat, kColumn});
 }
 
-py::array triangles_of(const PyMesh& mesh, float share) {
+std::shared_ptr<const PyLod> make_lod(const py::handle& model, float share) {
     if (!(share >= 0.0f)) throw py::value_error("share must be 0 to 1");
-    Lod lod(mesh.model());
-    lod.set_share(share);
+    const SharedCharacter character = character_of(model);
+    auto lod = std::make_shared<PyLod>(PyLod{character, share, Lod(character->model)});
+    lod->lod.set_share(share);
+    return lod;
+}
+
+/// Of one mesh: (T, 3).
+py::array triangles_at(const Lod& lod, std::uint32_t mesh) {
     std::vector<std::uint32_t> corners;
-    const auto indices = lod.indices(mesh.number);
+    const auto indices = lod.indices(mesh);
     for (const Submesh& submesh : lod.submeshes()) {
-        if (submesh.mesh != mesh.number || submesh.topology != Topology::triangles) continue;
+        if (submesh.mesh != mesh || submesh.topology != Topology::triangles) continue;
         const auto part = indices.subspan(submesh.first, submesh.count);
         corners.insert(corners.end(), part.begin(), part.end());
     }
     return py::array_t<std::uint32_t>({static_cast<py::ssize_t>(corners.size() / 3), py::ssize_t{3}}, corners.data());
+}
+
+py::array triangles_of(const PyMesh& mesh, float share) {
+    if (!(share >= 0.0f)) throw py::value_error("share must be 0 to 1");
+    Lod lod(mesh.model());
+    lod.set_share(share);
+    return triangles_at(lod, mesh.number);
+}
+
+void bind_lod(py::module_& module) {
+    py::class_<PyLod, std::shared_ptr<PyLod>>(
+        module, "Lod", "A model at one level of detail. It never changes, so that threads may share it.")
+        .def(py::init([](const py::object& model, float share) {
+                 return std::const_pointer_cast<PyLod>(make_lod(model, share));
+             }),
+             py::arg("model"), py::arg("share") = 1.0f,
+             "About this share of the model's triangles: 1 keeps all, 0 as few as the file's collapse sequence allows; "
+             "without a sequence, all. Raises ValueError.")
+        .def_readonly("share", &PyLod::share, "As it was asked for.")
+        .def_property_readonly(
+            "triangle_count", [](const PyLod& self) { return self.lod.triangles(); }, "In all meshes.")
+        .def_property_readonly(
+            "error", [](const PyLod& self) { return self.lod.error(); },
+            "Metres that the surface may be off, as the file states it; 0 at full detail or if it does not.")
+        .def(
+            "vertex_count",
+            [](const PyLod& self, const py::object& mesh) {
+                return self.lod.vertices(find_mesh(self.character, mesh));
+            },
+            py::arg("mesh"), "How many vertices of a mesh are left: its first ones. Raises KeyError, IndexError.")
+        .def(
+            "triangles",
+            [](const PyLod& self, const py::object& mesh) {
+                return triangles_at(self.lod, find_mesh(self.character, mesh));
+            },
+            py::arg("mesh"), "(T, 3) uint32, fresh: the triangles of a mesh. Raises KeyError, IndexError.");
 }
 
 // Materials and textures.
@@ -156,6 +199,7 @@ py::list images_of(const PyTexture& self) {
 }  // namespace
 
 void bind_meshes(py::module_& module) {
+    bind_lod(module);
     py::class_<PyMorphTarget>(module, "MorphTarget", "Displacements of a mesh's vertices, or a frame of it.")
         .def_property_readonly(
             "name", [](const PyMorphTarget& self) { return text(self.get().name); }, "May be empty.")

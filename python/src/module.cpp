@@ -192,6 +192,7 @@ PYBIND11_MODULE(_bendy, module) {
     python::bind_source(module);
     python::bind_model(module);
     python::bind_pose(module);
+    python::bind_play(module);
     python::bind_tools(module);
     python::bind_render(module);
 }

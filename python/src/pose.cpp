@@ -1,4 +1,4 @@
-#include "bindings.h"
+#include "poses.h"
 
 #include <bendy/format/clip.h>
 #include <bendy/format/read_record.h>
@@ -9,6 +9,7 @@
 #include <bendy/runtime/ik.h>
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
+#include <bendy/runtime/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -20,50 +21,12 @@
 namespace bendy::python {
 namespace {
 
-struct PyPose {
-    SharedCharacter character;
-    Pose pose;
-    bool is_busy = false;  // in a call that has released the GIL; read and written with the GIL held
-};
-
-/// For a call that releases the GIL: no other thread may use the pose meanwhile.
-class Use {
-public:
-    explicit Use(PyPose& pose) : pose_(pose) {
-        if (pose.is_busy) throw std::runtime_error("the pose is in use by another thread: give each thread its own");
-        pose.is_busy = true;
-    }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-    Use(Use&&) = delete;
-    Use& operator=(Use&&) = delete;
-    ~Use() { pose_.is_busy = false; }
-
-    [[nodiscard]] Pose& operator*() const { return pose_.pose; }
-
-private:
-    PyPose& pose_;
-};
-
-/// Does work that takes no Python object without the GIL.
-template <class Work>
-auto without_gil(const Work& work) {
-    const py::gil_scoped_release released;
-    return work();
-}
-
 struct PyReachResult {
     const char* status = "";
     bool reached = false;
     float distance = 0.0f, angle = 0.0f;
     std::uint32_t iterations = 0;
 };
-
-float check_finite(double number, const char* name) {
-    const auto value = static_cast<float>(number);
-    if (!std::isfinite(value)) throw py::value_error(std::string(name) + " must be a finite number");
-    return value;
-}
 
 // Arrays of local transforms.
 
@@ -127,15 +90,6 @@ void set_vectors(PyPose& self, const py::object& numbers, glm::vec3 JointTransfo
     }
 }
 
-/// Matrices by row and column; `out` has 16 numbers for each.
-void write_matrices(std::span<const glm::mat4> matrices, float* out) {
-    for (const glm::mat4& matrix : matrices) {
-        for (int row = 0; row < 4; ++row) {
-            for (int column = 0; column < 4; ++column) *out++ = matrix[column][row];
-        }
-    }
-}
-
 py::array matrices_of(PyPose& self) {
     const Use pose(self);
     py::array_t<float> array({static_cast<py::ssize_t>(self.pose.local().size()), py::ssize_t{4}, py::ssize_t{4}});
@@ -147,10 +101,7 @@ py::array palette_of(PyPose& self, const py::object& mesh) {
     const Use pose(self);
     const auto entries = (*pose).palette(find_mesh(self.character, mesh));
     py::array_t<float> array({static_cast<py::ssize_t>(entries.size()), py::ssize_t{3}, py::ssize_t{4}});
-    float* out = array.mutable_data();
-    for (const PaletteMatrix& entry : entries) {
-        for (const auto& row : entry.rows) out = std::copy(std::begin(row), std::end(row), out);
-    }
+    write_palette(entries, array.mutable_data());
     return array;
 }
 
@@ -223,7 +174,7 @@ SkinningMethod method_of(const std::string& name) {
 }
 
 py::object skin_pose(PyPose& self, const py::object& mesh, bool normals, bool tangents, const std::string& method,
-                     const py::object& out) {
+                     const std::optional<std::shared_ptr<const PyLod>>& lod, const py::object& out) {
     const Use pose(self);
     const Model& model = self.character->model;
     SkinRequest request;
@@ -233,7 +184,15 @@ py::object skin_pose(PyPose& self, const py::object& mesh, bool normals, bool ta
         request.mesh = find_mesh(self.character, mesh);
         vertices = model.meshes()[request.mesh].vertices;
     }
+    if (lod) {
+        if ((*lod)->character != self.character) throw py::value_error("the level of detail belongs to another model");
+        request.lod = &(*lod)->lod;
+        if (!mesh.is_none()) vertices = request.lod->vertices(request.mesh);
+    }
     const Outputs outputs = make_outputs(vertices, normals, tangents, out);
+    for (const py::handle array : outputs.arrays) {
+        if (lod && out.is_none()) array.attr("fill")(0.0f);
+    }
     request.out = outputs.buffer;
     const auto skinned = without_gil([&] { return skin(*pose, request); });
     if (!skinned) raise_call(skinned.error());
@@ -297,10 +256,6 @@ PyReachResult reach_target(PyPose& self, const py::object& chain, const py::obje
 std::vector<float> mask_of(const PyPose& self, const py::object& mask) {
     if (mask.is_none()) return {};
     return numbers_of(mask, self.pose.local().size(), "mask");
-}
-
-void check_free(const PyPose& pose) {
-    if (pose.is_busy) throw std::runtime_error("the pose is in use by another thread: give each thread its own");
 }
 
 /// Blends, adds or subtracts. \param work  takes the pose and the other one, which may be the same
@@ -492,10 +447,13 @@ void bind_pose(py::module_& module) {
             },
             py::return_value_policy::reference, "Solves every chain that follows a target joint, by priority.")
         .def("skin", &skin_pose, py::arg("mesh") = py::none(), py::kw_only(), py::arg("normals") = false,
-             py::arg("tangents") = false, py::arg("method") = "linear", py::arg("out") = py::none(),
+             py::arg("tangents") = false, py::arg("method") = "linear", py::arg("lod") = py::none(),
+             py::arg("out") = py::none(),
              "The posed vertices in model space: (N, 3) float32 positions in metres, of all meshes one after another "
              "(Mesh.first_vertex) or of one `mesh`. With normals, (N, 3) unit, or tangents, (N, 4), a tuple in that "
-             "order. method: linear or dual_quaternion.\n\nFresh arrays, or those in `out` (one, or a tuple): float32, "
+             "order. method: linear or dual_quaternion. lod: a level of detail, see Model.lod: a mesh has only the "
+             "vertices that are left; of all meshes, vertices that are left out are zero.\n\nFresh arrays, or those in "
+             "`out` (one, or a tuple): float32, "
              "writeable, of the same shapes; rows may have gaps between them, as in interleaved buffers. Raises "
              "TypeError, ValueError, KeyError, IndexError.")
         .def_property_readonly("matrices", &matrices_of,
@@ -503,6 +461,26 @@ void bind_pose(py::module_& module) {
         .def("palette", &palette_of, py::arg("mesh"),
              "(B, 3, 4) float32, fresh: the skinning matrices of a mesh, for skinning elsewhere; the last row, 0 0 0 "
              "1, is left out. Empty for a rigid mesh. Raises KeyError, IndexError.")
+        .def(
+            "socket",
+            [](PyPose& self, const py::object& joint, const py::object& offset, const py::object& model_to_world,
+               bool keeps_size) {
+                Socket socket;
+                socket.joint = find_joint(self.character, joint);
+                socket.keeps_size = keeps_size;
+                if (!offset.is_none()) socket.offset = matrix_of(offset, "offset");
+                const glm::mat4 world =
+                    model_to_world.is_none() ? glm::mat4(1.0f) : matrix_of(model_to_world, "model_to_world");
+                const Use pose(self);
+                const glm::mat4 matrix = socket_matrix(*pose, socket, world);
+                py::array_t<float> array({4, 4});
+                write_matrices(std::span(&matrix, 1), array.mutable_data());
+                return array;
+            },
+            py::arg("joint"), py::arg("offset") = py::none(), py::kw_only(), py::arg("model_to_world") = py::none(),
+            py::arg("keeps_size") = true,
+            "(4, 4) float32, [row, column], fresh: where a thing is that a joint carries: model_to_world @ joint @ "
+            "offset. keeps_size: without the joint's scale. Raises KeyError, IndexError, ValueError.")
         .def_property_readonly("bounds", &bounds_of,
                                "(2, 3) float32, fresh: minimum and maximum corner of a box around all vertices, "
                                "metres; the minimum is above the maximum if there are none.")

@@ -1,23 +1,28 @@
 #include "bindings.h"
 #include "convert/conversion.h"
+#include "diff/reports.h"
 #include "files/suffixes.h"
 #include "inspect/describe_chunk.h"
 #include "inspect/summary.h"
 #include "terminal/json.h"
 
 #include <bendy/converter/convert.h>
+#include <bendy/converter/error_bound.h>
 #include <bendy/converter/export.h>
 #include <bendy/converter/source_format.h>
+#include <bendy/diff/compare_files.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/runtime/lod.h>
+#include <bendy/text_form/text_form.h>
 
+#include <exception>
 #include <span>
 #include <utility>
 
-// convert, validate, inspect, edit and export.
+// convert, validate, inspect, edit, diff, dump and export.
 namespace bendy::python {
 namespace {
 
@@ -54,7 +59,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
                          bool embed_images, bool instances, const std::optional<std::filesystem::path>& rig,
                          double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
                          const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
-                         bool sort_vertices) {
+                         bool sort_vertices, const py::object& progress) {
     converter::ConvertOptions options;
     options.output = output;
     options.gltf.scene = scene;
@@ -73,6 +78,21 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
         if (!bound) throw py::value_error("compact: " + bound.error());
         options.compact = *bound;
     }
+    std::exception_ptr stopped;
+    double told = -1.0;
+    if (!progress.is_none()) {
+        options.progress = [&](double done) {
+            constexpr double kStep = 0.01;
+            if (stopped != nullptr || (done < told + kStep && done < 1.0)) return;
+            told = done;
+            const py::gil_scoped_acquire acquired;
+            try {
+                progress(done);
+            } catch (...) {
+                stopped = std::current_exception();
+            }
+        };
+    }
     converter::Report report;
     std::string json;
     auto converted = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
@@ -90,6 +110,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
         if (bytes) json = cli::json_text(cli::converted_report(file, output, report, *bytes));
         return bytes;
     }();
+    if (stopped != nullptr) std::rethrow_exception(stopped);
     if (!converted) raise_import(converted.error(), file);
     py::list sources;
     for (const converter::SourceFile& one : report.sources()) {
@@ -219,6 +240,84 @@ py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
 }
 
+// Comparison.
+
+/// Read to be compared. Raises the first fault of a file.
+std::unique_ptr<diff::ReadFile> read_valid(const Source& source) {
+    const Faults faults = validate(source.bytes());
+    if (faults.empty()) return diff::read_file(source.bytes());
+    const py::gil_scoped_acquire acquired;
+    raise_fault(faults.list().front(), source);
+}
+
+py::object diff_sources(const SourcePointer& a, const SourcePointer& b) {
+    require_bendy(*a);
+    require_bendy(*b);
+    std::string json;
+    try {
+        const py::gil_scoped_release released;
+        const auto read_a = read_valid(*a);
+        const auto read_b = read_valid(*b);
+        json = cli::json_text(cli::differences_as_json(a->file().string(), b->file().string(), *read_a, *read_b,
+                                                       diff::compare_files(*read_a, *read_b)));
+    } catch (const diff::TooMuchToCompare&) {
+        throw py::value_error("tracks share more keys than can be compared");
+    }
+    return parse_json(json);
+}
+
+py::object compare_characters(const SourcePointer& a, const SourcePointer& b, const std::string& tolerance) {
+    const auto bound = converter::parse_error_bound(tolerance);
+    if (!bound) throw py::value_error("tolerance: " + bound.error());
+    const auto read = [](const SourcePointer& source) {
+        require_bendy(*source);
+        converter::Report report;
+        auto character = [&] {
+            const py::gil_scoped_release released;
+            return cli::read_compared(source->bytes(), report);
+        }();
+        if (!character) raise_import(character.error(), source->file());
+        return *std::move(character);
+    };
+    const cli::ComparedCharacter character_a = read(a);
+    const cli::ComparedCharacter character_b = read(b);
+    std::string json;
+    bool gave_up = false;
+    {
+        const py::gil_scoped_release released;
+        const auto comparison = cli::compare_characters(character_a, character_b, *bound);
+        gave_up = comparison.gave_up;
+        json = cli::json_text(cli::comparison_as_json(a->file().string(), b->file().string(), comparison));
+    }
+    if (gave_up) throw py::value_error("too many polygons lie within the tolerance of one another: give a smaller one");
+    return parse_json(json);
+}
+
+// The text form.
+
+py::str dump_source(const SourcePointer& source, bool decode) {
+    const auto tree = read_tree(source);
+    std::string json;
+    {
+        const py::gil_scoped_release released;
+        json = text_form::dump(tree->tree, {decode});
+    }
+    return text(json);
+}
+
+SourcePointer assemble_text(const std::string& json) {
+    auto bytes = [&] {
+        const py::gil_scoped_release released;
+        return text_form::assemble(json);
+    }();
+    if (!bytes) {
+        const auto& fault = bytes.error();
+        throw py::value_error("line " + std::to_string(fault.line) + ", column " + std::to_string(fault.column) + ": " +
+                              fault.what);
+    }
+    return std::make_shared<Source>(*std::move(bytes));
+}
+
 // Export.
 
 /// The level of detail that has this share of the triangles.
@@ -289,7 +388,8 @@ void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
                py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("ticks_per_second"),
                py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"), py::arg("skeleton"),
-               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), "See bendy.convert.");
+               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("progress"),
+               "See bendy.convert.");
     module.def(
         "format_named_by", [](const std::filesystem::path& file) { return text(cli::format_named_by(file)); },
         py::arg("file"), "The format that a file's suffix means, as \"binary glTF\"; empty if it has no meaning.");
@@ -316,6 +416,10 @@ void bind_tools(py::module_& module) {
     module.def("merge_clips", &merge_clips, py::arg("source"), py::arg("other"), py::arg("same_name"),
                "See bendy.Edit.merge_clips.");
     module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");
+    module.def("diff", &diff_sources, py::arg("a"), py::arg("b"), "See bendy.diff.");
+    module.def("compare", &compare_characters, py::arg("a"), py::arg("b"), py::arg("tolerance"), "See bendy.diff.");
+    module.def("dump", &dump_source, py::arg("source"), py::arg("decode"), "See bendy.dump.");
+    module.def("assemble", &assemble_text, py::arg("text"), "See bendy.assemble.");
     module.def("export", &export_source, py::arg("source"), py::arg("format"), py::arg("output"), py::arg("share"),
                "See bendy.export.");
 }

@@ -17,7 +17,7 @@ MAY_USE = {
     "text_form": {"format"},
     "stages": {"format", "runtime"},
     "cli": {"format", "runtime", "converter", "diff", "edit", "viewer", "text_form", "stages"},
-    "python": {"format", "runtime", "converter", "edit", "viewer"},
+    "python": {"format", "runtime", "converter", "diff", "edit", "text_form", "viewer"},
 }
 # Rooms of runtime/src and converter/src, and those that each may use beside its own. What lies in converter/src itself,
 # in no room, all of them may use.

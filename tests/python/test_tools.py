@@ -237,3 +237,46 @@ def test_png(model, tmp_path):
     assert data.startswith(b"\x89PNG\r\n\x1a\n") and data[16:24] == b"\x00\x00\x00\x05\x00\x00\x00\x04"
     with pytest.raises(FileExistsError):
         bendy.save_png(pixels, path)
+
+
+def test_diff(mannequin, compact, program, tmp_path):
+    assert bendy.diff(mannequin, mannequin.read_bytes())["same"]
+    walk = bendy.edit(mannequin).strip("clip:Idle").save(tmp_path / "walk.bendy")
+    found = bendy.diff(mannequin, walk)
+    assert found == json.loads(program("diff", mannequin, walk, "--json", status=1)) and not found["same"]
+    close = bendy.diff(mannequin, compact, tolerance="0.01%")
+    assert close["same"] and 0 < close["worst"] <= close["tolerance"]
+    assert not bendy.diff(mannequin, compact, tolerance="1um")["same"]
+    with pytest.raises(ValueError, match="tolerance"):
+        bendy.diff(mannequin, walk, tolerance="some")
+
+
+def test_diff_of_a_broken_file(mannequin, damaged):
+    path = damaged(bendy.inspect(mannequin)["OBJE/CYCL/CINF"].offset + 16, b"\x00\x00\xc0\x7f")
+    with pytest.raises(bendy.Error):
+        bendy.diff(mannequin, path)
+    with pytest.raises(bendy.Error):
+        bendy.diff(path, mannequin, tolerance="1mm")
+
+
+def test_text_form(mannequin, compact, program):
+    text = bendy.dump(mannequin)
+    assert text == json.loads(program("dump", mannequin))
+    assert bytes(bendy.assemble(text).data) == bytes(bendy.assemble(json.dumps(text)).data) == mannequin.read_bytes()
+    assert bytes(bendy.assemble(bendy.dump(compact)).data) == bytes(compact.data)
+    assert bytes(bendy.assemble(bendy.dump(compact, decode=True)).data) != bytes(compact.data)
+    with pytest.raises(ValueError, match="line 1, column"):
+        bendy.assemble("{")
+
+
+def test_progress():
+    shares = []
+    made = bendy.convert(ROOT / "examples/mannequin.glb", compact=True, progress=shares.append)
+    assert shares and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
+    assert bytes(made.data) == bytes(bendy.convert(ROOT / "examples/mannequin.glb", compact=True).data)
+
+    def stop(share):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        bendy.convert(ROOT / "examples/mannequin.glb", compact=True, progress=stop)
