@@ -66,6 +66,8 @@ if [ "${1:-build}" = test ]; then
     need /usr/include/assimp/Importer.hpp libassimp-dev
     need valgrind valgrind
     need clang++ clang
+    compgen -G '/usr/lib/llvm-*/include/c++/v1/vector' >/dev/null || missing+=(libc++-dev libc++abi-dev)
+    need /usr/src/googletest/CMakeLists.txt googletest
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format
     need clang-tidy clang-tidy

@@ -40,6 +40,11 @@ if [ "${1:-}" != quick ]; then
     cmake --build --preset standard-cpp
     ctest --preset standard-cpp
 
+    step "the libraries by clang with libc++, as on macOS"
+    cmake --preset libcxx >/dev/null
+    cmake --build --preset libcxx
+    ctest --preset libcxx
+
     step "threads under ThreadSanitizer"
     cmake --preset tsan >/dev/null
     cmake --build --preset tsan

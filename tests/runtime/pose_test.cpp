@@ -41,7 +41,7 @@ TEST(Pose, GoesBackToRest) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {2, 2, 2}};
-    std::ranges::fill(pose.change_morph_weights(), 3.0f);
+    for (float& weight : pose.change_morph_weights()) weight = 3.0f;
     (void)pose.model_space();
     pose.set_rest();
     expect_rest(pose);
