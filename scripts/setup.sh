@@ -87,6 +87,7 @@ if [ "${1:-build}" = test ]; then
     need /usr/share/doc/mkdocs-material mkdocs-material
     need xdotool xdotool
     need blender blender
+    need bazel bazel-bootstrap
     need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
     need qemu-aarch64 qemu-user
     need /usr/lib/wasm32-wasi/libc.a wasi-libc
