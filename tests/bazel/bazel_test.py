@@ -15,10 +15,10 @@ from pathlib import Path
 OPTIONS = argparse.Namespace()
 
 BUILD = """
-load("//bendy:defs.bzl", "bendy_model", "bendy_models")
+load("//third_party/bendy:defs.bzl", "bendy_model", "bendy_models")
 
-bendy_models(name = "characters", srcs = ["mannequin.glb", "tentacle.glb"], options = ["--lod"], program = "//bendy:bendy")
-bendy_model(name = "parted", src = "parted.gltf", data = ["parted.bin"], rig = "steps.json", program = "//bendy:bendy")
+bendy_models(name = "characters", srcs = ["mannequin.glb", "tentacle.glb"], options = ["--lod"], program = "//third_party/bendy:bendy")
+bendy_model(name = "parted", src = "parted.gltf", data = ["parted.bin"], rig = "steps.json", program = "//third_party/bendy:bendy")
 """
 
 
@@ -27,11 +27,11 @@ class Bazel(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="bendy_bazel_"))
         cls.root = cls.folder / "workspace"
-        (cls.root / "bendy").mkdir(parents=True)
+        (cls.root / "third_party/bendy").mkdir(parents=True)
         (cls.root / "WORKSPACE").touch()
-        shutil.copy(OPTIONS.source / "packaging/bazel/defs.bzl", cls.root / "bendy/defs.bzl")
-        shutil.copy(OPTIONS.bendy, cls.root / "bendy/bendy")
-        (cls.root / "bendy/BUILD").write_text('exports_files(["bendy"])\n')
+        shutil.copy(OPTIONS.source / "packaging/bazel/defs.bzl", cls.root / "third_party/bendy/defs.bzl")
+        shutil.copy(OPTIONS.bendy, cls.root / "third_party/bendy/bendy")
+        (cls.root / "third_party/bendy/BUILD").write_text('exports_files(["bendy"])\n')
         for name in ("mannequin.glb", "tentacle.glb"):
             shutil.copy(OPTIONS.source / "examples" / name, cls.root / name)
         cls.bendy("convert", "mannequin.glb", "-o", "../parted.bendy")
@@ -85,9 +85,21 @@ class Bazel(unittest.TestCase):
         self.assertEqual(self.bazel("clean")[0], 0)
         self.assertEqual(self.build("//:characters", "//:parted"), (0, 3), "all from the cache")
 
+    def test_the_page(self):
+        page = (OPTIONS.source / "packaging/README.md").read_text(encoding="utf-8")
+        (self.root / "page").mkdir()
+        (self.root / "page/BUILD").write_text(re.search(r"```starlark\n(.*?)```", page, re.DOTALL)[1])
+        for source, name in (("mannequin.glb", "fox.glb"), ("tentacle.glb", "crane.glb"), ("parted.bin", "parted.bin"),
+                             ("parted.bin", "hero.bin"), ("steps.json", "hero.rig.json"), ("steps.json", "skin.png")):
+            shutil.copy(self.root / source, self.root / "page" / name)
+        (self.root / "page/hero.gltf").write_text((self.root / "parted.gltf").read_text().replace("parted.bin", "hero.bin"))
+        self.build("//page:characters", "//page:hero")
+        for output in ("characters/fox.bendy", "characters/crane.bendy", "hero.bendy"):
+            self.bendy("validate", f"bazel-bin/page/{output}")
+
     def refused(self, target, text):
         (self.root / "wrong").mkdir(exist_ok=True)
-        (self.root / "wrong/BUILD").write_text(f'load("//bendy:defs.bzl", "bendy_model", "bendy_models")\n{target}\n')
+        (self.root / "wrong/BUILD").write_text(f'load("//third_party/bendy:defs.bzl", "bendy_model", "bendy_models")\n{target}\n')
         for name in ("parted.gltf", "parted.bin", "mannequin.glb"):
             shutil.copy(self.root / name, self.root / "wrong" / name)
         shutil.copy(self.root / "mannequin.glb", self.root / "wrong/mannequin.vrm")
@@ -96,7 +108,7 @@ class Bazel(unittest.TestCase):
         self.assertIn(text, printed)
 
     def test_mistakes(self):
-        program = 'program = "//bendy:bendy"'
+        program = 'program = "//third_party/bendy:bendy"'
         self.refused(f'bendy_model(name = "a", src = "parted.gltf", {program})', "parted.bin")
         self.refused(f'bendy_model(name = "a", src = "mannequin.glb", options = ["--rig=x.json"], {program})', "use the attribute rig")
         self.refused(f'bendy_model(name = "a", src = "mannequin.glb", options = ["--force"], {program})', "--force is not for a build")
