@@ -88,7 +88,7 @@ const localFloats = 10;
 
 /**
  * The vertices that `Pose.skin` has computed last, of one mesh or of all, as views of the module's memory: take them from here
- * again after any call that may allocate, see `Runtime`.
+ * again after a call that may allocate, see `Runtime`.
  */
 export class SkinnedVertices {
   readonly #buffers: VertexBuffers;
@@ -136,15 +136,16 @@ interface VertexBuffers {
 /**
  * A pose of a model: the joints' local transforms and the morph targets' weights. Methods that change it return it, so calls can
  * be chained. Results of `modelMatrices`, `palette` and `skin` are views of the module's memory that the same method overwrites
- * the next time; `slice()` copies them. After the first call of each, none of them allocates.
+ * the next time; `slice()` copies them. Only making a pose and its first `skin`, also the first with normals, tangents or dual
+ * quaternions, allocate.
  */
 export class Pose extends Handle {
   readonly model: Model;
   readonly #locals: FloatBuffer;
-  #matrices: FloatBuffer | undefined;
-  #weights: FloatBuffer | undefined;
-  #mask: FloatBuffer | undefined;
-  readonly #palettes: (FloatBuffer | undefined)[] = [];
+  readonly #matrices: FloatBuffer;
+  readonly #weights: FloatBuffer;
+  readonly #mask: FloatBuffer;
+  readonly #palettes: readonly FloatBuffer[];
   #positions: FloatBuffer | undefined;
   #normals: FloatBuffer | undefined;
   #tangents: FloatBuffer | undefined;
@@ -162,7 +163,12 @@ export class Pose extends Handle {
     super(runtime, handle, () => functions.bendy_pose_free(handle));
     this.own(model.useFile());
     this.model = model;
-    this.#locals = this.ownFloats(localFloats * model.joints.length);
+    const joints = model.joints.length;
+    this.#locals = this.ownFloats(localFloats * joints);
+    this.#matrices = this.ownFloats(16 * joints);
+    this.#weights = this.ownFloats(model.morphTargets.length);
+    this.#mask = this.ownFloats(joints);
+    this.#palettes = model.meshes.map((mesh) => this.ownFloats(16 * mesh.boneCount));
   }
 
   /** Sets the pose to rest. */
@@ -199,7 +205,6 @@ export class Pose extends Handle {
     if (mask === undefined) return 0;
     const count = this.model.joints.length;
     if (mask.length !== count) throw new BendyError('bad_argument', `the mask has ${mask.length} numbers for ${count} joints`);
-    this.#mask ??= this.ownFloats(count);
     this.#mask.array.set(mask);
     return this.#mask.at;
   }
@@ -292,7 +297,6 @@ export class Pose extends Handle {
   get morphWeights(): Float32Array<ArrayBuffer> {
     const { runtime } = this;
     const count = this.model.morphTargets.length;
-    this.#weights ??= this.ownFloats(count);
     runtime.check(runtime.functions.bendy_get_weights(this.handle, 0, count, this.#weights.at, runtime.error));
     return this.#weights.array;
   }
@@ -302,7 +306,6 @@ export class Pose extends Handle {
     const { runtime } = this;
     const all = this.model.morphTargets.length;
     if (first + weights.length > all) throw new BendyError('bad_argument', `there are ${all} morph targets`);
-    this.#weights ??= this.ownFloats(all);
     this.#weights.array.set(weights, first);
     runtime.check(
       runtime.functions.bendy_set_weights(this.handle, first, weights.length, this.#weights.at + 4 * first, runtime.error),
@@ -352,7 +355,6 @@ export class Pose extends Handle {
   modelMatrices(world?: ArrayLike<number>): Float32Array<ArrayBuffer> {
     const { runtime } = this;
     const count = this.model.joints.length;
-    this.#matrices ??= this.ownFloats(16 * count);
     const at = world === undefined ? 0 : runtime.putFloats(runtime.scratch, world, 16, 'world');
     runtime.check(
       runtime.functions.bendy_joint_matrices(this.handle, 0, count, at, this.#matrices.at, runtime.error),
@@ -368,7 +370,7 @@ export class Pose extends Handle {
     const { runtime } = this;
     const number = this.model.meshes.number(mesh);
     const count = this.model.meshes[number]!.boneCount;
-    const buffer = (this.#palettes[number] ??= this.ownFloats(16 * count));
+    const buffer = this.#palettes[number]!;
     runtime.check(runtime.functions.bendy_bone_matrices(this.handle, number, buffer.at, count, runtime.error));
     return buffer.array;
   }
