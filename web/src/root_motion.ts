@@ -73,12 +73,12 @@ export class RootPath extends Handle {
   constructor(model: Model, joint: Key<Joint>, axes: RootAxes = {}) {
     const { runtime } = model;
     const { functions, error, view } = runtime;
+    const number = model.joints.number(joint);
     const at = runtime.struct(rootAxesLayout);
     view.setUint32(at + rootAxesLayout.x, (axes.x ?? true) ? 1 : 0, true);
     view.setUint32(at + rootAxesLayout.y, (axes.y ?? false) ? 1 : 0, true);
     view.setUint32(at + rootAxesLayout.z, (axes.z ?? true) ? 1 : 0, true);
     view.setUint32(at + rootAxesLayout.turn, word(rootTurnWords, axes.turn ?? 'yaw', 'turn'), true);
-    const number = model.joints.number(joint);
     const handle = runtime.checkHandle(functions.bendy_root_path_new(model.handle, number, at, error));
     super(runtime, handle, () => functions.bendy_root_path_free(handle));
     this.own(model.useFile());
