@@ -6,6 +6,11 @@ if(WIN32)
   set(BENDY_SYSTEM windows)
 endif()
 
+# A WebAssembly module lies at address 0. Code for any address is larger.
+if(EMSCRIPTEN)
+  set(CMAKE_CXX_COMPILE_OPTIONS_PIC "")
+endif()
+
 # bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME;
 # its public headers, which must compile by themselves, and the .def tables, which need not, lie under include/. One that is
 # EMBEDDABLE is installed, and shared if BUILD_SHARED_LIBS says so; the others are parts of the program.
@@ -78,6 +83,10 @@ function(bendy_gnu_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string's own operator+ and replace(): GCC bug 105651, fixed in 13.
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+  endif()
+  if(CMAKE_SIZEOF_VOID_P EQUAL 4 AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    # Sizes in a file have 64 bits. They are checked against the bytes that there are, which 32 bits can count.
+    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32)
   endif()
   # The same bytes from every compiler: no fused multiply-add that the source does not ask for.
   target_compile_options(${target} PRIVATE -ffp-contract=off)

@@ -3,14 +3,15 @@
 #   aarch64   Debian's packages for that processor, unpacked
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
 #   static    zstd, meshoptimizer and draco, from the same sources, as static libraries for this machine
+#   web       zstd and meshoptimizer, from the same sources, for WebAssembly with SIMD; web-plain: without
 # Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
 # of other processors and of sources stays in build/cross/apt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static}
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|web|web-plain}
 here=$PWD/build/cross
 root=$here/$system/libraries
-versions=$(cat "$0" cmake/"$system".cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
+versions=$(cat "$0" cmake/"$system".cmake cmake/emscripten.cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
     nlohmann-json3-dev rapidjson-dev libcli11-dev libtinygltf-dev libutfcpp-dev)
 [ "$(cat "$root/versions" 2>/dev/null)" != "$versions" ] || exit 0
 rm -rf "$root"
@@ -53,14 +54,29 @@ build_library() { # build_library NAME SOURCES [CMAKE-OPTION...]: a library into
     cmake --build "$build" --target install --parallel "$(nproc)" >>"$build.log" 2>&1 || { tail -n 50 "$build.log" >&2; exit 1; }
 }
 
-build_codecs() {
-    local sources=$here/$system/sources
+fetch_sources() { # fetch_sources PACKAGE...: unpacked into $sources
+    sources=$here/$system/sources
     mkdir -p "$sources"
-    (cd "$sources" && apt-get "${apt[@]}" source libzstd meshoptimizer draco)
+    (cd "$sources" && apt-get "${apt[@]}" source "$@")
+}
+
+build_leaf_codecs() { # build_leaf_codecs [CMAKE-OPTION...]: the libraries that the runtime needs; the options are zstd's
     build_library zstd "$sources"/libzstd-*/build/cmake -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF -DZSTD_BUILD_SHARED=OFF \
-        -DZSTD_LEGACY_SUPPORT=OFF -DZSTD_MULTITHREAD_SUPPORT=OFF
+        -DZSTD_LEGACY_SUPPORT=OFF -DZSTD_MULTITHREAD_SUPPORT=OFF "$@"
     build_library meshoptimizer "$sources"/meshoptimizer-*/
+}
+
+build_codecs() {
+    fetch_sources libzstd meshoptimizer draco
+    build_leaf_codecs
     build_library draco "$sources"/draco-*/
+}
+
+fetch_web() {
+    fetch_sources libzstd meshoptimizer
+    sed -i 's/ -Werror//' "$sources"/meshoptimizer-*/CMakeLists.txt  # its code for SIMD has unused variables
+    # One decoder of each kind, as in the library's own builds for the web: less to download.
+    build_leaf_codecs -DCMAKE_C_FLAGS_RELEASE="-Os -DNDEBUG -DHUF_FORCE_DECOMPRESS_X1 -DZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT -DZSTD_NO_INLINE -DZSTD_STRIP_ERROR_STRINGS"
 }
 
 fetch_static() {
@@ -76,5 +92,5 @@ fetch_windows() {
 }
 
 copy_headers
-"fetch_$system"
+"fetch_${system%-plain}"
 echo "$versions" >"$root/versions"

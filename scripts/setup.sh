@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test|cross|static]   build (default): compiler and libraries; test: also what only the tests need;
-#                                                cross, static: also what scripts/cross.sh and scripts/static.sh need
+#   scripts/setup.sh [build|test|cross|static|web]   build (default): compiler and libraries; test: also what only the tests need;
+#                                                    cross, static, web: also what the script of that name needs
 set -euo pipefail
 
 need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
@@ -53,6 +53,12 @@ if [ "${1:-build}" = static ]; then
     need unshare util-linux
     need file file
 fi
+if [ "${1:-build}" = web ] || [ "${1:-build}" = test ]; then
+    need emcc emscripten
+    need dpkg-source dpkg-dev
+    need node nodejs
+    need npm npm
+fi
 if [ "${1:-build}" = test ]; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
     for module in numpy pytest setuptools wheel pip venv; do # of the system's Python, for which the Python package is built
@@ -79,8 +85,6 @@ if [ "${1:-build}" = test ]; then
     need update-mime-database shared-mime-info
     need gio libglib2.0-bin
     need desktop-file-validate desktop-file-utils
-    need node nodejs
-    need npm npm
     need chromium chromium
     need Xvfb xvfb
     need xauth xauth

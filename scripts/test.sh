@@ -55,6 +55,9 @@ if [ "${1:-}" != quick ]; then
         (cd tests/elsewhere && cmake --workflow --preset "$processor")
     done
 
+    step "the npm package: WebAssembly with and without SIMD, under node"
+    scripts/web.sh
+
     step "built by clang; tests under AddressSanitizer and UndefinedBehaviorSanitizer"
     cmake --preset asan-ubsan >/dev/null
     cmake --build --preset asan-ubsan

@@ -26,7 +26,7 @@ bendy_status take_array(float* data, std::size_t stride, std::size_t numbers, st
     constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(float);
     if (out.stride > kMost || vertices - 1 > (kMost - numbers) / out.stride)
         return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + ": no memory is that large");
-    out.floats = {data, (vertices - 1) * out.stride + numbers};
+    out.floats = {data, static_cast<std::size_t>((vertices - 1) * out.stride + numbers)};
     return BENDY_OK;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <new>
 #include <span>
 
@@ -40,8 +41,12 @@ constexpr std::array<bool, kCodecs> kBuiltIn{
 
 }  // namespace
 
-AlignedBytes::AlignedBytes(std::size_t size)
-    : bytes_(size == 0 ? nullptr : static_cast<std::byte*>(::operator new(size, kAlignment))), size_(size) {}
+AlignedBytes::AlignedBytes(std::uint64_t size) : size_(static_cast<std::size_t>(size)) {
+    // Where a size_t has 32 bits, a file may ask for more than it can express: that fails like any allocation.
+    constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max() / 2;
+    if (size > kMost) size_ = kMost;
+    if (size_ != 0) bytes_.reset(static_cast<std::byte*>(::operator new(size_, kAlignment)));
+}
 
 void AlignedBytes::Delete::operator()(std::byte* bytes) const {
     ::operator delete(bytes, kAlignment);

@@ -27,7 +27,16 @@ using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
 
 // tables[0] is the bytewise table; tables[k] advances a byte over k more zero bytes, so that eight bytes are summed at
 // a time ("slicing-by-8", Kounavis and Berry, 2005).
-constexpr Tables make_tables() {
+// The tables do not compress: WebAssembly, which is downloaded, computes them when it starts.
+#ifdef __EMSCRIPTEN__
+#define BENDY_TABLE const
+#define BENDY_MAKE_TABLE inline
+#else
+#define BENDY_TABLE constexpr
+#define BENDY_MAKE_TABLE constexpr
+#endif
+
+BENDY_MAKE_TABLE Tables make_tables() {
     Tables tables{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
         std::uint32_t sum = byte;
@@ -43,7 +52,7 @@ constexpr Tables make_tables() {
     return tables;
 }
 
-constexpr Tables kTables = make_tables();
+BENDY_TABLE Tables kTables = make_tables();
 
 /// Eight bytes at a time; runs everywhere, and is the reference for the other kernel.
 std::uint32_t sum_by_tables(Bytes bytes, std::uint32_t before) {

@@ -139,7 +139,8 @@ void check_ranges(const ChunkTree& tree, const ObjectView& object, Faults& fault
             std::find_if(begin, ranges.end(), [&](const SubmeshView* range) { return range->mesh != (*begin)->mesh; });
         const bool one_joint =
             std::all_of(begin, end, [&](const SubmeshView* range) { return range->joint == (*begin)->joint; });
-        if (mesh.is_rigid() && !one_joint) check_rigid_sharing(tree, mesh, {begin, end}, faults);
+        const std::span same_mesh(&*begin, static_cast<std::size_t>(end - begin));
+        if (mesh.is_rigid() && !one_joint) check_rigid_sharing(tree, mesh, same_mesh, faults);
         begin = end;
     }
 }

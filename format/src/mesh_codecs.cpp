@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <mutex>
 
 namespace bendy {
@@ -130,7 +131,7 @@ bool decode_triangles(const CodecHeader& header, bool is_zstd, Bytes body, std::
         std::copy(indices.bytes().begin(), indices.bytes().end(), out.begin());
         return true;
     };
-    constexpr std::size_t kMostVertices = std::size_t{1} << 32U;
+    constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
     return with_unpacked(is_zstd, body, meshopt_encodeIndexBufferBound(count, kMostVertices), decode);
 }
 

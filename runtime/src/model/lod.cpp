@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace bendy {
@@ -44,7 +45,7 @@ void Lod::prepare(std::uint32_t mesh) {
     state.targets.reserve(source.vertices - state.collapse->base);
     for (std::uint32_t v = state.collapse->base; v < source.vertices; ++v)
         state.targets.push_back(state.collapse->target(v));
-    std::iota(state.now.begin(), state.now.begin() + state.collapse->base, 0u);
+    std::iota(state.now.begin(), state.now.begin() + static_cast<std::ptrdiff_t>(state.collapse->base), 0u);
     state.counts.assign(std::size_t{source.vertices} - state.collapse->base + 1, 0);
     std::vector<std::uint32_t> corners;
     const auto submeshes =

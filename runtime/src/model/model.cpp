@@ -227,7 +227,8 @@ std::span<const ChainWeightView> Model::chain_weights(const Chain& chain) const 
     const auto& weights = data_->weights;
     const auto first = std::lower_bound(weights.begin(), weights.end(), chain.number, less);
     const auto last = std::lower_bound(first, weights.end(), chain.number + 1, less);
-    return {first, last};
+    return std::span(weights).subspan(static_cast<std::size_t>(first - weights.begin()),
+                                      static_cast<std::size_t>(last - first));
 }
 
 const Constraint* Model::constraint(std::uint32_t joint) const {

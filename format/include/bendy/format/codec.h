@@ -43,7 +43,7 @@ inline constexpr std::uint64_t kMaxCodecRatio = 128;
 class AlignedBytes {
 public:
     AlignedBytes() = default;
-    explicit AlignedBytes(std::size_t size);
+    explicit AlignedBytes(std::uint64_t size);
 
     [[nodiscard]] std::span<std::byte> span() { return {bytes_.get(), size_}; }
     [[nodiscard]] Bytes bytes() const { return {bytes_.get(), size_}; }

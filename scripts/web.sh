@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Builds the npm package in web/dist, with the runtime as WebAssembly, and tests it in node.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh web
+PATH=/usr/bin:$PATH # emscripten's scripts are for the system's Python
+export BENDY_PROGRAM=${BENDY_PROGRAM:-$PWD/build/release/cli/bendy}
+if [ ! -x "$BENDY_PROGRAM" ]; then
+    cmake --preset release >/dev/null
+    cmake --build --preset release --target bendy
+fi
+
+mkdir -p web/src/generated
+for system in web web-plain; do
+    scripts/cross_dependencies.sh "$system"
+    cmake --preset "$system" >/dev/null
+    cmake --build --preset "$system"
+done
+cp build/cross/web/build/web/bindings.ts web/src/generated/
+cd web
+node embed.mjs ../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
+node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
+[ -e node_modules/typescript ] || npm ci --silent
+rm -rf dist
+npm run --silent build
+npm test

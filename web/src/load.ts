@@ -1,0 +1,108 @@
+import { BendyError } from './errors.js';
+import type { Functions } from './generated/bindings.js';
+import { Runtime } from './runtime.js';
+
+/** How the module is loaded. */
+export interface LoadOptions {
+  /**
+   * The WebAssembly module to use instead of the one in this package: its bytes, its address, or the compiled module. It must be
+   * of the same version.
+   */
+  wasm?: BufferSource | string | URL | WebAssembly.Module;
+  /** Whether to use SIMD instructions. If not given, as far as the engine has them. With `wasm` it says what that module uses. */
+  simd?: boolean;
+}
+
+// (func (result v128) (i8x16.splat (i32.const 0))) and an instruction that uses it.
+const simdModule = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
+]);
+
+/** Returns whether this engine has WebAssembly's SIMD instructions. */
+export function hasSimd(): boolean {
+  return WebAssembly.validate(simdModule);
+}
+
+function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+async function compile(wasm: LoadOptions['wasm'], simd: boolean): Promise<WebAssembly.Module> {
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  if (typeof wasm === 'string' || wasm instanceof URL) {
+    const response = await fetch(wasm);
+    if (!response.ok) throw new BendyError('io', `${String(wasm)}: ${response.status} ${response.statusText}`);
+    return WebAssembly.compile(await response.arrayBuffer());
+  }
+  if (wasm !== undefined) return WebAssembly.compile(wasm);
+  const embedded = simd ? await import('./generated/simd.js') : await import('./generated/plain.js');
+  return WebAssembly.compile(decodeBase64(embedded.default));
+}
+
+/** @internal What the module imports: it has no environment, and its memory is looked at before every use. */
+export function imports(memory: () => WebAssembly.Memory): WebAssembly.Imports {
+  const noEnvironment = (count: number, size: number): number => {
+    const view = new DataView(memory().buffer);
+    view.setUint32(count, 0, true);
+    view.setUint32(size, 0, true);
+    return 0;
+  };
+  return {
+    env: { emscripten_notify_memory_growth: () => {} },
+    wasi_snapshot_preview1: {
+      environ_sizes_get: noEnvironment,
+      environ_get: () => 0,
+      proc_exit: (status: number) => {
+        throw new Error(`the module has ended with status ${status}`);
+      },
+    },
+  };
+}
+
+/**
+ * Makes an instance of the module, with a memory of its own, for `Model.open`. Throws IO if `wasm` cannot be fetched, and
+ * WebAssembly.CompileError if the engine cannot compile it.
+ */
+export async function loadRuntime(options: LoadOptions = {}): Promise<Runtime> {
+  const simd = options.simd ?? hasSimd();
+  const module = await compile(options.wasm, simd);
+  let functions: Functions;
+  const instance = await WebAssembly.instantiate(
+    module,
+    imports(() => functions.memory),
+  );
+  functions = instance.exports as unknown as Functions;
+  functions._initialize();
+  return new Runtime(functions, simd);
+}
+
+let starting: Promise<Runtime> | undefined;
+let started: Runtime | undefined;
+
+/**
+ * Loads the module. `Model.open` does it, too; call it to do it earlier, to choose which module, or before functions that need the
+ * module at once, such as `Model.openSync`. A second call returns the same instance; with options it throws BAD_ARGUMENT. After a
+ * failure the next call tries again.
+ */
+export function init(options?: LoadOptions): Promise<Runtime> {
+  if (starting !== undefined && options !== undefined) {
+    return Promise.reject(new BendyError('bad_argument', 'the module has been loaded before: call init first'));
+  }
+  starting ??= loadRuntime(options).then(
+    (runtime) => (started = runtime),
+    (error: unknown) => {
+      starting = undefined;
+      throw error;
+    },
+  );
+  return starting;
+}
+
+/** @internal The default instance, at once. */
+export function loadedRuntime(): Runtime {
+  if (started === undefined) throw new BendyError('bad_argument', 'the module is not loaded yet: await init() first');
+  return started;
+}

@@ -1,0 +1,155 @@
+// Clocks, cross-fades, root motion, bounds, bindings, crowds, curves.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { Binding, Bounds, composeMotions, CrossFade, Crowd, Fade, init, Model, motionMatrix, Playback, RootPath } from '../dist/index.js';
+import { difference, example, plain, read, repository, simd } from './helpers.mjs';
+
+const mannequin = read(example('mannequin'));
+const everyChunk = read(join(repository, 'spec/examples/every_chunk.bendy'));
+await init();
+
+test('a clock repeats, stops, turns and counts', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const { start, end } = model.clips.get('Walk');
+  const playback = new Playback(model, 'Walk');
+  assert.equal(playback.seconds, start);
+  playback.mode = 'repeat';
+  playback.advance(2.25 * (end - start));
+  assert.equal(playback.passes, 2);
+  assert.ok(Math.abs(playback.share - 0.25) < 1e-6);
+  assert.ok(Math.abs(playback.seconds - (start + 0.25 * (end - start))) < 1e-5);
+  playback.mode = 'once';
+  playback.speed = 2;
+  assert.equal(playback.speed, 2);
+  assert.ok(playback.advance(end - start).isDone);
+  assert.equal(playback.seconds, end);
+  assert.equal(playback.seekShare(0.5).share, 0.5);
+  assert.throws(() => playback.advance(Number.NaN), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => (playback.mode = 'sometimes'), { code: 'BAD_ARGUMENT' });
+  model.dispose();
+  playback.advance(0.1); // keeps what it needs
+  playback.dispose();
+});
+
+test('markers are reported once per pass', () => {
+  const model = Model.openSync(everyChunk, { runtime: simd });
+  const clip = model.clips.get('wave');
+  assert.equal(clip.markers.length, 2);
+  const playback = new Playback(model, clip);
+  playback.mode = 'repeat';
+  const seen = [];
+  for (let step = 0; step < 40; ++step) seen.push(...playback.advance(clip.seconds / 20).markers());
+  assert.equal(seen.length, 2 * clip.markers.length);
+  model.dispose();
+});
+
+test('a cross-fade goes from one clip to another', () => {
+  const model = Model.openSync(mannequin, { runtime: plain });
+  const fade = new CrossFade(model);
+  const pose = model.pose();
+  assert.throws(() => fade.sample(pose), { code: 'BAD_ARGUMENT' });
+  fade.play('Idle').advance(0.2).play('Walk', { fade: 0.4, easing: 'linear' }).advance(0.1);
+  const [idle, walk] = fade.playing;
+  assert.equal(idle.clip.name, 'Idle');
+  assert.ok(Math.abs(walk.share - 0.25) < 1e-6 && Math.abs(idle.share - 0.75) < 1e-6);
+  fade.sample(pose);
+  const expected = model.sample('Idle', idle.seconds).blend(model.sample('Walk', walk.seconds), 0.25);
+  assert.ok(difference(pose.skin().positions.slice(), expected.skin().positions) < 1e-6);
+  const playback = fade.getPlayback(new Playback(model, 'Walk'));
+  playback.speed = 0.5;
+  fade.setPlayback(playback).advance(0.4);
+  assert.equal(fade.playing.length, 1);
+  assert.ok(Math.abs(fade.playing[0].seconds - model.clips.get('Walk').start - 0.3) < 1e-5);
+  assert.deepEqual(fade.markers(), []);
+  model.dispose();
+});
+
+test('a weight fades', () => {
+  const fade = new Fade(simd, 0).to(1, 2, 'linear').advance(0.5);
+  assert.equal(fade.weight, 0.25);
+  assert.ok(!fade.isDone && fade.advance(2).isDone);
+  assert.equal(fade.weight, 1);
+  fade.dispose();
+});
+
+test('root motion: played in steps or at once, and taken out of the pose', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const path = new RootPath(model, 'mixamorig:Hips', { y: true });
+  const { start, end } = model.clips.get('Walk');
+  const whole = path.between('Walk', start, end);
+  const playback = new Playback(model, 'Walk');
+  playback.mode = 'once';
+  let place = { translation: [0, 0, 0], rotation: [0, 0, 0, 1] };
+  for (let step = 0; step < 10; ++step) place = composeMotions(place, path.over(playback.advance((end - start) / 9)));
+  assert.ok(difference(place.translation, whole.translation) < 1e-5);
+  assert.equal(motionMatrix(whole)[12], whole.translation[0]);
+  const pose = model.sample('Walk', 0.3);
+  const before = pose.modelMatrices().slice();
+  const motion = path.extract(pose);
+  assert.ok(difference(motion.translation, path.at('Walk', 0.3).translation) < 1e-5);
+  assert.ok(difference(before, pose.modelMatrices()) > 1e-4);
+  const fade = new CrossFade(model).play('Walk').advance(0.2);
+  const { start: from } = model.clips.get('Walk');
+  assert.ok(difference(path.over(fade).translation, path.between('Walk', from, from + 0.2).translation) < 1e-5);
+  model.dispose();
+});
+
+test('bounds contain the vertices', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const pose = model.sample('Walk', 0.3);
+  const { minimum, maximum } = new Bounds(model).ofPose(pose);
+  const { positions } = pose.skin();
+  for (let k = 0; k < positions.length; ++k) {
+    assert.ok(positions[k] >= minimum[k % 3] - 1e-5 && positions[k] <= maximum[k % 3] + 1e-5);
+  }
+  assert.ok(maximum[1] - minimum[1] < 3);
+  const head = new Bounds(model).ofJoint('mixamorig:Head', pose);
+  assert.ok(head.minimum[1] > minimum[1]);
+  model.dispose();
+});
+
+test('clips of another model', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const other = Model.openSync(mannequin, { runtime: simd });
+  const binding = new Binding(other, model);
+  assert.deepEqual(Array.from(binding.joints), model.joints.map((joint) => joint.number));
+  assert.deepEqual(binding.unmatchedJoints, []);
+  const bound = model.pose().sampleBound(binding, 'Walk', 0.3);
+  assert.deepEqual(bound.skin().positions.slice(), model.sample('Walk', 0.3).skin().positions);
+  assert.throws(() => new Binding(other, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
+  model.dispose();
+});
+
+test('a crowd has the palettes and vertices of its members', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const crowd = new Crowd(model, 5, { positions: true });
+  for (let member = 1; member < 5; ++member) crowd.set(member, 'Walk', 0.2 * member);
+  crowd.play();
+  for (let member = 0; member < 5; ++member) {
+    const pose = member === 0 ? model.pose() : model.sample('Walk', Math.fround(0.2 * member));
+    for (const mesh of model.meshes) {
+      const first = 16 * (member * crowd.matrixCount + crowd.firstMatrix(mesh));
+      assert.deepEqual(crowd.palettes.slice(first, first + 16 * mesh.boneCount), pose.palette(mesh).slice());
+    }
+    const positions = pose.skin().positions.slice();
+    assert.deepEqual(crowd.positions.slice(member * positions.length, (member + 1) * positions.length), positions);
+    pose.dispose();
+  }
+  assert.throws(() => crowd.set(5, 'Walk', 0), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => crowd.set(0, 'Walk', Number.NaN).play(), { code: 'BAD_ARGUMENT' });
+  crowd.dispose();
+  assert.throws(() => crowd.palettes, { code: 'DISPOSED' });
+  model.dispose();
+});
+
+test('curves', () => {
+  const model = Model.openSync(everyChunk, { runtime: simd });
+  const [curve] = model.clips.flatMap((clip) => clip.curves);
+  assert.ok(curve.components >= 1);
+  const first = curve.sample(curve.start);
+  const values = curve.interpolation === 'cubic' ? curve.values.subarray(curve.components) : curve.values;
+  assert.ok(difference(first, values.subarray(0, curve.components)) < 1e-6);
+  assert.throws(() => curve.sample(Number.NaN), { code: 'BAD_ARGUMENT' });
+  model.dispose();
+});

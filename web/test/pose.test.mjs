@@ -1,0 +1,234 @@
+// Poses and vertices equal the native program's.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { LevelOfDetail, Model } from '../dist/index.js';
+import { bendy, convert, corpusFile, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
+
+// The kernels round differently: a vertex is a sum of up to eight products of floats with an error of 2^-24 each, and so are
+// the matrices along a path of up to some twenty joints.
+const floatTolerance = 20 * 2 ** -20;
+
+const characters = {
+  mannequin: () => example('mannequin'),
+  'mannequin, compact': () => example('mannequin', '--compact', '--lod'),
+  tentacle: () => example('tentacle'),
+  'tentacle, compact': () => example('tentacle', '--compact'),
+};
+for (const name of ['fox.glb', 'robot.glb', 'left_hand_high.glb', 'cesium_man.gltf', 'simple_skin.gltf', 'morph_stress_test.gltf', 'box_animated.gltf',
+  'rigged_simple.gltf', 'gltf_extras.glb']) {
+  characters[name] = () => {
+    const file = corpusFile(`models/${name}`);
+    return file && convert(file);
+  };
+}
+
+/** What the program computes: `bendy pose` as JSON. */
+function native(file, clip, seconds, kernel, ...options) {
+  const output = join(folder, 'pose.json');
+  const when = clip === undefined ? [] : ['--clip', String(clip), '--time', String(seconds)];
+  bendy(['pose', file, ...when, ...options, '-o', output], kernel);
+  // The program prints the shortest decimal numbers that are read as the same floats.
+  return JSON.parse(readFileSync(output, 'utf8'), (_, value) => (typeof value === 'number' ? Math.fround(value) : value));
+}
+
+/** Compares a pose with the program's, each number within the tolerance relative to the character's size. */
+function compare(pose, model, expected, tolerance) {
+  const skinned = pose.skin({ normals: true });
+  const matrices = pose.modelMatrices();
+  expected.joints.forEach(({ world }, joint) => {
+    assert.ok(difference(matrices.subarray(16 * joint, 16 * joint + 16), world) <= tolerance * extent(world), `joint ${joint}`);
+  });
+  expected.meshes.forEach((mesh, number) => {
+    const { firstVertex, vertexCount } = model.meshes[number];
+    const positions = mesh.positions;
+    const part = skinned.positions.subarray(3 * firstVertex, 3 * (firstVertex + vertexCount));
+    assert.ok(difference(part, positions) <= tolerance * extent(positions), `positions of ${mesh.name}: ${difference(part, positions)}`);
+    if (!mesh.normals?.length) return;
+    const normals = skinned.normals.subarray(3 * firstVertex, 3 * (firstVertex + vertexCount));
+    assert.ok(difference(normals, mesh.normals) <= 10 * tolerance, `normals of ${mesh.name}`);
+  });
+}
+
+for (const [name, make] of Object.entries(characters)) {
+  test(`${name}: the poses of the program`, async (t) => {
+    const file = make();
+    if (file === undefined) return t.skip('the corpus is not there');
+    const bytes = read(file);
+    const models = { simd: await Model.open(bytes, { runtime: simd }), plain: await Model.open(bytes, { runtime: plain }) };
+    const times = [[undefined, 0]];
+    for (const { number, start, end } of models.simd.clips.slice(0, 3)) {
+      times.push([number, start + 0.3 * (end - start)], [number, end]);
+    }
+    for (const [clip, seconds] of times) {
+      const time = Math.fround(seconds);
+      const poses = Object.values(models).map((model) => (clip === undefined ? model.pose() : model.sample(clip, time)));
+      compare(poses[0], models.simd, native(file, clip, time, ''), floatTolerance);
+      compare(poses[1], models.plain, native(file, clip, time, 'plain'), 0);
+      for (const { number, isRigid } of models.simd.meshes) {
+        if (isRigid) continue;
+        const palette = poses[0].palette(number);
+        assert.ok(difference(palette, poses[1].palette(number)) <= floatTolerance * extent(palette));
+      }
+      for (const pose of poses) pose.dispose();
+    }
+    for (const model of Object.values(models)) model.dispose();
+  });
+}
+
+test('the modules are what they say', () => {
+  assert.equal(simd.kernel, 'wasm');
+  assert.equal(plain.kernel, 'plain');
+});
+
+test('one mesh is skinned where it is among all, and only that', async () => {
+  const model = await Model.open(read(example('mannequin')), { runtime: simd });
+  const pose = model.sample('Walk', 0.3);
+  const all = pose.skin().positions.slice();
+  pose.sample('Walk', 0.6);
+  const head = model.meshes.get('Head');
+  const { positions } = pose.skin({ mesh: 'Head' });
+  const first = 3 * head.firstVertex;
+  assert.equal(positions.length, 3 * head.vertexCount);
+  assert.notDeepEqual(positions, all.subarray(first, first + positions.length));
+  assert.deepEqual(pose.copy().skin().positions.subarray(first, first + positions.length), positions);
+  const everything = new Float32Array(positions.buffer, positions.byteOffset - 4 * first, all.length);
+  assert.deepEqual(everything.subarray(0, first), all.subarray(0, first));
+  assert.throws(() => pose.skin({ mesh: 'Tail' }), { code: 'NOT_FOUND', message: /"Body", "Head"/ });
+  model.dispose();
+});
+
+test('tangents, dual quaternions and levels of detail', async () => {
+  const file = example('mannequin', '--lod');
+  for (const runtime of [simd, plain]) {
+    const model = await Model.open(read(file), { runtime });
+    const pose = model.sample('Walk', 0.3);
+    const linear = pose.skin({ normals: true, tangents: true }).positions.slice();
+    assert.equal(pose.skin().tangents.length, 4 * model.vertexCount);
+    const dual = pose.skin({ method: 'dual_quaternion' }).positions;
+    assert.ok(difference(dual, linear) > 1e-4);
+    assert.ok(difference(dual, linear) < 0.1);
+
+    assert.ok(model.hasLevels);
+    const lod = new LevelOfDetail(model, 0.3);
+    assert.ok(lod.error > 0);
+    const full = new LevelOfDetail(model);
+    assert.ok(lod.triangles < 0.4 * full.triangles);
+    pose.skin({ lod });
+    const expected = native(file, 'Walk', Math.fround(0.3), runtime === simd ? '' : 'plain', '--lod', '0.3');
+    expected.meshes.forEach((mesh, number) => {
+      const used = lod.vertices(number);
+      assert.equal(3 * used, mesh.positions.length);
+      assert.deepEqual(Array.from(lod.indices(number)), mesh.indices);
+    });
+    assert.throws(() => pose.skin({ method: 'other' }), { code: 'BAD_ARGUMENT' });
+    model.dispose();
+  }
+});
+
+test('reach goes to the target within the constraints, as the program', async () => {
+  const file = example('mannequin');
+  for (const runtime of [simd, plain]) {
+    const model = await Model.open(read(file), { runtime });
+    const constrained = model.constraints.filter(({ scope }) => scope !== 'all_but_ik');
+    assert.ok(constrained.length > 10);
+    for (const target of [[0.3, 1.2, 0.4], [0.1, 1.5, 0.3], [0.4, 0.9, 0.2], [2, 1, 0]]) {
+      const pose = model.sample('Walk', 0.3).constrain();
+      const chain = model.chains.get('IK_LeftArm');
+      const result = pose.reach('IK_LeftArm', target, { carryTarget: true });
+      for (const constraint of constrained) {
+        if (!chain.links.includes(constraint.joint)) continue;
+        const { violation } = model.clampRotation(constraint, pose.local(constraint.joint).rotation);
+        // A local rotation is four floats: half an angle to 2^-24, and the solver's own tolerance.
+        assert.ok(violation < 1e-5, `${model.joints[constraint.joint].name}: ${violation}`);
+      }
+      const expected = native(file, 'Walk', Math.fround(0.3), runtime === simd ? '' : 'plain', '--constrain', '--reach', `IK_LeftArm=${target}`);
+      assert.equal(result.reached, expected.reaches[0].reached);
+      assert.ok(Math.abs(result.distance - expected.reaches[0].distance) < 1e-5);
+      compare(pose, model, expected, runtime === simd ? 1e-4 : 0);
+      pose.dispose();
+    }
+    model.dispose();
+  }
+});
+
+test('blend, add, masks and local transforms', async () => {
+  const model = await Model.open(read(example('mannequin')), { runtime: simd });
+  const walk = model.sample('Walk', 0.3);
+  const idle = model.sample('Idle', 0.5);
+  const mask = model.maskBelow('mixamorig:Spine');
+  const mixed = idle.copy().blend(walk, 1, mask);
+  for (const { number } of model.joints) {
+    const from = mask[number] === 1 ? walk : idle;
+    assert.ok(difference(mixed.local(number).rotation, from.local(number).rotation) < 1e-6);
+  }
+  assert.ok(mask.includes(0) && mask.includes(1));
+  const sum = idle.copy().add(walk.copy().makeAdditive(idle));
+  assert.ok(difference(sum.skin().positions.slice(), walk.skin().positions) < 1e-5);
+
+  const half = Math.SQRT1_2;
+  sum.setLocal('mixamorig:Spine', { rotation: [0, half, 0, half] });
+  assert.ok(difference(sum.local('mixamorig:Spine').rotation, [0, half, 0, half]) < 1e-6);
+  const locals = sum.locals.slice();
+  const before = walk.copy().setLocals(locals).skin().positions[0];
+  locals[4] += 1; // the root's translation along x
+  assert.ok(Math.abs(walk.copy().setLocals(locals).skin().positions[0] - before - 1) < 1e-5);
+
+  assert.throws(() => sum.setLocal(0, { rotation: [1, 1, 1, 1] }), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => sum.setLocals([1]), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => idle.blend(walk, Number.NaN), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => idle.blend(walk, 1, [1]), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => idle.sample('Walk', Number.NaN), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => idle.sample(7, 0), { code: 'BAD_ARGUMENT', message: /there are 2/ });
+  assert.throws(() => idle.reach('IK_LeftArm', [1, 2]), { code: 'BAD_ARGUMENT', message: /2 numbers/ });
+  assert.throws(() => idle.reach('IK_LeftArm', [1, 2, 3], { solver: 'guess' }), { code: 'BAD_ARGUMENT' });
+  const elsewhere = await Model.open(read(example('tentacle')), { runtime: plain });
+  assert.throws(() => idle.blend(elsewhere.pose(), 1), { code: 'BAD_ARGUMENT', message: /runtimes/ });
+  model.dispose();
+  elsewhere.dispose();
+});
+
+test('morph weights', async (t) => {
+  const file = corpusFile('models/morph_stress_test.gltf');
+  if (file === undefined) return t.skip('the corpus is not there');
+  const model = await Model.open(read(convert(file)), { runtime: simd });
+  const count = model.morphTargets.length;
+  assert.ok(count > 1);
+  const pose = model.pose();
+  const rest = pose.skin().positions.slice();
+  assert.deepEqual(Array.from(pose.morphWeights), model.morphTargets.map((target) => target.restWeight));
+  pose.setMorphWeights([1], 1);
+  assert.equal(pose.morphWeights[1], 1);
+  const moved = pose.skin().positions.slice();
+  const target = model.morphTargets[1];
+  const { vertices, positions } = target.displacements();
+  assert.equal(vertices.length, target.vertexCount);
+  const { firstVertex, isRigid } = model.meshes[target.mesh];
+  const mover = model.meshes[target.mesh].mover;
+  assert.ok(isRigid && mover !== null);
+  const matrix = pose.modelMatrices().subarray(16 * mover, 16 * mover + 16);
+  vertices.forEach((vertex, k) => {
+    const [x, y, z] = positions.subarray(3 * k, 3 * k + 3);
+    for (let axis = 0; axis < 3; ++axis) {
+      const at = 3 * (firstVertex + vertex) + axis;
+      const expected = matrix[axis] * x + matrix[4 + axis] * y + matrix[8 + axis] * z;
+      assert.ok(Math.abs(moved[at] - rest[at] - expected) < 1e-5);
+    }
+  });
+  assert.throws(() => pose.setMorphWeights([1, 1], count - 1), { code: 'BAD_ARGUMENT' });
+  model.dispose();
+});
+
+test('a socket follows its joint', async () => {
+  const model = await Model.open(read(example('mannequin')), { runtime: plain });
+  const pose = model.sample('Walk', 0.3);
+  const joint = model.joints.get('mixamorig:LeftHand');
+  const matrix = pose.modelMatrices().slice(16 * joint.number, 16 * joint.number + 16);
+  assert.ok(difference(pose.socket(joint, { keepsSize: false }), matrix) < 1e-6);
+  const world = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1];
+  assert.ok(Math.abs(pose.socket(joint, { world })[12] - matrix[12] - 5) < 1e-5);
+  assert.deepEqual(Array.from(pose.socket(null)), Array.from(pose.socket(null, { offset: pose.socket(null) })));
+  model.dispose();
+});
+
