@@ -13,7 +13,7 @@ fi
 clang-format --dry-run --Werror "${files[@]}"
 if [ -n "$build" ]; then
     # Not in this build: sources of another system, which scripts/cross.sh compiles, those for builds without a codec, which
-    # tests/install/subproject compiles, and bench/peers, which needs the other runtimes.
-    mapfile -t sources < <(printf '%s\n' "${files[@]}" | grep '\.cpp$' | grep -v -e '^tests/' -e '^bench/peers/' -e '_windows\.cpp$' -e '/without_')
+    # tests/install/subproject compiles, bench/peers, which needs the other runtimes, and web, which emscripten compiles.
+    mapfile -t sources < <(printf '%s\n' "${files[@]}" | grep '\.cpp$' | grep -v -e '^tests/' -e '^bench/peers/' -e '^web/' -e '_windows\.cpp$' -e '/without_')
     scripts/tidy_in_groups.py "$build" "${sources[@]}"
 fi
