@@ -1,0 +1,9 @@
+/**
+ * Bendy's characters in three.js: a loader, and an animator that uses Bendy's runtime.
+ *
+ * @packageDocumentation
+ */
+export { type BendyCharacter, cloneCharacter, setLevelOfDetail } from './character.js';
+export { BendyLoader } from './loader.js';
+export type { Part } from './parts.js';
+export type { Ktx2Decoder } from './textures.js';
