@@ -41,6 +41,32 @@ function nameGiver(): (name: string) => string {
   };
 }
 
+/**
+ * Names the joints in the order in which GLTFLoader names nodes, so that of several joints with one name the same ones get numbers:
+ * the bones of a skinned mesh come when its joint and the descendants of that are done.
+ */
+function nameJoints(model: Model, uniqueName: (name: string) => string): string[] {
+  const names: string[] = [];
+  const name = (joint: number): void => {
+    const original = model.joints[joint]!.name;
+    names[joint] ??= original === '' ? '' : uniqueName(original);
+  };
+  const open: number[] = [];
+  const leaveUntil = (joint: number | null): void => {
+    while (open.length > 0 && open.at(-1) !== joint) {
+      const left = open.pop();
+      for (const mesh of model.meshes) if (mesh.joint === left && !mesh.isRigid) mesh.boneJoints.forEach(name);
+    }
+  };
+  for (const { number, parent } of model.joints) {
+    leaveUntil(parent);
+    name(number);
+    open.push(number);
+  }
+  leaveUntil(null);
+  return names;
+}
+
 /** The object of a joint, with the parts that it carries. */
 function makeJoint(isBone: boolean, hasShear: boolean, parts: readonly PlacedPart[]): Object3D {
   if (!isBone && !hasShear && parts.length === 1) return parts[0]!.object;
@@ -56,7 +82,7 @@ export async function makeCharacter(model: Model, textures: Textures, packedRate
   const scene = new Group();
   if (model.name !== '') scene.name = uniqueName(model.name);
   // Joints get their names before meshes, as from GLTFLoader.
-  const names = model.joints.map(({ name }) => (name === '' ? '' : uniqueName(name)));
+  const names = nameJoints(model, uniqueName);
   const parts = await makeParts(model, new Materials(model, textures), uniqueName);
   const isBone = new Set(model.meshes.flatMap((mesh) => (mesh.isRigid ? [] : Array.from(mesh.boneJoints))));
   const joints: Object3D[] = [];

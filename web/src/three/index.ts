@@ -3,6 +3,7 @@
  *
  * @packageDocumentation
  */
+export { type AnimatorOptions, type AnimatorPlayOptions, type AnimatorReachOptions, BendyAnimator } from './animator.js';
 export { type BendyCharacter, cloneCharacter, setLevelOfDetail } from './character.js';
 export { BendyLoader } from './loader.js';
 export type { Part } from './parts.js';
