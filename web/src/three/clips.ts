@@ -136,7 +136,7 @@ export function makeClips(model: Model, joints: readonly Object3D[], parts: read
       return objects.map(({ object }) => makeTrack(object, track));
     });
     const made = new AnimationClip(clip.name || `animation_${clip.number}`, clip.end, tracks);
-    if (typeof clip.extras === 'object') Object.assign(made.userData, clip.extras);
+    if (typeof clip.extras === 'object') made.userData = { ...clip.extras };
     return made;
   });
 }

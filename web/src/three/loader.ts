@@ -39,9 +39,8 @@ export class BendyLoader extends Loader<BendyCharacter> {
     const path = this.resourcePath || (this.path === '' ? base : LoaderUtils.resolveURL(base, this.path));
     this.manager.itemStart(url);
     const fail = (error: unknown): void => {
-      const known = error instanceof BendyError ? error : Object.assign(new BendyError('io', `${url}: ${String(error)}`), { cause: error });
-      if (onError === undefined) console.error(known);
-      else onError(known);
+      if (onError === undefined) console.error(error);
+      else onError(error);
       this.manager.itemError(url);
       this.manager.itemEnd(url);
     };
@@ -60,7 +59,9 @@ export class BendyLoader extends Loader<BendyCharacter> {
         },
         fail,
       );
-    file.load(url, parse, onProgress, fail);
+    file.load(url, parse, onProgress, (error) =>
+      fail(Object.assign(new BendyError('io', `${url}: ${error instanceof Error ? error.message : String(error)}`), { cause: error })),
+    );
   }
 
   /** Makes a character from the bytes of a file. `path` is what links to images are relative to. */

@@ -232,7 +232,13 @@ export class Materials {
       material.emissiveMap = await texture(source.emissiveTexture, SRGBColorSpace);
       const strength = numberOf(asObject(given['KHR_materials_emissive_strength'])?.['emissiveStrength']);
       if (strength !== null) material.emissiveIntensity = strength;
-      assign(material, await readExtensions(source, this.#textures, this.#model.textures.length));
+      const extended = await readExtensions(source, this.#textures, this.#model.textures.length);
+      assign(material, extended);
+      if (!('iridescenceThicknessMinimum' in material)) {
+        // Older versions of three.js have one property for both.
+        const { iridescenceThicknessMinimum: least, iridescenceThicknessMaximum: most } = extended;
+        assign(material, { iridescenceThicknessRange: [least ?? 100, most ?? 400] });
+      }
     }
     if (typeof source.extras === 'object') Object.assign(material.userData, source.extras);
     for (const [name, value] of Object.entries(given)) {
