@@ -76,7 +76,8 @@ function sources(below = '') {
 function convert(source, ...options) {
   const name = `${source.replaceAll(/[^A-Za-z0-9]/g, '_')}${options.join('')}.bendy`;
   const output = path.join(folder, name);
-  if (!fs.existsSync(output)) execFileSync(program, ['convert', path.join(corpus, source), '-q', '-o', output, ...options], { stdio: 'pipe' });
+  if (!fs.existsSync(output))
+    execFileSync(program, ['convert', path.join(corpus, source), '-q', '-o', output, ...options], { stdio: 'pipe' });
   return address + name;
 }
 
@@ -94,7 +95,9 @@ async function objectsOfNodes({ parser }) {
 
 /** For each of several joints or nodes the meshes that it is or carries. */
 function meshesOf(objects) {
-  return objects.map((object) => [object, ...object.children.filter((child) => !objects.includes(child))].filter(({ isMesh }) => isMesh));
+  return objects.map((object) =>
+    [object, ...object.children.filter((child) => !objects.includes(child))].filter(({ isMesh }) => isMesh),
+  );
 }
 
 /**
@@ -130,7 +133,8 @@ function positionsOf(nodes) {
 
 const join = (arrays) => Float64Array.from(arrays.flatMap((array) => Array.from(array)));
 const positionOf = (object, vertex) => object.getVertexPosition(vertex, new THREE.Vector3()).applyMatrix4(object.matrixWorld);
-const originsOf = (objects) => join(objects.map((object) => new THREE.Vector3().setFromMatrixPosition(object.matrixWorld).toArray()));
+const originsOf = (objects) =>
+  join(objects.map((object) => new THREE.Vector3().setFromMatrixPosition(object.matrixWorld).toArray()));
 
 function diagonalOf(positions) {
   const box = new THREE.Box3();
@@ -141,7 +145,8 @@ function diagonalOf(positions) {
 function worstDistance(a, b) {
   assert.equal(a.length, b.length);
   let worst = 0;
-  for (let i = 0; i < a.length; i += 3) worst = Math.max(worst, Math.hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]));
+  for (let i = 0; i < a.length; i += 3)
+    worst = Math.max(worst, Math.hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]));
   return worst;
 }
 
@@ -235,7 +240,9 @@ function compareWithRuntime(character, clip, seconds) {
 }
 
 function worstOverClips(character) {
-  const errors = character.animations.flatMap((clip, number) => times(clip).map((time) => compareWithRuntime(character, number, time)));
+  const errors = character.animations.flatMap((clip, number) =>
+    times(clip).map((time) => compareWithRuntime(character, number, time)),
+  );
   return Math.max(...errors);
 }
 
@@ -281,7 +288,11 @@ describe('what GLTFLoader cannot do', { skip }, () => {
 
   it('levels of detail', async () => {
     const character = await loadBendy('models/robot.glb', '--lod');
-    const triangles = () => character.parts.reduce((sum, { object }) => sum + Math.min(object.geometry.drawRange.count, object.geometry.index.count) / 3, 0);
+    const triangles = () =>
+      character.parts.reduce(
+        (sum, { object }) => sum + Math.min(object.geometry.drawRange.count, object.geometry.index.count) / 3,
+        0,
+      );
     const all = triangles();
     assert.ok(setLevelOfDetail(character, 0.4) > 0);
     assert.ok(Math.abs(triangles() - 0.4 * all) < 0.05 * all, `${triangles()} of ${all}`);
@@ -326,7 +337,11 @@ describe('BendyAnimator', { skip }, () => {
     const pose = model.pose();
     const start = model.sample(0, 0.4).constrain();
     for (const chain of character.chains.filter(({ solver }) => solver !== 'aim')) {
-      for (const offset of [[0.1, 0.05, 0.1], [-0.3, 0.2, 0.4], [0, 1, 0]]) {
+      for (const offset of [
+        [0.1, 0.05, 0.1],
+        [-0.3, 0.2, 0.4],
+        [0, 1, 0],
+      ]) {
         pose.sample(0, 0.4).constrain();
         const tip = start.socket(chain.links.at(-1)).slice(12, 15);
         const target = new THREE.Vector3().fromArray(tip).add(new THREE.Vector3().fromArray(offset));
@@ -378,7 +393,10 @@ describe('BendyAnimator', { skip }, () => {
     expect(model.sample('Survey', 2));
     animator.play('Walk', { loop: false, speed: 2 }).update(10);
     expect(model.sample('Walk', model.clips.get('Walk').end));
-    assert.throws(() => animator.play('Fly'), (error) => error instanceof BendyError && error.code === 'NOT_FOUND');
+    assert.throws(
+      () => animator.play('Fly'),
+      (error) => error instanceof BendyError && error.code === 'NOT_FOUND',
+    );
     const { object } = character.parts[0];
     const skinned = object.geometry;
     animator.dispose();
@@ -431,13 +449,19 @@ const sheared = {
   animations: [{ channels: [{ sampler: 0, target: { node: 1, path: 'translation' } }], samplers: [{ input: 1, output: 2 }] }],
 };
 
-const image = 'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==';
+const image =
+  'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==';
 const transform = { KHR_texture_transform: { offset: [0.1, 0.2], scale: [2, 3], rotation: 0.4 } };
 const everyExtension = {
   nodes: [{ mesh: 0 }, { mesh: 1 }],
   scenes: [{ nodes: [0, 1] }],
   meshes: [
-    { primitives: [{ attributes: { POSITION: 0 }, material: 0 }, { attributes: { POSITION: 0 }, material: 1, mode: 0 }] },
+    {
+      primitives: [
+        { attributes: { POSITION: 0 }, material: 0 },
+        { attributes: { POSITION: 0 }, material: 1, mode: 0 },
+      ],
+    },
     { primitives: [{ attributes: { POSITION: 0 }, material: 2 }, { attributes: { POSITION: 0 } }] },
   ],
   // GLTFLoader has one texture for each image and sampler, so colours and other data need different ones.
@@ -464,13 +488,27 @@ const everyExtension = {
       },
       extras: { paint: 3 },
       extensions: {
-        KHR_materials_clearcoat: { clearcoatFactor: 0.5, clearcoatRoughnessFactor: 0.4, clearcoatTexture: { index: 2 }, clearcoatNormalTexture: { index: 3, scale: 2 } },
-        KHR_materials_sheen: { sheenColorFactor: [0.1, 0.5, 0.9], sheenRoughnessFactor: 0.3, sheenColorTexture: { index: 0, extensions: transform } },
+        KHR_materials_clearcoat: {
+          clearcoatFactor: 0.5,
+          clearcoatRoughnessFactor: 0.4,
+          clearcoatTexture: { index: 2 },
+          clearcoatNormalTexture: { index: 3, scale: 2 },
+        },
+        KHR_materials_sheen: {
+          sheenColorFactor: [0.1, 0.5, 0.9],
+          sheenRoughnessFactor: 0.3,
+          sheenColorTexture: { index: 0, extensions: transform },
+        },
         KHR_materials_transmission: { transmissionFactor: 0.2, transmissionTexture: { index: 3 } },
         KHR_materials_volume: { thicknessFactor: 0.1, attenuationDistance: 4, attenuationColor: [1, 0.5, 0.2] },
         KHR_materials_ior: { ior: 1.3 },
         KHR_materials_specular: { specularFactor: 0.9, specularColorFactor: [0.9, 0.8, 0.7], specularColorTexture: { index: 0 } },
-        KHR_materials_iridescence: { iridescenceFactor: 0.4, iridescenceIor: 1.6, iridescenceThicknessMinimum: 50, iridescenceThicknessMaximum: 350 },
+        KHR_materials_iridescence: {
+          iridescenceFactor: 0.4,
+          iridescenceIor: 1.6,
+          iridescenceThicknessMinimum: 50,
+          iridescenceThicknessMaximum: 350,
+        },
         KHR_materials_anisotropy: { anisotropyStrength: 0.6, anisotropyRotation: 1.1 },
         KHR_materials_dispersion: { dispersion: 0.1 },
         KHR_materials_emissive_strength: { emissiveStrength: 5 },
@@ -492,26 +530,46 @@ function essence(value) {
   const { channel, colorSpace, flipY, generateMipmaps, magFilter, minFilter, wrapS, wrapT, offset, repeat, rotation } = value;
   const matrix = new THREE.Matrix3().copy(value.matrix);
   return Object.fromEntries(
-    Object.entries({ channel, colorSpace, flipY, generateMipmaps, magFilter, minFilter, wrapS, wrapT, offset, repeat, rotation, matrix })
+    Object.entries({
+      channel,
+      colorSpace,
+      flipY,
+      generateMipmaps,
+      magFilter,
+      minFilter,
+      wrapS,
+      wrapT,
+      offset,
+      repeat,
+      rotation,
+      matrix,
+    })
       .map(([name, part]) => [name, essence(part)])
-      .concat([['image', value.image.bytes.toString('base64')], ['isUploaded', value.version > 0]]),
+      .concat([
+        ['image', value.image.bytes.toString('base64')],
+        ['isUploaded', value.version > 0],
+      ]),
   );
 }
 
 function materialOf({ material }) {
   const properties = {};
-  for (const name of Object.keys(material)) if (!['uuid', 'version', '_listeners'].includes(name)) properties[name] = essence(material[name]);
+  for (const name of Object.keys(material))
+    if (!['uuid', 'version', '_listeners'].includes(name)) properties[name] = essence(material[name]);
   if (!material.isMeshStandardMaterial) delete properties.flatShading; // GLTFLoader sets it for lines, which have none
   return { type: material.type, ...properties };
 }
 
 /** What matters of an object, and its triangles in any order: the values of all attributes at the three corners. */
 function objectOf({ type, name, geometry, morphTargetInfluences, morphTargetDictionary }) {
-  const attributes = Object.keys(geometry.attributes).filter((attribute) => !attribute.startsWith('skin')).sort();
-  const cornerAt = (vertex) => attributes.flatMap((name) => {
-    const attribute = geometry.attributes[name];
-    return Array.from({ length: attribute.itemSize }, (_, k) => Math.fround(attribute.getComponent(vertex, k)));
-  });
+  const attributes = Object.keys(geometry.attributes)
+    .filter((attribute) => !attribute.startsWith('skin'))
+    .sort();
+  const cornerAt = (vertex) =>
+    attributes.flatMap((name) => {
+      const attribute = geometry.attributes[name];
+      return Array.from({ length: attribute.itemSize }, (_, k) => Math.fround(attribute.getComponent(vertex, k)));
+    });
   const indices = geometry.index?.array ?? Array.from({ length: geometry.attributes.position.count }, (_, k) => k);
   const corners = Array.from(indices, cornerAt);
   const size = { Points: 1, LineSegments: 2 }[type] ?? 3;
@@ -526,9 +584,21 @@ const drawn = (scene) => {
 };
 
 describe('materials and geometry', { skip }, () => {
-  const files = ['models/fox.glb', 'models/texture_transform_test/TextureTransformTest.gltf', 'models/cesium_man.gltf', 'models/box_textured_embedded.gltf', 'models/uri_spaces/CubeImageUriSpaces.gltf', 'models/robot.glb',
-    'generated/attributes_zoo.glb', 'generated/texture_transform.glb', 'generated/external_buffers/external_buffers.gltf',
-    'generated/names_unicode.glb', 'generated/morph_and_skin.glb', 'models/morph_stress_test.gltf', 'every extension'];
+  const files = [
+    'models/fox.glb',
+    'models/texture_transform_test/TextureTransformTest.gltf',
+    'models/cesium_man.gltf',
+    'models/box_textured_embedded.gltf',
+    'models/uri_spaces/CubeImageUriSpaces.gltf',
+    'models/robot.glb',
+    'generated/attributes_zoo.glb',
+    'generated/texture_transform.glb',
+    'generated/external_buffers/external_buffers.gltf',
+    'generated/names_unicode.glb',
+    'generated/morph_and_skin.glb',
+    'models/morph_stress_test.gltf',
+    'every extension',
+  ];
   for (const file of files) {
     it(file, async () => {
       const source = file === 'every extension' ? writeGltf('every_extension.gltf', everyExtension) : file;
@@ -554,7 +624,10 @@ describe('materials and geometry', { skip }, () => {
 test('errors are BendyErrors', async () => {
   const fails = (kind) => (error) => error instanceof BendyError && error.kind === kind;
   await assert.rejects(new BendyLoader().loadAsync(`${address}nothing.bendy`), fails('io'));
-  await assert.rejects(new BendyLoader().parseAsync(new TextEncoder().encode('This is no bendy file at all, only text.')), fails('malformed'));
+  await assert.rejects(
+    new BendyLoader().parseAsync(new TextEncoder().encode('This is no bendy file at all, only text.')),
+    fails('malformed'),
+  );
   const manager = new THREE.LoadingManager();
   const events = [];
   manager.onLoad = () => events.push('load');

@@ -33,7 +33,11 @@ test('pictures', { skip: missing.length > 0 && `needs ${missing.join(', ')}`, ti
   for (const [k, { file }] of jobs.entries()) {
     execFileSync(program, ['convert', path.join(corpus, file), '-q', '-o', path.join(folder, `${k}.bendy`)]);
   }
-  const listed = jobs.map(({ file, hasReference, ...rest }, k) => ({ ...rest, bendy: `/made/${k}.bendy`, gltf: hasReference === false ? null : `/corpus/${file}` }));
+  const listed = jobs.map(({ file, hasReference, ...rest }, k) => ({
+    ...rest,
+    bendy: `/made/${k}.bendy`,
+    gltf: hasReference === false ? null : `/corpus/${file}`,
+  }));
   fs.writeFileSync(path.join(folder, 'jobs.json'), JSON.stringify(listed));
   let finish;
   const result = new Promise((resolve) => (finish = resolve));
@@ -43,17 +47,36 @@ test('pictures', { skip: missing.length > 0 && `needs ${missing.join(', ')}`, ti
       return response.end();
     }
     const [, root, ...rest] = decodeURIComponent(request.url).split('/');
-    const file = root === 'jobs.json' ? path.join(folder, root)
-      : rest.length === 0 ? path.join(web, 'test', root) : path.join(roots[root] ?? folder, ...rest);
+    const file =
+      root === 'jobs.json'
+        ? path.join(folder, root)
+        : rest.length === 0
+          ? path.join(web, 'test', root)
+          : path.join(roots[root] ?? folder, ...rest);
     if (!fs.existsSync(file)) return response.writeHead(404).end();
     response.writeHead(200, { 'content-type': types[path.extname(file)] ?? 'application/octet-stream' });
     return response.end(fs.readFileSync(file));
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  const browser = spawn(chromium, ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync', '--no-proxy-server', `--user-data-dir=${path.join(folder, 'profile')}`,
-    `http://127.0.0.1:${server.address().port}/three_browser.html`], { stdio: 'ignore' });
+  const browser = spawn(
+    chromium,
+    [
+      '--headless',
+      '--no-sandbox',
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--no-proxy-server',
+      `--user-data-dir=${path.join(folder, 'profile')}`,
+      `http://127.0.0.1:${server.address().port}/three_browser.html`,
+    ],
+    { stdio: 'ignore' },
+  );
   try {
     for (const [k, { failed, drawn, different }] of (await result).entries()) {
       assert.equal(failed, undefined, `${jobs[k].file}: ${failed}`);

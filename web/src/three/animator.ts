@@ -13,7 +13,6 @@ import {
   type Vector3Like,
 } from 'three';
 import {
-
   type Chain,
   type Clip,
   CrossFade,
@@ -227,7 +226,8 @@ export class BendyAnimator {
       const mesh = model.meshes[number]!;
       let attributes = this.#attributes.get(number);
       if (attributes === undefined) {
-        const copy = (name: string): BufferAttribute => (before.getAttribute(name) as BufferAttribute).clone().setUsage(DynamicDrawUsage);
+        const copy = (name: string): BufferAttribute =>
+          (before.getAttribute(name) as BufferAttribute).clone().setUsage(DynamicDrawUsage);
         attributes = {
           position: copy('position'),
           normal: mesh.hasNormals ? copy('normal') : null,

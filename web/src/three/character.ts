@@ -88,7 +88,11 @@ export async function makeCharacter(model: Model, textures: Textures, packedRate
   const joints: Object3D[] = [];
   for (const { number, name, parent, rest, shear, extras } of model.joints) {
     const hasShear = shear.some((x) => x !== 0);
-    const object = makeJoint(isBone.has(number), hasShear, parts.filter((part) => part.joint === number));
+    const object = makeJoint(
+      isBone.has(number),
+      hasShear,
+      parts.filter((part) => part.joint === number),
+    );
     if (object instanceof ShearedBone || object instanceof ShearedObject3D) object.shear = shear;
     if (name !== '') {
       object.name = names[number]!;

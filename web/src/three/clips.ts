@@ -54,7 +54,10 @@ class CubicRotationInterpolant extends CubicInterpolant {
   }
 
   #normalise(result: TypedArray): TypedArray {
-    rotation.fromArray(result as Float32Array).normalize().toArray(result as Float32Array);
+    rotation
+      .fromArray(result as Float32Array)
+      .normalize()
+      .toArray(result as Float32Array);
     return result;
   }
 }

@@ -127,7 +127,9 @@ export class BlendedSkinnedMesh extends SkinnedMesh {
     const blend = this.geometry.getAttribute('skinIndex').getX(index) - skeleton.bones.length;
     if (blend < 0 || !(skeleton instanceof BlendedSkeleton)) return super.applyBoneTransform(index, vector);
     const { size, bones, weights } = skeleton.blends;
-    const base = new Vector4(vector.x, vector.y, vector.z, vector instanceof Vector4 ? vector.w : 1).applyMatrix4(this.bindMatrix);
+    const base = new Vector4(vector.x, vector.y, vector.z, vector instanceof Vector4 ? vector.w : 1).applyMatrix4(
+      this.bindMatrix,
+    );
     const sum = new Vector4(0, 0, 0, 0);
     for (let k = size * blend; k < size * (blend + 1); ++k) {
       if (weights[k] === 0) continue;

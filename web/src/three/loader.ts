@@ -60,7 +60,11 @@ export class BendyLoader extends Loader<BendyCharacter> {
         fail,
       );
     file.load(url, parse, onProgress, (error) =>
-      fail(Object.assign(new BendyError('io', `${url}: ${error instanceof Error ? error.message : String(error)}`), { cause: error })),
+      fail(
+        Object.assign(new BendyError('io', `${url}: ${error instanceof Error ? error.message : String(error)}`), {
+          cause: error,
+        }),
+      ),
     );
   }
 

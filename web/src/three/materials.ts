@@ -193,7 +193,10 @@ export class Materials {
     if (variant === undefined) {
       let made = this.#made.get(number);
       if (made === undefined) {
-        made = number === null ? Promise.resolve(new MeshStandardMaterial({ metalness: 1 })) : this.#make(this.#model.materials[number]!);
+        made =
+          number === null
+            ? Promise.resolve(new MeshStandardMaterial({ metalness: 1 }))
+            : this.#make(this.#model.materials[number]!);
         this.#made.set(number, made);
       }
       variant = made.then((material) => adapt(material, surface));

@@ -118,11 +118,7 @@ function groupSubmeshes(model: Model, mesh: Mesh): { joint: number | null; subme
 }
 
 /** Makes the objects of all meshes. `uniqueName` is called once for each. */
-export async function makeParts(
-  model: Model,
-  materials: Materials,
-  uniqueName: (name: string) => string,
-): Promise<PlacedPart[]> {
+export async function makeParts(model: Model, materials: Materials, uniqueName: (name: string) => string): Promise<PlacedPart[]> {
   const parts: PlacedPart[] = [];
   for (const mesh of model.meshes) {
     const influences = mesh.isRigid ? null : readInfluences(mesh);
