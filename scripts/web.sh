@@ -21,7 +21,7 @@ cp build/cross/web/build/web/bindings.ts web/src/generated/
 cd web
 node embed.mjs ../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
 node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
-[ -e node_modules/typescript ] || npm ci --silent
+[ -e node_modules/three ] || npm ci --silent
 rm -rf dist
 npm run --silent build
 npm test

@@ -1,0 +1,10 @@
+/**
+ * Bendy's characters in three.js: a loader, and an animator that uses Bendy's runtime.
+ *
+ * @packageDocumentation
+ */
+export { type AnimatorOptions, type AnimatorPlayOptions, type AnimatorReachOptions, BendyAnimator } from './animator.js';
+export { type BendyCharacter, cloneCharacter, setLevelOfDetail } from './character.js';
+export { BendyLoader } from './loader.js';
+export type { Part } from './parts.js';
+export type { Ktx2Decoder } from './textures.js';
