@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the npm package in web/dist, with the runtime as WebAssembly, and tests it in node.
+# Builds the npm package in web/dist, with the runtime as WebAssembly, and the page web/dist/page.html; tests them in node and in
+# Chromium.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,7 +22,11 @@ cp build/cross/web/build/web/bindings.ts web/src/generated/
 cd web
 node embed.mjs ../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
 node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
-[ -e node_modules/three ] || npm ci --silent
+[ -e node_modules/puppeteer-core ] || npm ci --silent
 rm -rf dist
 npm run --silent build
+npx --no-install tsc -p page
+"$BENDY_PROGRAM" convert ../examples/mannequin.glb --rig page/example.rig.json --lod --force --quiet -o dist/example.bendy
+node page/build.mjs dist/example.bendy
+rm dist/example.bendy
 npm test

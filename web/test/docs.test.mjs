@@ -16,6 +16,15 @@ const blocks = [...page.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code], number
   number,
 }));
 
+const readme = readFileSync(join(repository, 'README.md'), 'utf8');
+const [, first] = /^```js\n(.*?)^```$/ms.exec(readme);
+test('the block of README.md', () => {
+  const file = join(folder, 'readme.mjs');
+  writeFileSync(file, `import { readFile } from 'node:fs/promises';\nconst bytes = await readFile('mannequin.bendy');\n${first}`);
+  const { status, stderr } = spawnSync(process.execPath, [file], { cwd: folder, encoding: 'utf8' });
+  assert.equal(status, 0, stderr);
+});
+
 test('the guide has blocks', () => assert.ok(blocks.length >= 6));
 for (const { code, number } of blocks) {
   test(`block ${number + 1} of docs/web.md`, () => {

@@ -1,0 +1,193 @@
+// A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
+import * as THREE from 'three';
+import { type Chain, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
+import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
+
+/** The range of a joint about one of its constraint's axes. */
+export interface Range {
+  joint: number;
+  low: number;
+  high: number;
+}
+
+const fullTurn = 2 * Math.PI;
+
+export class Character {
+  /** Where chains reach for, in model space, by their numbers. */
+  readonly targets = new Map<number, THREE.Vector3>();
+  /** Weights of morph targets that replace those of the clip, by their numbers. */
+  readonly weights = new Map<number, number>();
+  /** What became of the chains that reach. */
+  readonly results = new Map<number, string>();
+  obeysConstraints = true;
+  clip = 0;
+  readonly #model: Model;
+  readonly #pose: Pose;
+  readonly #animator: BendyAnimator;
+  readonly #detail: LevelOfDetail;
+  readonly #crossFade: CrossFade;
+  readonly #box: THREE.Box3;
+  #playback: Playback | undefined;
+
+  private constructor(readonly result: BendyCharacter) {
+    this.#model = result.model;
+    this.#animator = new BendyAnimator(result);
+    this.#pose = this.#animator.pose;
+    this.#detail = new LevelOfDetail(this.#model);
+    this.#crossFade = new CrossFade(this.#model);
+    this.#box = this.#measure();
+  }
+
+  /** Opens a bendy file. Rejects with a BendyError. */
+  static async open(bytes: Uint8Array): Promise<Character> {
+    return new Character(await new BendyLoader().parseAsync(bytes));
+  }
+
+  get object(): THREE.Object3D {
+    return this.result.scene;
+  }
+  get clips() {
+    return [...this.#model.clips];
+  }
+  get chains(): Chain[] {
+    return [...this.#model.chains];
+  }
+  /** The chains that people drag. */
+  get limbs(): Chain[] {
+    return this.chains.filter((chain) => chain.number !== this.lookChain?.number);
+  }
+  get morphTargets(): { name: string; number: number; weight: number }[] {
+    return [...this.#model.morphTargets].map(({ name, number, restWeight }) => ({ name, number, weight: restWeight }));
+  }
+  get hasLevels(): boolean {
+    return this.#model.hasLevels;
+  }
+  get triangles(): number {
+    return this.#detail.triangles;
+  }
+  get facts(): string {
+    const { joints, clips, vertexCount } = this.#model;
+    const counted = (count: number, one: string, many: string) => `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
+    return [counted(vertexCount, 'vertex', 'vertices'), counted(joints.length, 'joint', 'joints'), counted(clips.length, 'clip', 'clips')].join(', ');
+  }
+  /** The clip to begin with: one that walks, else the first. */
+  get firstClip(): number {
+    return Math.max(0, this.clips.findIndex(({ name }) => /walk/i.test(name)));
+  }
+  /** The chain that looks at the pointer. */
+  get lookChain(): Chain | undefined {
+    return this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
+  }
+
+  play(clip: number, fade: number): void {
+    this.clip = clip;
+    const playback = new Playback(this.#model, clip);
+    playback.mode = 'repeat';
+    this.#crossFade.play(clip, { playback, fade: this.#playback ? fade : 0 });
+    this.#playback?.dispose();
+    this.#playback = playback;
+  }
+
+  get seconds(): number {
+    return this.#playback ? this.#crossFade.getPlayback(this.#playback).seconds : 0;
+  }
+  get share(): number {
+    return this.#playback ? this.#crossFade.getPlayback(this.#playback).share : 0;
+  }
+  seek(share: number): void {
+    if (this.#playback) this.#crossFade.setPlayback(this.#crossFade.getPlayback(this.#playback).seekShare(share));
+  }
+  step(seconds: number): void {
+    if (this.#playback) this.#crossFade.advance(seconds);
+  }
+
+  /** Keeps this share of the triangles. */
+  setShare(share: number): void {
+    this.#detail.setShare(share);
+    setLevelOfDetail(this.result, share);
+  }
+
+  /** Advances the clips, reaches, and moves the three.js objects. */
+  update(seconds: number, pointer: THREE.Vector3 | undefined): void {
+    if (this.#playback) {
+      this.#crossFade.advance(seconds);
+      this.#crossFade.sample(this.#pose);
+    } else {
+      this.#pose.reset();
+    }
+    for (const [target, weight] of this.weights) this.#pose.setMorphWeights([weight], target);
+    this.results.clear();
+    const look = this.lookChain;
+    for (const chain of this.chains) {
+      const target = this.targets.get(chain.number) ?? (chain === look || chain.number === look?.number ? pointer : undefined);
+      if (!target) continue;
+      const { status, distance } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
+      const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
+      this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${(1000 * distance).toFixed(0)} mm`);
+    }
+    this.#animator.apply();
+  }
+
+  /** Where the tip of a chain is, in model space. */
+  tip(number: number): THREE.Vector3 {
+    const { links, tipOffset } = this.#model.chains[number]!;
+    return new THREE.Vector3(...tipOffset).applyMatrix4(this.#matrix(links.at(-1)!));
+  }
+
+  /** What the joints of a chain may do about the X axes of their constraints. */
+  ranges(number: number): Range[] {
+    const { links } = this.#model.chains[number]!;
+    return this.#model.constraints
+      .filter(({ joint, scope, model }) => links.includes(joint) && scope !== "all_but_ik" && model !== "free" && model !== "locked")
+      .map(({ joint, rotationMin, rotationMax }) => ({ joint, low: Math.max(rotationMin[0], -fullTurn / 2), high: Math.min(rotationMax[0], fullTurn / 2) }))
+      .filter(({ low, high }) => high - low > 1e-3 && high - low < fullTurn - 1e-3);
+  }
+
+  /** Puts the drawing of a range where its joint is: in the constraint's frame, which is the parent's with the joint at rest. */
+  placeRange(range: THREE.Object3D): void {
+    const number: number = range.userData['joint'];
+    const joint = this.#model.joints[number]!;
+    const constraint = this.#model.constraints.find((one) => one.joint === number && one.scope !== 'all_but_ik')!;
+    const parent = joint.parent === null ? new THREE.Matrix4() : this.#matrix(joint.parent);
+    const rest = new THREE.Quaternion(...joint.rest.rotation).multiply(new THREE.Quaternion(...constraint.frame));
+    const place = new THREE.Vector3().setFromMatrixPosition(this.#matrix(number));
+    const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(parent)).multiply(rest);
+    range.matrix.compose(place, turn, new THREE.Vector3(1, 1, 1));
+  }
+
+  /** A box around the character at rest and in its first clip. */
+  box(): THREE.Box3 {
+    return this.#box;
+  }
+
+  dispose(): void {
+    for (const one of [this.#playback, this.#crossFade, this.#detail, this.#animator]) one?.dispose();
+    this.object.traverse((object) => {
+      const { geometry, material } = object as THREE.Mesh;
+      geometry?.dispose();
+      for (const one of [material ?? []].flat()) {
+        for (const value of Object.values(one)) if (value instanceof THREE.Texture) value.dispose();
+        one.dispose();
+      }
+    });
+    this.#model.dispose();
+  }
+
+  #matrix(joint: number): THREE.Matrix4 {
+    return new THREE.Matrix4().fromArray(this.#pose.modelMatrices(), 16 * joint);
+  }
+
+  #measure(): THREE.Box3 {
+    const box = new THREE.Box3();
+    const clip = this.clips[this.firstClip];
+    this.#pose.reset();
+    if (clip) this.#pose.sample(clip.number, clip.start);
+    const { positions } = this.#pose.skin();
+    for (let at = 0; at < positions.length; at += 3) box.expandByPoint(new THREE.Vector3().fromArray(positions, at));
+    if (box.isEmpty()) {
+      for (let joint = 0; joint < this.#model.joints.length; ++joint)
+        box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(this.#matrix(joint)));
+    }
+    return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1)) : box;
+  }
+}

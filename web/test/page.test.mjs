@@ -1,0 +1,176 @@
+// The page in a real browser: from a file, without a server or a network.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import puppeteer from 'puppeteer-core';
+import { program, repository as root } from './helpers.mjs';
+
+const page = new URL('../dist/page.html', import.meta.url);
+const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const pictures = process.env.BENDY_PICTURES; // a folder for screenshots, to be looked at
+const skip = existsSync(chromium) ? false : `${chromium} is not there`;
+let browser, tab, folder;
+const requests = [], problems = [];
+
+before(async () => {
+  if (skip) return;
+  folder = mkdtempSync(join(tmpdir(), 'bendy-page-'));
+  browser = await puppeteer.launch({
+    executablePath: chromium,
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader', '--js-flags=--expose-gc'],
+    protocolTimeout: 300_000,
+  });
+  tab = await browser.newPage();
+  await tab.setViewport({ width: 1200, height: 760 });
+  tab.on('request', (request) => requests.push(request.url()));
+  tab.on('pageerror', (error) => problems.push(error.message));
+  tab.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
+  await tab.goto(page.href, { waitUntil: 'domcontentloaded', timeout: 120_000 });
+  await shown('mannequin.bendy');
+});
+
+after(async () => {
+  await browser?.close();
+  if (folder) rmSync(folder, { recursive: true });
+});
+
+const text = (selector) => tab.$eval(selector, (element) => element.textContent);
+const select = (name) => tab.evaluate((id) => document.getElementById(id).click(), `tab-${name}`);
+const frames = (count = 3) =>
+  tab.evaluate((left) => new Promise((resolve) => (function next() { left-- > 0 ? requestAnimationFrame(next) : resolve(); })()), count);
+
+async function shown(name, words = 'is shown') {
+  await tab.waitForFunction((wanted) => document.getElementById('status').textContent === wanted, { timeout: 120_000 }, `${name} ${words}`);
+  await frames();
+}
+
+/** Opens files as a person who picks them. */
+async function open(...files) {
+  await tab.evaluate(() => (document.getElementById('status').textContent = ''));
+  await (await tab.$('#files')).uploadFile(...files);
+}
+
+async function picture(name) {
+  if (pictures) await tab.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+/** How many pixels of the canvas differ from its first one. */
+const drawn = () =>
+  tab.evaluate(() => {
+    const view = document.getElementById('view');
+    const copy = Object.assign(document.createElement('canvas'), { width: 200, height: 120 });
+    const context = copy.getContext('2d');
+    context.drawImage(view, 0, 0, 200, 120);
+    const { data } = context.getImageData(0, 0, 200, 120);
+    let count = 0;
+    for (let at = 0; at < data.length; at += 4) count += Math.abs(data[at] - data[0]) > 24 || Math.abs(data[at + 2] - data[2]) > 24 ? 1 : 0;
+    return count;
+  });
+
+const native = (...args) => execFileSync(program, args, { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 30 });
+
+test('the example walks, and looks at the pointer', { skip }, async () => {
+  await picture('first');
+  assert.ok((await drawn()) > 500, 'the character is drawn');
+  assert.match(await text('#name'), /mannequin\.bendy · [\d,]+ vertices, 65 joints, 2 clips, [\d,]+ bytes/);
+  const time = () => tab.$eval('#time', (range) => range.valueAsNumber);
+  const first = await time();
+  await frames(5);
+  assert.notEqual(await time(), first, 'it moves');
+  const head = async (x, y) => {
+    await tab.mouse.move(x, y);
+    await frames(3);
+    return tab.evaluate(() => [...bendyPage.character.results.values()].join());
+  };
+  assert.match(await head(150, 200), /aimed|as near/);
+});
+
+test('keys play, step and change the clip', { skip }, async () => {
+  await tab.focus('#view');
+  await tab.keyboard.press(' ');
+  assert.equal(await text('#play'), 'Play');
+  const seconds = () => tab.evaluate(() => bendyPage.character.seconds);
+  const before = await seconds();
+  await tab.keyboard.press('ArrowRight');
+  await frames();
+  assert.ok(Math.abs((await seconds()) - before - 1 / 30) < 1e-3);
+  const clip = () => tab.$eval('#clips [aria-checked=true]', (element) => element.textContent);
+  const walked = await clip();
+  await tab.keyboard.press(']');
+  await frames();
+  assert.notEqual(await clip(), walked);
+});
+
+test('a dragged chain reaches inside its constraints', { skip }, async () => {
+  await select('reach');
+  await frames();
+  const chain = await tab.evaluate(() => bendyPage.character.chains.find(({ name }) => name === 'IK_LeftArm').number);
+  const { x, y } = await tab.evaluate((number) => bendyPage.handlePlace(number), chain);
+  await tab.mouse.move(x, y);
+  await tab.mouse.down();
+  await tab.mouse.move(x - 40, y + 60, { steps: 5 });
+  await frames();
+  await picture('reach');
+  const result = await text(`#reached-${chain}`);
+  await tab.mouse.up();
+  assert.match(result, /reached|as near|too far/);
+  assert.equal(await tab.evaluate((number) => bendyPage.character.targets.has(number), chain), true);
+  await select('move');
+});
+
+test('another file is shown, and one of another kind is refused', { skip }, async () => {
+  const source = join(root, 'examples/tentacle.glb');
+  native('convert', source, '-o', join(folder, 'tentacle.bendy'));
+  await open(join(folder, 'tentacle.bendy'));
+  await shown('tentacle.bendy');
+  await picture('tentacle');
+  assert.ok((await drawn()) > 300);
+  await open(source);
+  await shown('tentacle.glb', 'cannot be shown');
+  await picture('refused');
+  assert.match(await text('#faults'), /NOT_A_BENDY_FILE.*bendy convert tentacle\.glb/s);
+});
+
+test('sixty broken files show their faults, and the page goes on', { skip }, async () => {
+  const whole = readFileSync(join(folder, 'tentacle.bendy'));
+  for (let k = 0; k < 60; ++k) {
+    const bytes = Buffer.from(k % 2 === 0 ? whole.subarray(0, Math.floor((whole.length * (k + 1)) / 62)) : whole);
+    if (k % 2 === 1) for (let at = 13 * k; at < bytes.length; at += 997) bytes[at] ^= 0x5a;
+    const file = join(folder, `broken-${k}.bendy`);
+    writeFileSync(file, bytes);
+    await open(file);
+    await shown(basename(file), 'cannot be shown');
+    assert.equal(await tab.$eval('#messages', (panel) => panel.hidden), false);
+    assert.ok((await text('#faults')).length > 10, `${file} has a fault with words`);
+    if (k === 1) await picture('broken');
+  }
+  await open(join(folder, 'tentacle.bendy'));
+  await shown('tentacle.bendy');
+  assert.ok((await drawn()) > 300);
+});
+
+test('memory stays flat', { skip }, async () => {
+  const used = async () => {
+    await tab.evaluate(() => globalThis.gc?.());
+    return (await tab.metrics()).JSHeapUsedSize;
+  };
+  const times = Number(process.env.BENDY_LOADS ?? 40);
+  const load = async (count) => {
+    for (let k = 0; k < count; ++k) {
+      await open(join(folder, 'tentacle.bendy'));
+      await shown('tentacle.bendy');
+    }
+    return used();
+  };
+  const few = await load(10);
+  const many = await load(times);
+  assert.ok(many - few < 8e6, `${few} bytes after 10 loads, ${many} after ${times} more`);
+});
+
+test('nothing is asked of a network, and nothing fails silently', { skip }, () => {
+  assert.deepEqual(requests.filter((address) => !/^(file|blob|data|about):/.test(address)), []);
+  assert.deepEqual(problems, []);
+});
