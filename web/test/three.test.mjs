@@ -404,6 +404,19 @@ describe('BendyAnimator', { skip }, () => {
     assert.ok(worstOverClips(character) <= tolerance);
   });
 
+  it('plays clips on clones whose joints have no names', async () => {
+    const first = await loadBendy('models/cesium_man.gltf');
+    assert.ok(first.model.joints.some(({ name }) => name === ''));
+    const second = cloneCharacter(first);
+    const { start, end } = first.model.clips[0];
+    const seconds = (start + end) / 2;
+    const stop = mix(second.scene, second.animations[0], seconds);
+    second.scene.updateMatrixWorld(true);
+    const expected = first.model.sample(0, seconds).skin().positions;
+    assert.ok(worstDistance(expected, positionsOf(meshesOf(second.joints))) <= 1e-5);
+    stop();
+  });
+
   it('poses clones independently', async () => {
     const first = await loadBendy('models/fox.glb');
     const second = cloneCharacter(first);

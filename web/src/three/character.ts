@@ -1,4 +1,4 @@
-import { type AnimationClip, Bone, type Camera, Group, Object3D, PropertyBinding } from 'three';
+import { AnimationClip, Bone, type Camera, Group, type KeyframeTrack, Object3D, PropertyBinding } from 'three';
 import { clone as cloneObjects } from 'three/addons/utils/SkeletonUtils.js';
 import { type Chain, type Constraint, type Items, LevelOfDetail, type Model } from '../index.js';
 import { makeClips } from './clips.js';
@@ -122,9 +122,23 @@ export async function makeCharacter(model: Model, textures: Textures, packedRate
   };
 }
 
+/** The clip for copies of objects without a name, which its tracks find by their UUIDs: the same clip if there are none. */
+function retarget(clip: AnimationClip, copies: ReadonlyMap<string, Object3D>): AnimationClip {
+  const uuidOf = (track: KeyframeTrack): string => track.name.slice(0, track.name.lastIndexOf('.'));
+  if (!clip.tracks.some((track) => copies.has(uuidOf(track)))) return clip;
+  const tracks = clip.tracks.map((track) => {
+    const copy = copies.get(uuidOf(track));
+    if (copy === undefined) return track;
+    const renamed = track.clone();
+    renamed.name = copy.uuid + track.name.slice(track.name.lastIndexOf('.'));
+    return renamed;
+  });
+  return new AnimationClip(clip.name, clip.duration, tracks, clip.blendMode);
+}
+
 /**
- * Returns a second character with joints of its own, to be posed independently. It shares model, geometries, materials and clips
- * with the first one.
+ * Returns a second character with joints of its own, to be posed independently. It shares model, geometries and materials with the
+ * first one, and clips whose joints have names.
  */
 export function cloneCharacter(character: BendyCharacter): BendyCharacter {
   const scene = cloneObjects(character.scene) as Group;
@@ -134,10 +148,12 @@ export function cloneCharacter(character: BendyCharacter): BendyCharacter {
     object.children.forEach((child, k) => match(child, copy.children[k]!));
   };
   match(character.scene, scene);
+  const byUuid = new Map(character.joints.map((joint) => [joint.uuid, copies.get(joint)!]));
   return {
     ...character,
     scene,
     scenes: [scene],
+    animations: character.animations.map((clip) => retarget(clip, byUuid)),
     joints: character.joints.map((joint) => copies.get(joint)!),
     parts: character.parts.map((part) => ({ ...part, object: copies.get(part.object) as Part['object'] })),
   };
