@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 #include "files/input.h"
+#include "inspect/describe_differences.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
 #include "terminal/progress.h"
@@ -26,7 +27,6 @@
 namespace bendy::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Json = nlohmann::ordered_json;
 using converter::CharacterComparison;
 using converter::CharacterDifference;
@@ -64,22 +64,6 @@ std::string value_text(const diff::Value& value) {
     std::string text;
     for (const diff::Scalar& item : value.items) text += (text.empty() ? "" : " ") + scalar_text(item);
     return text;
-}
-
-Json to_json(const diff::Value& value) {
-    Json list = Json::array();
-    for (const diff::Scalar& item : value.items) {
-        std::visit(
-            [&](const auto& scalar) {
-                if constexpr (std::is_same_v<decltype(scalar), const std::monostate&>) {
-                    list.push_back(nullptr);
-                } else {
-                    list.push_back(scalar);
-                }
-            },
-            item);
-    }
-    return value.is_list ? list : list.front();
 }
 
 /// "3 of 300 numbers differ, by up to 0.25; the first: element 4, component 1: 0 -> 0.25".
@@ -120,22 +104,6 @@ std::string what_text(const Difference& difference) {
     return text;
 }
 
-const char* kind_name(Kind kind) {
-    constexpr std::array kNames{"onlyInA", "onlyInB", "order", "value", "numbers", "bytes", "storage"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-/// The name of a chunk, or of the nearest around it that has one.
-std::string name_of(const ChunkTree& tree, std::uint32_t number) {
-    constexpr unsigned kMostSteps = 3;
-    for (unsigned step = 0; step < kMostSteps && number != 0; ++step) {
-        const std::uint32_t name = tree[number].is_container() ? tree.find(number, FourCC("NAME")) : kNone;
-        if (name != kNone) return std::string(as_text(tree.payload(name)));
-        number = tree[number].parent;
-    }
-    return {};
-}
-
 void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differences) {
     for (const Difference& difference : differences.list()) {
         const auto& [here, there] = difference.chunks;
@@ -145,7 +113,7 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
         const std::string path = chunk_path(file.tree.bytes(), file.tree[chunk].offset);
         const char mark = difference.kind == Kind::only_in_a ? '-' : difference.kind == Kind::only_in_b ? '+' : '!';
         std::string line = std::string(1, mark) + ' ' + path;
-        if (const std::string name = name_of(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
+        if (const std::string name = name_around(file.tree, chunk); !name.empty()) line += " \"" + brief(name) + '"';
         if (here != kNone && there != kNone) {
             const std::string other = chunk_path(b.tree.bytes(), b.tree[there].offset);
             if (other != path) line += " (in B: " + other + ')';
@@ -155,48 +123,17 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
     if (differences.left_out() != 0) std::cout << grouped(differences.left_out()) << " more differences\n";
 }
 
-Json to_json(const DiffArguments& arguments, const ReadFile& a, const ReadFile& b, const Differences& differences) {
-    Json list = Json::array();
-    for (const Difference& difference : differences.list()) {
-        const auto& [here, there] = difference.chunks;
-        Json entry{{"kind", kind_name(difference.kind)}};
-        if (here != kNone) entry["pathInA"] = whole_chunk_path(a.tree.bytes(), a.tree[here].offset);
-        if (there != kNone) entry["pathInB"] = whole_chunk_path(b.tree.bytes(), b.tree[there].offset);
-        const std::string name = here != kNone ? name_of(a.tree, here) : name_of(b.tree, there);
-        if (!name.empty()) entry["name"] = name;
-        if (!difference.part.empty()) entry["part"] = difference.part;
-        if (difference.kind == Kind::value || difference.kind == Kind::numbers) {
-            entry["a"] = to_json(difference.a_value);
-            entry["b"] = to_json(difference.b_value);
-        }
-        if (difference.kind == Kind::bytes) {
-            entry["bytesInA"] = to_json(difference.a_value);
-            entry["bytesInB"] = to_json(difference.b_value);
-            entry["first"] = difference.first_element;
-        }
-        if (difference.kind == Kind::numbers) {
-            entry["largest"] = difference.largest;
-            entry["element"] = difference.first_element;
-            entry["component"] = difference.first_component;
-        }
-        if (difference.kind == Kind::numbers || difference.kind == Kind::bytes) {
-            entry["differing"] = difference.count;
-            entry["of"] = difference.of;
-        }
-        list.push_back(std::move(entry));
-    }
-    Json report{
-        {"a", arguments.files[0].string()}, {"b", arguments.files[1].string()}, {"same", differences.count() == 0}};
-    report["differences"] = std::move(list);
-    report["differencesLeftOut"] = differences.left_out();
-    return report;
-}
-
 /// A damaged file is refused before anything is compared: its sums would say nothing.
 std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
     const Faults faults = validate(file.bytes());
     if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
     return diff::read_file(file.bytes());
+}
+
+void print_json(const std::array<std::filesystem::path, 2>& files, const Json& differences) {
+    Json report{{"a", files[0].string()}, {"b", files[1].string()}};
+    report.update(differences);
+    print_report(report, 2);
 }
 
 struct ComparedCharacter {
@@ -255,31 +192,6 @@ void print_text(const CharacterComparison& comparison) {
     }
 }
 
-Json to_json(const std::array<std::filesystem::path, 2>& files, const CharacterComparison& comparison) {
-    constexpr std::array kKinds{"onlyInA", "onlyInB", "value", "distance"};
-    Json report{{"a", files[0].string()},
-                {"b", files[1].string()},
-                {"same", comparison.differences.empty()},
-                {"tolerance", comparison.tolerance},
-                {"unit", "metres"},
-                {"worst", comparison.worst},
-                {"worstPlace", comparison.worst_place}};
-    Json looks = Json::array();
-    for (const converter::LookDifference& look : comparison.looks)
-        looks.push_back({{"place", look.place}, {"apart", look.apart}, {"allowed", look.allowed}, {"unit", look.unit}});
-    report["looks"] = std::move(looks);
-    Json list = Json::array();
-    for (const CharacterDifference& difference : comparison.differences) {
-        Json entry{{"kind", kKinds[static_cast<std::size_t>(difference.kind)]}, {"place", difference.place}};
-        if (!difference.what.empty()) entry["what"] = difference.what;
-        if (difference.kind == CharacterDifference::Kind::distance) entry["metres"] = difference.metres;
-        list.push_back(std::move(entry));
-    }
-    report["differences"] = std::move(list);
-    report["differencesLeftOut"] = comparison.left_out;
-    return report;
-}
-
 /// Compares what two bendy files mean and prints what differs by more than the tolerance, and the worst distance met.
 /// True if nothing does. Throws Failed where a file is bad, or the tolerance too large to tell anything apart.
 bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, const converter::ErrorBound& tolerance,
@@ -299,12 +211,9 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
         fail(files[0], "too many polygons lie within " + length_text(comparison.tolerance) +
                            " of one another; a smaller tolerance can tell them apart");
     }
-    if (a.rig != b.rig) {
-        comparison.differences.push_back(
-            {CharacterDifference::Kind::value, "rig", "constraints or IK chains differ; `bendy rig` writes them", 0.0});
-    }
+    add_rig_difference(comparison, a.rig, b.rig);
     if (as_json) {
-        print_report(to_json(files, comparison), 2);
+        print_json(files, comparison_as_json(comparison));
     } else {
         print_text(comparison);
     }
@@ -321,7 +230,7 @@ bool are_same(const DiffArguments& arguments) {
     }
     const Differences differences = diff::compare_files(*read[0], *read[1]);
     if (arguments.json) {
-        print_report(to_json(arguments, *read[0], *read[1], differences), 2);
+        print_json(arguments.files, differences_as_json(*read[0], *read[1], differences));
     } else {
         print_lines(*read[0], *read[1], differences);
     }
