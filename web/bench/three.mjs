@@ -1,6 +1,6 @@
 // Posing beside three.js, by turns in one process: node bench/three.mjs FILE.bendy... prints microseconds for each character and frame.
-// three.js: AnimationMixer.update, updateMatrixWorld and Skeleton.update. Bendy: Pose.sample and Pose.palette of every mesh; for
-// several characters, Crowd.
+// three.js: AnimationMixer.update, updateMatrixWorld and Skeleton.update. Bendy: Pose.sample, and Pose.palette of every
+// skinned mesh, with Pose.modelMatrices if there are others; for several characters, Crowd.
 import { readFile } from 'node:fs/promises';
 import { performance } from 'node:perf_hooks';
 import { AnimationMixer } from 'three';
@@ -50,6 +50,7 @@ for (const file of process.argv.slice(2)) {
       if (count === 1) {
         pose.sample(clip, seconds(frame, 0));
         for (const mesh of skinned) pose.palette(mesh);
+        if (skinned.length < model.meshes.length) pose.modelMatrices(); // for rigid meshes
       } else {
         for (let k = 0; k < count; ++k) crowd.set(k, clip, seconds(frame, k));
         crowd.play();

@@ -1,6 +1,6 @@
 // A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
 import * as THREE from 'three';
-import { type Chain, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
+import { type Chain, type Clip, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
 import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
 
 /** The range of a joint about one of its constraint's axes. */
@@ -21,6 +21,12 @@ export class Character {
   readonly results = new Map<number, string>();
   obeysConstraints = true;
   clip = 0;
+  readonly clips: readonly Clip[];
+  readonly chains: readonly Chain[];
+  /** The chain that looks at the pointer. */
+  readonly lookChain: Chain | undefined;
+  /** The chains that people drag. */
+  readonly limbs: readonly Chain[];
   readonly #model: Model;
   readonly #pose: Pose;
   readonly #animator: BendyAnimator;
@@ -28,13 +34,19 @@ export class Character {
   readonly #crossFade: CrossFade;
   readonly #box: THREE.Box3;
   #playback: Playback | undefined;
+  #matrices: Float32Array; // of the joints, as they were after the last update
 
   private constructor(readonly result: BendyCharacter) {
     this.#model = result.model;
     this.#animator = new BendyAnimator(result);
     this.#pose = this.#animator.pose;
+    this.clips = [...this.#model.clips];
+    this.chains = [...this.#model.chains];
+    this.lookChain = this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
+    this.limbs = this.chains.filter((chain) => chain !== this.lookChain);
     this.#detail = new LevelOfDetail(this.#model);
     this.#crossFade = new CrossFade(this.#model);
+    this.#matrices = this.#pose.modelMatrices().slice();
     this.#box = this.#measure();
   }
 
@@ -45,16 +57,6 @@ export class Character {
 
   get object(): THREE.Object3D {
     return this.result.scene;
-  }
-  get clips() {
-    return [...this.#model.clips];
-  }
-  get chains(): Chain[] {
-    return [...this.#model.chains];
-  }
-  /** The chains that people drag. */
-  get limbs(): Chain[] {
-    return this.chains.filter((chain) => chain.number !== this.lookChain?.number);
   }
   get morphTargets(): { name: string; number: number; weight: number }[] {
     return [...this.#model.morphTargets].map(({ name, number, restWeight }) => ({ name, number, weight: restWeight }));
@@ -73,10 +75,6 @@ export class Character {
   /** The clip to begin with: one that walks, else the first. */
   get firstClip(): number {
     return Math.max(0, this.clips.findIndex(({ name }) => /walk/i.test(name)));
-  }
-  /** The chain that looks at the pointer. */
-  get lookChain(): Chain | undefined {
-    return this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
   }
 
   play(clip: number, fade: number): void {
@@ -117,15 +115,15 @@ export class Character {
     }
     for (const [target, weight] of this.weights) this.#pose.setMorphWeights([weight], target);
     this.results.clear();
-    const look = this.lookChain;
     for (const chain of this.chains) {
-      const target = this.targets.get(chain.number) ?? (chain === look || chain.number === look?.number ? pointer : undefined);
+      const target = this.targets.get(chain.number) ?? (chain === this.lookChain ? pointer : undefined);
       if (!target) continue;
       const { status, distance } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
       const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
       this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${(1000 * distance).toFixed(0)} mm`);
     }
     this.#animator.apply();
+    this.#matrices = this.#pose.modelMatrices().slice();
   }
 
   /** Where the tip of a chain is, in model space. */
@@ -174,7 +172,7 @@ export class Character {
   }
 
   #matrix(joint: number): THREE.Matrix4 {
-    return new THREE.Matrix4().fromArray(this.#pose.modelMatrices(), 16 * joint);
+    return new THREE.Matrix4().fromArray(this.#matrices, 16 * joint);
   }
 
   #measure(): THREE.Box3 {

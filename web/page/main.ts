@@ -1,7 +1,7 @@
 // The page: what was dropped, what is shown, and what people do with it.
+import { BendyError } from '../src/index.js';
 import { Character } from './character.js';
 import { Stage } from './stage.js';
-import { BendyError } from '../src/index.js';
 
 declare const bendyExample: string; // the mannequin, base64
 
@@ -64,7 +64,6 @@ function showPanels(): void {
   element('clips').replaceChildren(
     ...clips.map((clip, number) => {
       const choice = make('button', { type: 'button' }, clip.name || `clip ${number}`);
-      choice.setAttribute('role', 'radio');
       choice.addEventListener('click', () => playClip(number));
       return choice;
     }),
@@ -109,8 +108,7 @@ function playClip(number: number): void {
   const wanted = (number + count) % count;
   character.play(wanted, input('fade').valueAsNumber);
   for (const [k, choice] of [...element('clips').children].entries()) {
-    choice.setAttribute('aria-checked', String(k === wanted));
-    (choice as HTMLElement).tabIndex = k === wanted ? 0 : -1;
+    choice.setAttribute('aria-pressed', String(k === wanted));
   }
   setPlaying(true);
 }
@@ -236,12 +234,9 @@ function frame(now: number): void {
     const pointer = input('look').checked ? stage.pointerTarget() : undefined;
     character.obeysConstraints = input('constrained').checked;
     character.update(isPlaying ? seconds * input('speed').valueAsNumber : 0, pointer);
-    if (isPlaying) input('time').value = String(character.share);
+    if (isPlaying || document.activeElement !== input('time')) input('time').value = String(character.share);
     element('seconds').textContent = `${character.seconds.toFixed(2)} s`;
-    for (const [chain, result] of character.results) {
-      const line = document.getElementById(`reached-${chain}`);
-      if (line) line.textContent = result;
-    }
+    for (const { number } of character.limbs) element(`reached-${number}`).textContent = character.results.get(number) ?? '';
   }
   stage.draw();
   requestAnimationFrame(frame);

@@ -97,7 +97,8 @@ test('keys play, step and change the clip', { skip }, async () => {
   await tab.keyboard.press('ArrowRight');
   await frames();
   assert.ok(Math.abs((await seconds()) - before - 1 / 30) < 1e-3);
-  const clip = () => tab.$eval('#clips [aria-checked=true]', (element) => element.textContent);
+  assert.ok(Math.abs((await tab.$eval('#time', (range) => range.valueAsNumber)) - (await tab.evaluate(() => bendyPage.character.share))) < 1e-3);
+  const clip = () => tab.$eval('#clips [aria-pressed=true]', (element) => element.textContent);
   const walked = await clip();
   await tab.keyboard.press(']');
   await frames();
@@ -118,6 +119,9 @@ test('a dragged chain reaches inside its constraints', { skip }, async () => {
   await tab.mouse.up();
   assert.match(result, /reached|as near|too far/);
   assert.equal(await tab.evaluate((number) => bendyPage.character.targets.has(number), chain), true);
+  await tab.evaluate((number) => document.getElementById(`reached-${number}`).nextElementSibling.click(), chain);
+  await frames();
+  assert.equal(await text(`#reached-${chain}`), '', 'let go');
   await select('move');
 });
 
