@@ -58,6 +58,7 @@ if [ "${1:-build}" = web ] || [ "${1:-build}" = test ]; then
     need dpkg-source dpkg-dev
     need node nodejs
     need npm npm
+    need chromium chromium
 fi
 if [ "${1:-build}" = test ]; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
@@ -85,7 +86,6 @@ if [ "${1:-build}" = test ]; then
     need update-mime-database shared-mime-info
     need gio libglib2.0-bin
     need desktop-file-validate desktop-file-utils
-    need chromium chromium
     need Xvfb xvfb
     need xauth xauth
     need /usr/share/doc/mkdocs-material mkdocs-material

@@ -26,7 +26,7 @@ node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain
 rm -rf dist
 npm run --silent build
 npx --no-install tsc -p page
-"$BENDY_PROGRAM" convert ../examples/mannequin.glb --rig page/example.rig.json --lod --force --quiet -o dist/example.bendy
+"$BENDY_PROGRAM" convert ../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
 node page/build.mjs dist/example.bendy
 rm dist/example.bendy
 npm test

@@ -440,6 +440,7 @@ Result<void, CallError> play_all(Crowd& crowd, std::span<const CrowdMember> memb
         }
     };
     std::vector<std::thread> threads;
+    threads.reserve(crowd.workers());  // so that nothing throws while some run
     for (std::size_t worker = 1; worker < crowd.workers() && worker * kAtOnce < members.size(); ++worker) {
         try {
             threads.emplace_back(work, worker);
@@ -457,9 +458,17 @@ Result<void, CallError> play_all(Crowd& crowd, std::span<const CrowdMember> memb
 
 void play_members(PyCrowd& self, std::span<const CrowdMember> members) {
     if (self.is_busy) throw std::runtime_error("the crowd is in use by another thread: give each thread its own");
-    self.is_busy = true;
+    struct Busy {
+        bool& flag;
+        explicit Busy(bool& of) : flag(of) { flag = true; }
+        Busy(const Busy&) = delete;
+        Busy& operator=(const Busy&) = delete;
+        Busy(Busy&&) = delete;
+        Busy& operator=(Busy&&) = delete;
+        ~Busy() { flag = false; }
+    };
+    const Busy busy(self.is_busy);
     const auto played = without_gil([&] { return play_all(self.crowd, members); });
-    self.is_busy = false;
     if (!played) raise_call(played.error());
 }
 
