@@ -9,6 +9,10 @@ endif()
 # A WebAssembly module lies at address 0. Code for any address is larger.
 if(EMSCRIPTEN)
   set(CMAKE_CXX_COMPILE_OPTIONS_PIC "")
+  if(BENDY_TOOLS)
+    # What this C++ library lacks.
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/web/tools/float_charconv.h>")
+  endif()
 endif()
 
 # bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME;
@@ -85,8 +89,9 @@ function(bendy_gnu_options target)
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
   endif()
   if(CMAKE_SIZEOF_VOID_P EQUAL 4 AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
-    # Sizes in a file have 64 bits. They are checked against the bytes that there are, which 32 bits can count.
-    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32)
+    # Sizes in a file have 64 bits. They are checked against the bytes that there are, which 32 bits can count. So are indices,
+    # which are added to iterators.
+    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32 -Wno-sign-conversion)
   endif()
   # The same bytes from every compiler: no fused multiply-add that the source does not ask for.
   target_compile_options(${target} PRIVATE -ffp-contract=off)

@@ -4,11 +4,12 @@
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
 #   static    zstd, meshoptimizer and draco, from the same sources, as static libraries for this machine
 #   web       zstd and meshoptimizer, from the same sources, for WebAssembly with SIMD; web-plain: without
+#   web-tools zstd, meshoptimizer, draco, zlib and double-conversion, from the same sources, for WebAssembly
 # Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
 # of other processors and of sources stays in build/cross/apt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|web|web-plain}
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|web|web-plain|web-tools}
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake cmake/emscripten.cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
@@ -77,6 +78,21 @@ fetch_web() {
     sed -i 's/ -Werror//' "$sources"/meshoptimizer-*/CMakeLists.txt  # its code for SIMD has unused variables
     # One decoder of each kind, as in the library's own builds for the web: less to download.
     build_leaf_codecs -DCMAKE_C_FLAGS_RELEASE="-Os -DNDEBUG -DHUF_FORCE_DECOMPRESS_X1 -DZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT -DZSTD_NO_INLINE -DZSTD_STRIP_ERROR_STRINGS"
+}
+
+fetch_web-tools() {
+    fetch_sources libzstd meshoptimizer draco zlib double-conversion
+    sed -i 's/ -Werror//' "$sources"/meshoptimizer-*/CMakeLists.txt
+    local small=(-DCMAKE_C_FLAGS_RELEASE="-Oz -DNDEBUG" -DCMAKE_CXX_FLAGS_RELEASE="-Oz -DNDEBUG")
+    build_library zstd "$sources"/libzstd-*/build/cmake -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF -DZSTD_BUILD_SHARED=OFF \
+        -DZSTD_LEGACY_SUPPORT=OFF -DZSTD_MULTITHREAD_SUPPORT=OFF "${small[@]}"
+    for library in meshoptimizer double-conversion; do build_library $library "$sources"/$library-*/ "${small[@]}"; done
+    # Draco's CMake files ask for EMSCRIPTEN; programs of draco are linked with acorn, which Debian has there.
+    NODE_PATH=/usr/share/nodejs EMSCRIPTEN=/usr/share/emscripten build_library draco "$sources"/draco-*/ -DDRACO_JS_GLUE=OFF "${small[@]}"
+    # What inflates; zlib's own CMake files want a shared library.
+    mkdir -p "$here/$system/build_zlib"
+    (cd "$here/$system/build_zlib" && emcc -Oz -c "$sources"/zlib-*/{adler32,crc32,inffast,inflate,inftrees,zutil}.c && emar rcs "$root/usr/lib/libz.a" ./*.o)
+    cp "$sources"/zlib-*/{zlib,zconf}.h "$root/usr/include/"
 }
 
 fetch_static() {

@@ -183,7 +183,7 @@ std::span<const SubmeshView> RigIndex::submeshes_of(std::uint32_t chunk) const {
                          [](const SubmeshView& view, std::uint32_t other) { return view.joint < other; });
     const auto last =
         std::find_if(first, skeleton.submeshes.end(), [&](const SubmeshView& view) { return view.joint != number; });
-    return {first, last};
+    return {skeleton.submeshes.data() + (first - skeleton.submeshes.begin()), static_cast<std::size_t>(last - first)};
 }
 
 std::string RigIndex::links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const {

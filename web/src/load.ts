@@ -23,7 +23,8 @@ export function hasSimd(): boolean {
   return WebAssembly.validate(simdModule);
 }
 
-function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
+/** @internal */
+export function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
   const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
