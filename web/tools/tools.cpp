@@ -84,7 +84,9 @@ MappedFile map_bendy(const Path& file) {
     MappedFile mapped = map(file);
     if (const auto kind = converter::find_file_kind(mapped.bytes(), file)) {
         const std::string why = converter::why_not_bendy(*kind, file);
-        if (!why.empty()) throw Failure{"malformed", code_name(ErrorCode::kNotABendyFile), why};
+        if (!why.empty()) {
+            throw Failure{"malformed", code_name(ErrorCode::kNotABendyFile), why, whole_chunk_path(mapped.bytes(), 0)};
+        }
     }
     return mapped;
 }
