@@ -22,9 +22,10 @@ async function bundle(name) {
 }
 
 const example = await readFile(process.argv[2], 'base64');
+const worker = JSON.stringify(await bundle('worker.ts')).replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const parts = {
   '@css@': await readFile(here('page.css'), 'utf8'),
-  '@data@': `const bendyExample = "${example}";`,
+  '@data@': `const bendyExample = "${example}"; const bendyWorker = ${worker};`,
   '@js@': await bundle('main.ts'),
 };
 let page = await readFile(here('index.html'), 'utf8');

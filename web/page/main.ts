@@ -1,9 +1,12 @@
 // The page: what was dropped, what is shown, and what people do with it.
-import { BendyError } from '../src/index.js';
 import { Character } from './character.js';
 import { Stage } from './stage.js';
+import type { Answers, Fault, Reply, Request, Warning } from './worker.js';
 
+declare const bendyWorker: string; // the text of worker.ts, bundled
 declare const bendyExample: string; // the mannequin, base64
+
+const suffixes = ['.glb', '.gltf', '.vrm', '.x', '.md2', '.bendy'];
 
 function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -23,29 +26,123 @@ function make<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+// Work that takes long.
+
+/** A worker that answers one request after another. One that was abandoned is ended, with what it had in memory. */
+class Background {
+  #worker: Worker | undefined;
+  #next = 0;
+  #waiting = new Map<number, { resolve: (answer: never) => void; reject: (fault: Fault) => void; progress: (share: number) => void }>();
+
+  ask<K extends Request['kind']>(request: Request & { kind: K }, progress: (share: number) => void = () => {}): Promise<Answers[K]> {
+    this.#worker ??= this.#start();
+    const id = this.#next++;
+    return new Promise<Answers[K]>((resolve, reject) => {
+      this.#waiting.set(id, { resolve, reject, progress });
+      this.#worker!.postMessage({ id, request });
+    });
+  }
+
+  stop(): void {
+    this.#worker?.terminate();
+    this.#worker = undefined;
+    for (const { reject } of this.#waiting.values()) reject({ code: 'STOPPED', message: 'stopped', path: '' });
+    this.#waiting.clear();
+  }
+
+  #start(): Worker {
+    const address = URL.createObjectURL(new Blob([bendyWorker], { type: 'text/javascript' }));
+    const worker = new Worker(address);
+    worker.onmessage = ({ data }: MessageEvent<Reply>) => {
+      const waiting = this.#waiting.get(data.id);
+      if (!waiting) return;
+      if ('progress' in data) return waiting.progress(data.progress);
+      this.#waiting.delete(data.id);
+      if ('fault' in data) waiting.reject(data.fault);
+      else waiting.resolve(data.answer as never);
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      for (const { reject } of this.#waiting.values()) reject({ code: '', message: event.message || 'the worker has failed', path: '' });
+      this.#waiting.clear();
+      this.#worker = undefined;
+    };
+    return worker;
+  }
+}
+
 // What is shown.
 
+interface Shown {
+  name: string;
+  bytes: Uint8Array;
+  sourceSize: number;
+  isConverted: boolean;
+  compact?: Uint8Array;
+}
+
 const stage = new Stage(element<HTMLCanvasElement>('view'));
+const background = new Background();
+let shown: Shown | undefined;
 let character: Character | undefined;
 let isPlaying = true;
+let inspected: Uint8Array | undefined;
 let loads = 0;
 
 function say(text: string): void {
   element('status').textContent = text;
 }
 
-function showVerdict(name: string, error?: unknown): void {
+function setBusy(text: string): void {
+  element('busy').hidden = text === '';
+  element('doing').textContent = text;
+  element<HTMLProgressElement>('progress').removeAttribute('value');
+}
+
+const showProgress = (share: number) => (element<HTMLProgressElement>('progress').value = share);
+
+function listFault(fault: Fault): HTMLLIElement {
+  const place = [fault.path, fault.offset === undefined || fault.path === '' ? '' : `offset ${fault.offset.toLocaleString('en')}`].filter(Boolean).join(', ');
+  const line = make('li', {}, fault.code ? make('code', {}, fault.code) : '', ` ${fault.message}`);
+  if (place && !fault.message.includes(fault.path)) line.append(make('br'), make('code', { className: 'quiet' }, place));
+  return line;
+}
+
+function showMessages(faults: Fault[], warnings: Warning[]): void {
   const verdict = element('verdict');
-  verdict.className = error === undefined ? 'good' : 'bad';
-  verdict.textContent = error === undefined ? 'The file is valid.' : `${name} cannot be shown.`;
-  const lines: Node[] = [];
-  if (error !== undefined) {
-    const { message } = error as Error;
-    const fault = error instanceof BendyError ? error : undefined;
-    lines.push(make('p', {}, fault ? make('code', {}, fault.code) : '', ` ${message}`));
-    if (fault?.code === 'NOT_A_BENDY_FILE') lines.push(make('p', {}, 'Convert glTF, X-files and Quake II models first: ', make('code', {}, `bendy convert ${name}`)));
-  }
-  element('faults').replaceChildren(...lines);
+  verdict.className = faults.length === 0 ? 'good' : 'bad';
+  verdict.textContent =
+    faults.length === 0 ? 'The file is valid.' : faults.length === 1 ? 'The file cannot be shown: it has a fault.' : `The file cannot be shown: it has ${faults.length} faults.`;
+  element('faults').replaceChildren(...faults.map(listFault));
+  element('warned').hidden = warnings.length === 0;
+  element('warnings').replaceChildren(
+    ...warnings.map(({ message, place, count }) => {
+      const line = make('li', {}, message + (count > 1 ? ` (${count} times)` : ''));
+      if (place) line.prepend(make('code', {}, place), ' ');
+      return line;
+    }),
+  );
+  const count = faults.length + warnings.length;
+  button('tab-messages').textContent = count === 0 ? 'Messages' : `Messages (${count})`;
+}
+
+function showSizes(): void {
+  const rows: [string, number][] = [];
+  if (shown?.isConverted) rows.push(['source', shown.sourceSize]);
+  if (shown) rows.push(['.bendy', shown.bytes.length]);
+  if (shown?.compact) rows.push(['compact .bendy', shown.compact.length]);
+  element('sizes').replaceChildren(
+    ...rows.map(([label, size]) =>
+      make(
+        'tr',
+        {},
+        make('td', {}, label),
+        make('td', {}, size.toLocaleString('en')),
+        make('td', {}, `${((100 * size) / shown!.sourceSize).toFixed(0)} %`),
+      ),
+    ),
+  );
+  for (const id of ['save-bendy', 'save-compact', 'save-glb']) button(id).disabled = !character;
 }
 
 function slider(label: string, value: number, low: number, high: number, change: (value: number) => void): HTMLElement {
@@ -119,43 +216,90 @@ function setPlaying(playing: boolean): void {
   button('play').setAttribute('aria-pressed', String(playing));
 }
 
-/** Shows what a file holds. Whatever is in it, the page stays. */
-async function open(name: string, bytes: Uint8Array): Promise<void> {
+/** Shows what the files hold. Whatever is in them, the page stays. */
+async function open(files: Record<string, Uint8Array>, main: string): Promise<void> {
   const load = ++loads;
-  let next: Character | undefined;
-  let failure: unknown;
+  background.stop();
+  setBusy(`Reading ${main}`);
+  say(`Reading ${main}`);
+  let faults: Fault[] = [];
+  let warnings: Warning[] = [];
+  let next: Shown | undefined;
+  let nextCharacter: Character | undefined;
   try {
-    next = await Character.open(bytes);
+    const read = await background.ask({ kind: 'read', files, main }, showProgress);
+    if (load !== loads) return;
+    ({ faults, warnings } = read);
+    next = { name: main.replace(/.*\//, ''), bytes: read.bytes, sourceSize: read.sourceSize, isConverted: read.bytes !== files[main] && !main.toLowerCase().endsWith('.bendy') };
+    if (faults.length === 0) nextCharacter = await Character.open(read.bytes);
   } catch (error) {
-    failure = error;
+    const fault = error as Fault & Error;
+    if (load !== loads || fault.code === 'STOPPED') return;
+    faults = [{ code: fault.code ?? '', message: fault.message, path: fault.path ?? '', offset: fault.offset }];
   }
-  if (load !== loads) return next?.dispose(); // another file has been opened meanwhile
+  if (load !== loads) return nextCharacter?.dispose();
+  setBusy('');
   stage.show(undefined);
   character?.dispose();
-  character = next;
-  element('name').textContent = character ? `${name} · ${character.facts}, ${bytes.length.toLocaleString('en')} bytes` : name;
-  showVerdict(name, failure);
+  character = nextCharacter;
+  shown = next;
+  inspected = undefined;
+  element<HTMLIFrameElement>('page').srcdoc = '';
+  element('name').textContent = character ? `${main} · ${character.facts}` : main;
+  showMessages(faults, warnings);
   stage.show(character);
   showPanels();
+  showSizes();
   if (character && character.clips.length !== 0) playClip(character.firstClip);
-  if (failure !== undefined) selectTab('messages');
-  else if (selected === 'messages') selectTab('move');
-  say(failure === undefined ? `${name} is shown` : `${name} cannot be shown`);
+  say(faults.length === 0 ? `${main} is shown` : `${main} cannot be shown`);
+  if (faults.length !== 0) selectTab('messages');
+  else if (selected === 'messages' && faults.length === 0) selectTab('move');
+  if (selected === 'inspect') void inspect();
 }
 
-async function openFile(file: File | null | undefined): Promise<void> {
-  if (!file) return;
+/** The file that the others belong to. */
+function mainOf(names: string[]): string | undefined {
+  const order = ['.gltf', '.x', '.glb', '.vrm', '.md2', '.bendy'];
+  return order.flatMap((suffix) => names.filter((name) => name.toLowerCase().endsWith(suffix)))[0] ?? names[0];
+}
+
+async function openFiles(list: Iterable<File>): Promise<void> {
+  const files: Record<string, Uint8Array> = {};
   try {
-    await open(file.name, new Uint8Array(await file.arrayBuffer()));
+    for (const file of list) files[file.webkitRelativePath || file.name] = new Uint8Array(await file.arrayBuffer());
   } catch (error) {
-    showVerdict(file.name, error);
-    selectTab('messages');
+    showMessages([{ code: '', message: `the files cannot be read: ${(error as Error).message}`, path: '' }], []);
+    return selectTab('messages');
   }
+  const main = mainOf(Object.keys(files));
+  if (main === undefined) return;
+  await open(files, main);
+}
+
+/** The files of what was dropped, folders included, with their paths. */
+async function droppedFiles(items: DataTransferItemList): Promise<File[]> {
+  const walk = async (entry: FileSystemEntry): Promise<File[]> => {
+    if (entry.isFile) {
+      const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+      Object.defineProperty(file, 'webkitRelativePath', { value: entry.fullPath.replace(/^\//, '') });
+      return [file];
+    }
+    const reader = (entry as FileSystemDirectoryEntry).createReader();
+    const files: File[] = [];
+    for (;;) {
+      const entries = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+      if (entries.length === 0) return files;
+      for (const one of entries) files.push(...(await walk(one)));
+    }
+  };
+  const entries = [...items].filter((item) => item.kind === 'file').map((item) => item.webkitGetAsEntry() ?? item.getAsFile());
+  const lists = await Promise.all(entries.map((entry) => (entry === null ? [] : entry instanceof File ? [entry] : walk(entry))));
+  return lists.flat();
 }
 
 // Tabs.
 
-const tabs = ['move', 'reach', 'messages'];
+const tabs = ['move', 'reach', 'messages', 'save', 'inspect'];
 let selected = '';
 
 function selectTab(name: string): void {
@@ -165,8 +309,59 @@ function selectTab(name: string): void {
     button(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
     element(tab).hidden = tab !== name;
   }
+  document.querySelector('aside')!.classList.toggle('wide', name === 'inspect');
   stage.showsHandles = name === 'reach';
+  if (name === 'inspect') void inspect();
 }
+
+async function inspect(): Promise<void> {
+  if (!shown || inspected === shown.bytes) return;
+  const { bytes, name } = shown;
+  inspected = bytes;
+  try {
+    const { html } = await background.ask({ kind: 'inspect', bytes, name });
+    if (shown?.bytes === bytes) element<HTMLIFrameElement>('page').srcdoc = html;
+  } catch (error) {
+    inspected = undefined;
+    say((error as Fault).message);
+  }
+}
+
+// Saving.
+
+function download(bytes: Uint8Array, suffix: string): void {
+  const address = URL.createObjectURL(new Blob([bytes as BlobPart], { type: 'application/octet-stream' }));
+  const link = make('a', { href: address, download: shown!.name.replace(/\.[^.]*$/, '') + suffix });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+async function save(text: string, work: () => Promise<void>): Promise<void> {
+  setBusy(text);
+  try {
+    await work();
+  } catch (error) {
+    const fault = error as Fault;
+    showMessages([fault], []);
+    element('verdict').textContent = 'The file cannot be made.';
+    selectTab('messages');
+  }
+  setBusy('');
+}
+
+button('save-bendy').addEventListener('click', () => shown && download(shown.bytes, '.bendy'));
+button('save-compact').addEventListener('click', () =>
+  save('Making the compact file', async () => {
+    const of = shown!;
+    const { bytes } = await background.ask({ kind: 'compact', bytes: of.bytes, bound: element<HTMLSelectElement>('bound').value }, showProgress);
+    of.compact = bytes;
+    showSizes();
+    download(bytes, '.compact.bendy');
+  }),
+);
+button('save-glb').addEventListener('click', () =>
+  save('Writing glTF', async () => download((await background.ask({ kind: 'glb', bytes: shown!.bytes })).bytes, '.glb')),
+);
 
 // What people do.
 
@@ -193,7 +388,8 @@ input('share').addEventListener('input', () => {
 input('bones').addEventListener('change', () => stage.setSkeleton(input('bones').checked));
 input('wireframe').addEventListener('change', () => stage.setWireframe(input('wireframe').checked));
 button('open').addEventListener('click', () => input('files').click());
-input('files').addEventListener('change', () => void openFile(input('files').files?.[0]).then(() => (input('files').value = '')));
+input('files').accept = [...suffixes, '.bin', '.json', '.png', '.jpg', '.jpeg', '.webp', '.ktx2', '.tga', '.bmp', '.dds', '.pcx'].join();
+input('files').addEventListener('change', () => void openFiles(input('files').files ?? []).then(() => (input('files').value = '')));
 button('example').addEventListener('click', () => void openExample());
 
 addEventListener('dragover', (event) => {
@@ -206,7 +402,7 @@ addEventListener('dragleave', (event) => {
 addEventListener('drop', (event) => {
   event.preventDefault();
   element('drop').hidden = true;
-  void openFile(event.dataTransfer?.files[0]);
+  if (event.dataTransfer) void droppedFiles(event.dataTransfer.items).then(openFiles, (error: Error) => say(error.message));
 });
 addEventListener('keydown', (event) => {
   const { target } = event;
@@ -223,7 +419,7 @@ addEventListener('keydown', (event) => {
 
 function openExample(): Promise<void> {
   const bytes = Uint8Array.from(atob(bendyExample), (letter) => letter.charCodeAt(0));
-  return open('mannequin.bendy', bytes);
+  return open({ 'mannequin.bendy': bytes }, 'mannequin.bendy');
 }
 
 let before = performance.now();

@@ -1,7 +1,7 @@
 // The page in a real browser: from a file, without a server or a network.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -28,6 +28,8 @@ before(async () => {
   tab.on('request', (request) => requests.push(request.url()));
   tab.on('pageerror', (error) => problems.push(error.message));
   tab.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
+  const session = await tab.createCDPSession();
+  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
   await tab.goto(page.href, { waitUntil: 'domcontentloaded', timeout: 120_000 });
   await shown('mannequin.bendy');
 });
@@ -37,6 +39,7 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
+const status = () => tab.$eval('#status', (element) => element.textContent);
 const text = (selector) => tab.$eval(selector, (element) => element.textContent);
 const select = (name) => tab.evaluate((id) => document.getElementById(id).click(), `tab-${name}`);
 const frames = (count = 3) =>
@@ -70,12 +73,20 @@ const drawn = () =>
     return count;
   });
 
+async function downloaded(name) {
+  const file = join(folder, name);
+  for (let tries = 0; tries < 600 && !(existsSync(file) && readFileSync(file).length !== 0); ++tries) await new Promise((resolve) => setTimeout(resolve, 100));
+  const bytes = readFileSync(file);
+  rmSync(file);
+  return bytes;
+}
+
 const native = (...args) => execFileSync(program, args, { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 30 });
 
 test('the example walks, and looks at the pointer', { skip }, async () => {
   await picture('first');
   assert.ok((await drawn()) > 500, 'the character is drawn');
-  assert.match(await text('#name'), /mannequin\.bendy · [\d,]+ vertices, 65 joints, 2 clips, [\d,]+ bytes/);
+  assert.match(await text('#name'), /mannequin\.bendy · [\d,]+ vertices, 65 joints, 2 clips/);
   const time = () => tab.$eval('#time', (range) => range.valueAsNumber);
   const first = await time();
   await frames(5);
@@ -125,25 +136,61 @@ test('a dragged chain reaches inside its constraints', { skip }, async () => {
   await select('move');
 });
 
-test('another file is shown, and one of another kind is refused', { skip }, async () => {
+test('a source is converted, and what is saved has the bytes of the program', { skip }, async () => {
   const source = join(root, 'examples/tentacle.glb');
-  native('convert', source, '-o', join(folder, 'tentacle.bendy'));
-  await open(join(folder, 'tentacle.bendy'));
-  await shown('tentacle.bendy');
+  await open(source);
+  await shown('tentacle.glb');
   await picture('tentacle');
   assert.ok((await drawn()) > 300);
-  await open(source);
-  await shown('tentacle.glb', 'cannot be shown');
-  await picture('refused');
-  assert.match(await text('#faults'), /NOT_A_BENDY_FILE.*bendy convert tentacle\.glb/s);
+  await select('save');
+  await tab.click('#save-bendy');
+  const saved = await downloaded('tentacle.bendy');
+  const expected = join(folder, 'expected.bendy');
+  native('convert', source, '-o', expected);
+  assert.ok(saved.equals(readFileSync(expected)), '.bendy');
+  await tab.click('#save-compact');
+  const compact = await downloaded('tentacle.compact.bendy');
+  native('convert', expected, '--compact', '--max-error', '0.005%', '-o', join(folder, 'small.bendy'));
+  assert.ok(compact.equals(readFileSync(join(folder, 'small.bendy'))), 'compact .bendy');
+  await tab.click('#save-glb');
+  const glb = await downloaded('tentacle.glb');
+  native('export', expected, '-o', join(folder, 'back.glb'));
+  assert.ok(glb.equals(readFileSync(join(folder, 'back.glb'))), '.glb');
+  await picture('save');
+  assert.match(await text('#sizes'), /compact/);
+  await select('messages');
+  assert.match(await text('#verdict'), /valid/);
+  assert.match(await text('#warnings'), /influence is animated/);
+});
+
+test('the chunks are shown as bendy inspect shows them', { skip }, async () => {
+  await select('inspect');
+  const frame = await (await tab.$('#page')).contentFrame();
+  await frame.waitForFunction(() => document.querySelector('#map .cell') !== null, { timeout: 60_000 });
+  await frames();
+  await picture('inspect');
+  assert.match(await frame.$eval('h1', (element) => element.textContent), /tentacle/);
+  await select('move');
+});
+
+test('files that belong together are read together', { skip }, async () => {
+  const gltf = join(folder, 'parts.gltf');
+  native('export', join(folder, 'expected.bendy'), '-o', gltf);
+  await open(gltf);
+  await shown('parts.gltf', 'cannot be shown');
+  assert.match(await text('#faults'), /parts\.bin/);
+  await open(gltf, join(folder, 'parts.bin'));
+  await shown('parts.gltf');
 });
 
 test('sixty broken files show their faults, and the page goes on', { skip }, async () => {
-  const whole = readFileSync(join(folder, 'tentacle.bendy'));
+  const whole = readFileSync(join(folder, 'expected.bendy'));
+  const glb = readFileSync(join(root, 'examples/tentacle.glb'));
   for (let k = 0; k < 60; ++k) {
-    const bytes = Buffer.from(k % 2 === 0 ? whole.subarray(0, Math.floor((whole.length * (k + 1)) / 62)) : whole);
+    const source = k % 3 === 0 ? glb : whole;
+    const bytes = Buffer.from(k % 2 === 0 ? source.subarray(0, Math.floor((source.length * (k + 1)) / 62)) : source);
     if (k % 2 === 1) for (let at = 13 * k; at < bytes.length; at += 997) bytes[at] ^= 0x5a;
-    const file = join(folder, `broken-${k}.bendy`);
+    const file = join(folder, `broken-${k}${k % 3 === 0 ? '.glb' : '.bendy'}`);
     writeFileSync(file, bytes);
     await open(file);
     await shown(basename(file), 'cannot be shown');
@@ -151,8 +198,8 @@ test('sixty broken files show their faults, and the page goes on', { skip }, asy
     assert.ok((await text('#faults')).length > 10, `${file} has a fault with words`);
     if (k === 1) await picture('broken');
   }
-  await open(join(folder, 'tentacle.bendy'));
-  await shown('tentacle.bendy');
+  await open(join(folder, 'expected.bendy'));
+  await shown('expected.bendy');
   assert.ok((await drawn()) > 300);
 });
 
@@ -164,8 +211,8 @@ test('memory stays flat', { skip }, async () => {
   const times = Number(process.env.BENDY_LOADS ?? 40);
   const load = async (count) => {
     for (let k = 0; k < count; ++k) {
-      await open(join(folder, 'tentacle.bendy'));
-      await shown('tentacle.bendy');
+      await open(join(folder, 'expected.bendy'));
+      await shown('expected.bendy');
     }
     return used();
   };

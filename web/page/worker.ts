@@ -1,0 +1,77 @@
+// Everything that takes long, away from the page: converts, checks and describes files.
+import { BendyError } from '../src/errors.js';
+import * as tools from '../src/tools/index.js';
+
+/** What the page asks for. */
+export type Request =
+  | { kind: 'read'; files: Record<string, Uint8Array>; main: string }
+  | { kind: 'compact'; bytes: Uint8Array; bound: string }
+  | { kind: 'glb'; bytes: Uint8Array }
+  | { kind: 'inspect'; bytes: Uint8Array; name: string };
+
+/** A fault of a file, or what went wrong. */
+export interface Fault {
+  code: string;
+  message: string;
+  path: string;
+  offset?: number | undefined;
+}
+
+export interface Warning {
+  message: string;
+  place: string;
+  count: number;
+}
+
+export interface Answers {
+  read: { bytes: Uint8Array; warnings: Warning[]; faults: Fault[]; sourceSize: number };
+  compact: { bytes: Uint8Array; measured: number };
+  glb: { bytes: Uint8Array; warnings: Warning[] };
+  inspect: { html: string };
+}
+
+export type Reply =
+  | { id: number; progress: number }
+  | { id: number; answer: Answers[keyof Answers] }
+  | { id: number; fault: Fault };
+
+const isBendy = (bytes: Uint8Array): boolean => String.fromCharCode(...bytes.subarray(0, 4)) === 'HEAD';
+
+async function read(files: Record<string, Uint8Array>, main: string, progress: (share: number) => void): Promise<Answers['read']> {
+  const sourceSize = Object.values(files).reduce((sum, bytes) => sum + bytes.length, 0);
+  const given = files[main]!;
+  if (isBendy(given)) {
+    const { faults } = await tools.validate(given);
+    return { bytes: given, warnings: [], faults, sourceSize: given.length };
+  }
+  const converted = await tools.convert(files, { main, progress });
+  return { bytes: converted.bytes, warnings: converted.warnings, faults: [], sourceSize };
+}
+
+async function answer(request: Request, progress: (share: number) => void): Promise<Answers[keyof Answers]> {
+  switch (request.kind) {
+    case 'read':
+      return read(request.files, request.main, progress);
+    case 'compact': {
+      const { bytes, report } = await tools.convert(request.bytes, { compact: request.bound, progress });
+      return { bytes, measured: (report['compact'] as { measuredError: number }).measuredError };
+    }
+    case 'glb': {
+      const { files, warnings } = await tools.exportModel(request.bytes, 'glb');
+      return { bytes: Object.values(files)[0]!, warnings };
+    }
+    case 'inspect':
+      return { html: await tools.inspectPage(request.bytes, request.name) };
+  }
+}
+
+self.onmessage = async ({ data: { id, request } }: MessageEvent<{ id: number; request: Request }>) => {
+  const post = (reply: Reply) => self.postMessage(reply);
+  try {
+    post({ id, answer: await answer(request, (progress) => post({ id, progress })) });
+  } catch (error) {
+    const { message } = error as Error;
+    const fault: Fault = error instanceof BendyError ? { code: error.code, message, path: error.path, offset: error.offset } : { code: '', message, path: '' };
+    post({ id, fault });
+  }
+};
