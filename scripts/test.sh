@@ -35,15 +35,10 @@ if [ "${1:-}" != quick ]; then
     cmake --preset no-exceptions >/dev/null
     cmake --build --preset no-exceptions
 
-    step "the libraries in the standard language only, plain kernels"
+    step "the libraries in the standard language only, by clang with libc++"
     cmake --preset standard-cpp >/dev/null
     cmake --build --preset standard-cpp
     ctest --preset standard-cpp
-
-    step "the libraries by clang with libc++, as on macOS"
-    cmake --preset libcxx >/dev/null
-    cmake --build --preset libcxx
-    ctest --preset libcxx
 
     step "threads under ThreadSanitizer"
     cmake --preset tsan >/dev/null
