@@ -1,16 +1,14 @@
 // A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
 import * as THREE from 'three';
-import { type Chain, type Clip, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
+import { type Chain, type Clip, type Constraint, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
 import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
+import { drawRange } from './ranges.js';
 
-/** The range of a joint about one of its constraint's axes. */
+/** What the constraint of a joint allows. */
 export interface Range {
-  joint: number;
-  low: number;
-  high: number;
+  constraint: Constraint;
+  object: THREE.Object3D;
 }
-
-const fullTurn = 2 * Math.PI;
 
 export class Character {
   /** Where chains reach for, in model space, by their numbers. */
@@ -132,25 +130,26 @@ export class Character {
     return new THREE.Vector3(...tipOffset).applyMatrix4(this.#matrix(links.at(-1)!));
   }
 
-  /** What the joints of a chain may do about the X axes of their constraints. */
+  /** What the constraints of a chain's joints allow, to be placed. */
   ranges(number: number): Range[] {
-    const { links } = this.#model.chains[number]!;
+    const { links, tipOffset } = this.#model.chains[number]!;
     return this.#model.constraints
-      .filter(({ joint, scope, model }) => links.includes(joint) && scope !== "all_but_ik" && model !== "free" && model !== "locked")
-      .map(({ joint, rotationMin, rotationMax }) => ({ joint, low: Math.max(rotationMin[0], -fullTurn / 2), high: Math.min(rotationMax[0], fullTurn / 2) }))
-      .filter(({ low, high }) => high - low > 1e-3 && high - low < fullTurn - 1e-3);
+      .filter(({ joint, scope }) => links.includes(joint) && scope !== 'all_but_ik')
+      .map((constraint) => {
+        const next = links[links.indexOf(constraint.joint) + 1];
+        const bone = new THREE.Vector3(...(next === undefined ? tipOffset : this.#model.joints[next]!.rest.translation));
+        return { constraint, object: drawRange(constraint, bone.applyQuaternion(new THREE.Quaternion(...constraint.frame).invert())) };
+      });
   }
 
-  /** Puts the drawing of a range where its joint is: in the constraint's frame, which is the parent's with the joint at rest. */
-  placeRange(range: THREE.Object3D): void {
-    const number: number = range.userData['joint'];
-    const joint = this.#model.joints[number]!;
-    const constraint = this.#model.constraints.find((one) => one.joint === number && one.scope !== 'all_but_ik')!;
+  /** Puts a range where its joint is: in the constraint's frame, which is the parent's with the joint at rest. */
+  placeRange({ constraint, object }: Range, radius: number): void {
+    const joint = this.#model.joints[constraint.joint]!;
     const parent = joint.parent === null ? new THREE.Matrix4() : this.#matrix(joint.parent);
     const rest = new THREE.Quaternion(...joint.rest.rotation).multiply(new THREE.Quaternion(...constraint.frame));
-    const place = new THREE.Vector3().setFromMatrixPosition(this.#matrix(number));
+    const place = new THREE.Vector3().setFromMatrixPosition(this.#matrix(constraint.joint));
     const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(parent)).multiply(rest);
-    range.matrix.compose(place, turn, new THREE.Vector3(1, 1, 1));
+    object.matrix.compose(place, turn, new THREE.Vector3(radius, radius, radius));
   }
 
   /** A box around the character at rest and in its first clip. */

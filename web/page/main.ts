@@ -6,7 +6,7 @@ import type { Answers, Fault, Reply, Request, Warning } from './worker.js';
 declare const bendyWorker: string; // the text of worker.ts, bundled
 declare const bendyExample: string; // the mannequin, base64
 
-const suffixes = ['.glb', '.gltf', '.vrm', '.x', '.md2', '.bendy'];
+const suffixes = ['.gltf', '.x', '.glb', '.vrm', '.md2', '.bendy']; // of characters; those that refer to other files are first
 
 function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -73,11 +73,16 @@ class Background {
 
 // What is shown.
 
-interface Shown {
+/** What people gave to the page. */
+interface Given {
+  files: Record<string, Uint8Array>;
+  main: string;
+}
+
+interface Shown extends Given {
   name: string;
   bytes: Uint8Array;
   sourceSize: number;
-  isConverted: boolean;
   compact?: Uint8Array;
 }
 
@@ -128,7 +133,7 @@ function showMessages(faults: Fault[], warnings: Warning[]): void {
 
 function showSizes(): void {
   const rows: [string, number][] = [];
-  if (shown?.isConverted) rows.push(['source', shown.sourceSize]);
+  if (shown && !shown.name.toLowerCase().endsWith('.bendy')) rows.push(['source', shown.sourceSize]);
   if (shown) rows.push(['.bendy', shown.bytes.length]);
   if (shown?.compact) rows.push(['compact .bendy', shown.compact.length]);
   element('sizes').replaceChildren(
@@ -179,7 +184,7 @@ function showPanels(): void {
   showTriangles();
   const chains = character?.limbs ?? [];
   const hasNone = (character?.chains.length ?? 0) === 0;
-  element('nochains').hidden = !hasNone;
+  element('nochains').hidden = !hasNone || !character;
   element('haschains').hidden = hasNone;
   element('chains').replaceChildren(
     ...chains.map((chain) => {
@@ -217,7 +222,7 @@ function setPlaying(playing: boolean): void {
 }
 
 /** Shows what the files hold. Whatever is in them, the page stays. */
-async function open(files: Record<string, Uint8Array>, main: string): Promise<void> {
+async function open({ files, main }: Given, autoRig = false): Promise<void> {
   const load = ++loads;
   background.stop();
   setBusy(`Reading ${main}`);
@@ -227,10 +232,10 @@ async function open(files: Record<string, Uint8Array>, main: string): Promise<vo
   let next: Shown | undefined;
   let nextCharacter: Character | undefined;
   try {
-    const read = await background.ask({ kind: 'read', files, main }, showProgress);
+    const read = await background.ask({ kind: 'read', files, main, autoRig }, showProgress);
     if (load !== loads) return;
     ({ faults, warnings } = read);
-    next = { name: main.replace(/.*\//, ''), bytes: read.bytes, sourceSize: read.sourceSize, isConverted: read.bytes !== files[main] && !main.toLowerCase().endsWith('.bendy') };
+    next = { files, main, name: main.replace(/.*\//, ''), bytes: read.bytes, sourceSize: read.sourceSize };
     if (faults.length === 0) nextCharacter = await Character.open(read.bytes);
   } catch (error) {
     const fault = error as Fault & Error;
@@ -257,10 +262,9 @@ async function open(files: Record<string, Uint8Array>, main: string): Promise<vo
   if (selected === 'inspect') void inspect();
 }
 
-/** The file that the others belong to. */
+/** The file that the others belong to; undefined if none is a character. */
 function mainOf(names: string[]): string | undefined {
-  const order = ['.gltf', '.x', '.glb', '.vrm', '.md2', '.bendy'];
-  return order.flatMap((suffix) => names.filter((name) => name.toLowerCase().endsWith(suffix)))[0] ?? names[0];
+  return suffixes.flatMap((suffix) => names.filter((name) => name.toLowerCase().endsWith(suffix)))[0];
 }
 
 async function openFiles(list: Iterable<File>): Promise<void> {
@@ -271,9 +275,15 @@ async function openFiles(list: Iterable<File>): Promise<void> {
     showMessages([{ code: '', message: `the files cannot be read: ${(error as Error).message}`, path: '' }], []);
     return selectTab('messages');
   }
-  const main = mainOf(Object.keys(files));
-  if (main === undefined) return;
-  await open(files, main);
+  const names = Object.keys(files);
+  const main = mainOf(names);
+  if (main !== undefined) return open({ files, main });
+  // A rig file on its own is for the character that is shown.
+  if (shown && character && names.some((name) => name.toLowerCase().endsWith('.rig.json'))) {
+    const others = Object.fromEntries(Object.entries(shown.files).filter(([name]) => !name.toLowerCase().endsWith('.rig.json')));
+    return open({ files: { ...others, ...files }, main: shown.main });
+  }
+  if (names[0] !== undefined) await open({ files, main: names[0] });
 }
 
 /** The files of what was dropped, folders included, with their paths. */
@@ -391,6 +401,7 @@ button('open').addEventListener('click', () => input('files').click());
 input('files').accept = [...suffixes, '.bin', '.json', '.png', '.jpg', '.jpeg', '.webp', '.ktx2', '.tga', '.bmp', '.dds', '.pcx'].join();
 input('files').addEventListener('change', () => void openFiles(input('files').files ?? []).then(() => (input('files').value = '')));
 button('example').addEventListener('click', () => void openExample());
+button('guess').addEventListener('click', () => shown && void open(shown, true));
 
 addEventListener('dragover', (event) => {
   event.preventDefault();
@@ -419,7 +430,7 @@ addEventListener('keydown', (event) => {
 
 function openExample(): Promise<void> {
   const bytes = Uint8Array.from(atob(bendyExample), (letter) => letter.charCodeAt(0));
-  return open({ 'mannequin.bendy': bytes }, 'mannequin.bendy');
+  return open({ files: { 'mannequin.bendy': bytes }, main: 'mannequin.bendy' });
 }
 
 let before = performance.now();

@@ -10,28 +10,6 @@ const activeColour = 0xd55e00;
 const mostPixelRatio = 2;
 const grabDistance = 28; // CSS pixels, for fingers
 
-/** A fan about a constraint's X axis, or a cone for the two swings: in the frame of the joint's parent at rest. */
-function makeRange(low: number, high: number, radius: number): THREE.Mesh {
-  const steps = 24;
-  const points = [0, 0, 0];
-  for (let step = 0; step <= steps; ++step) {
-    const angle = low + ((high - low) * step) / steps;
-    points.push(0, radius * Math.cos(angle), radius * Math.sin(angle));
-  }
-  const indices = Array.from({ length: steps }, (_, step) => [0, step + 1, step + 2]).flat();
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-  geometry.setIndex(indices);
-  const material = new THREE.MeshBasicMaterial({
-    color: activeColour,
-    opacity: 0.28,
-    transparent: true,
-    side: THREE.DoubleSide,
-    depthTest: false,
-  });
-  return new THREE.Mesh(geometry, material);
-}
-
 export class Stage {
   readonly #renderer: THREE.WebGLRenderer;
   readonly #scene = new THREE.Scene();
@@ -155,7 +133,7 @@ export class Stage {
         (handle.material as THREE.MeshBasicMaterial).color.setHex(target ? activeColour : handleColour);
         handle.position.copy(target ?? character.tip(chain));
       }
-      for (const range of this.#ranges.children) character.placeRange(range);
+      for (const { userData } of this.#ranges.children) character.placeRange(userData['range'], 0.09 * this.#size);
     }
     this.#controls.update();
     this.#renderer.render(this.#scene, this.#camera);
@@ -174,22 +152,20 @@ export class Stage {
 
   #drawRanges(chain: number): void {
     this.#clear(this.#ranges);
-    for (const { joint, low, high } of this.#character!.ranges(chain)) {
-      const range = makeRange(low, high, 0.09 * this.#size);
-      range.renderOrder = 1;
-      range.matrixAutoUpdate = false;
-      range.userData['joint'] = joint;
-      this.#ranges.add(range);
+    for (const range of this.#character!.ranges(chain)) {
+      range.object.matrixAutoUpdate = false;
+      range.object.userData['range'] = range;
+      this.#ranges.add(range.object);
     }
   }
 
   #clear(group: THREE.Group): void {
-    for (const child of [...group.children]) {
-      const { geometry, material } = child as THREE.Mesh;
+    group.traverse((object) => {
+      const { geometry, material } = object as THREE.Mesh;
       geometry?.dispose();
       for (const one of [material ?? []].flat()) one.dispose();
-      group.remove(child);
-    }
+    });
+    group.clear();
   }
 
   #place(event: PointerEvent): void {

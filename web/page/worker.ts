@@ -4,7 +4,7 @@ import * as tools from '../src/tools/index.js';
 
 /** What the page asks for. */
 export type Request =
-  | { kind: 'read'; files: Record<string, Uint8Array>; main: string }
+  | { kind: 'read'; files: Record<string, Uint8Array>; main: string; autoRig: boolean }
   | { kind: 'compact'; bytes: Uint8Array; bound: string }
   | { kind: 'glb'; bytes: Uint8Array }
   | { kind: 'inspect'; bytes: Uint8Array; name: string };
@@ -37,21 +37,28 @@ export type Reply =
 
 const isBendy = (bytes: Uint8Array): boolean => String.fromCharCode(...bytes.subarray(0, 4)) === 'HEAD';
 
-async function read(files: Record<string, Uint8Array>, main: string, progress: (share: number) => void): Promise<Answers['read']> {
-  const sourceSize = Object.values(files).reduce((sum, bytes) => sum + bytes.length, 0);
+/** The rig file among the others: that of the main file's name, or the only one. */
+function rigOf(names: string[], main: string): string | undefined {
+  const rigs = names.filter((name) => name.toLowerCase().endsWith('.rig.json'));
+  return rigs.find((name) => name.toLowerCase() === `${main.replace(/\.[^.]*$/, '')}.rig.json`.toLowerCase()) ?? (rigs.length === 1 ? rigs[0] : undefined);
+}
+
+async function read({ files, main, autoRig }: Request & { kind: 'read' }, progress: (share: number) => void): Promise<Answers['read']> {
   const given = files[main]!;
+  const rig = rigOf(Object.keys(files), main);
   if (isBendy(given)) {
     const { faults } = await tools.validate(given);
-    return { bytes: given, warnings: [], faults, sourceSize: given.length };
+    if (faults.length !== 0 || (rig === undefined && !autoRig)) return { bytes: given, warnings: [], faults, sourceSize: given.length };
   }
-  const converted = await tools.convert(files, { main, progress });
-  return { bytes: converted.bytes, warnings: converted.warnings, faults: [], sourceSize };
+  const { bytes, warnings, sources } = await tools.convert(files, { main, autoRig, progress, ...(rig === undefined ? {} : { rig: files[rig]! }) });
+  const sourceSize = Object.entries(files).reduce((sum, [name, { length }]) => sum + (name === main || sources.includes(name) ? length : 0), 0);
+  return { bytes, warnings, faults: [], sourceSize };
 }
 
 async function answer(request: Request, progress: (share: number) => void): Promise<Answers[keyof Answers]> {
   switch (request.kind) {
     case 'read':
-      return read(request.files, request.main, progress);
+      return read(request, progress);
     case 'compact': {
       const { bytes, report } = await tools.convert(request.bytes, { compact: request.bound, progress });
       return { bytes, measured: (report['compact'] as { measuredError: number }).measuredError };
