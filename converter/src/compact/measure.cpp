@@ -3,6 +3,8 @@
 #include "evaluate.h"
 #include "frame_shapes.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -123,7 +125,7 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
     for (std::size_t j = 0; j < rest.size(); ++j) {
         if (!found.has_shell[j]) continue;
         constexpr double kFlat = 1e-6;  // a joint's scale below which its points do not move away from it
-        const double reach = shell / std::max(std::cbrt(std::abs(glm::determinant(rest[j].linear))), kFlat);
+        const double reach = shell / std::max(trig::cube_root(std::abs(glm::determinant(rest[j].linear))), kFlat);
         probes[j] = {{reach, 0.0, 0.0}, {0.0, reach, 0.0}, {0.0, 0.0, reach}};
         if (kind == Probes::skin_and_shell) found.extremes[j].put_into(probes[j]);
     }

@@ -1,4 +1,5 @@
 #include <bendy/converter/compare_characters.h>
+#include <bendy/format/trig.h>
 
 #include "collapse/find_shapes.h"
 #include "compare/compare_curves.h"
@@ -311,7 +312,7 @@ private:
             const Affine b = to_affine(local_of(there), there.shear);
             const std::uint32_t parent = a_.joints[number].parent;
             const glm::dmat3 above(parent == kNone ? glm::dmat4(1.0) : rest.joints[parent]);
-            const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(rest.joints[number]))));
+            const double scale = trig::cube_root(std::abs(glm::determinant(glm::dmat3(rest.joints[number]))));
             constexpr double kFlat = 1e-6;  // a scale below which points do not move away from the joint
             const double reach = kShell * height_ / std::max(scale, kFlat);
             double apart = glm::length(above * (a.origin - b.origin));

@@ -2,6 +2,8 @@
 
 #include "space.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -115,7 +117,7 @@ std::optional<glm::dvec3> bend_of(const RestFrames& rest, std::uint32_t start, s
     const std::optional<glm::dvec3> lower = unit(end - rest.position(middle));
     const std::optional<glm::dvec3> along = unit(end - rest.position(start));
     if (!upper || !lower || !along) return std::nullopt;
-    const double bend = std::atan2(glm::length(glm::cross(*upper, *lower)), glm::dot(*upper, *lower));
+    const double bend = trig::atan2(glm::length(glm::cross(*upper, *lower)), glm::dot(*upper, *lower));
     return bend > kStraight ? unit_across(*upper, *along) : std::nullopt;
 }
 

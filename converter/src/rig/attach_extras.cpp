@@ -5,6 +5,8 @@
 #include "parse_rig.h"
 #include "rest_frames.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
@@ -106,7 +108,7 @@ private:
     static bool is_turned(const Rotation& then, const Rotation& now) {
         constexpr double kTurned = 1e-3;  // radians
         const Rotation between = glm::conjugate(now) * then;
-        return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w)) >
+        return 2.0 * trig::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w)) >
                kTurned;
     }
 

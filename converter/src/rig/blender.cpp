@@ -3,6 +3,8 @@
 #include "failure.h"
 #include "parse_rig.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -27,9 +29,9 @@ std::array<double, 3> to_euler(const Rotation& rotation, EulerOrder order) {
     };
     const double sign = (first + 1) % 3 == middle ? 1.0 : -1.0;  // of the axes' permutation
     std::array<double, 3> angles{};
-    angles[first] = std::atan2(sign * entry(last, middle), entry(last, last));
+    angles[first] = trig::atan2(sign * entry(last, middle), entry(last, last));
     angles[middle] = std::asin(std::clamp(-sign * entry(last, first), -1.0, 1.0));
-    angles[last] = std::atan2(sign * entry(middle, first), entry(first, first));
+    angles[last] = trig::atan2(sign * entry(middle, first), entry(first, first));
     return angles;
 }
 
@@ -380,7 +382,7 @@ private:
         // In the bone's axes of today.
         const Rotation turn = glm::conjugate(rig_.rest.turn(last_)) * rig_.axes[last_];
         glm::dvec3 local(offset[0], offset[1], offset[2]);
-        if (2.0 * std::acos(std::min(1.0, std::abs(turn.w))) > 1e-3) local = turn * local;
+        if (2.0 * trig::acos(std::abs(turn.w)) > 1e-3) local = turn * local;
         tip_ = rig_.rest.place(last_, local);
         double length = glm::distance(tip_, rig_.rest.place(last_));
         for (std::size_t i = 1; i < links_.size(); ++i)
@@ -453,7 +455,8 @@ private:
     void read_pole_angle(Fields& control, const glm::dvec3& line) {
         float angle = 0.0f;
         control.read_angle("angle", angle);
-        std::array<float, 3> axis{std::cos(angle), 0.0f, std::sin(angle)};
+        const trig::SinCos turn = trig::sin_cos(double{angle});
+        std::array<float, 3> axis{static_cast<float>(turn.cos), 0.0f, static_cast<float>(turn.sin)};
         control.read("axis", axis);
         const glm::dvec3 turned = rig_.axes[start_] * glm::dvec3(axis[0], axis[1], axis[2]);
         glm::dvec3 furthest(0.0);
@@ -466,7 +469,7 @@ private:
         const auto bend = across(furthest, line, kStraight * length_);
         if (!to_pole || !bend) return;  // a straight chain has no bend to turn
         chain_.record.pole_angle =
-            static_cast<float>(std::atan2(glm::dot(glm::cross(*to_pole, *bend), line), glm::dot(*to_pole, *bend)));
+            static_cast<float>(trig::atan2(glm::dot(glm::cross(*to_pole, *bend), line), glm::dot(*to_pole, *bend)));
     }
 
     Fields& fields_;

@@ -1,3 +1,4 @@
+#include <bendy/format/trig.h>
 #include <bendy/runtime/sample.h>
 
 #include "kernels/pose_kernels.h"
@@ -92,13 +93,14 @@ void slerp(std::span<const float> a, std::span<const float> b, double u, std::sp
         for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(by_a * a[c] + by_b * b[c]);
         return;
     }
-    const double angle = std::acos(std::min(1.0, std::abs(dot)));
+    const double angle = trig::acos(std::abs(dot));
     double weight_a = 1.0 - u;
     double weight_b = u;
     constexpr double kStraight = 1e-6;  // below it sin(angle) is angle and slerp is linear
     if (angle >= kStraight) {
-        weight_a = std::sin(angle * (1.0 - u)) / std::sin(angle);
-        weight_b = std::sin(angle * u) / std::sin(angle);
+        const double sine = trig::sin_cos(angle).sin;
+        weight_a = trig::sin_cos(angle * (1.0 - u)).sin / sine;
+        weight_b = trig::sin_cos(angle * u).sin / sine;
     }
     for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(weight_a * a[c] + sign * weight_b * b[c]);
 }
