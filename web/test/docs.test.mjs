@@ -1,12 +1,13 @@
 // Every JavaScript block of the guide runs.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, readFileSync, renameSync, symlinkSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, renameSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { example, folder, repository } from './helpers.mjs';
 
 renameSync(example('mannequin', '--lod'), join(folder, 'mannequin.bendy'));
+copyFileSync(join(repository, 'examples/mannequin.glb'), join(folder, 'mannequin.glb'));
 mkdirSync(join(folder, 'node_modules'));
 symlinkSync(join(repository, 'web'), join(folder, 'node_modules/bendy'));
 
