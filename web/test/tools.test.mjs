@@ -95,7 +95,7 @@ test('the corpus converts to the same bytes', { skip: !existsSync(corpus) && `th
   context.diagnostic(`${converted} files converted, ${files.length - converted} refused with the same message`);
   assert.ok(converted > 70);
   const is_whole = process.env.BENDY_WHOLE_CORPUS === '1';
-  const some = files.filter((file) => is_whole || /fox\.glb|morph_and_skin|cesium_man|BoxDraco/.test(file));
+  const some = files.filter((file) => is_whole || /fox\.glb|robot\.glb|morph_and_skin|cesium_man|BoxDraco/.test(file));
   for (const file of some) {
     for (const [options, args] of ways) await compare(file, options, args);
   }
