@@ -141,6 +141,9 @@ endfunction()
 # bendy_optimise(TARGET LEVEL): -O<LEVEL> in place of the -O3 of optimised builds, for code that compiles faster so and runs
 # as fast as anybody can tell.
 function(bendy_optimise target level)
+  if(EMSCRIPTEN AND level EQUAL 1)
+    set(level z)  # what need not be fast need not be loaded either
+  endif()
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
   endif()

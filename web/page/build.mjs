@@ -10,6 +10,7 @@ async function bundle(name) {
     entryPoints: [here(name).pathname],
     bundle: true,
     minify: true,
+    charset: 'utf8',
     format: 'iife',
     target: 'es2022',
     write: false,

@@ -23,11 +23,11 @@ export function hasSimd(): boolean {
   return WebAssembly.validate(simdModule);
 }
 
-/** @internal */
-export function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+/** @internal The module in a text of embed.mjs. */
+export function decodeModule(text: string): Uint8Array<ArrayBuffer> {
+  const shift = 35;
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i) - shift;
   return bytes;
 }
 
@@ -40,7 +40,7 @@ async function compile(wasm: LoadOptions['wasm'], simd: boolean): Promise<WebAss
   }
   if (wasm !== undefined) return WebAssembly.compile(wasm);
   const embedded = simd ? await import('./generated/simd.js') : await import('./generated/plain.js');
-  return WebAssembly.compile(decodeBase64(embedded.default));
+  return WebAssembly.compile(decodeModule(embedded.default));
 }
 
 /** @internal What the module imports: it has no environment, and its memory is looked at before every use. */

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Worker } from 'node:worker_threads';
 import { hasSimd, init, loadRuntime, Model } from '../dist/index.js';
+import { decodeModule } from '../dist/load.js';
 import { example, read } from './helpers.mjs';
 
 const file = example('mannequin');
@@ -18,10 +19,10 @@ test('the default module is the one with SIMD, where there is SIMD', async () =>
 });
 
 test('a module of the user', async () => {
-  const { default: base64 } = await import('../dist/generated/plain.js');
-  const bytes = Buffer.from(base64, 'base64');
+  const { default: text } = await import('../dist/generated/plain.js');
+  const bytes = Buffer.from(decodeModule(text));
   const compiled = await WebAssembly.compile(bytes);
-  for (const wasm of [bytes, compiled, `data:application/wasm;base64,${base64}`]) {
+  for (const wasm of [bytes, compiled, `data:application/wasm;base64,${bytes.toString('base64')}`]) {
     const runtime = await loadRuntime({ wasm, simd: false });
     assert.equal(runtime.kernel, 'plain');
     const model = await Model.open(read(file), { runtime });

@@ -1,5 +1,5 @@
 import { BendyError, type ErrorKind } from '../errors.js';
-import { decodeBase64 } from '../load.js';
+import { decodeModule } from '../load.js';
 
 /** @internal As much of emscripten's file system as is used here. */
 interface FileSystem {
@@ -43,7 +43,7 @@ let starting: Promise<Instance> | undefined;
 
 async function compile(): Promise<WebAssembly.Module> {
   const embedded = await import('../generated/tools.js');
-  return WebAssembly.compile(decodeBase64(embedded.default));
+  return WebAssembly.compile(decodeModule(embedded.default));
 }
 
 async function start(): Promise<Instance> {
