@@ -591,6 +591,14 @@ BENDY_API bendy_status bendy_get_track(const bendy_model* model, uint32_t clip, 
 BENDY_API bendy_status bendy_sample_track(const bendy_model* model, uint32_t clip, uint32_t track, float seconds,
                                           float* values, size_t count, bendy_error* error);
 
+/* The frames of a packed clip: between two of them, translations and scales change linearly, and rotations along the
+ * great arc. Returns 0 for NULL, a clip that does not exist, or one that is not packed. */
+BENDY_API uint32_t bendy_packed_frame_count(const bendy_model* model, uint32_t clip);
+/* Writes the time of each frame, in seconds on the clip's time line, ascending. `count` is the capacity of `times`, at
+ * least bendy_packed_frame_count. */
+BENDY_API bendy_status bendy_packed_frame_times(const bendy_model* model, uint32_t clip, float* times, size_t count,
+                                                bendy_error* error);
+
 /* An event at a time of a clip: a footstep, a hit, a sound to play. The markers of a clip are numbered from 0, in time
  * line order. */
 typedef struct bendy_marker {

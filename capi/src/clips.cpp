@@ -54,6 +54,26 @@ bendy_status bendy_sample_track(const bendy_model* model, uint32_t clip, uint32_
     });
 }
 
+uint32_t bendy_packed_frame_count(const bendy_model* model, uint32_t clip) {
+    if (model == nullptr || clip >= model->get().clips().size()) return 0;
+    const bendy::Clip& view = model->get().clips()[clip];
+    return view.packed ? view.packed->record.frames : 0;
+}
+
+bendy_status bendy_packed_frame_times(const bendy_model* model, uint32_t clip, float* times, size_t count,
+                                      bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_clip(model, clip, error)) return status;
+        const std::uint32_t frames = bendy_packed_frame_count(model, clip);
+        if (const bendy_status status = check_room(count, frames, "times", error)) return status;
+        if (frames == 0) return BENDY_OK;
+        if (const bendy_status status = check_pointer(times, "times", error)) return status;
+        const bendy::PackedView& packed = *model->get().clips()[clip].packed;
+        for (std::uint32_t frame = 0; frame < frames; ++frame) times[frame] = static_cast<float>(packed.time_of(frame));
+        return BENDY_OK;
+    });
+}
+
 uint32_t bendy_marker_count(const bendy_model* model, uint32_t clip) {
     return count_in_clip(model, clip, &bendy::Clip::markers);
 }

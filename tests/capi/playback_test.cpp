@@ -1,5 +1,11 @@
 // Clocks, markers, fades and crossfades through the C API, held against the C++ one; tracks and markers of clips.
 #include "capi/open_handles.h"
+#include "runtime/packed_model.h"
+
+#include <bendy/runtime/pose.h>
+#include <bendy/runtime/sample.h>
+
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -174,6 +180,33 @@ TEST_F(CPlayback, TracksAreTheClipsAndAreSampledAsInCpp) {
     const ModelHandle fixed = open_copy(sample_file());
     ASSERT_EQ(bendy_get_track(fixed.get(), 0, 4, &track, &error_), BENDY_OK);
     EXPECT_EQ(track.times, nullptr) << "fixed frames";
+}
+
+TEST_F(CPlayback, PackedFramesAreWhereTracksBend) {
+    const Buffer file = build_file(packed_spec(30, 50, 16));
+    const ModelHandle packed = open_copy(file);
+    ASSERT_EQ(bendy_packed_frame_count(packed.get(), 0), 50u);
+    std::array<float, 50> times{};
+    ASSERT_EQ(bendy_packed_frame_times(packed.get(), 0, times.data(), 50, &error_), BENDY_OK);
+    EXPECT_EQ(times.front(), 0.5f);
+    EXPECT_EQ(times.back(), static_cast<float>(0.5 + 49.0 / 24.0));
+    const Owned model(file);
+    Pose pose(*model);
+    const auto translation = [&](float seconds) {
+        EXPECT_TRUE(sample(pose, &model->clips()[0], seconds));
+        return pose.local()[1].translation;
+    };
+    const glm::vec3 left = translation(times[20]), right = translation(times[21]);
+    EXPECT_GT(glm::distance(left, right), 1e-4f);
+    EXPECT_LT(glm::distance(translation(0.5f * (times[20] + times[21])), 0.5f * (left + right)), 1e-6f);
+    EXPECT_EQ(message(bendy_packed_frame_times(packed.get(), 0, times.data(), 49, &error_)),
+              "times has room for 49, 50 are needed");
+    message(bendy_packed_frame_times(packed.get(), 0, nullptr, 50, &error_));
+    message(bendy_packed_frame_times(packed.get(), 1, times.data(), 50, &error_));
+    EXPECT_EQ(bendy_packed_frame_count(packed.get(), 1), 0u);
+    EXPECT_EQ(bendy_packed_frame_count(nullptr, 0), 0u);
+    EXPECT_EQ(bendy_packed_frame_count(model_.get(), 0), 0u) << "not packed";
+    EXPECT_EQ(bendy_packed_frame_times(model_.get(), 0, nullptr, 0, &error_), BENDY_OK);
 }
 
 TEST_F(CPlayback, FadesRunAsInCpp) {

@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { basename, extname, join } from 'node:path';
+import { basename, extname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
 import puppeteer from 'puppeteer-core';
@@ -78,8 +78,8 @@ const roots = { dist: join(web, 'dist'), three: join(web, 'node_modules/three'),
 const server = createServer((request, response) => {
   const [, root, ...rest] = request.url.split('/');
   if (root === '') return response.writeHead(200, { 'content-type': 'text/html' }).end(page);
-  const file = join(roots[root] ?? folder, ...rest);
-  if (!existsSync(file)) return response.writeHead(404).end();
+  const file = root in roots && join(roots[root], ...rest);
+  if (!file || !existsSync(file)) return response.writeHead(404).end();
   response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
 });
 await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
@@ -99,7 +99,7 @@ async function openPage() {
 const median = (numbers) => numbers.sort((a, b) => a - b)[numbers.length >> 1];
 console.log('| character | form | bytes | by brotli | first in a page, ms | later, ms |\n|---|---|---|---|---|---|');
 for (const source of sources) {
-  for (const [, output, make] of forms) make(source, join(folder, output));
+  for (const [, output, make] of forms) make(resolve(source), join(folder, output));
   const first = forms.map(() => []);
   const later = forms.map(() => []);
   for (let round = 0; round < 7; ++round) {

@@ -148,6 +148,13 @@ export class Clip implements Item {
     return this.end - this.start;
   }
 
+  /** Of a packed clip: the times of its frames in seconds, ascending; between them it is linear, rotations follow the great arc. */
+  get packedTimes(): Float32Array<ArrayBuffer> {
+    const { runtime, handle } = this.#model;
+    const count = runtime.functions.bendy_packed_frame_count(handle, this.number);
+    return runtime.fetchFloats(count, (at) => runtime.functions.bendy_packed_frame_times(handle, this.number, at, count, runtime.error));
+  }
+
   /** Its tracks, copied at the first access; without those of a packed clip. */
   get tracks(): readonly Track[] {
     const { runtime, handle } = this.#model;

@@ -77,7 +77,7 @@ function makeJoint(isBone: boolean, hasShear: boolean, parts: readonly PlacedPar
 }
 
 /** @internal Makes the objects of a model. */
-export async function makeCharacter(model: Model, textures: Textures, packedRate: number): Promise<BendyCharacter> {
+export async function makeCharacter(model: Model, textures: Textures): Promise<BendyCharacter> {
   const uniqueName = nameGiver();
   const scene = new Group();
   if (model.name !== '') scene.name = uniqueName(model.name);
@@ -112,7 +112,7 @@ export async function makeCharacter(model: Model, textures: Textures, packedRate
     scene,
     scenes: [scene],
     cameras: [],
-    animations: makeClips(model, joints, parts, packedRate),
+    animations: makeClips(model, joints, parts),
     chains: model.chains,
     constraints: model.constraints,
     userData: {},

@@ -70,6 +70,13 @@ const trackTypes = {
 };
 const properties = { translation: 'position', rotation: 'quaternion', scale: 'scale', weights: 'morphTargetInfluences' };
 
+/** Numbers of a pose at rest and at several times, `size` at each. */
+interface Frames {
+  rest: Float32Array;
+  size: number;
+  frames: Float32Array;
+}
+
 type Keys = Pick<Track, 'path' | 'target' | 'interpolation' | 'times' | 'values'>;
 
 function makeTrack(object: Object3D, { path, interpolation, times, values }: Keys): KeyframeTrack {
@@ -86,53 +93,62 @@ function makeTrack(object: Object3D, { path, interpolation, times, values }: Key
   return Object.assign(track, { createInterpolant: Object.assign(factory, { isInterpolantFactoryMethodGLTFCubicSpline: true }) });
 }
 
+/** The times of what a clip stores as frames, and its ends: between these times it is linear. */
+function frameTimes(clip: Clip): Float32Array<ArrayBuffer> {
+  const count = clip.frameRate > 0 ? Math.floor(clip.seconds * clip.frameRate + 1e-3) : -1;
+  const even = Float32Array.from({ length: count + 1 }, (_, k) => clip.start + k / clip.frameRate);
+  const inside = [...clip.packedTimes, ...even].filter((time) => time > clip.start && time < clip.end);
+  return Float32Array.from(new Set([clip.start, ...inside, clip.end])).sort();
+}
+
 /** The tracks of what a clip stores as frames, sampled by the runtime. Properties that stay at rest get none. */
-function* sampledTracks(model: Model, clip: Clip, rate: number): Generator<Keys> {
-  const stored = new Set(clip.tracks.map(({ path, target }) => `${path} ${target}`));
-  const steps = Math.max(Math.ceil(clip.seconds * rate - 1e-3), 0);
-  const times = Float32Array.from({ length: steps + 1 }, (_, k) => Math.min(clip.start + k / rate, clip.end));
-  times[steps] = clip.end;
+function sampledTracks(model: Model, clip: Clip): Keys[] {
+  const times = frameTimes(clip);
   const pose = model.pose();
-  const rest = { locals: pose.locals.slice(), weights: pose.morphWeights.slice() };
-  const frames = Array.from(times, (time) => {
+  const [locals, weights] = [pose.locals, pose.morphWeights].map((rest) => ({
+    rest: rest.slice(),
+    size: rest.length,
+    frames: new Float32Array(times.length * rest.length),
+  })) as [Frames, Frames];
+  for (const [k, time] of times.entries()) {
     pose.sample(clip, time);
-    return { locals: pose.locals.slice(), weights: pose.morphWeights.slice() };
-  });
+    locals.frames.set(pose.locals, k * locals.size);
+    weights.frames.set(pose.morphWeights, k * weights.size);
+  }
   pose.dispose();
-  const track = (path: Track['path'], target: number, what: 'locals' | 'weights', first: number, count: number): Keys | null => {
-    if (stored.has(`${path} ${target}`)) return null;
-    const part = (frame: typeof rest): Float32Array => frame[what].subarray(first, first + count);
-    const start = part(frames[0]!);
-    const isSame = (a: Float32Array, b: Float32Array): boolean => a.every((x, i) => x === b[i]);
-    const isConstant = frames.every((frame) => isSame(part(frame), start));
-    if (isConstant && isSame(start, part(rest))) return null;
-    const values = new Float32Array((isConstant ? 1 : frames.length) * count);
-    for (let k = 0; k * count < values.length; ++k) values.set(part(frames[k]!), k * count);
-    return { path, target, interpolation: 'linear', times: times.subarray(0, values.length / count), values };
+  const stored = new Set(clip.tracks.map(({ path, target }) => `${path} ${target}`));
+  const tracks: Keys[] = [];
+  const add = (path: Track['path'], target: number, { rest, size, frames }: Frames, first: number, count: number): void => {
+    let [isConstant, isRest] = [true, true];
+    for (let c = first; c < first + count; ++c) {
+      isRest &&= frames[c] === rest[c];
+      for (let at = c; isConstant && at < frames.length; at += size) isConstant = frames[at] === frames[c];
+    }
+    if ((isConstant && isRest) || stored.has(`${path} ${target}`)) return;
+    const keys = isConstant ? 1 : times.length;
+    const values = new Float32Array(keys * count);
+    for (let k = 0; k < keys; ++k) for (let c = 0; c < count; ++c) values[k * count + c] = frames[k * size + first + c]!;
+    tracks.push({ path, target, interpolation: 'linear', times: times.subarray(0, keys), values });
   };
   for (const { number } of model.joints) {
-    yield* [
-      track('translation', number, 'locals', 10 * number + 4, 3),
-      track('rotation', number, 'locals', 10 * number, 4),
-      track('scale', number, 'locals', 10 * number + 7, 3),
-    ].filter((keys) => keys !== null);
+    add('translation', number, locals, 10 * number + 4, 3);
+    add('rotation', number, locals, 10 * number, 4);
+    add('scale', number, locals, 10 * number + 7, 3);
   }
   for (const mesh of model.meshes) {
     const first = mesh.morphTargets[0]?.number;
-    if (first === undefined) continue;
-    const keys = track('weights', mesh.number, 'weights', first, mesh.morphTargets.length);
-    if (keys !== null) yield keys;
+    if (first !== undefined) add('weights', mesh.number, weights, first, mesh.morphTargets.length);
   }
+  return tracks;
 }
 
-/** Makes three.js's clips. Packed clips are sampled `rate` times a second. */
-export function makeClips(model: Model, joints: readonly Object3D[], parts: readonly Part[], rate: number): AnimationClip[] {
+/** Makes three.js's clips. What is stored as frames is sampled at these. */
+export function makeClips(model: Model, joints: readonly Object3D[], parts: readonly Part[]): AnimationClip[] {
   return model.clips.map((clip) => {
     const keys: Keys[] = [...clip.tracks];
     // Clips that play whole frames of a mesh have a frame rate.
     const playsFrames = clip.frameRate > 0 && model.morphTargets.length > 0;
-    if (clip.isPacked) keys.push(...sampledTracks(model, clip, rate));
-    else if (playsFrames) keys.push(...sampledTracks(model, clip, clip.frameRate));
+    if (clip.isPacked || playsFrames) keys.push(...sampledTracks(model, clip));
     const tracks = keys.flatMap((track) => {
       if (track.path !== 'weights') return [makeTrack(joints[track.target]!, track)];
       const objects = parts.filter(({ mesh, object }) => mesh === track.target && object.morphTargetInfluences !== undefined);

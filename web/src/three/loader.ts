@@ -11,8 +11,6 @@ import { type Ktx2Decoder, Textures } from './textures.js';
 export class BendyLoader extends Loader<BendyCharacter> {
   /** How files are opened: which object of a file, by which instance of the runtime. */
   openOptions: OpenOptions = {};
-  /** How often per second packed clips are sampled for `animations`. BendyAnimator plays them as they are. */
-  packedRate = 120;
   /** Whether to load images from addresses outside the folder of the file. */
   allowsForeignLinks = false;
   #ktx2: Ktx2Decoder | null = null;
@@ -84,7 +82,7 @@ export class BendyLoader extends Loader<BendyCharacter> {
     const { allowsForeignLinks } = this;
     const textures = new Textures(model, { loader: this, path, ktx2: this.#ktx2, allowsForeignLinks });
     try {
-      return await makeCharacter(model, textures, this.packedRate);
+      return await makeCharacter(model, textures);
     } catch (error) {
       model.dispose();
       throw error;
