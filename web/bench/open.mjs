@@ -41,8 +41,12 @@ renderer.setSize(256, 256);
 const target = new THREE.WebGLRenderTarget(1, 1);
 const camera = new THREE.PerspectiveCamera(40, 1, 0.01, 1000);
 camera.position.set(0, 1, 5);
-const gltf = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(new DRACOLoader().setDecoderPath('/three/examples/jsm/libs/draco/gltf/'));
+const draco = new DRACOLoader().setDecoderPath('/three/examples/jsm/libs/draco/gltf/');
+const gltf = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(draco);
 const bendy = new BendyLoader();
+const [, decoder] = location.search.split('?');
+if (decoder === 'draco') draco.preload();
+if (decoder === 'bendy') bendy.preload();
 
 /** Milliseconds until the GPU has drawn the first frame. */
 globalThis.measure = async (name) => {
@@ -77,7 +81,7 @@ const types = { '.js': 'text/javascript', '.wasm': 'application/wasm' };
 const roots = { dist: join(web, 'dist'), three: join(web, 'node_modules/three'), made: folder };
 const server = createServer((request, response) => {
   const [, root, ...rest] = request.url.split('/');
-  if (root === '') return response.writeHead(200, { 'content-type': 'text/html' }).end(page);
+  if (/^\?|^$/.test(root)) return response.writeHead(200, { 'content-type': 'text/html' }).end(page);
   const file = root in roots && join(roots[root], ...rest);
   if (!file || !existsSync(file)) return response.writeHead(404).end();
   response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
@@ -89,9 +93,11 @@ const browser = await puppeteer.launch({
   protocolTimeout: 600_000,
 });
 
-async function openPage() {
+/** Opens the page. `name`: the file that it will measure, for which it preloads the decoder. */
+async function openPage(name) {
   const tab = await browser.newPage();
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+  tab.on('pageerror', (error) => console.error(error.message));
+  await tab.goto(`http://127.0.0.1:${server.address().port}/?${name?.endsWith('.bendy') ? 'bendy' : name?.startsWith('draco') ? 'draco' : ''}`);
   await tab.waitForFunction(() => globalThis.isReady === true);
   return tab;
 }
@@ -104,7 +110,7 @@ for (const source of sources) {
   const later = forms.map(() => []);
   for (let round = 0; round < 7; ++round) {
     for (const [k, [, output]] of forms.entries()) {
-      const tab = await openPage();
+      const tab = await openPage(output);
       first[k].push(await tab.evaluate((name) => measure(name), output));
       await tab.close();
     }

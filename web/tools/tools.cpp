@@ -362,7 +362,8 @@ Json run_diff(const Json& request, Made& /*made*/) {
         const cli::ComparedCharacter character_b = read_character(b.bytes(), report);
         const auto comparison = cli::compare_characters(character_a, character_b, *bound);
         if (comparison.gave_up)
-            refuse("too many polygons lie within the tolerance of one another; a smaller tolerance can tell them apart");
+            refuse(
+                "too many polygons lie within the tolerance of one another; a smaller tolerance can tell them apart");
         answer = cli::comparison_as_json("", "", comparison);
         answer["notCompared"] = warnings_of(report);
     }

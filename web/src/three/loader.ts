@@ -1,5 +1,5 @@
 import { FileLoader, Loader, LoaderUtils, type LoadingManager } from 'three';
-import { BendyError, Model, type OpenOptions } from '../index.js';
+import { BendyError, init, Model, type OpenOptions } from '../index.js';
 import { type BendyCharacter, makeCharacter } from './character.js';
 import { type Ktx2Decoder, Textures } from './textures.js';
 
@@ -26,6 +26,13 @@ export class BendyLoader extends Loader<BendyCharacter> {
     return this;
   }
 
+  /** Starts to load the runtime's module, so that the first file need not wait for it. `load` does so while it fetches the file. */
+  preload(): this {
+    // A failure is reported with the next file.
+    if (this.openOptions.runtime === undefined) init().catch(() => {});
+    return this;
+  }
+
   /** Loads a file. `onError` receives a BendyError: of kind `io` if the file cannot be fetched, otherwise as from `Model.open`. */
   override load(
     url: string,
@@ -35,6 +42,7 @@ export class BendyLoader extends Loader<BendyCharacter> {
   ): void {
     const base = LoaderUtils.extractUrlBase(url);
     const path = this.resourcePath || (this.path === '' ? base : LoaderUtils.resolveURL(base, this.path));
+    this.preload();
     this.manager.itemStart(url);
     const fail = (error: unknown): void => {
       if (onError === undefined) console.error(error);
