@@ -173,6 +173,28 @@ test('the chunks are shown as bendy inspect shows them', { skip }, async () => {
   await select('move');
 });
 
+test('a rig is proposed, or read from a file of its own', { skip }, async () => {
+  const [rigged, bare, rig] = ['rigged.bendy', 'bare.bendy', 'bare.rig.json'].map((name) => join(folder, name));
+  native('convert', '-q', join(root, 'examples/mannequin.glb'), '-o', rigged);
+  native('edit', '-q', rigged, '--strip', 'constraints', '--strip', 'chains', '-o', bare);
+  native('rig', rigged, '-o', rig);
+  const chains = () => tab.evaluate(() => bendyPage.character.chains.map(({ name }) => name));
+  await open(bare);
+  await shown('bare.bendy');
+  assert.deepEqual(await chains(), []);
+  await open(rig); // for the character that is shown
+  await shown('bare.bendy');
+  assert.ok((await chains()).includes('IK_LeftArm'));
+  await open(bare);
+  await shown('bare.bendy');
+  await select('reach');
+  await tab.evaluate(() => (document.getElementById('status').textContent = ''));
+  await tab.click('#guess');
+  await shown('bare.bendy');
+  assert.ok((await chains()).includes('LeftArm'));
+  await select('move');
+});
+
 test('files that belong together are read together', { skip }, async () => {
   const gltf = join(folder, 'parts.gltf');
   native('export', join(folder, 'expected.bendy'), '-o', gltf);
