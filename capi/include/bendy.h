@@ -356,6 +356,9 @@ typedef struct bendy_image { /* one encoding of a texture's image: embedded byte
 } bendy_image;
 
 BENDY_API const char* bendy_model_name(const bendy_model* model); /* "" if it has no name; NULL for NULL */
+/* JSON: the application-specific data of the object, and of the whole file. "" if there is none; NULL for NULL. */
+BENDY_API const char* bendy_model_extras(const bendy_model* model);
+BENDY_API const char* bendy_file_extras(const bendy_model* model);
 BENDY_API bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_chain* out, bendy_error* error);

@@ -137,6 +137,14 @@ const char* bendy_model_name(const bendy_model* model) {
     return model == nullptr ? nullptr : model->character->names.model.c_str();
 }
 
+const char* bendy_model_extras(const bendy_model* model) {
+    return model == nullptr ? nullptr : model->character->names.model_extras.c_str();
+}
+
+const char* bendy_file_extras(const bendy_model* model) {
+    return model == nullptr ? nullptr : model->character->names.file_extras.c_str();
+}
+
 bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error) {
     return get(model, &Names::joints, "joint", joint, out, error, [&](const bendy::Model& from, bendy_joint& value) {
         const bendy::Joint& view = from.joints()[joint];

@@ -39,7 +39,7 @@ struct Json {
 
 /// Names and other texts as C needs them: zero-terminated.
 struct Names {
-    std::string model;
+    std::string model, model_extras, file_extras;
     std::vector<std::string> joints, clips, chains, targets, meshes, materials, textures;
     std::vector<std::vector<CurveNames>> curves;       ///< per clip
     std::vector<std::vector<std::string>> markers;     ///< per clip

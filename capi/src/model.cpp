@@ -46,6 +46,8 @@ std::vector<Json> json_of(const Things& things) {
 Names names_in(const Model& model) {
     Names names;
     names.model = model.name();
+    names.model_extras = model.extras();
+    names.file_extras = model.file_extras();
     names.joints = names_of(model.joints());
     names.clips = names_of(model.clips());
     names.chains = names_of(model.chains());

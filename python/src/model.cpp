@@ -318,6 +318,12 @@ void bind_model(py::module_& module) {
         .def_property_readonly(
             "name", [](const PyModel& self) { return text(self.model().name()); }, "The object's name; may be empty.")
         .def_property_readonly(
+            "extras", [](const PyModel& self) { return parse_json(self.model().extras()); },
+            "Application-specific data of the object: parsed JSON, or None.")
+        .def_property_readonly(
+            "file_extras", [](const PyModel& self) { return parse_json(self.model().file_extras()); },
+            "Application-specific data of the whole file: parsed JSON, or None.")
+        .def_property_readonly(
             "source", [](const PyModel& self) { return std::const_pointer_cast<Source>(self.get()->source); },
             "The file's bytes.")
         .def_property_readonly("joints",

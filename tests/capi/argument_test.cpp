@@ -55,6 +55,8 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
               0u);
     EXPECT_EQ(bendy_joint_parents(none), nullptr);
     EXPECT_EQ(bendy_model_name(none), nullptr);
+    EXPECT_EQ(bendy_model_extras(none), nullptr);
+    EXPECT_EQ(bendy_file_extras(none), nullptr);
     EXPECT_EQ(bendy_lod_vertices(nullptr, 0), 0u);
     EXPECT_EQ(bendy_lod_indices(lod_.get(), 0, nullptr, e), nullptr);
     EXPECT_STREQ(error_.message, "count is NULL");

@@ -148,6 +148,7 @@ def test_tracks_curves_and_markers():
     assert shine.sample(0.1) == pytest.approx([0.925]) and shine.values.ravel().tolist() == [1.0, 0.25]
     with pytest.raises(ValueError):
         shine.sample(float("nan"))
+    assert model.extras == {"species": "worm"} and model.file_extras == {"author": "us"}
     assert model.joints[0].extras == {"side": "mid"} and model.joints[1].extras is None
     assert model.meshes["body"].attributes["_HEAT"].ravel().tolist() == [36.5, 37.0, 37.5]
     assert model.meshes["wing"].is_rigid and model.meshes["wing"].bones is None

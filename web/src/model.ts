@@ -9,6 +9,7 @@ import {
   type Constraint,
   type Joint,
   type Material,
+  parseJson,
   type Quaternion,
   readChain,
   readConstraint,
@@ -116,6 +117,16 @@ export class Model extends Handle {
   /** The name of the object; "" if it has none. */
   get name(): string {
     return this.runtime.text(this.runtime.functions.bendy_model_name(this.handle));
+  }
+
+  /** Application-specific data of the object: JSON, parsed; null if there is none. */
+  get extras(): unknown {
+    return parseJson(this.runtime.text(this.runtime.functions.bendy_model_extras(this.handle)));
+  }
+
+  /** Application-specific data of the whole file: JSON, parsed; null if there is none. */
+  get fileExtras(): unknown {
+    return parseJson(this.runtime.text(this.runtime.functions.bendy_file_extras(this.handle)));
   }
 
   /** The joints. A parent comes before its children. */

@@ -321,6 +321,7 @@ describe('what GLTFLoader cannot do', { skip }, () => {
     const character = await new BendyLoader().parseAsync(file);
     assert.ok(worstOverClips(character) <= 1e-6);
     assert.deepEqual(Object.keys(character.parts[1].object.morphTargetDictionary), ['up', 'high']);
+    assert.deepEqual([character.userData, character.scene.userData], [{ author: 'us' }, { species: 'worm' }]);
   });
 });
 
@@ -630,6 +631,7 @@ describe('materials and geometry', { skip }, () => {
         return all;
       };
       assert.deepEqual(named(character), named(gltf));
+      assert.deepEqual(character.userData, gltf.userData);
     });
   }
 });

@@ -252,6 +252,14 @@ std::string_view Model::name() const {
     return data_->object.name;
 }
 
+std::string_view Model::extras() const {
+    return data_->object.extras;
+}
+
+std::string_view Model::file_extras() const {
+    return data_->document.extras;
+}
+
 std::span<const Joint> Model::joints() const {
     return data_->joints;
 }

@@ -81,6 +81,7 @@ export async function makeCharacter(model: Model, textures: Textures): Promise<B
   const uniqueName = nameGiver();
   const scene = new Group();
   if (model.name !== '') scene.name = uniqueName(model.name);
+  if (typeof model.extras === 'object') Object.assign(scene.userData, model.extras);
   // Joints get their names before meshes, as from GLTFLoader.
   const names = nameJoints(model, uniqueName);
   const parts = await makeParts(model, new Materials(model, textures), uniqueName);
@@ -115,7 +116,7 @@ export async function makeCharacter(model: Model, textures: Textures): Promise<B
     animations: makeClips(model, joints, parts),
     chains: model.chains,
     constraints: model.constraints,
-    userData: {},
+    userData: typeof model.fileExtras === 'object' ? { ...model.fileExtras } : {},
     model,
     joints,
     parts: parts.map(({ object, mesh, submeshes }) => ({ object, mesh, submeshes })),

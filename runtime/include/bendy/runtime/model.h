@@ -95,6 +95,10 @@ public:
     [[nodiscard]] Result<void> check_sums() const;
 
     [[nodiscard]] std::string_view name() const;
+    /// The application-specific JSON of the object, or empty.
+    [[nodiscard]] std::string_view extras() const;
+    /// The application-specific JSON of the whole file, or empty.
+    [[nodiscard]] std::string_view file_extras() const;
     [[nodiscard]] std::span<const Joint> joints() const;
     /// The joints' parents as a compact array.
     [[nodiscard]] std::span<const std::uint32_t> parents() const;
