@@ -321,7 +321,7 @@ describe('what GLTFLoader cannot do', { skip }, () => {
     const character = await new BendyLoader().parseAsync(file);
     assert.ok(worstOverClips(character) <= 1e-6);
     assert.deepEqual(Object.keys(character.parts[1].object.morphTargetDictionary), ['up', 'high']);
-    assert.deepEqual([character.userData, character.scene.userData], [{ author: 'us' }, { species: 'worm' }]);
+    assert.deepEqual([character.userData, character.asset, character.scene.userData], [{ author: 'us' }, {}, { species: 'worm' }]);
   });
 });
 
@@ -631,7 +631,7 @@ describe('materials and geometry', { skip }, () => {
         return all;
       };
       assert.deepEqual(named(character), named(gltf));
-      assert.deepEqual(character.userData, gltf.userData);
+      assert.deepEqual([character.userData, character.asset], [gltf.userData, gltf.asset]);
     });
   }
 });

@@ -21,6 +21,8 @@ export interface BendyCharacter {
   chains: Items<Chain>;
   /** What the joints may do. */
   constraints: readonly Constraint[];
+  /** What the glTF source says of itself: version, generator, copyright; empty for other sources. */
+  asset: Record<string, unknown>;
   userData: Record<string, unknown>;
   /** The model that the runtime poses. `model.dispose()` gives its memory back; the scene and the animations stay usable. */
   model: Model;
@@ -76,6 +78,15 @@ function makeJoint(isBone: boolean, hasShear: boolean, parts: readonly PlacedPar
   return object;
 }
 
+/** The file's extras, which the converter makes of a source's `asset` and `extras`, as GLTFLoader has them. */
+function sourceOf(fileExtras: unknown): { asset: Record<string, unknown>; userData: Record<string, unknown> } {
+  const object = (value: unknown): Record<string, unknown> =>
+    typeof value === 'object' && value !== null && !Array.isArray(value) ? { ...value } : {};
+  const members = object(fileExtras);
+  const isConverted = Object.keys(members).every((name) => name === 'asset' || name === 'extras');
+  return isConverted ? { asset: object(members['asset']), userData: object(members['extras']) } : { asset: {}, userData: members };
+}
+
 /** @internal Makes the objects of a model. */
 export async function makeCharacter(model: Model, textures: Textures): Promise<BendyCharacter> {
   const uniqueName = nameGiver();
@@ -116,7 +127,7 @@ export async function makeCharacter(model: Model, textures: Textures): Promise<B
     animations: makeClips(model, joints, parts),
     chains: model.chains,
     constraints: model.constraints,
-    userData: typeof model.fileExtras === 'object' ? { ...model.fileExtras } : {},
+    ...sourceOf(model.fileExtras),
     model,
     joints,
     parts: parts.map(({ object, mesh, submeshes }) => ({ object, mesh, submeshes })),
