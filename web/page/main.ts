@@ -28,7 +28,7 @@ function make<K extends keyof HTMLElementTagNameMap>(
 
 // Work that takes long.
 
-/** A worker that answers one request after another. One that was abandoned is ended, with what it had in memory. */
+/** A worker that answers one request after another. One whose answer nobody waits for is ended. */
 class Background {
   #worker: Worker | undefined;
   #next = 0;
@@ -44,6 +44,7 @@ class Background {
   }
 
   stop(): void {
+    if (this.#waiting.size === 0) return;
     this.#worker?.terminate();
     this.#worker = undefined;
     for (const { reject } of this.#waiting.values()) reject({ code: 'STOPPED', message: 'stopped', path: '' });
