@@ -152,6 +152,22 @@ export class Character {
     object.matrix.compose(place, turn, new THREE.Vector3(radius, radius, radius));
   }
 
+  get hasMesh(): boolean {
+    return this.#model.vertexCount !== 0;
+  }
+
+  /** Lines from joints to their children, in model space: x y z of both ends of each. */
+  bones(points?: Float32Array): Float32Array {
+    const children = this.#model.joints.filter(({ parent }) => parent !== null);
+    const out = points ?? new Float32Array(6 * children.length);
+    for (const [k, { number, parent }] of children.entries()) {
+      for (const [end, joint] of [parent!, number].entries()) {
+        for (let c = 0; c < 3; ++c) out[6 * k + 3 * end + c] = this.#matrices[16 * joint + 12 + c]!;
+      }
+    }
+    return out;
+  }
+
   /** A box around the character at rest and in its first clip. */
   box(): THREE.Box3 {
     return this.#box;

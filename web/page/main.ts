@@ -197,7 +197,8 @@ function showPanels(): void {
   );
   input('look').checked = character?.lookChain !== undefined;
   input('look').disabled = character?.lookChain === undefined;
-  input('bones').checked = false;
+  input('bones').checked = character !== undefined && !character.hasMesh;
+  stage.setSkeleton(input('bones').checked);
   input('wireframe').checked = false;
 }
 

@@ -18,10 +18,10 @@ export class Stage {
   readonly #grid = new THREE.Group();
   readonly #handles = new THREE.Group();
   readonly #ranges = new THREE.Group();
+  readonly #bones = new THREE.Group();
   readonly #pointer = new THREE.Vector2(2, 2);
   readonly #ray = new THREE.Raycaster();
   #character: Character | undefined;
-  #skeleton: THREE.SkeletonHelper | undefined;
   #dragged: { handle: THREE.Mesh; plane: THREE.Plane } | undefined;
   #size = 1;
 
@@ -34,7 +34,7 @@ export class Stage {
     pmrem.dispose();
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
     sun.position.set(2, 4, 3);
-    this.#scene.add(sun, this.#grid, this.#handles, this.#ranges);
+    this.#scene.add(sun, this.#grid, this.#handles, this.#ranges, this.#bones);
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.enableDamping = true;
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -96,15 +96,14 @@ export class Stage {
   }
 
   setSkeleton(shown: boolean): void {
-    if (this.#skeleton) {
-      this.#scene.remove(this.#skeleton);
-      this.#skeleton.dispose();
-      this.#skeleton = undefined;
-    }
+    this.#clear(this.#bones);
     if (!shown || !this.#character) return;
-    this.#skeleton = new THREE.SkeletonHelper(this.#character.object);
-    (this.#skeleton.material as THREE.Material).depthTest = false;
-    this.#scene.add(this.#skeleton);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(this.#character.bones(), 3));
+    const bones = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: handleColour, depthTest: false, transparent: true }));
+    bones.frustumCulled = false;
+    bones.renderOrder = 1;
+    this.#bones.add(bones);
   }
 
   setWireframe(shown: boolean): void {
@@ -132,6 +131,11 @@ export class Stage {
         const target = character.targets.get(chain);
         (handle.material as THREE.MeshBasicMaterial).color.setHex(target ? activeColour : handleColour);
         handle.position.copy(target ?? character.tip(chain));
+      }
+      for (const bones of this.#bones.children as THREE.LineSegments[]) {
+        const { position } = bones.geometry.attributes;
+        character.bones(position!.array as Float32Array);
+        position!.needsUpdate = true;
       }
       for (const { userData } of this.#ranges.children) character.placeRange(userData['range'], 0.09 * this.#size);
     }

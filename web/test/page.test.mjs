@@ -195,6 +195,20 @@ test('a rig is proposed, or read from a file of its own', { skip }, async () => 
   await select('move');
 });
 
+test('without a mesh, the skeleton is shown', { skip }, async () => {
+  const bones = join(folder, 'bones.bendy');
+  native('edit', '-q', join(folder, 'rigged.bendy'), '--strip', 'meshes', '-o', bones);
+  await open(bones);
+  await shown('bones.bendy');
+  await picture('bones');
+  assert.match(await text('#name'), / 0 vertices, 65 joints/);
+  assert.equal(await tab.$eval('#bones', ({ checked }) => checked), true);
+  const withBones = await drawn();
+  await tab.click('#bones');
+  await frames();
+  assert.ok(withBones > (await drawn()) + 30);
+});
+
 test('files that belong together are read together', { skip }, async () => {
   const gltf = join(folder, 'parts.gltf');
   native('export', join(folder, 'expected.bendy'), '-o', gltf);
