@@ -2,7 +2,8 @@
 """Makes one site of the documentation: scripts/make_site.py [FOLDER], build/site if not named.
 
 The pages stay where they are in the tree; what docs/mkdocs.yml lists, and all that is linked from there, is gathered in
-FOLDER/pages, and mkdocs makes FOLDER/site of it. A link that leads nowhere is a fault.
+FOLDER/pages, and mkdocs makes FOLDER/site of it. A link that leads nowhere is a fault. The page that converts and shows
+characters is copied to FOLDER/site/page.html, if scripts/web.sh has made it.
 """
 
 import re
@@ -105,6 +106,9 @@ def main():
         return 1
     done = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", str(folder / "mkdocs.yml")], check=False)
     if done.returncode == 0:
+        page = ROOT / "web/dist/page.html"
+        if page.exists():
+            shutil.copy(page, folder / "site")
         print(f"{folder}/site/index.html")
     return done.returncode
 
