@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Fuzzes for a while; exit 1 and the inputs, if anything was found.
-#   scripts/fuzz.sh                        six minutes of processor for all targets, two at a time: for every change; with
+#   scripts/fuzz.sh                        four minutes of processor for all targets, two at a time: for every change; with
 #                                          one seed, so that two changes are judged by the same inputs
 #   scripts/fuzz.sh 7200 animate gltf      two hours each for these, other inputs every time
 # The corpora stay in build/fuzz/corpus and grow from run to run; findings are in build/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seconds=${1:-30}
+seconds=${1:-20}
 targets=("${@:2}")
 seed=$([ $# -gt 0 ] && echo 0 || echo 1)
 programs=build/asan-ubsan

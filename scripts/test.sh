@@ -58,7 +58,7 @@ if [ "${1:-}" != quick ]; then
     cmake --build --preset asan-ubsan
     ctest --preset asan-ubsan
 
-    step "fuzzing, six minutes of processor"
+    step "fuzzing, four minutes of processor"
     scripts/fuzz.sh
 fi
 
