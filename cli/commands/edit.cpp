@@ -69,11 +69,6 @@ Buffer read_other(const std::filesystem::path& path, Outputs& outputs) {
     return {file->bytes().begin(), file->bytes().end()};
 }
 
-edit::SameName same_name_of(const std::string& word) {
-    if (word == "replace") return edit::SameName::replace;
-    return word == "number" ? edit::SameName::number : edit::SameName::refuse;
-}
-
 /// The steps in the order in which the command line has them.
 class Steps {
 public:
@@ -131,9 +126,10 @@ private:
 
     void add_merge(const std::filesystem::path& path) {
         close_rename();
-        const edit::SameName same_name = same_name_of(arguments_.same_name);
+        const auto same_name = edit::parse_same_name(arguments_.same_name);
+        if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
         outputs_.reads(path);
-        steps_.emplace_back([path, same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
+        steps_.emplace_back([path, same_name = *same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path, outputs);
             const auto first = log.warnings.size();
             auto merged = edit::merge_clips(file, other, same_name, log);

@@ -365,7 +365,7 @@ private:
     Result<void, Problem> put_clip(const ClipView& clip, const TrackCounts& counts) {
         std::string name(clip.name);
         const bool is_taken = !name.empty() && taken_.contains(name);
-        if (is_taken && same_name_ == SameName::refuse) return Problem{"there is a clip \"" + name + "\" already"};
+        if (is_taken && same_name_ == SameName::error) return Problem{"there is a clip \"" + name + "\" already"};
         const auto place = places_.find(name);
         const bool replaces = is_taken && same_name_ == SameName::replace && place != places_.end();
         if (is_taken && !replaces) {
@@ -424,6 +424,13 @@ private:
 };
 
 }  // namespace
+
+Result<SameName, Problem> parse_same_name(std::string_view word) {
+    if (word == "error") return SameName::error;
+    if (word == "replace") return SameName::replace;
+    if (word == "number") return SameName::number;
+    return Problem{"\"" + std::string(word) + "\" must be error, replace or number"};
+}
 
 Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log) {
     const auto here = open_source(file);

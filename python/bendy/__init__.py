@@ -211,8 +211,8 @@ class Edit(File):
         """Renames things of a kind (joint, clip, chain, mesh, target, material, texture, object): {"mixamorig:*": "*"}."""
         return self._take(_bendy.rename(self._source, kind, list(dict(names).items()), all_must_match))
 
-    def merge_clips(self, other, *, same_name="refuse"):
-        """Appends the clips of another source, by the joints' names. same_name: refuse, replace or number."""
+    def merge_clips(self, other, *, same_name="error"):
+        """Appends the clips of another source, by the joints' names. same_name: error, replace or number."""
         self._take(_bendy.merge_clips(self._source, _bendy_source(other), same_name))
         self._inputs = [*self._inputs, other]
         return self

@@ -224,16 +224,10 @@ py::tuple rename_things(const SourcePointer& source, const std::string& kind,
 
 py::tuple merge_clips(const SourcePointer& source, const SourcePointer& other, const std::string& same_name) {
     require_bendy(*other);
-    edit::SameName rule = edit::SameName::refuse;
-    if (same_name == "replace") {
-        rule = edit::SameName::replace;
-    } else if (same_name == "number") {
-        rule = edit::SameName::number;
-    } else if (same_name != "refuse") {
-        throw py::value_error("same_name must be refuse, replace or number");
-    }
+    const auto rule = edit::parse_same_name(same_name);
+    if (!rule) throw py::value_error("same_name: " + rule.error().message);
     return edited(source,
-                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), rule, log); });
+                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), *rule, log); });
 }
 
 py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {

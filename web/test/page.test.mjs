@@ -1,7 +1,7 @@
 // The page in a real browser: from a file, without a server or a network.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -39,7 +39,6 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
-const status = () => tab.$eval('#status', (element) => element.textContent);
 const text = (selector) => tab.$eval(selector, (element) => element.textContent);
 const select = (name) => tab.evaluate((id) => document.getElementById(id).click(), `tab-${name}`);
 const frames = (count = 3) =>

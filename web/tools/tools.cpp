@@ -273,15 +273,7 @@ Json run_rename(const Json& request, Made& made) {
 }
 
 Json run_merge_clips(const Json& request, Made& made) {
-    const std::string word = text_of(request, "sameName");
-    edit::SameName same_name = edit::SameName::refuse;
-    if (word == "replace") {
-        same_name = edit::SameName::replace;
-    } else if (word == "number") {
-        same_name = edit::SameName::number;
-    } else if (word != "refuse") {
-        refuse("sameName must be refuse, replace or number");
-    }
+    const auto same_name = parsed(edit::parse_same_name(text_of(request, "sameName")));
     const MappedFile other = map_bendy(text_of(request, "other"));
     return edited(request, made,
                   [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other.bytes(), same_name, log); });

@@ -170,14 +170,14 @@ export function rename(
 /**
  * Appends the clips of another bendy file, by the names of the joints.
  *
- * @param options - sameName: what to do if a clip of that name exists; "refuse" by default
+ * @param options - sameName: what to do if a clip of that name exists; "error" by default
  */
 export function mergeClips(
   bytes: FileBytes,
   other: FileBytes,
-  options: { sameName?: 'refuse' | 'replace' | 'number' } = {},
+  options: { sameName?: 'error' | 'replace' | 'number' } = {},
 ): Promise<Edited> {
-  const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'refuse' };
+  const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'error' };
   return edited(request, { 'a.bendy': bytesOf(bytes), 'b.bendy': bytesOf(other) });
 }
 

@@ -62,7 +62,7 @@ async function start(): Promise<Instance> {
     printErr() {},
   })) as Instance;
   instance.memory = memory!;
-  instance.FS.mkdir('/work');
+  instance.FS.mkdir('/given');
   return instance;
 }
 
@@ -90,19 +90,19 @@ function writeInputs(files: FileSystem, inputs: Inputs): void {
   for (const [name, content] of Object.entries(inputs)) {
     checkName(name);
     const folder = name.lastIndexOf('/');
-    if (folder > 0) files.mkdirTree(`/work/${name.slice(0, folder)}`);
-    files.writeFile(`/work/${name}`, content);
+    if (folder > 0) files.mkdirTree(`/given/${name.slice(0, folder)}`);
+    files.writeFile(`/given/${name}`, content);
   }
 }
 
 function runOn<T>(instance: Instance, request: object, inputs: Inputs): Answer<T> {
   const files = instance.FS;
-  for (const folder of ['/work', '/made']) {
+  for (const folder of ['/given', '/made']) {
     if (folder === '/made') files.mkdirTree(folder);
     files.mount(files.filesystems.MEMFS, {}, folder);
   }
   try {
-    files.chdir('/work');
+    files.chdir('/given');
     writeInputs(files, inputs);
     files.writeFile('/request.json', JSON.stringify(request));
     if (instance._bendy_tools_run() !== 0) throw new BendyError('out_of_memory', 'the memory does not suffice');
@@ -115,7 +115,7 @@ function runOn<T>(instance: Instance, request: object, inputs: Inputs): Answer<T
     return { answer, made };
   } finally {
     files.chdir('/');
-    for (const folder of ['/work', '/made']) files.unmount(folder);
+    for (const folder of ['/given', '/made']) files.unmount(folder);
   }
 }
 

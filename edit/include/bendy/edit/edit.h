@@ -100,7 +100,7 @@ Edited rename(Bytes file, const Rename& what, Log& log);
 
 /// What happens to a clip whose name is already taken.
 enum class SameName : std::uint8_t {
-    refuse,   ///< reported as a problem
+    error,    ///< reported as a problem
     replace,  ///< replaces the existing clip, and takes its number
     number    ///< is given a new name: "Run.001"
 };
@@ -112,6 +112,8 @@ enum class SameName : std::uint8_t {
 /// joint whose rest transform differs here are decoded, since they are relative to it. Differing rest poses cause a
 /// warning. If nothing in the other file matches, that is a problem.
 Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log);
+/// Parses "error", "replace" or "number".
+Result<SameName, Problem> parse_same_name(std::string_view word);
 
 /// Extracts a part of a character into a file of its own: the joint with this name (see find_named) and its
 /// descendants, their submeshes, the vertices that those use, their meshes' morph targets, the materials and textures
