@@ -129,17 +129,18 @@ private:
         const auto same_name = edit::parse_same_name(arguments_.same_name);
         if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
         outputs_.reads(path);
-        steps_.emplace_back([path, same_name = *same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
-            const Buffer other = read_other(path, outputs);
-            const auto first = log.warnings.size();
-            auto merged = edit::merge_clips(file, other, same_name, log);
-            for (std::size_t k = first; k < log.warnings.size(); ++k)
-                log.warnings[k] = path.string() + ": " + log.warnings[k];
-            if (merged) return merged;
-            const bool is_clash = merged.error().message.ends_with("already");
-            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
-                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
-        });
+        steps_.emplace_back(
+            [path, same_name = *same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
+                const Buffer other = read_other(path, outputs);
+                const auto first = log.warnings.size();
+                auto merged = edit::merge_clips(file, other, same_name, log);
+                for (std::size_t k = first; k < log.warnings.size(); ++k)
+                    log.warnings[k] = path.string() + ": " + log.warnings[k];
+                if (merged) return merged;
+                const bool is_clash = merged.error().message.ends_with("already");
+                return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
+                                     (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+            });
     }
 
     void add_extract(const std::string& joint) {
