@@ -84,14 +84,13 @@ class Joiner:
 def for_processor(instructions, lines):
     """Lines of a kernel, its functions compiled for the instructions; whole headers stay outside."""
     includes = [line for line in lines if line.startswith("#include <")]
-    # The test whether the file is compiled for them: here it always is, on such a processor.
-    body = [re.sub(r"^#if defined\(BENDY_GNU\) && defined\(__(AVX|SSE)\w*__\).*", "#if 1", line) for line in lines if line not in includes]
-    return ["#if defined(BENDY_GNU) && defined(__x86_64__)", *includes, "#if defined(__clang__)",
+    body = [line for line in lines if line not in includes]
+    return ["#if defined(BENDY_X86_64)", *includes, "#if defined(__clang__)",
             f'#pragma clang attribute push(__attribute__((target("{instructions}"))), apply_to = function)',
             "#pragma clang diagnostic push",  # of what several kernels share, none needs all
-            '#pragma clang diagnostic ignored "-Wunused-function"', "#else",
+            '#pragma clang diagnostic ignored "-Wunused-function"', "#elif defined(__GNUC__)",
             "#pragma GCC push_options", f'#pragma GCC target("{instructions}")', "#endif", *body, "#if defined(__clang__)",
-            "#pragma clang diagnostic pop", "#pragma clang attribute pop", "#else", "#pragma GCC pop_options", "#endif", "#endif"]
+            "#pragma clang diagnostic pop", "#pragma clang attribute pop", "#elif defined(__GNUC__)", "#pragma GCC pop_options", "#endif", "#endif"]
 
 
 def make_source(joiner, folder, name, instructions, condition=None):

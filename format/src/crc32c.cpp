@@ -2,6 +2,7 @@
 
 #include "crc32c_kernels.h"
 
+#include <bendy/format/processor.h>
 #include <bendy/format/public.h>
 
 #include <algorithm>
@@ -9,9 +10,13 @@
 #include <cstddef>
 #include <cstring>
 
-#if defined(BENDY_GNU) && defined(__x86_64__)
+#if defined(BENDY_X86_64)
 #include <nmmintrin.h>
+#if defined(__GNUC__) || defined(__clang__)  // others take every instruction everywhere
 #define BENDY_CRC32C __attribute__((target("sse4.2")))
+#else
+#define BENDY_CRC32C
+#endif
 #elif defined(BENDY_GNU) && defined(__aarch64__) && defined(__linux__)
 #include <arm_acle.h>
 #include <sys/auxv.h>
@@ -123,7 +128,7 @@ std::uint32_t over_lane(std::uint32_t sum) {
 BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, const std::byte* at) {
     std::uint64_t word = 0;
     std::memcpy(&word, at, sizeof word);
-#if defined(__x86_64__)
+#if defined(BENDY_X86_64)
     return static_cast<std::uint32_t>(_mm_crc32_u64(sum, word));
 #else
     return __crc32cd(sum, word);
@@ -131,7 +136,7 @@ BENDY_CRC32C inline std::uint32_t add_word(std::uint32_t sum, const std::byte* a
 }
 
 BENDY_CRC32C inline std::uint32_t add_byte(std::uint32_t sum, std::byte byte) {
-#if defined(__x86_64__)
+#if defined(BENDY_X86_64)
     return _mm_crc32_u8(sum, std::to_integer<std::uint8_t>(byte));
 #else
     return __crc32cb(sum, std::to_integer<std::uint8_t>(byte));
@@ -160,8 +165,8 @@ BENDY_CRC32C std::uint32_t add_lanes(std::uint32_t sum, Bytes& bytes) {
 }
 
 bool has_instruction() {
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("sse4.2") != 0;
+#if defined(BENDY_X86_64)
+    return processor_has(Instructions::sse4_2);
 #else
     return (getauxval(AT_HWCAP) & HWCAP_CRC32) != 0;
 #endif

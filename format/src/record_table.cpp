@@ -165,7 +165,7 @@ using f32 = float;
 constexpr std::size_t sum_of_fields(const char* record) {
     std::size_t sum = 0;
     const auto same = [](const char* a, const char* b) {
-        while (*a != 0 && *a == *b) ++a, ++b;
+        for (; *a != 0 && *a == *b; ++a) ++b;
         return *a == *b;
     };
 #define BENDY_FIELD(Struct, field, type, count, offset, what) sum += same(record, #Struct) ? sizeof(type) * (count) : 0;

@@ -9,8 +9,7 @@ struct DualSum {
     const DualMotion* motions;
 
     template <class Bone>
-    inline __attribute__((always_inline)) void operator()(const Bone* bones, const float* weights, std::size_t used,
-                                                          float* to) const {
+    BENDY_ALWAYS_INLINE void operator()(const Bone* bones, const float* weights, std::size_t used, float* to) const {
         std::size_t heaviest = 0;
         for (std::size_t k = 1; k < used; ++k) heaviest = weights[k] > weights[heaviest] ? k : heaviest;
         const Quad pivot = load_quad(motions[bones[heaviest]].real);
@@ -18,25 +17,22 @@ struct DualSum {
         for (std::size_t k = 0; k < used; ++k) {
             const DualMotion& add = motions[bones[k]];
             const Quad turn = load_quad(add.real);
-            const Quad weight{weights[k], weights[k], weights[k], weights[k]};
+            const Quad weight = weights[k];
             const Quad signed_weight = on_side_of(turn * pivot, weight);
             real += signed_weight * turn;
             dual += signed_weight * load_quad(add.dual);
             all += weight;
         }
-        store_quad(to, real);
-        store_quad(to + 4, dual);
-        store_quad(to + 8, all);
+        store(to, real);
+        store(to + 4, dual);
+        store(to + 8, all);
     }
 
     /// Returns the weight, negated where the sum of the products is negative.
     static inline Quad on_side_of(Quad products, Quad weight) {
-        using Bits = decltype(Quad{} < Quad{});
-        products += __builtin_shufflevector(products, products, 2, 3, 0, 1);
-        products += __builtin_shufflevector(products, products, 1, 0, 3, 2);
-        const Quad minus{-0.0f, -0.0f, -0.0f, -0.0f};
-        const Bits sign = (products < 0.0f) & reinterpret_cast<Bits>(minus);
-        return reinterpret_cast<Quad>(reinterpret_cast<Bits>(weight) ^ sign);
+        products += shuffle<2, 3, 0, 1>(products, products);
+        products += shuffle<1, 0, 3, 2>(products, products);
+        return weight ^ signs_of(products);
     }
 };
 
@@ -46,7 +42,7 @@ inline Matrix rigid_matrix(const float (*duals)[16], float scale) {
     turn_four(duals[0], q);
     turn_four(duals[0] + 4, d);
     // Divided by the squared length, so the real part need not be normalised; zero becomes a zero matrix.
-    const Lanes share = scale / between(dot_of_four(q, q), splat(1e-30f), splat(1e30f));
+    const Lanes share = scale / between(dot_of_four(q, q), Lanes(1e-30f), Lanes(1e30f));
     const Lanes twice = share + share;
     const Lanes xx = q[0] * q[0], yy = q[1] * q[1], zz = q[2] * q[2], ww = q[3] * q[3];
     const Lanes xy = q[0] * q[1], xz = q[0] * q[2], yz = q[1] * q[2];
@@ -74,7 +70,7 @@ inline Matrix after_stretch(const Matrix& motion, const float (*stretches)[16], 
     const Matrix sum = turn(stretches);
     Lanes all[4];
     turn_four(duals[0] + 8, all);
-    const Lanes share = 1.0f / between(all[0], splat(1e-30f), splat(1e30f));
+    const Lanes share = 1.0f / between(all[0], Lanes(1e-30f), Lanes(1e30f));
     Matrix m;
     for (std::size_t row = 0; row < 3; ++row) {
         const Lanes a = share * motion.at[row][0], b = share * motion.at[row][1], c = share * motion.at[row][2];

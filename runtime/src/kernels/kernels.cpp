@@ -1,6 +1,6 @@
 #include <bendy/runtime/kernels.h>
 
-#include <bendy/format/public.h>
+#include <bendy/format/processor.h>
 
 #include <algorithm>
 #include <array>
@@ -21,12 +21,12 @@ struct Available {
 
 Available find_available() {
     Available found;
-#if defined(BENDY_GNU) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) found.add(Kernel::avx2);
-    if (__builtin_cpu_supports("sse4.1") != 0) found.add(Kernel::sse4);
-#elif defined(BENDY_GNU) && defined(__aarch64__)
+#if defined(BENDY_X86_64)
+    if (processor_has(Instructions::avx2_and_fma)) found.add(Kernel::avx2);
+    if (processor_has(Instructions::sse4_1)) found.add(Kernel::sse4);
+#elif defined(BENDY_ARM64)
     found.add(Kernel::neon);
-#elif defined(BENDY_GNU) && defined(__wasm_simd128__)
+#elif defined(BENDY_WASM_SIMD)
     found.add(Kernel::wasm);
 #endif
     found.add(Kernel::plain);

@@ -1,34 +1,120 @@
-// lanes.h for AVX2 and FMA, and what else the kernels need from that instruction set. Each source includes it in its
-// own namespace.
+// lanes.h for AVX2 and FMA: eight floats in a register. Each source includes it in its own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 8
 
 // NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
-#include "lane_types.h"
+#include "quad_sse4.h"
 
-inline Lanes roots_of(Lanes squares) {
-    return _mm256_sqrt_ps(squares);
+struct Lanes {
+    __m256 v;
+
+    Lanes() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): what intrinsics return
+    Lanes(__m256 numbers) : v(numbers) {}
+    // NOLINTNEXTLINE(google-explicit-constructor): a number stands for eight, as in `0.5f * lanes`
+    Lanes(float number) : v(_mm256_set1_ps(number)) {}
+};
+
+inline Lanes operator+(Lanes a, Lanes b) {
+    return _mm256_add_ps(a.v, b.v);
 }
+inline Lanes operator-(Lanes a, Lanes b) {
+    return _mm256_sub_ps(a.v, b.v);
+}
+inline Lanes operator*(Lanes a, Lanes b) {
+    return _mm256_mul_ps(a.v, b.v);
+}
+inline Lanes operator/(Lanes a, Lanes b) {
+    return _mm256_div_ps(a.v, b.v);
+}
+inline Lanes operator&(Lanes a, Lanes b) {
+    return _mm256_and_ps(a.v, b.v);
+}
+inline Lanes operator|(Lanes a, Lanes b) {
+    return _mm256_or_ps(a.v, b.v);
+}
+inline Lanes operator^(Lanes a, Lanes b) {
+    return _mm256_xor_ps(a.v, b.v);
+}
+inline Lanes operator-(Lanes a) {
+    return a ^ Lanes(-0.0f);
+}
+inline Lanes& operator+=(Lanes& a, Lanes b) {
+    return a = a + b;
+}
+
+/// a * b + c, rounded once. Where a sum of products would leave a choice, compilers fuse now this, now that.
+inline Lanes fused(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fmadd_ps(a.v, b.v, c.v);
+}
+inline Lanes fused_difference(Lanes a, Lanes b, Lanes c) {  // a * b - c
+    return _mm256_fmsub_ps(a.v, b.v, c.v);
+}
+inline Quad fused(Quad a, Quad b, Quad c) {
+    return _mm_fmadd_ps(a.v, b.v, c.v);
+}
+inline Lanes load_lanes(const float* from) {
+    return _mm256_loadu_ps(from);
+}
+inline void store(float* to, Lanes lanes) {
+    _mm256_storeu_ps(to, lanes.v);
+}
+inline void stream(float* to, Lanes lanes) {
+    _mm_stream_ps(to, _mm256_castps256_ps128(lanes.v));  // in halves, which only need alignment to 16 bytes
+    _mm_stream_ps(to + 4, _mm256_extractf128_ps(lanes.v, 1));
+}
+inline Quad low(Lanes lanes) {
+    return _mm256_castps256_ps128(lanes.v);
+}
+inline Quad high(Lanes lanes) {
+    return _mm256_extractf128_ps(lanes.v, 1);
+}
+inline Lanes joined(Quad low, Quad high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low.v), high.v, 1);
+}
+/// One half of x, 0 for the lower and 1 for the upper one, and one of y.
+template <int of_x, int of_y>
+inline Lanes halves(Lanes x, Lanes y) {
+    if constexpr (of_x == 0 && of_y == 1) return _mm256_blend_ps(x.v, y.v, 0b1111'0000);
+    return _mm256_permute2f128_ps(x.v, y.v, of_x | (2 + of_y) << 4);
+}
+/// Four numbers, repeated in the upper lanes.
 inline Lanes repeat(const float* quad) {
     return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(quad));
 }
+/// In each half: elements a and b of x, c and d of y.
+template <int a, int b, int c, int d>
+inline Lanes shuffle(Lanes x, Lanes y) {
+    return _mm256_shuffle_ps(x.v, y.v, a | b << 2 | c << 4 | d << 6);
+}
+/// Broadcasts one number of each half.
+template <int place>
+inline Lanes everywhere(Lanes lanes) {
+    return _mm256_permute_ps(lanes.v, 0b01010101 * place);
+}
+/// Element 0 in the lower half, element 1 of the upper half in the upper one.
+inline Lanes first_and_second(Lanes lanes) {
+    return _mm256_permutevar_ps(lanes.v, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
+}
+inline Lanes with_one(Lanes lanes) {
+    return _mm256_blend_ps(lanes.v, _mm256_set1_ps(1.0f), 0b1000'1000);
+}
+inline Lanes lesser(Lanes x, Lanes y) {
+    return _mm256_min_ps(x.v, y.v);
+}
+inline Lanes negatives(Lanes lanes) {
+    return _mm256_cmp_ps(lanes.v, _mm256_setzero_ps(), _CMP_LT_OQ);
+}
+inline Lanes roots_of(Lanes squares) {
+    return _mm256_sqrt_ps(squares.v);
+}
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
-    return _mm256_min_ps(_mm256_max_ps(lanes, least), most);
+    return _mm256_min_ps(_mm256_max_ps(lanes.v, least.v), most.v);
 }
 inline Lanes inverse_roots_of(Lanes squares) {
-    const Lanes guess = _mm256_rsqrt_ps(squares);  // 12 bits; one step of Newton's method gives 23
+    const Lanes guess = _mm256_rsqrt_ps(squares.v);  // 12 bits; one step of Newton's method gives 23
     return guess + 0.5f * guess * (1.0f - squares * guess * guess);
-}
-inline void stream(float* to, Quad quad) {
-    _mm_stream_ps(to, quad);
-}
-inline void stream(float* to, Lanes lanes) {
-    _mm_stream_ps(to, _mm256_castps256_ps128(lanes));  // in halves, which only need alignment to 16 bytes
-    _mm_stream_ps(to + 4, _mm256_extractf128_ps(lanes, 1));
-}
-inline void end_streams() {
-    _mm_sfence();
 }
 
 #include "lanes.h"

@@ -1,27 +1,35 @@
-// lanes.h for SSE 4.1, and what else the kernels need from that instruction set. Each source includes it in its own
-// namespace.
+// lanes.h for SSE 4.1. Each source includes it in its own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 4
 
 // NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
-#include "lane_types.h"
+#include "quad_sse4.h"
 
+using Lanes = Quad;
+
+/// a * b + c
+inline Quad fused(Quad a, Quad b, Quad c) {
+    return a * b + c;
+}
+inline Quad fused_difference(Quad a, Quad b, Quad c) {
+    return a * b - c;
+}
+inline Lanes with_one(Lanes lanes) {
+    return _mm_blend_ps(lanes.v, _mm_set1_ps(1.0f), 0b1000);
+}
+inline Lanes from_integers(const std::int32_t (&numbers)[4]) {
+    return _mm_cvtepi32_ps(_mm_setr_epi32(numbers[0], numbers[1], numbers[2], numbers[3]));
+}
 inline Lanes roots_of(Lanes squares) {
-    return _mm_sqrt_ps(squares);
+    return _mm_sqrt_ps(squares.v);
 }
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
-    return _mm_min_ps(_mm_max_ps(lanes, least), most);
+    return _mm_min_ps(_mm_max_ps(lanes.v, least.v), most.v);
 }
 inline Lanes inverse_roots_of(Lanes squares) {
-    const Lanes guess = _mm_rsqrt_ps(squares);  // 12 bits; one step of Newton's method gives 23
+    const Lanes guess = _mm_rsqrt_ps(squares.v);  // 12 bits; one step of Newton's method gives 23
     return guess + 0.5f * guess * (1.0f - squares * guess * guess);
-}
-inline void stream(float* to, Quad quad) {
-    _mm_stream_ps(to, quad);
-}
-inline void end_streams() {
-    _mm_sfence();
 }
 
 #include "lanes.h"

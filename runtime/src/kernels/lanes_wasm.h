@@ -1,28 +1,107 @@
-// lanes.h for WebAssembly SIMD, and what else the kernels need from that instruction set. Each source includes it in
-// its own namespace.
+// lanes.h for WebAssembly SIMD. Each source includes it in its own namespace.
 
 #undef BENDY_LANES
 #define BENDY_LANES 4
 
 // NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
-#include "lane_types.h"
+struct Quad {
+    v128_t v;
 
-inline Lanes roots_of(Lanes squares) {
-    return reinterpret_cast<Lanes>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(squares)));
+    Quad() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): what intrinsics return
+    Quad(v128_t numbers) : v(numbers) {}
+    // NOLINTNEXTLINE(google-explicit-constructor): a number stands for four, as in `0.5f * quad`
+    Quad(float number) : v(wasm_f32x4_splat(number)) {}
+};
+
+inline Quad operator+(Quad a, Quad b) {
+    return wasm_f32x4_add(a.v, b.v);
 }
-inline v128_t as_v128(Lanes lanes) {
-    return reinterpret_cast<v128_t>(lanes);
+inline Quad operator-(Quad a, Quad b) {
+    return wasm_f32x4_sub(a.v, b.v);
 }
-inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
-    return reinterpret_cast<Lanes>(wasm_f32x4_pmin(as_v128(most), wasm_f32x4_pmax(as_v128(least), as_v128(lanes))));
+inline Quad operator*(Quad a, Quad b) {
+    return wasm_f32x4_mul(a.v, b.v);
 }
-inline Lanes inverse_roots_of(Lanes squares) {
-    return 1.0f / reinterpret_cast<Lanes>(wasm_f32x4_sqrt(as_v128(squares)));
+inline Quad operator/(Quad a, Quad b) {
+    return wasm_f32x4_div(a.v, b.v);
+}
+inline Quad operator&(Quad a, Quad b) {
+    return wasm_v128_and(a.v, b.v);
+}
+inline Quad operator|(Quad a, Quad b) {
+    return wasm_v128_or(a.v, b.v);
+}
+inline Quad operator^(Quad a, Quad b) {
+    return wasm_v128_xor(a.v, b.v);
+}
+inline Quad operator-(Quad a) {
+    return wasm_f32x4_neg(a.v);
+}
+inline Quad& operator+=(Quad& a, Quad b) {
+    return a = a + b;
+}
+using Lanes = Quad;
+
+/// a * b + c
+inline Quad fused(Quad a, Quad b, Quad c) {
+    return a * b + c;
+}
+inline Quad fused_difference(Quad a, Quad b, Quad c) {
+    return a * b - c;
+}
+inline Quad load_quad(const float* from) {
+    return wasm_v128_load(from);
+}
+inline void store(float* to, Quad quad) {
+    wasm_v128_store(to, quad.v);
+}
+inline void store_three_of(float* to, Quad quad) {
+    wasm_v128_store64_lane(to, quad.v, 0);
+    wasm_v128_store32_lane(to + 2, quad.v, 2);
 }
 inline void stream(float* to, Quad quad) {
-    __builtin_memcpy(to, &quad, sizeof quad);
+    store(to, quad);
 }
 inline void end_streams() {}
+inline void prefetch(const float* /*from*/) {}
+
+/// Elements a and b of x, c and d of y.
+template <int a, int b, int c, int d>
+inline Quad shuffle(Quad x, Quad y) {
+    return wasm_i32x4_shuffle(x.v, y.v, a, b, 4 + c, 4 + d);
+}
+inline float first_of(Quad quad) {
+    return wasm_f32x4_extract_lane(quad.v, 0);
+}
+/// Broadcasts one number.
+template <int place>
+inline Quad everywhere(Quad quad) {
+    return wasm_i32x4_shuffle(quad.v, quad.v, place, place, place, place);
+}
+inline Quad with_one(Quad quad) {
+    return wasm_f32x4_replace_lane(quad.v, 3, 1.0f);
+}
+inline Quad from_integers(const std::int32_t (&numbers)[4]) {
+    return wasm_f32x4_convert_i32x4(wasm_i32x4_make(numbers[0], numbers[1], numbers[2], numbers[3]));
+}
+/// x < y ? x : y
+inline Quad lesser(Quad x, Quad y) {
+    return wasm_f32x4_pmin(y.v, x.v);
+}
+/// All bits of each number that is negative, and none of the others.
+inline Quad negatives(Quad quad) {
+    return wasm_f32x4_lt(quad.v, wasm_f32x4_splat(0.0f));
+}
+inline Quad roots_of(Quad squares) {
+    return wasm_f32x4_sqrt(squares.v);
+}
+inline Quad between(Quad quad, Quad least, Quad most) {
+    return wasm_f32x4_pmin(most.v, wasm_f32x4_pmax(least.v, quad.v));
+}
+inline Quad inverse_roots_of(Quad squares) {
+    return 1.0f / Quad(wasm_f32x4_sqrt(squares.v));
+}
 
 #include "lanes.h"
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)

@@ -2,28 +2,17 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// Replaces the last number of each four by 1.
-inline Lanes with_one(Lanes lanes) {
-#if BENDY_LANES == 8
-    return __builtin_shufflevector(lanes, splat(1.0f), 0, 1, 2, 11, 4, 5, 6, 15);
-#else
-    return __builtin_shufflevector(lanes, splat(1.0f), 0, 1, 2, 7);
-#endif
-}
-
 /// Stores two columns of kLanes joints' matrices, given with one joint per lane; the fourth number of `d` counts.
 inline void store_columns(const Three& c, const Lanes* d, float* to) {
     Lanes columns[4];
     transpose(c.x, c.y, c.z, Lanes{}, columns);
     for (std::size_t k = 0; k < 4; ++k) {
 #if BENDY_LANES == 8
-        const Lanes lower = __builtin_shufflevector(columns[k], d[k], 0, 1, 2, 3, 8, 9, 10, 11);
-        const Lanes upper = __builtin_shufflevector(columns[k], d[k], 4, 5, 6, 7, 12, 13, 14, 15);
-        store_lanes(to + 16 * k, lower);
-        store_lanes(to + 16 * (k + 4), upper);
+        store(to + 16 * k, halves<0, 0>(columns[k], d[k]));
+        store(to + 16 * (k + 4), halves<1, 1>(columns[k], d[k]));
 #else
-        store_quad(to + 16 * k, columns[k]);
-        store_quad(to + 16 * k + 4, d[k]);
+        store(to + 16 * k, columns[k]);
+        store(to + 16 * k + 4, d[k]);
 #endif
     }
 }
@@ -59,15 +48,15 @@ inline void multiply(const float* a, const float* b, float* to) {
 #if BENDY_LANES == 8
     const Lanes left = load_lanes(b);
     const Lanes right = load_lanes(b + 8);
-    const Lanes moved = __builtin_shufflevector(Quad{}, load_quad(a + 12), 0, 1, 2, 3, 4, 5, 6, 7);
-    store_lanes(to, a0 * everywhere<0>(left) + (a1 * everywhere<1>(left) + a2 * everywhere<2>(left)));
-    store_lanes(to + 8, a0 * everywhere<0>(right) + (a1 * everywhere<1>(right) + (a2 * everywhere<2>(right) + moved)));
+    const Lanes moved = joined(Quad{}, load_quad(a + 12));
+    store(to, a0 * everywhere<0>(left) + (a1 * everywhere<1>(left) + a2 * everywhere<2>(left)));
+    store(to + 8, a0 * everywhere<0>(right) + (a1 * everywhere<1>(right) + (a2 * everywhere<2>(right) + moved)));
 #else
     const Lanes a3 = repeat(a + 12);
     for (std::size_t k = 0; k < 4; ++k) {
         const Lanes column = load_lanes(b + 4 * k);
         const Lanes sum = a0 * everywhere<0>(column) + (a1 * everywhere<1>(column) + a2 * everywhere<2>(column));
-        store_lanes(to + 4 * k, k < 3 ? sum : sum + a3);
+        store(to + 4 * k, k < 3 ? sum : sum + a3);
     }
 #endif
 }
@@ -77,9 +66,9 @@ inline void make_locals(const PoseBlock& block) {
     if (joints < kLanes) {
         float local[kLanes * 10]{};
         float matrices[kLanes * 16];
-        __builtin_memcpy(local, block.local, joints * 10 * sizeof(float));
+        std::memcpy(local, block.local, joints * 10 * sizeof(float));
         make_local(local, matrices);
-        __builtin_memcpy(block.model, matrices, joints * 16 * sizeof(float));
+        std::memcpy(block.model, matrices, joints * 16 * sizeof(float));
         return;
     }
     for (std::size_t joint = 0; joint < joints; joint += kLanes) {
@@ -112,8 +101,7 @@ struct Product {
 /// `column` of the joint's matrix times `row` of the bind matrix, for two rows.
 inline Product outer(const float* column, Lanes row) {
     const Lanes both = repeat(column);
-    const Lanes upper = __builtin_shufflevector(both, both, 0, 0, 0, 0, 5, 5, 5, 5);
-    return {upper * row, low(everywhere<2>(both)) * low(row)};
+    return {first_and_second(both) * row, everywhere<2>(low(both)) * low(row)};
 }
 
 inline Product plus(const Product& a, const Product& b) {
@@ -121,10 +109,12 @@ inline Product plus(const Product& a, const Product& b) {
 }
 #endif
 
+constexpr float kLastRow[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+
 inline bool palette_lanes(const PaletteBlock& block) {
     Quad sum{};  // remains zero if all numbers are finite
 #if BENDY_LANES == 8
-    const Lanes last{0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f};
+    const Lanes last = repeat(kLastRow);
     Lanes upper_sum{};
     for (std::size_t entry = 0; entry < block.entries; ++entry) {
         const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
@@ -132,14 +122,14 @@ inline bool palette_lanes(const PaletteBlock& block) {
         const Product rows =
             plus(outer(joint, repeat(bind)), plus(outer(joint + 4, repeat(bind + 4)),
                                                   plus(outer(joint + 8, repeat(bind + 8)), outer(joint + 12, last))));
-        store_lanes(block.palette[entry].rows[0], rows.upper);
-        store_quad(block.palette[entry].rows[2], rows.lower);
+        store(block.palette[entry].rows[0], rows.upper);
+        store(block.palette[entry].rows[2], rows.lower);
         upper_sum += 0.0f * rows.upper;
         sum += 0.0f * rows.lower;
     }
     sum += low(upper_sum) + high(upper_sum);
 #else
-    const Quad last{0.0f, 0.0f, 0.0f, 1.0f};
+    const Quad last = load_quad(kLastRow);
     for (std::size_t entry = 0; entry < block.entries; ++entry) {
         const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
         const float* const bind = block.inverse_bind[entry].rows[0];
@@ -147,12 +137,14 @@ inline bool palette_lanes(const PaletteBlock& block) {
             const Quad numbers =
                 joint[row] * load_quad(bind) + (joint[row + 4] * load_quad(bind + 4) +
                                                 (joint[row + 8] * load_quad(bind + 8) + joint[row + 12] * last));
-            store_quad(block.palette[entry].rows[row], numbers);
+            store(block.palette[entry].rows[row], numbers);
             sum += 0.0f * numbers;
         }
     }
 #endif
-    return sum[0] == 0.0f && sum[1] == 0.0f && sum[2] == 0.0f && sum[3] == 0.0f;
+    float sums[4];
+    store(sums, sum);
+    return sums[0] == 0.0f && sums[1] == 0.0f && sums[2] == 0.0f && sums[3] == 0.0f;
 }
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -1,6 +1,13 @@
 #include "pose_kernels.h"
 
-#if defined(BENDY_GNU) && defined(__aarch64__)
+#include <bendy/format/processor.h>
+
+#if defined(BENDY_ARM64)
+
+#include <bendy/format/public.h>
+
+#include <cstdint>
+#include <cstring>
 
 #include <arm_neon.h>
 

@@ -1,6 +1,13 @@
 #include "pose_kernels.h"
 
-#if defined(BENDY_GNU) && defined(__SSE4_1__)
+#include <bendy/format/processor.h>
+
+#if defined(BENDY_X86_64)
+
+#include <bendy/format/public.h>
+
+#include <cstdint>
+#include <cstring>
 
 #include <immintrin.h>
 

@@ -1,6 +1,13 @@
 #include "pose_kernels.h"
 
-#if defined(BENDY_GNU) && defined(__wasm_simd128__)
+#include <bendy/format/processor.h>
+
+#if defined(BENDY_WASM_SIMD)
+
+#include <bendy/format/public.h>
+
+#include <cstdint>
+#include <cstring>
 
 #include <wasm_simd128.h>
 

@@ -8,8 +8,8 @@ constexpr std::ptrdiff_t kWindow = 16;  // bytes read at a time
 template <std::ptrdiff_t size, bool is_near_end>
 inline const unsigned char* reach(const unsigned char* from, const unsigned char* end, unsigned char* copy) {
     if (!is_near_end || end - from >= size) return from;
-    __builtin_memset(copy, 0, size);
-    if (end > from) __builtin_memcpy(copy, from, static_cast<std::size_t>(end - from));
+    std::memset(copy, 0, size);
+    if (end > from) std::memcpy(copy, from, static_cast<std::size_t>(end - from));
     return copy;
 }
 
@@ -38,7 +38,7 @@ struct Places {
 
 inline Places load_places(const UnpackWindows& windows) {
     long long bytes = 0;
-    __builtin_memcpy(&bytes, windows.bytes, sizeof bytes);
+    std::memcpy(&bytes, windows.bytes, sizeof bytes);
     const __m256i all = _mm256_set1_epi64x(bytes);
     const __m256i each_four = _mm256_setr_epi8(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5,
                                                6, 6, 6, 6, 7, 7, 7, 7);

@@ -3,16 +3,14 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-using Integers = std::int32_t __attribute__((vector_size(4 * BENDY_LANES)));
-
 /// Reads a number of `size` bytes, little-endian like everything in the file; zeros beyond the payload's end.
 template <class Number, bool is_near_end>
 inline Number read_number(const unsigned char* from, const unsigned char* end) {
     Number number = 0;
     if (is_near_end && end - from < static_cast<std::ptrdiff_t>(sizeof number)) {
-        if (end > from) __builtin_memcpy(&number, from, static_cast<std::size_t>(end - from));
+        if (end > from) std::memcpy(&number, from, static_cast<std::size_t>(end - from));
     } else {
-        __builtin_memcpy(&number, from, sizeof number);
+        std::memcpy(&number, from, sizeof number);
     }
     return number;
 }
@@ -31,8 +29,8 @@ template <bool is_near_end>
 inline void read_component(const UnpackGroup& group, std::size_t component, std::size_t first,
                            const UnpackWindows& windows, const UnpackBlock& block, Lanes& left, Lanes& right) {
     const unsigned char* const bases = block.tables + group.bases + component * group.stride;
-    Integers a;
-    Integers b;
+    std::int32_t a[kLanes];
+    std::int32_t b[kLanes];
     for (std::size_t k = 0; k < kLanes; ++k) {
         const std::size_t lane = first + k;
         const unsigned char* const from = bases + lane * group.base_bytes;
@@ -43,8 +41,8 @@ inline void read_component(const UnpackGroup& group, std::size_t component, std:
         b[k] = static_cast<std::int32_t>(from_base + read_bits<is_near_end>(block.right, windows, lane, block.end));
     }
     const Lanes step = load_lanes(group.steps[component] + first);
-    left = __builtin_convertvector(a, Lanes) * step;
-    right = __builtin_convertvector(b, Lanes) * step;
+    left = from_integers(a) * step;
+    right = from_integers(b) * step;
 }
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -20,7 +20,7 @@ struct Series {
     }
     template <int terms>
     [[nodiscard]] Lanes at(Lanes x) const {
-        Lanes sum = splat(1.0f);
+        Lanes sum = 1.0f;
         for (int i = terms; i-- > 0;) sum = 1.0f + (k[i] * x) * sum;
         return t * sum;
     }
@@ -28,13 +28,12 @@ struct Series {
 
 inline float least_of(Lanes lanes) {
 #if BENDY_LANES == 8
-    Quad least = low(lanes) < high(lanes) ? low(lanes) : high(lanes);
+    Quad least = lesser(low(lanes), high(lanes));
 #else
     Quad least = lanes;
 #endif
-    const Quad swapped = __builtin_shufflevector(least, least, 2, 3, 0, 1);
-    least = least < swapped ? least : swapped;
-    return least[0] < least[1] ? least[0] : least[1];
+    least = lesser(least, shuffle<2, 3, 0, 1>(least, least));
+    return first_of(lesser(least, shuffle<1, 0, 3, 2>(least, least)));
 }
 
 /// Loads the rotations of kLanes tracks, one track per lane.
@@ -42,8 +41,7 @@ inline void load_rotations(const float* const* keys, std::size_t at, Lanes* to) 
     Lanes quads[4];
     for (std::size_t k = 0; k < 4; ++k) {
 #if BENDY_LANES == 8
-        quads[k] =
-            __builtin_shufflevector(load_quad(keys[k] + at), load_quad(keys[k + 4] + at), 0, 1, 2, 3, 4, 5, 6, 7);
+        quads[k] = joined(load_quad(keys[k] + at), load_quad(keys[k + 4] + at));
 #else
         quads[k] = load_quad(keys[k] + at);
 #endif
@@ -55,9 +53,9 @@ inline void store_rotations(const Lanes* numbers, const std::uint32_t* places, f
     Lanes quads[4];
     transpose(numbers[0], numbers[1], numbers[2], numbers[3], quads);
     for (std::size_t k = 0; k < 4; ++k) {
-        store_quad(to + places[k], low(quads[k]));
+        store(to + places[k], low(quads[k]));
 #if BENDY_LANES == 8
-        store_quad(to + places[k + 4], high(quads[k]));
+        store(to + places[k + 4], high(quads[k]));
 #endif
     }
 }
@@ -72,7 +70,7 @@ inline Shares shares_of(const Series& left, const Series& right, Lanes x) {
     return {left.at<terms>(x), right.at<terms>(x)};
 }
 
-__attribute__((noinline)) Shares far_shares(const Series& left, const Series& right, Lanes x) {
+BENDY_NOINLINE Shares far_shares(const Series& left, const Series& right, Lanes x) {
     return shares_of<Series::kTerms>(left, right, x);
 }
 
@@ -84,21 +82,15 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
     load_rotations(tracks.keys + first, 4 * block.left, a);
     load_rotations(tracks.keys + first, 4 * block.left + 4, b);
     const Lanes dot = dot_of_four(a, b);
-    const Lanes cosine = dot < 0.0f ? -dot : dot;
-    const Lanes x = (cosine > 1.0f ? splat(1.0f) : cosine) - 1.0f;
+    const Lanes signs = signs_of(dot);
+    const Lanes cosine = dot ^ signs;
+    const Lanes x = lesser(1.0f, cosine) - 1.0f;
     const bool is_near = least_of(cosine) >= Series::kNearCosine;
     const Shares shares = is_near ? shares_of<Series::kNearTerms>(left, right, x) : far_shares(left, right, x);
-    Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
-    if (block.fraction == 1.0f) by_b = splat(1.0f);  // exactly the key, including its sign
+    Lanes by_b = shares.right ^ signs;
+    if (block.fraction == 1.0f) by_b = Lanes(1.0f);  // exactly the key, including its sign
     for (std::size_t c = 0; c < 4; ++c) a[c] = shares.left * a[c] + by_b * b[c];
     store_rotations(a, tracks.places + first, block.local);
-}
-
-inline void store_three_of(float* to, Quad quad) {
-    using Pair = double __attribute__((vector_size(16)));
-    const double two = __builtin_bit_cast(Pair, quad)[0];
-    __builtin_memcpy(to, &two, sizeof two);
-    to[2] = quad[2];
 }
 
 inline void sample_lanes(const SampleBlock& block) {
@@ -112,7 +104,7 @@ inline void sample_lanes(const SampleBlock& block) {
         const VectorTrack& track = block.vectors[k];
         const float* const keys = track.keys + 3 * block.left;
         const Quad both = load_quad(keys + 2);  // the left key's last number, and the right key
-        const Quad moved = __builtin_shufflevector(both, both, 1, 2, 3, 3);
+        const Quad moved = shuffle<1, 2, 3, 3>(both, both);
         store_three_of(block.local + track.place, left.t * load_quad(keys) + right.t * moved);
     }
 }

@@ -1,6 +1,13 @@
 #include "plan/skin_block.h"
 
-#if defined(BENDY_GNU) && defined(__AVX2__)
+#include <bendy/format/processor.h>
+
+#if defined(BENDY_X86_64)
+
+#include <bendy/format/public.h>
+
+#include <cstdint>
+#include <cstring>
 
 #include <immintrin.h>
 

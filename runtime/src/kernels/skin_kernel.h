@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bendy/format/public.h>
+#include <bendy/format/processor.h>
 #include <bendy/runtime/kernels.h>
 
 #include "plan/skin_block.h"
@@ -15,15 +15,15 @@ struct SkinKernels {
 /// Returns the functions of one of kernels().
 inline SkinKernels skin_kernels(Kernel kernel) {
     switch (kernel) {
-#if defined(BENDY_GNU) && defined(__x86_64__)
+#if defined(BENDY_X86_64)
         case Kernel::sse4:
             return {skin_sse4, dual_sse4};
         case Kernel::avx2:
             return {skin_avx2, dual_avx2};
-#elif defined(BENDY_GNU) && defined(__aarch64__)
+#elif defined(BENDY_ARM64)
         case Kernel::neon:
             return {skin_neon, dual_neon};
-#elif defined(BENDY_GNU) && defined(__wasm_simd128__)
+#elif defined(BENDY_WASM_SIMD)
         case Kernel::wasm:
             return {skin_wasm, dual_wasm};
 #endif

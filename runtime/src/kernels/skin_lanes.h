@@ -1,6 +1,5 @@
-// The implementation of the skinning kernels, included after lanes.h by one source for each instruction set, which also
-// defines between(lanes, least, most), inverse_roots_of(lanes) for numbers that are neither zero nor subnormal nor
-// infinite, stream(to, numbers) and end_streams(), and is compiled with that set's options.
+// The implementation of the skinning kernels, included after lanes.h by one source for each instruction set, which is
+// compiled with that set's options.
 //
 // Vertices are processed in chunks, in two steps: first the blended matrix of each group of kLanes vertices and the
 // transformed attributes, one vertex per lane; then normalisation, and the conversion to the caller's layout. Each step
@@ -8,11 +7,9 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-template <class Numbers>
-struct MatrixOf {
-    Numbers at[3][4];
+struct Matrix {
+    Lanes at[3][4];
 };
-using Matrix = MatrixOf<Lanes>;
 
 constexpr std::size_t kChunk = 64;  // vertices, a multiple of kLanes
 
@@ -22,17 +19,8 @@ struct Moved {
     Lanes sides;
 };
 
-using Signs = decltype(Lanes{} < Lanes{});
-
-/// The sign bit of each negative number.
-inline Signs signs_of(Lanes lanes) {
-    return (lanes < 0.0f) & reinterpret_cast<Signs>(splat(-0.0f));
-}
-inline Lanes turned(Lanes lanes, Signs signs) {
-    return reinterpret_cast<Lanes>(reinterpret_cast<Signs>(lanes) ^ signs);
-}
-inline Three turned(const Three& v, Signs signs) {
-    return {turned(v.x, signs), turned(v.y, signs), turned(v.z, signs)};
+inline Three turned(const Three& v, Lanes signs) {
+    return {v.x ^ signs, v.y ^ signs, v.z ^ signs};
 }
 
 template <bool streams, class Numbers>
@@ -40,7 +28,7 @@ inline void put(float* to, const Numbers& numbers) {
     if constexpr (streams) {
         stream(to, numbers);
     } else {
-        __builtin_memcpy(to, &numbers, sizeof numbers);
+        store(to, numbers);
     }
 }
 
@@ -53,13 +41,13 @@ inline void store_packed(const Three& v, float* to) {
     const Lanes b = shuffle<0, 2, 1, 3>(yz, xy);
     const Lanes c = shuffle<1, 3, 1, 3>(zx, yz);
 #if BENDY_LANES == 8
-    put<streams>(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
-    put<streams>(to + 8, __builtin_shufflevector(c, a, 0, 1, 2, 3, 12, 13, 14, 15));
-    put<streams>(to + 16, __builtin_shufflevector(b, c, 4, 5, 6, 7, 12, 13, 14, 15));
+    put<streams>(to, halves<0, 0>(a, b));
+    put<streams>(to + 8, halves<0, 1>(c, a));
+    put<streams>(to + 16, halves<1, 1>(b, c));
 #else
-    put<streams>(to, quad_of<0>(a));
-    put<streams>(to + 4, quad_of<0>(b));
-    put<streams>(to + 8, quad_of<0>(c));
+    put<streams>(to, a);
+    put<streams>(to + 4, b);
+    put<streams>(to + 8, c);
 #endif
 }
 
@@ -70,15 +58,15 @@ inline void store_apart(Lanes x, Lanes y, Lanes z, Lanes w, float* to, std::size
         if constexpr (kept == 4) {
             put<streams>(vertex, quad);
         } else {
-            __builtin_memcpy(vertex, &quad, kept * sizeof(float));
+            store_three_of(vertex, quad);
         }
     };
     Lanes vertices[4];
     transpose(x, y, z, w, vertices);
     for (const Lanes& vertex : vertices) {
-        put_vertex(to, quad_of<0>(vertex));
+        put_vertex(to, low(vertex));
 #if BENDY_LANES == 8
-        put_vertex(to + 4 * stride, quad_of<1>(vertex));
+        put_vertex(to + 4 * stride, high(vertex));
 #endif
         to += stride;
     }
@@ -114,32 +102,32 @@ inline bool wants(const SkinOutput& out) {
 inline Three normalised(const Three& v) {
     constexpr float kLeast = 1.17549435e-38f;
     constexpr float kMost = 3.40282347e+38f;
-    const Lanes squares = v.x * v.x + (v.y * v.y + v.z * v.z);
-    const Lanes scale = inverse_roots_of(between(squares, splat(kLeast), splat(kMost)));
+    const Lanes squares = fused(v.x, v.x, fused(v.y, v.y, v.z * v.z));
+    const Lanes scale = inverse_roots_of(between(squares, Lanes(kLeast), Lanes(kMost)));
     return {v.x * scale, v.y * scale, v.z * scale};
 }
 
 inline Three cross(const Lanes* a, const Lanes* b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return {fused_difference(a[1], b[2], a[2] * b[1]), fused_difference(a[2], b[0], a[0] * b[2]),
+            fused_difference(a[0], b[1], a[1] * b[0])};
 }
 inline Lanes dot(const Lanes* a, const Three& b) {
-    return a[0] * b.x + (a[1] * b.y + a[2] * b.z);
+    return fused(a[0], b.x, fused(a[1], b.y, a[2] * b.z));
 }
 
 /// The first step for a group of kLanes vertices.
 template <class F>
-inline __attribute__((always_inline)) void move(const Matrix& matrix, const SkinBlock& block, std::size_t vertex,
-                                                Moved& moved) {
+BENDY_ALWAYS_INLINE void move(const Matrix& matrix, const SkinBlock& block, std::size_t vertex, Moved& moved) {
     const auto& m = matrix.at;
     if (wants<F, 1>(block.out_positions)) {
         const Three v = load_three(block.positions + 3 * vertex);
-        moved.positions = {m[0][0] * v.x + (m[0][1] * v.y + (m[0][2] * v.z + m[0][3])),
-                           m[1][0] * v.x + (m[1][1] * v.y + (m[1][2] * v.z + m[1][3])),
-                           m[2][0] * v.x + (m[2][1] * v.y + (m[2][2] * v.z + m[2][3]))};
+        moved.positions = {fused(m[0][0], v.x, fused(m[0][1], v.y, fused(m[0][2], v.z, m[0][3]))),
+                           fused(m[1][0], v.x, fused(m[1][1], v.y, fused(m[1][2], v.z, m[1][3]))),
+                           fused(m[2][0], v.x, fused(m[2][1], v.y, fused(m[2][2], v.z, m[2][3])))};
     }
     if (!wants<F, 2>(block.out_normals) && !wants<F, 4>(block.out_tangents)) return;
     const Three area = cross(m[1], m[2]);
-    const Signs signs = signs_of(dot(m[0], area));
+    const Lanes signs = signs_of(dot(m[0], area));
     if (wants<F, 2>(block.out_normals)) {
         // Transforms by the inverse transpose except for its length: by the cofactor matrix, which also exists for a
         // singular matrix. Its rows are cross products of the matrix's rows; two of the three triple products contain
@@ -154,14 +142,13 @@ inline __attribute__((always_inline)) void move(const Matrix& matrix, const Skin
         load_four(block.tangents + 4 * vertex, v);
         const Three tangent{v[0], v[1], v[2]};
         moved.tangents = {dot(m[0], tangent), dot(m[1], tangent), dot(m[2], tangent)};
-        moved.sides = turned(v[3], signs);
+        moved.sides = v[3] ^ signs;
     }
 }
 
 /// The second step for those of the attributes `parts` (1, 2, 4) that are wanted.
 template <class F, int parts>
-inline __attribute__((always_inline)) void finish(const Moved* moved, const SkinBlock& block, std::size_t vertex,
-                                                  std::size_t count) {
+BENDY_ALWAYS_INLINE void finish(const Moved* moved, const SkinBlock& block, std::size_t vertex, std::size_t count) {
     for (const std::size_t end = vertex + count; vertex < end; vertex += kLanes, ++moved) {
         if ((parts & 1) != 0 && wants<F, 1>(block.out_positions))
             store_three<F>(moved->positions, block.out_positions, vertex);
@@ -180,8 +167,8 @@ inline __attribute__((always_inline)) void finish(const Moved* moved, const Skin
 template <class F>
 inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
     const auto fetch = [&](const float* from, std::size_t numbers) {
-        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk));
-        __builtin_prefetch(from + numbers * (vertex + 2 * kChunk) + 16);
+        prefetch(from + numbers * (vertex + 2 * kChunk));
+        prefetch(from + numbers * (vertex + 2 * kChunk) + 16);
     };
     fetch(block.positions, 3);
     if (wants<F, 2>(block.out_normals)) fetch(block.normals, 3);
@@ -190,10 +177,10 @@ inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
 
 /// Processes whole groups, `count` vertices from `vertex` on; matrix_of(vertex) is the matrix of a group.
 template <class F, class Blend>
-inline __attribute__((always_inline)) void transform(const SkinBlock& block, std::size_t vertex, std::size_t count,
-                                                     const Blend& matrix_of) {
+BENDY_ALWAYS_INLINE void transform(const SkinBlock& block, std::size_t vertex, std::size_t count,
+                                   const Blend& matrix_of) {
     Moved moved[kChunk / kLanes];
-    if constexpr (F::wanted == 0) __builtin_memset(&moved, 0, sizeof moved);
+    if constexpr (F::wanted == 0) std::memset(&moved, 0, sizeof moved);
     for (std::size_t k = 0; k < count; k += kLanes) {
         if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
         move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
@@ -208,7 +195,7 @@ inline __attribute__((always_inline)) void transform(const SkinBlock& block, std
 }
 
 /// Processes fewer than kLanes vertices: through copies that have the size of a group.
-__attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBlock& block, std::size_t vertex) {
+BENDY_NOINLINE void transform_last(const Matrix& matrix, const SkinBlock& block, std::size_t vertex) {
     const std::size_t count = block.vertices - vertex;
     float positions[3 * kLanes]{};
     float normals[3 * kLanes]{};
@@ -216,7 +203,7 @@ __attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBl
     SkinBlock copy = block;
     const auto bring = [&](float* to, const float*& from, SkinOutput& out, std::size_t numbers) {
         if (out.data == nullptr) return;
-        __builtin_memcpy(to, from + numbers * vertex, numbers * count * sizeof(float));
+        std::memcpy(to, from + numbers * vertex, numbers * count * sizeof(float));
         from = to;
         out = {to, numbers};
     };
@@ -227,7 +214,7 @@ __attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBl
     const auto take = [&](const float* from, const SkinOutput& out, std::size_t numbers) {
         if (out.data == nullptr) return;
         for (std::size_t k = 0; k < count; ++k)
-            __builtin_memcpy(out.data + (vertex + k) * out.stride, from + k * numbers, numbers * sizeof(float));
+            std::memcpy(out.data + (vertex + k) * out.stride, from + k * numbers, numbers * sizeof(float));
     };
     take(positions, block.out_positions, 3);
     take(normals, block.out_normals, 3);
@@ -236,7 +223,7 @@ __attribute__((noinline)) void transform_last(const Matrix& matrix, const SkinBl
 
 /// Processes all vertices of a block.
 template <class F, class Blend>
-inline __attribute__((always_inline)) void transform_all(const SkinBlock& block, const Blend& matrix_of) {
+BENDY_ALWAYS_INLINE void transform_all(const SkinBlock& block, const Blend& matrix_of) {
     std::size_t vertex = 0;
     while (block.vertices - vertex >= kLanes) {
         const std::size_t left = block.vertices - vertex;
@@ -257,34 +244,33 @@ struct MatrixSum {
     const PaletteMatrix* palette;
 
     template <class Bone>
-    inline __attribute__((always_inline)) void operator()(const Bone* bones, const float* weights, std::size_t used,
-                                                          float* to) const {
+    BENDY_ALWAYS_INLINE void operator()(const Bone* bones, const float* weights, std::size_t used, float* to) const {
         const float* matrix = &palette[bones[0]].rows[0][0];
 #if BENDY_LANES == 8
-        Lanes weight = splat(weights[0]);
+        Lanes weight = weights[0];
         Lanes upper = weight * load_lanes(matrix);
-        Quad lower = quad_of<0>(weight) * load_quad(matrix + 8);
+        Quad lower = low(weight) * load_quad(matrix + 8);
         for (std::size_t k = 1; k < used; ++k) {
             matrix = &palette[bones[k]].rows[0][0];
-            weight = splat(weights[k]);
-            upper += weight * load_lanes(matrix);
-            lower += quad_of<0>(weight) * load_quad(matrix + 8);
+            weight = weights[k];
+            upper = fused(weight, load_lanes(matrix), upper);
+            lower = fused(low(weight), load_quad(matrix + 8), lower);
         }
-        __builtin_memcpy(to, &upper, sizeof upper);
-        store_quad(to + 8, lower);
+        store(to, upper);
+        store(to + 8, lower);
 #else
         Quad a = weights[0] * load_quad(matrix);
         Quad b = weights[0] * load_quad(matrix + 4);
         Quad c = weights[0] * load_quad(matrix + 8);
         for (std::size_t k = 1; k < used; ++k) {
             matrix = &palette[bones[k]].rows[0][0];
-            a += weights[k] * load_quad(matrix);
-            b += weights[k] * load_quad(matrix + 4);
-            c += weights[k] * load_quad(matrix + 8);
+            a = fused(weights[k], load_quad(matrix), a);
+            b = fused(weights[k], load_quad(matrix + 4), b);
+            c = fused(weights[k], load_quad(matrix + 8), c);
         }
-        store_quad(to, a);
-        store_quad(to + 4, b);
-        store_quad(to + 8, c);
+        store(to, a);
+        store(to + 4, b);
+        store(to + 8, c);
 #endif
     }
 };
@@ -297,16 +283,13 @@ inline void blend_group(const Sum& sum, const Bone* bones, const float* weights,
 
 /// Returns the last of four influences, from 1, that any vertex of a group has.
 inline std::size_t last_of_four(const float* weights, std::size_t influences) {
-    using Bits = unsigned __attribute__((vector_size(16)));
-    Bits any{};
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        Bits bits;
-        __builtin_memcpy(&bits, weights + k * influences, sizeof bits);
-        any |= bits;
-    }
-    if (any[3] != 0) return 4;
-    if (any[2] != 0) return 3;
-    return any[1] != 0 ? 2 : 1;
+    Quad all{};
+    for (std::size_t k = 0; k < kLanes; ++k) all = all | load_quad(weights + k * influences);
+    std::uint32_t bits[4];
+    std::memcpy(bits, &all, sizeof bits);
+    if (bits[3] != 0) return 4;
+    if (bits[2] != 0) return 3;
+    return bits[1] != 0 ? 2 : 1;
 }
 
 /// Blends a group, using as many influences for each vertex as the group needs.
@@ -339,8 +322,8 @@ inline void blend_any(const Sum& sum, const Bone* bones, const float* weights, s
 
 /// Blends the `count` vertices from `vertex` on.
 template <class Sum, class Bone>
-__attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& block, const Bone* bones,
-                                           std::size_t vertex, std::size_t count, Rows& rows) {
+BENDY_NOINLINE void blend_chunk(const Sum& sum, const SkinBlock& block, const Bone* bones, std::size_t vertex,
+                                std::size_t count, Rows& rows) {
     std::size_t k = 0;
     for (; count - k >= kLanes; k += kLanes) {
         const std::size_t at = (vertex + k) * block.influences;
@@ -350,7 +333,7 @@ __attribute__((noinline)) void blend_chunk(const Sum& sum, const SkinBlock& bloc
         const std::size_t at = (vertex + k) * block.influences;
         sum(bones + at, block.weights + at, block.influences, rows.of[k]);
     }
-    if (count % kLanes != 0) __builtin_memset(rows.of + count, 0, (kLanes - count % kLanes) * sizeof rows.of[0]);
+    if (count % kLanes != 0) std::memset(rows.of + count, 0, (kLanes - count % kLanes) * sizeof rows.of[0]);
 }
 
 /// Transposes four numbers of each row of a group, from `from` in the first row on.
@@ -368,8 +351,7 @@ inline Matrix turn(const float (*rows)[16]) {
 /// Processes chunk after chunk: blend(vertex, count) fills rows, and matrix_of(k) is the matrix of the group from row k
 /// on.
 template <class F, class Blend, class MatrixOfRow>
-inline __attribute__((always_inline)) void transform_chunks(const SkinBlock& block, const Blend& blend,
-                                                            const MatrixOfRow& matrix_of) {
+BENDY_ALWAYS_INLINE void transform_chunks(const SkinBlock& block, const Blend& blend, const MatrixOfRow& matrix_of) {
     for (std::size_t vertex = 0; vertex < block.vertices;) {
         const std::size_t count = block.vertices - vertex < kChunk ? block.vertices - vertex : kChunk;
         const std::size_t whole = count - count % kLanes;
@@ -395,50 +377,42 @@ template <class F>
 void skin_rigid(const SkinBlock& block) {
     Matrix matrix;
     for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 4; ++column)
-            matrix.at[row][column] = splat(block.palette->rows[row][column]);
+        for (std::size_t column = 0; column < 4; ++column) matrix.at[row][column] = block.palette->rows[row][column];
     }
     transform_all<F>(block, [&](std::size_t) -> const Matrix& { return matrix; });
 }
 
 #if BENDY_LANES == 8
 
-inline Eight load_eight(const float* from) {
-    Eight eight;
-    __builtin_memcpy(&eight, from, sizeof eight);
-    return eight;
-}
-
 /// Computes sum(weight * matrix) for eight vertices at a time, from `count` bones that they share.
-inline __attribute__((always_inline)) MatrixOf<Eight> blend_shared(const PaletteMatrix* palette,
-                                                                   const std::uint16_t* bones, const float* weights,
-                                                                   std::size_t count) {
+BENDY_ALWAYS_INLINE Matrix blend_shared(const PaletteMatrix* palette, const std::uint16_t* bones, const float* weights,
+                                        std::size_t count) {
     const float* matrix = &palette[bones[0]].rows[0][0];
-    Eight weight = load_eight(weights);
-    Eight m00 = weight * matrix[0], m01 = weight * matrix[1], m02 = weight * matrix[2], m03 = weight * matrix[3];
-    Eight m10 = weight * matrix[4], m11 = weight * matrix[5], m12 = weight * matrix[6], m13 = weight * matrix[7];
-    Eight m20 = weight * matrix[8], m21 = weight * matrix[9], m22 = weight * matrix[10], m23 = weight * matrix[11];
+    Lanes weight = load_lanes(weights);
+    Lanes m00 = weight * matrix[0], m01 = weight * matrix[1], m02 = weight * matrix[2], m03 = weight * matrix[3];
+    Lanes m10 = weight * matrix[4], m11 = weight * matrix[5], m12 = weight * matrix[6], m13 = weight * matrix[7];
+    Lanes m20 = weight * matrix[8], m21 = weight * matrix[9], m22 = weight * matrix[10], m23 = weight * matrix[11];
     for (std::size_t k = 1; k < count; ++k) {
         matrix = &palette[bones[k]].rows[0][0];
-        weight = load_eight(weights + 8 * k);
-        m00 += weight * matrix[0];
-        m01 += weight * matrix[1];
-        m02 += weight * matrix[2];
-        m03 += weight * matrix[3];
-        m10 += weight * matrix[4];
-        m11 += weight * matrix[5];
-        m12 += weight * matrix[6];
-        m13 += weight * matrix[7];
-        m20 += weight * matrix[8];
-        m21 += weight * matrix[9];
-        m22 += weight * matrix[10];
-        m23 += weight * matrix[11];
+        weight = load_lanes(weights + 8 * k);
+        m00 = fused(weight, matrix[0], m00);
+        m01 = fused(weight, matrix[1], m01);
+        m02 = fused(weight, matrix[2], m02);
+        m03 = fused(weight, matrix[3], m03);
+        m10 = fused(weight, matrix[4], m10);
+        m11 = fused(weight, matrix[5], m11);
+        m12 = fused(weight, matrix[6], m12);
+        m13 = fused(weight, matrix[7], m13);
+        m20 = fused(weight, matrix[8], m20);
+        m21 = fused(weight, matrix[9], m21);
+        m22 = fused(weight, matrix[10], m22);
+        m23 = fused(weight, matrix[11], m23);
     }
     return {{{m00, m01, m02, m03}, {m10, m11, m12, m13}, {m20, m21, m22, m23}}};
 }
 
 /// The same from the influences of single vertices: for groups with too many bones.
-__attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t vertex, Matrix& matrix) {
+BENDY_NOINLINE void blend_apart(const SkinBlock& block, std::size_t vertex, Matrix& matrix) {
     Rows rows;
     const std::size_t count = block.vertices - vertex < kLanes ? block.vertices - vertex : kLanes;
     if (block.bones16 != nullptr) {
@@ -449,7 +423,7 @@ __attribute__((noinline)) void blend_apart(const SkinBlock& block, std::size_t v
     matrix = turn(rows.of);
 }
 
-inline __attribute__((always_inline)) Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
+BENDY_ALWAYS_INLINE Matrix blend_planned(const SkinBlock& block, std::size_t vertex) {
     const std::uint32_t* const first = block.plan_first + vertex / 8;
     if (first[1] != first[0]) {
         return blend_shared(block.palette, block.plan_bones + first[0], block.plan_weights + std::size_t{8} * first[0],

@@ -29,8 +29,8 @@ template <int terms>
 inline Lanes polynomial(Lanes h, Lanes square, const Terms<10>& c) {
     constexpr int kOdd = (terms - 2) / 2 * 2 + 1;
     constexpr int kEven = (terms - 1) / 2 * 2;
-    Lanes odd = splat(c.of[kOdd]);
-    Lanes even = splat(c.of[kEven]);
+    Lanes odd = c.of[kOdd];
+    Lanes even = c.of[kEven];
     for (int k = kOdd; k > 1; k -= 2) odd = odd * square + c.of[k - 2];
     for (int k = kEven; k > 0; k -= 2) even = even * square + c.of[k - 2];
     return odd * h + even;
@@ -50,9 +50,9 @@ inline Rotations near_exp(const Lanes* v, Lanes h) {
 }
 
 /// The same for vectors of any length.
-__attribute__((noinline)) Rotations far_exp(const Lanes* v, Lanes h) {
-    const Lanes most = splat(UnpackBlock::kMaxHalfTurnSquare);
-    const Lanes held = h < most ? h : most;
+BENDY_NOINLINE Rotations far_exp(const Lanes* v, Lanes h) {
+    const Lanes most = UnpackBlock::kMaxHalfTurnSquare;
+    const Lanes held = lesser(h, most);
     const Lanes square = held * held;
     const Lanes sine = polynomial<10>(held, square, kSine);
     Rotations q{{v[0] * sine, v[1] * sine, v[2] * sine, polynomial<10>(held, square, kCosine)}};
@@ -65,7 +65,7 @@ inline Lanes half_turn_square(const Lanes* v) {
     return 0.25f * (v[0] * v[0] + (v[1] * v[1] + v[2] * v[2]));
 }
 
-__attribute__((noinline)) Shares middle_shares(const Series& left, const Series& right, Lanes x) {
+BENDY_NOINLINE Shares middle_shares(const Series& left, const Series& right, Lanes x) {
     return shares_of<9>(left, right, x);
 }
 
@@ -81,13 +81,14 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
                              const Series& by_left, const Series& by_right, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
-    const bool is_near = -least_of(-(of_v > of_w ? of_v : of_w)) <= kNearHalfTurnSquare;
+    const bool is_near = -least_of(lesser(-of_v, -of_w)) <= kNearHalfTurnSquare;
     const Rotations a = is_near ? near_exp(v, of_v) : far_exp(v, of_v);
     const Rotations b = is_near ? near_exp(w, of_w) : far_exp(w, of_w);
     const Lanes dot = dot_of_four(a.of, b.of);
-    const Lanes cosine = dot < 0.0f ? -dot : dot;
-    const Shares shares = shares_at(by_left, by_right, (cosine > 1.0f ? splat(1.0f) : cosine) - 1.0f);
-    const Lanes by_b = dot < 0.0f ? -shares.right : shares.right;
+    const Lanes signs = signs_of(dot);
+    const Lanes cosine = dot ^ signs;
+    const Shares shares = shares_at(by_left, by_right, lesser(1.0f, cosine) - 1.0f);
+    const Lanes by_b = shares.right ^ signs;
     Lanes q[4];
     for (std::size_t c = 0; c < 4; ++c) q[c] = shares.left * a.of[c] + by_b * b.of[c];
     Lanes r[4];
@@ -101,9 +102,9 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
     Lanes quads[4];
     transpose(out[0], out[1], out[2], out[3], quads);
 #if BENDY_LANES == 8
-    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k + 4], high(quads[k]));
+    for (std::size_t k = 4; k-- > 0;) store(local + group.places[first + k + 4], high(quads[k]));
 #endif
-    for (std::size_t k = 4; k-- > 0;) store_quad(local + group.places[first + k], low(quads[k]));
+    for (std::size_t k = 4; k-- > 0;) store(local + group.places[first + k], low(quads[k]));
 }
 
 /// Stores rest + value in the joints' translations or scales.

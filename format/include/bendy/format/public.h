@@ -1,16 +1,22 @@
 #pragma once
 
-/// Defined where the sources may use what GCC and clang add to the language: vector types, attributes, built-in
-/// functions. BENDY_STANDARD_CPP does without, as compilers that have none of it must; kernels then are the plain ones.
+/// Defined where the sources may use what GCC and clang add to the language: attributes and built-in functions.
+/// BENDY_STANDARD_CPP does without, as compilers that have none of it must.
 #if defined(__GNUC__) && !defined(BENDY_STANDARD_CPP)
 #define BENDY_GNU
 #endif
 
-/// `inline`, and to GCC and clang, an order: for functions whose call costs as much as their work.
+/// `inline`, and to the compiler, an order: for functions whose call costs as much as their work. And the opposite: for
+/// functions that are seldom called, and would spoil the code around the call.
 #if defined(BENDY_GNU)
 #define BENDY_ALWAYS_INLINE [[gnu::always_inline]] inline
+#define BENDY_NOINLINE [[gnu::noinline]]
+#elif defined(_MSC_VER)
+#define BENDY_ALWAYS_INLINE __forceinline
+#define BENDY_NOINLINE __declspec(noinline)
 #else
 #define BENDY_ALWAYS_INLINE inline
+#define BENDY_NOINLINE
 #endif
 
 /// Marks a namespace block whose declarations the shared libraries export: `namespace BENDY_PUBLIC bendy {`. Nothing
