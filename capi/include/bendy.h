@@ -1186,9 +1186,9 @@ typedef struct bendy_crowd_member { /* one character of a crowd; members must no
 BENDY_API bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_error* error);
 BENDY_API void bendy_crowd_free(bendy_crowd* crowd);              /* does nothing for NULL */
 BENDY_API uint32_t bendy_crowd_workers(const bendy_crowd* crowd); /* 0 for NULL */
-/* Return the number of matrices of all meshes together, mesh after mesh, and the index of a mesh's first one. A skinned
- * mesh has bendy_mesh.bones, as bendy_bone_matrices computes them; a rigid mesh has one, of the joint that moves its
- * first vertex. 0 for NULL, and for a mesh that does not exist. */
+/* Return the number of matrices of all meshes together, and the index of a mesh's first one. A skinned mesh has
+ * bendy_mesh.bones, as bendy_bone_matrices computes them; neighbouring meshes with the same ones share them. A rigid
+ * mesh has one, of the joint that moves its first vertex. 0 for NULL, and for a mesh that does not exist. */
 BENDY_API size_t bendy_crowd_palette_size(const bendy_crowd* crowd);
 BENDY_API size_t bendy_crowd_first_matrix(const bendy_crowd* crowd, uint32_t mesh);
 /* Samples and skins each of `count` members. The output does not depend on how members are split into calls, or on the

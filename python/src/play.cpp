@@ -531,8 +531,9 @@ void bind_crowd(py::module_& module) {
              "for all, or a list of M clips or None, which is the rest pose. seconds: (M,). lod: a Lod; vertices that "
              "it leaves out are zero. Raises KeyError, IndexError, ValueError, RuntimeError.")
         .def("palettes", &palettes_of, py::arg("clips"), py::arg("seconds"),
-             "The skinning matrices of M characters: (M, B, 3, 4) float32, fresh, of all meshes one after another; a "
-             "rigid mesh has one. Raises KeyError, IndexError, ValueError, RuntimeError.")
+             "The skinning matrices of M characters: (M, B, 3, 4) float32, fresh, of all meshes: see first_entry. "
+             "Neighbouring meshes with the same palette share them, and a rigid mesh has one. Raises KeyError, "
+             "IndexError, ValueError, RuntimeError.")
         .def(
             "first_entry",
             [](const PyCrowd& self, const py::object& mesh) {

@@ -148,6 +148,64 @@ TEST(Crowd, PalettesPlaceVerticesAsSkinningDoes) {
     EXPECT_GT(entries, 1u);
 }
 
+/// Meshes of one vertex that follow two joints: the first two and the last with the same bind palette, the others with
+/// the same joints or the same matrices only, and a rigid one in between.
+test::ModelSpec with_equal_palettes() {
+    const glm::mat4 one(1.0f);
+    glm::mat4 two(1.0f);
+    two[3] = {1.0f, 2.0f, 3.0f, 1.0f};
+    test::ModelSpec spec;
+    spec.joints.resize(2);
+    spec.joints[1].parent = 0;
+    spec.joints[1].rest.translation[1] = 8.0f;
+    const auto add = [&](const test::Node& palette) {
+        test::MeshSpec& mesh = spec.meshes.emplace_back();
+        mesh.positions = {{1.0f, 2.0f, 3.0f}};
+        mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(1, {1})),
+                     test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(1, {1.0f})), palette};
+    };
+    add(test::palette_leaf({0, 1}, {one, two}));
+    add(test::palette_leaf({0, 1}, {one, two}));
+    add(test::palette_leaf({0, 1}, {two, one}));
+    add(test::palette_leaf({1, 0}, {two, one}));
+    test::MeshSpec& rigid = spec.meshes.emplace_back();
+    rigid.joint = 1;
+    rigid.positions = {{1.0f, 2.0f, 3.0f}};
+    add(test::palette_leaf({1, 0}, {two, one}));
+    add(test::palette_leaf({0, 1}, {one, two}));
+    return spec;
+}
+
+TEST(Crowd, NeighboursWithTheSameBindPaletteShareTheirMatrices) {
+    const Kernel before = kernel();
+    const test::Owned model(test::build_file(with_equal_palettes()));
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        SCOPED_TRACE(kernel_name(each));
+        Crowd crowd(*model);
+        EXPECT_EQ(crowd.first_entry(0), 0u);
+        EXPECT_EQ(crowd.first_entry(1), 0u);
+        EXPECT_EQ(crowd.first_entry(2), 2u);
+        EXPECT_EQ(crowd.first_entry(3), 4u);
+        EXPECT_EQ(crowd.first_entry(4), 6u);
+        std::vector<PaletteMatrix> palette(crowd.palette_size());
+        CrowdMember member;
+        member.palette = palette;
+        ASSERT_TRUE(crowd.play({&member, 1}));
+        Pose pose(*model);
+        for (std::uint32_t mesh = 0; mesh < model->meshes().size(); ++mesh) {
+            const std::span<const PaletteMatrix> expected = pose.palette(mesh);
+            for (std::size_t entry = 0; entry < expected.size(); ++entry) {
+                EXPECT_EQ(
+                    std::memcmp(&palette[crowd.first_entry(mesh) + entry], &expected[entry], sizeof expected[entry]), 0)
+                    << "mesh " << mesh << ", entry " << entry;
+            }
+        }
+        EXPECT_EQ(palette[crowd.first_entry(4)].rows[1][3], 8.0f);
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
 TEST(Crowd, TheCallerMayPose) {
     const test::Owned model(test::sample_file());
     Crowd crowd(*model);

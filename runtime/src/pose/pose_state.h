@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bendy {
@@ -58,6 +59,8 @@ struct alignas(64) PoseState {
     /// Sets `palette` for a skinned mesh, unless it is set already. Returns whether all numbers are finite. The pose
     /// must not be stale.
     bool make_palette(std::uint32_t mesh);
+    /// Writes the palette of a skinned mesh elsewhere, one matrix for each of its entries. The pose must not be stale.
+    void write_palette(std::uint32_t mesh, std::span<PaletteMatrix> out) const;
     /// Sets `palette` for vertices moved by one joint. Returns whether all numbers are finite. The pose must not be
     /// stale.
     bool make_rigid_palette(std::uint32_t joint);
@@ -76,6 +79,10 @@ struct alignas(64) PoseState {
     bool is_exact = true;             ///< in doubles, so that rounding does not accumulate along deep chains
     bool is_stale = true;             ///< a local transform may have changed since find_model_space
     std::optional<DualMotions> dual;  ///< set once the pose has been skinned by dual quaternions
+
+private:
+    /// Returns whether all numbers are finite.
+    bool compute_palette(std::uint32_t mesh, PaletteMatrix* out) const;
 };
 
 }  // namespace bendy

@@ -64,9 +64,9 @@ public:
         return result;
     }
 
-    /// Number of matrices of all meshes together, mesh after mesh, and the index of a mesh's first one. A skinned mesh
-    /// has one for each entry of its bind palette, in order; a rigid mesh has one, of the joint that moves its first
-    /// vertex.
+    /// Number of matrices of all meshes together, and the index of a mesh's first one. A skinned mesh has one for each
+    /// entry of its bind palette, in order; neighbouring meshes with the same bind palette share them. A rigid mesh has
+    /// one, of the joint that moves its first vertex.
     [[nodiscard]] std::size_t palette_size() const { return first_entry_.back(); }
     [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const { return first_entry_[mesh]; }
 
