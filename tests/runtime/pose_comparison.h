@@ -47,6 +47,7 @@ public:
             compare_samples(angle);
             for (const std::uint32_t tracks : {1u, 3u, 4u, 5u, 8u}) compare_unpacking(angle, tracks);
         }
+        compare_splines();
         return errors_;
     }
 
@@ -179,7 +180,7 @@ private:
         std::vector<VectorTrack> straight{{vectors[0].data(), 4}, {vectors[1].data(), 7}, {vectors[2].data(), 104}};
         for (const float u : {0.0f, 0.125f, 0.7f, 1.0f}) {
             Floats local(10 * kTracks, -9.0f);
-            kernels_.sample({groups.data(), 2, straight.data(), 3, 1, u, local.data()});
+            kernels_.sample({groups.data(), 2, straight.data(), 3, 1, u, 0.0f, local.data()});
             for (std::size_t k = 0; k < kTracks; ++k) {
                 const glm::dquat left = rotation_at(&rotations[k][4]), right = rotation_at(&rotations[k][8]);
                 note_rotation(errors_.sample, &local[10 * k], u == 1.0f ? right : slerp(left, right, u));
@@ -188,6 +189,57 @@ private:
                 for (std::size_t c = 0; c < 3; ++c)
                     note(errors_.sample, local[straight[k].place + c],
                          (1.0 - double{u}) * vectors[k][3 + c] + double{u} * vectors[k][6 + c], 1.0);
+            }
+            note(errors_.sample, local[17], -9.0, 1e-9);  // what has no track
+        }
+    }
+
+    /// Two groups of cubic rotations, and two vectors.
+    void compare_splines() {
+        constexpr std::size_t kTracks = 11, kKeys = 3;
+        constexpr double kSeconds = 0.4;
+        std::vector<Floats> rotations(kTracks), vectors(2);
+        for (Floats& keys : rotations) {
+            glm::quat q = rotation();
+            for (std::size_t key = 0; key < kKeys; ++key) {
+                for (std::size_t c = 0; c < 4; ++c) keys.push_back(number());
+                keys.insert(keys.end(), {q.x, q.y, q.z, q.w});
+                for (std::size_t c = 0; c < 4; ++c) keys.push_back(number());
+                q = glm::normalize(q * glm::angleAxis(number(), glm::normalize(glm::vec3(1, number(), 0.5))));
+            }
+        }
+        for (Floats& keys : vectors) {
+            for (std::size_t k = 0; k < 9 * kKeys; ++k) keys.push_back(number());
+        }
+        std::vector<RotationTracks> groups(2);
+        for (std::size_t k = 0; k < 16; ++k) {
+            const std::size_t track = std::min(k, kTracks - 1);
+            groups[k / 8].keys[k % 8] = rotations[track].data();
+            groups[k / 8].places[k % 8] = static_cast<std::uint32_t>(10 * track);
+        }
+        std::vector<VectorTrack> moved{{vectors[0].data(), 4}, {vectors[1].data(), 107}};
+        for (const float at : {0.125f, 0.5f, 0.9f}) {
+            const double u = at, v = 1.0 - u;
+            // The same curve by Bernstein's polynomials: the tangents end a third of the interval from their keys.
+            const auto spline = [&](const Floats& keys, std::size_t n, std::size_t c) {
+                const float* const left = &keys[3 * n + n];
+                const float* const right = &keys[6 * n + n];
+                const double p0 = left[c], p3 = right[c];
+                const double p1 = p0 + kSeconds / 3.0 * left[n + c];
+                const double p2 = p3 - kSeconds / 3.0 * keys[6 * n + c];
+                return v * v * v * p0 + 3.0 * v * v * u * p1 + 3.0 * v * u * u * p2 + u * u * u * p3;
+            };
+            Floats local(10 * kTracks, -9.0f);
+            kernels_.sample_cubic(
+                {groups.data(), 2, moved.data(), 2, 1, at, static_cast<float>(kSeconds), local.data()});
+            for (std::size_t k = 0; k < kTracks; ++k) {
+                const auto& keys = rotations[k];
+                const glm::dquat q(spline(keys, 4, 3), spline(keys, 4, 0), spline(keys, 4, 1), spline(keys, 4, 2));
+                note_rotation(errors_.sample, &local[10 * k], glm::normalize(q));
+            }
+            for (std::size_t k = 0; k < 2; ++k) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    note(errors_.sample, local[moved[k].place + c], spline(vectors[k], 3, c), 1.0);
             }
             note(errors_.sample, local[17], -9.0, 1e-9);  // what has no track
         }

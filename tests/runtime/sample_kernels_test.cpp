@@ -20,7 +20,7 @@ constexpr std::uint32_t kJoints = 21;  // no multiple of any number of lanes
 constexpr std::uint32_t kKeys = 5;
 
 /// Joints with a track for each property, some on time lines of their own, some of one key, some in fixed frames, some
-/// steps; rotations turn by up to `angle` radians from key to key.
+/// steps, some cubic; rotations turn by up to `angle` radians from key to key.
 test::ModelSpec animated(float angle) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
@@ -37,20 +37,29 @@ test::ModelSpec animated(float angle) {
             TrackRecord track;
             track.target = joint;
             track.path = static_cast<std::uint8_t>(path);
-            track.interpolation = static_cast<std::uint8_t>(joint == 6 ? Interpolation::step : Interpolation::linear);
+            const bool is_cubic = joint % 4 == 2;
+            track.interpolation = static_cast<std::uint8_t>(is_cubic     ? Interpolation::cubic
+                                                            : joint == 7 ? Interpolation::step
+                                                                         : Interpolation::linear);
             track.components = is_rotation ? 4 : 3;
             track.keys = joint == 4 ? 1 : kKeys;
-            track.first_time = joint == 9 ? kNone : (joint % 3 == 0 ? 5 : 0);
+            track.first_time = joint == 9 || joint == 10 ? kNone : (joint % 3 == 0 ? 5 : 0);
             track.first_value = values.size();
             tracks.push_back(track);
             glm::quat q = glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
             for (std::uint32_t key = 0; key < track.keys; ++key) {
-                const float sign = number(random) < 0.0f ? -1.0f : 1.0f;  // a key's sign means nothing
+                const bool is_turned = !is_cubic && number(random) < 0.0f;
+                const float sign = is_turned ? -1.0f : 1.0f;  // a key's sign means nothing, except between tangents
+                const auto add_tangent = [&] {
+                    for (int c = 0; is_cubic && c < track.components; ++c) values.push_back(number(random));
+                };
+                add_tangent();
                 if (is_rotation) {
                     values.insert(values.end(), {sign * q.x, sign * q.y, sign * q.z, sign * q.w});
                 } else {
                     values.insert(values.end(), {number(random), number(random), number(random)});
                 }
+                add_tangent();
                 const glm::vec3 axis(number(random), number(random), number(random));
                 q = glm::normalize(q * glm::angleAxis(angle * number(random), glm::normalize(axis)));
             }

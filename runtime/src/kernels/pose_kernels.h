@@ -13,6 +13,7 @@ struct PoseKernels {
     void (*pose)(const PoseBlock& block);        ///< local_to_model
     bool (*palette)(const PaletteBlock& block);  ///< model * inverse_bind of each entry; returns whether all are finite
     void (*sample)(const SampleBlock& block);    ///< slerp of rotations along the shorter arc; lerp of vectors
+    void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
     /// Each component of a rotation is within 2e-6 of the plain decoder's.
     void (*unpack)(const UnpackBlock& block);
     void (*mix)(const BlendBlock& block);  ///< blends towards the other pose, rotations normalised

@@ -30,6 +30,7 @@ namespace {
 const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
                             pose_with_neon::palette_lanes,
                             pose_with_neon::sample_lanes,
+                            pose_with_neon::sample_cubic_lanes,
                             pose_with_neon::unpack_lanes,
                             pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
                             pose_with_neon::blend_lanes<pose_with_neon::add_joints>};

@@ -4,26 +4,46 @@
 
 /// sin(t a) / sin(a) by Eberly's series, "A Fast and Accurate Algorithm for Computing SLERP", 2011:
 /// t (1 + k1 x (1 + k2 x (...))), x = cos(a) - 1, k_i = (t^2 / i - i) / (2 i + 1).
+constexpr int kFarTerms = 24;  // at right angles each term is half the previous one
+constexpr int kNearTerms = 4;
+constexpr float kNearCosine = 0.9f;
+
+struct SeriesTerms {
+    float of_square[kFarTerms], constant[kFarTerms];
+};
+constexpr SeriesTerms make_series_terms() {
+    SeriesTerms terms{};
+    for (int k = 0; k < kFarTerms; ++k) {
+        const double i = k + 1.0;
+        terms.of_square[k] = static_cast<float>(1.0 / (i * (2.0 * i + 1.0)));
+        terms.constant[k] = static_cast<float>(i / (2.0 * i + 1.0));
+    }
+    return terms;
+}
+constexpr SeriesTerms kSeriesTerms = make_series_terms();
+
+/// The series at one moment.
+template <int terms>
 struct Series {
-    static constexpr int kTerms = 24;  // at right angles each term is half the previous one
-    static constexpr int kNearTerms = 4;
-    static constexpr float kNearCosine = 0.9f;
     float t;
-    float k[kTerms];
+    float k[terms];
 
     explicit Series(float time) : t(time) {
         const float square = time * time;
-        for (int i = 0; i < kTerms; ++i) {
-            const auto number = static_cast<float>(i + 1);
-            k[i] = (square * (1.0f / number) - number) * (1.0f / (2.0f * number + 1.0f));
-        }
+        for (int i = 0; i < terms; ++i) k[i] = square * kSeriesTerms.of_square[i] - kSeriesTerms.constant[i];
     }
-    template <int terms>
     [[nodiscard]] Lanes at(Lanes x) const {
         Lanes sum = 1.0f;
         for (int i = terms; i-- > 0;) sum = 1.0f + (k[i] * x) * sum;
         return t * sum;
     }
+};
+
+/// For the weights of two keys. Most rotations between keys are small: the terms for larger ones are computed when they
+/// are needed.
+struct Moment {
+    Series<kNearTerms> left, right;
+    explicit Moment(float fraction) : left(1.0f - fraction), right(fraction) {}
 };
 
 inline float least_of(Lanes lanes) {
@@ -66,17 +86,17 @@ struct Shares {
 };
 
 template <int terms>
-inline Shares shares_of(const Series& left, const Series& right, Lanes x) {
-    return {left.at<terms>(x), right.at<terms>(x)};
+BENDY_NOINLINE Shares far_shares(const Moment& moment, Lanes x) {
+    return {Series<terms>(moment.left.t).at(x), Series<terms>(moment.right.t).at(x)};
 }
 
-BENDY_NOINLINE Shares far_shares(const Series& left, const Series& right, Lanes x) {
-    return shares_of<Series::kTerms>(left, right, x);
+inline Shares near_shares(const Moment& moment, Lanes x) {
+    return {moment.left.at(x), moment.right.at(x)};
 }
 
 /// Slerp along the shorter arc.
 inline void sample_rotations(const RotationTracks& tracks, std::size_t first, const SampleBlock& block,
-                             const Series& left, const Series& right) {
+                             const Moment& moment) {
     Lanes a[4];
     Lanes b[4];
     load_rotations(tracks.keys + first, 4 * block.left, a);
@@ -85,8 +105,8 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
     const Lanes signs = signs_of(dot);
     const Lanes cosine = dot ^ signs;
     const Lanes x = lesser(1.0f, cosine) - 1.0f;
-    const bool is_near = least_of(cosine) >= Series::kNearCosine;
-    const Shares shares = is_near ? shares_of<Series::kNearTerms>(left, right, x) : far_shares(left, right, x);
+    const bool is_near = least_of(cosine) >= kNearCosine;
+    const Shares shares = is_near ? near_shares(moment, x) : far_shares<kFarTerms>(moment, x);
     Lanes by_b = shares.right ^ signs;
     if (block.fraction == 1.0f) by_b = Lanes(1.0f);  // exactly the key, including its sign
     for (std::size_t c = 0; c < 4; ++c) a[c] = shares.left * a[c] + by_b * b[c];
@@ -94,18 +114,66 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
 }
 
 inline void sample_lanes(const SampleBlock& block) {
-    const Series left(1.0f - block.fraction);
-    const Series right(block.fraction);
+    const Moment moment(block.fraction);
     for (std::size_t group = 0; group < block.rotation_groups; ++group) {
         for (std::size_t first = 0; first < RotationTracks::kMost; first += kLanes)
-            sample_rotations(block.rotations[group], first, block, left, right);
+            sample_rotations(block.rotations[group], first, block, moment);
     }
     for (std::size_t k = 0; k < block.vector_tracks; ++k) {
         const VectorTrack& track = block.vectors[k];
         const float* const keys = track.keys + 3 * block.left;
         const Quad both = load_quad(keys + 2);  // the left key's last number, and the right key
         const Quad moved = shuffle<1, 2, 3, 3>(both, both);
-        store_three_of(block.local + track.place, left.t * load_quad(keys) + right.t * moved);
+        store_three_of(block.local + track.place, moment.left.t * load_quad(keys) + moment.right.t * moved);
+    }
+}
+
+/// What a cubic Hermite spline takes of the left value and out-tangent, and of the right in-tangent and value.
+struct CubicWeights {
+    float left, out, in, right;
+
+    explicit CubicWeights(const SampleBlock& block) {
+        const double u = block.fraction;
+        const double u2 = u * u;
+        const double u3 = u2 * u;
+        left = static_cast<float>(2.0 * u3 - 3.0 * u2 + 1.0);
+        out = static_cast<float>(block.seconds * (u3 - 2.0 * u2 + u));
+        in = static_cast<float>(block.seconds * (u3 - u2));
+        right = static_cast<float>(3.0 * u2 - 2.0 * u3);
+    }
+};
+
+inline void sample_cubic_rotations(const RotationTracks& tracks, std::size_t first, const SampleBlock& block,
+                                   const CubicWeights& weights) {
+    const std::size_t left = 12 * block.left + 4;
+    Lanes q[4];
+    Lanes out[4];
+    Lanes in[4];
+    Lanes right[4];
+    load_rotations(tracks.keys + first, left, q);
+    load_rotations(tracks.keys + first, left + 4, out);
+    load_rotations(tracks.keys + first, left + 8, in);
+    load_rotations(tracks.keys + first, left + 12, right);
+    for (std::size_t c = 0; c < 4; ++c)
+        q[c] = (weights.left * q[c] + weights.out * out[c]) + (weights.in * in[c] + weights.right * right[c]);
+    constexpr float kLeast = 1e-37f, kMost = 1e37f;  // a quaternion of zeros remains one
+    const Lanes scale = 1.0f / roots_of(between(dot_of_four(q, q), kLeast, kMost));
+    for (Lanes& number : q) number = number * scale;
+    store_rotations(q, tracks.places + first, block.local);
+}
+
+inline void sample_cubic_lanes(const SampleBlock& block) {
+    const CubicWeights weights(block);
+    for (std::size_t group = 0; group < block.rotation_groups; ++group) {
+        for (std::size_t first = 0; first < RotationTracks::kMost; first += kLanes)
+            sample_cubic_rotations(block.rotations[group], first, block, weights);
+    }
+    for (std::size_t k = 0; k < block.vector_tracks; ++k) {
+        const VectorTrack& track = block.vectors[k];
+        const float* const left = track.keys + 9 * block.left + 3;
+        store_three_of(block.local + track.place,
+                       (weights.left * load_quad(left) + weights.out * load_quad(left + 3)) +
+                           (weights.in * load_quad(left + 6) + weights.right * load_quad(left + 9)));
     }
 }
 

@@ -65,20 +65,18 @@ inline Lanes half_turn_square(const Lanes* v) {
     return 0.25f * (v[0] * v[0] + (v[1] * v[1] + v[2] * v[2]));
 }
 
-BENDY_NOINLINE Shares middle_shares(const Series& left, const Series& right, Lanes x) {
-    return shares_of<9>(left, right, x);
-}
-
 /// Uses as many terms as the largest angle needs.
-inline Shares shares_at(const Series& left, const Series& right, Lanes x) {
+inline Shares shares_at(const Moment& moment, Lanes x) {
+    constexpr int kMiddleTerms = 9;
+    constexpr float kMiddleCosine = 0.55f;
     const float least = least_of(x);
-    if (least >= 0.9f - 1.0f) return shares_of<4>(left, right, x);
-    return least >= 0.55f - 1.0f ? middle_shares(left, right, x) : far_shares(left, right, x);
+    if (least >= kNearCosine - 1.0f) return near_shares(moment, x);
+    return least >= kMiddleCosine - 1.0f ? far_shares<kMiddleTerms>(moment, x) : far_shares<kFarTerms>(moment, x);
 }
 
 /// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
-                             const Series& by_left, const Series& by_right, float* local) {
+                             const Moment& moment, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
     const bool is_near = -least_of(lesser(-of_v, -of_w)) <= kNearHalfTurnSquare;
@@ -87,7 +85,7 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
     const Lanes dot = dot_of_four(a.of, b.of);
     const Lanes signs = signs_of(dot);
     const Lanes cosine = dot ^ signs;
-    const Shares shares = shares_at(by_left, by_right, lesser(1.0f, cosine) - 1.0f);
+    const Shares shares = shares_at(moment, lesser(1.0f, cosine) - 1.0f);
     const Lanes by_b = shares.right ^ signs;
     Lanes q[4];
     for (std::size_t c = 0; c < 4; ++c) q[c] = shares.left * a.of[c] + by_b * b.of[c];
@@ -126,8 +124,7 @@ inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const La
 
 template <bool is_near_end>
 inline void unpack_groups(const UnpackBlock& block) {
-    const Series by_left(1.0f - block.fraction);
-    const Series by_right(block.fraction);
+    const Moment moment(block.fraction);
     const UnpackWindows* windows = block.windows;
     for (std::size_t number = 0; number < block.group_count; ++number) {
         const UnpackGroup& group = block.groups[number];
@@ -143,7 +140,7 @@ inline void unpack_groups(const UnpackBlock& block) {
                 w[1] = w[2] = w[0];
             }
             if (group.is_rotation) {
-                unpack_rotations(group, first, v, w, by_left, by_right, block.local);
+                unpack_rotations(group, first, v, w, moment, block.local);
             } else {
                 unpack_vectors(group, first, v, w, block.fraction, block.local);
             }

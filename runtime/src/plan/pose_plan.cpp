@@ -112,16 +112,22 @@ bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
 }
 
 bool is_for_kernels(const TrackView& track) {
-    return track.interpolation == Interpolation::linear && track.keys >= 2 && track.path != TrackPath::weights;
+    return track.interpolation != Interpolation::step && track.keys >= 2 && track.path != TrackPath::weights;
 }
 
-void add_rotation(const TrackView& track, SampleLine& line) {
-    const std::size_t lane = line.rotation_tracks++ % RotationTracks::kMost;
-    if (lane == 0) line.rotations.emplace_back();
+void add_rotation(const TrackView& track, SampleGroups& groups) {
+    const std::size_t lane = groups.rotation_tracks++ % RotationTracks::kMost;
+    if (lane == 0) groups.rotations.emplace_back();
     for (std::size_t k = lane; k < RotationTracks::kMost; ++k) {
-        line.rotations.back().keys[k] = track.values.data();
-        line.rotations.back().places[k] = kJointFloats * track.target;
+        groups.rotations.back().keys[k] = track.values.data();
+        groups.rotations.back().places[k] = kJointFloats * track.target;
     }
+}
+
+void add_track(const TrackView& track, SampleGroups& groups) {
+    if (track.path == TrackPath::rotation) return add_rotation(track, groups);
+    const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
+    groups.vectors.push_back({track.values.data(), kJointFloats * track.target + place});
 }
 
 /// Returns the line with a track's times: one of the last few, or a new one.
@@ -143,11 +149,11 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
         SampleLine& line = line_of(track, plan.lines);
         if (!is_for_kernels(track)) {
             line.others.push_back(&track);
-        } else if (track.path == TrackPath::rotation) {
-            add_rotation(track, line);
+        } else if (track.interpolation == Interpolation::cubic) {
+            add_track(track, line.cubic);
+            line.cubic_tracks.push_back(&track);
         } else {
-            const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
-            line.vectors.push_back({track.values.data(), kJointFloats * track.target + place});
+            add_track(track, line.linear);
         }
     }
     return plan;

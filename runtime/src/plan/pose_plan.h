@@ -17,13 +17,20 @@ namespace bendy {
 
 struct Joint;
 
-/// The tracks of a clip that have the same times. Linear ones with two keys or more are grouped for the kernels;
-/// `others` are sampled one by one.
-struct SampleLine {
-    const TrackView* clock = nullptr;  ///< any of the tracks: for its times
+/// Tracks of one interpolation, grouped for the kernels.
+struct SampleGroups {
     std::size_t rotation_tracks = 0;
     std::vector<RotationTracks> rotations;
     std::vector<VectorTrack> vectors;
+};
+
+/// The tracks of a clip that have the same times. Linear and cubic ones with two keys or more are grouped for the
+/// kernels; `others` are sampled one by one.
+struct SampleLine {
+    const TrackView* clock = nullptr;  ///< any of the tracks: for its times
+    SampleGroups linear;
+    SampleGroups cubic;
+    std::vector<const TrackView*> cubic_tracks;  ///< the same, to be sampled one by one at a key
     std::vector<const TrackView*> others;
 };
 

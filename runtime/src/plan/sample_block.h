@@ -15,11 +15,12 @@ struct RotationTracks {
 
 /// A track of translations or scales.
 struct VectorTrack {
-    const float* keys;    ///< three numbers per key
+    const float* keys;    ///< three numbers per key; of a cubic track three times as many, see SampleBlock
     std::uint32_t place;  ///< floats from the first joint's transform
 };
 
-/// Linear tracks between key `left` and the next one; all of them have both keys.
+/// Tracks of one interpolation between key `left` and the next one; all of them have both keys. A key of a cubic track
+/// is an in-tangent, a value and an out-tangent.
 struct SampleBlock {
     const RotationTracks* rotations;
     std::size_t rotation_groups;
@@ -27,6 +28,7 @@ struct SampleBlock {
     std::size_t vector_tracks;
     std::size_t left;
     float fraction;  ///< 0 to 1
+    float seconds;   ///< from `left` to the next key
     float* local;    ///< ten per joint
 };
 

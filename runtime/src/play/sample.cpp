@@ -218,7 +218,7 @@ public:
         if (kernels == nullptr) {
             sample_tracks();
         } else {
-            for (const SampleLine& line : plan.lines) sample_line(line, kernels->sample);
+            for (const SampleLine& line : plan.lines) sample_line(line, *kernels);
         }
         if (clip_.packed) unpack(plan.packed, seconds_, local_);
     }
@@ -249,22 +249,32 @@ private:
         }
     }
 
-    void sample_line(const SampleLine& line, void (*kernel)(const SampleBlock& block)) const {
+    void sample_line(const SampleLine& line, const PoseKernels& kernels) const {
         const Interval at = find_interval(*line.clock, clip_, seconds_);
         for (const TrackView* track : line.others) sample_one(*track, at);
-        if (line.rotations.empty() && line.vectors.empty()) return;
-        SampleBlock block{line.rotations.data(),
-                          line.rotations.size(),
-                          line.vectors.data(),
-                          line.vectors.size(),
-                          at.left,
-                          static_cast<float>(at.fraction),
-                          &local_.front().rotation.x};
+        if (at.left == at.right) {  // tangents have no part in a key
+            for (const TrackView* track : line.cubic_tracks) sample_one(*track, at);
+        } else if (!line.cubic_tracks.empty()) {
+            kernels.sample_cubic(block_of(line.cubic, at));
+        }
+        if (line.linear.rotations.empty() && line.linear.vectors.empty()) return;
+        SampleBlock block = block_of(line.linear, at);
         if (at.left + 1 == line.clock->keys) {  // at the last key: interpolate fully from the one before it
             block.left = at.left - 1;
             block.fraction = 1.0f;
         }
-        kernel(block);
+        kernels.sample(block);
+    }
+
+    [[nodiscard]] SampleBlock block_of(const SampleGroups& groups, const Interval& at) const {
+        return {groups.rotations.data(),
+                groups.rotations.size(),
+                groups.vectors.data(),
+                groups.vectors.size(),
+                at.left,
+                static_cast<float>(at.fraction),
+                static_cast<float>(at.seconds),
+                &local_.front().rotation.x};
     }
 
     void sample_one(const TrackView& track, const Interval& at) const {
