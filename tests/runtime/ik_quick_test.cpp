@@ -46,8 +46,19 @@ ConstraintRecord random_constraint(Dice& dice, ConstraintModel model) {
     return record;
 }
 
+/// A hinge, or a swing about one axis with a range of twist.
+ConstraintRecord random_elbow(Dice& dice, bool is_hinge) {
+    if (is_hinge) return random_constraint(dice, ConstraintModel::hinge);
+    const bool is_ellipse = dice.one_in(2);
+    ConstraintRecord record = random_constraint(
+        dice, is_ellipse ? ConstraintModel::swing_twist_ellipse : ConstraintModel::swing_twist_pyramid);
+    const std::size_t locked = dice.one_in(2) ? 1 : 2;
+    record.rotation_min.at(locked) = record.rotation_max.at(locked) = 0.0f;
+    return record;
+}
+
 /// A root, a chain of two bones below it, and a joint that may be its pole.
-test::ModelSpec arm(Dice& dice, bool is_limited) {
+test::ModelSpec arm(Dice& dice, bool is_limited, bool is_hinge = true) {
     test::ModelSpec spec;
     for (std::uint32_t joint = 0; joint < 5; ++joint) {
         test::JointSpec own;
@@ -65,7 +76,7 @@ test::ModelSpec arm(Dice& dice, bool is_limited) {
                                      ConstraintModel::euler_box, ConstraintModel::largest_angle};
         if (is_limited && joint == 1)
             own.constraints = {random_constraint(dice, kModels[spec.joints.size() + dice.one_in(2)])};
-        if (is_limited && joint == 2) own.constraints = {random_constraint(dice, ConstraintModel::hinge)};
+        if (is_limited && joint == 2) own.constraints = {random_elbow(dice, is_hinge)};
         spec.joints.push_back(own);
     }
     ChainRecord chain;
@@ -95,14 +106,18 @@ struct Count {
 };
 
 /// Random arms and targets, each by both ways.
-Count compare(std::uint32_t chain, bool is_limited) {
+Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
     Count count;
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
         Dice dice(seed);
-        const test::Owned model(test::build_file(arm(dice, is_limited)));
+        const test::Owned model(test::build_file(arm(dice, is_limited, is_hinge)));
         for (int k = 0; k < 10; ++k) {
             Pose quick(*model);
             if (dice.one_in(2)) quick.change_local()[0].rotation = dice.turn(3.0f);
+            if (!is_hinge && dice.one_in(2)) {  // twisted
+                quick.change_local()[2].rotation = quick.local()[2].rotation * dice.turn(1.5f);
+                constrain(quick);
+            }
             const glm::vec3 near(quick.model_space()[2][3]);
             if (dice.one_in(2)) (void)quick.change_local();  // as if it had changed
             Pose general(quick);
@@ -138,6 +153,12 @@ TEST(IkQuick, TwoBonesComeOutAsByTheLongWay) {
 
 TEST(IkQuick, TwoBonesInsideTheirLimitsToo) {
     const Count count = compare(0, true);
+    EXPECT_GT(count.quick, count.all / 20);
+    EXPECT_LT(count.quick, count.all);
+}
+
+TEST(IkQuick, ElbowsThatSwingAboutOneAxisAndTwistToo) {
+    const Count count = compare(0, true, false);
     EXPECT_GT(count.quick, count.all / 20);
     EXPECT_LT(count.quick, count.all);
 }

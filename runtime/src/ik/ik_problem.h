@@ -61,7 +61,8 @@ glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
 /// orientation of its axes. Zero if nothing is preferred.
 glm::dvec3 preferred_side(const Constraint& constraint);
 /// Returns the only axis, in the constraint's frame, about which the joint bends: that of a hinge, or of a swing of
-/// zero width. Zero if there is none.
+/// zero width. Zero if there is none. It is an axis of the rest pose: a hinge does not turn its own, and a swing's is
+/// the same whatever the twist.
 glm::dvec3 only_axis(const Constraint& constraint);
 /// Rotates a placed link by a rotation vector in base space, as far as it is free and legal; returns the actual
 /// rotation. Does not place the following links again.

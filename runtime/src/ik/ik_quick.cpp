@@ -110,9 +110,14 @@ public:
     [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
     /// True if it only restricts which rotations are legal.
     BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
-    /// The hinge's axis in the parent's space, for a unit rotation.
-    [[nodiscard]] glm::dvec3 axis(const glm::dquat& local) const {
-        return turned(local, turned(constraint_->frame, {1.0, 0.0, 0.0}));
+    /// Computes the only axis about which the joint bends, in the parent's space, for a unit rotation; returns false if
+    /// there are others.
+    BENDY_ALWAYS_INLINE bool find_bend_axis(const glm::dquat& local, glm::dvec3& axis) const {
+        const glm::dvec3 only = is_there() ? only_axis(*constraint_) : glm::dvec3(0.0);
+        if (only == glm::dvec3(0.0)) return false;
+        const glm::dquat before = is_hinge() ? local : glm::normalize(glm::dquat(rest_->rotation));
+        axis = turned(before, turned(constraint_->frame, only));
+        return true;
     }
 
     enum class Side : std::uint8_t { inside, edge, outside };
@@ -176,6 +181,7 @@ BENDY_ALWAYS_INLINE float length_in_model(const glm::dmat4& base, const glm::dve
 
 /// How the middle joint bends: the rest of the chain rotates about a unit axis, relative to the start.
 struct Bend {
+    bool is_fixed;      ///< the joint bends about no other axis
     glm::dvec3 bone;    ///< start to middle
     glm::dvec3 axis;    ///< of the rotation
     glm::dvec3 across;  ///< middle to tip: the part that rotates
@@ -205,8 +211,8 @@ BENDY_ALWAYS_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat
     double along = 0.0;
     bend.across = rest;
     bend.along = glm::dvec3(0.0);
-    if (limit.is_hinge()) {
-        bend.axis = limit.axis(local);
+    bend.is_fixed = limit.find_bend_axis(local, bend.axis);
+    if (bend.is_fixed) {
         bend.along = bend.axis * glm::dot(rest, bend.axis);
         bend.across = rest - bend.along;
         along = glm::dot(bend.bone, bend.along);
@@ -236,13 +242,14 @@ BENDY_ALWAYS_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const g
     return 1.0 + turn.cosine > kHalfAround && normalize(after);
 }
 
-/// Bends by the smaller rotation, or a hinge's other one; returns false if the limits leave no side, or no clear one.
+/// Bends by the smaller rotation, or by the other one about a fixed axis; returns false if the limits leave no side, or
+/// no clear one.
 BENDY_ALWAYS_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
     const glm::dquat before = local;
     turn = turn_to(bend, -1.0);
     if (!limit.is_there()) return turn_middle(bend, turn, before, local);
     Turn other = turn;
-    if (limit.is_hinge()) other = turn_to(bend, 1.0);
+    if (bend.is_fixed) other = turn_to(bend, 1.0);
     constexpr double kSame = 1e-6;
     const double gain = other.cosine - turn.cosine;
     if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
@@ -250,7 +257,7 @@ BENDY_ALWAYS_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& be
     const LinkConstraint::Side side = limit.side(local);
     if (side != LinkConstraint::Side::outside) return side == LinkConstraint::Side::inside;
     turn = other;
-    return limit.is_hinge() && turn_middle(bend, turn, before, local) && limit.holds(local);
+    return bend.is_fixed && turn_middle(bend, turn, before, local) && limit.holds(local);
 }
 
 /// Rotates the start by the smallest rotation that brings the tip, at `reached` relative to the start, into the
@@ -305,7 +312,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     } else {
         // From the tip's direction and the knee's side to the target's direction and the pole's side.
         glm::dvec3 from_z = -bend.axis, to_z;
-        if (!find_normal(way, pole, to_z) || (lower_limit.is_hinge() && !find_normal(reached, bend.bone, from_z)))
+        if (!find_normal(way, pole, to_z) || (bend.is_fixed && !find_normal(reached, bend.bone, from_z)))
             return std::nullopt;
         const double unit = 1.0 / std::sqrt(distance);
         const glm::dvec3 from_x = reached * unit, to_x = way * unit;

@@ -32,9 +32,16 @@ std::size_t find_middle(const IkProblem& problem) {
 }
 
 /// Returns the axis about which the middle joint bends, not of unit length.
-glm::dvec3 bend_axis(const IkProblem& problem, const IkLink& middle, const glm::dvec3& u, const glm::dvec3& v) {
-    if (middle.constraint != nullptr && middle.constraint->model == ConstraintModel::hinge)
-        return middle.global * (middle.frame * glm::dvec3(1.0, 0.0, 0.0));
+glm::dvec3 bend_axis(const IkProblem& problem, std::size_t link, const glm::dvec3& u, const glm::dvec3& v) {
+    const IkLink& middle = problem.links[link];
+    if (middle.constraint != nullptr) {
+        // A hinge that is outside its constraint bends about its axis as it is.
+        const bool is_hinge = middle.constraint->model == ConstraintModel::hinge;
+        const glm::dquat before =
+            is_hinge ? middle.global * middle.frame : problem.parent_global(link) * middle.rest_frame;
+        const glm::dvec3 only = only_axis(*middle.constraint);
+        if (only != glm::dvec3(0.0)) return before * only;
+    }
     const double size = length_of(u) * length_of(v);
     glm::dvec3 axis = glm::cross(u, v);
     constexpr double kStraight = 1e-6;
@@ -107,7 +114,7 @@ MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const 
 /// Turns the middle joint so that the distance of the tip from the start is as near as possible to `distance`.
 void bend(IkProblem& problem, std::size_t middle, double distance) {
     IkLink& link = problem.links[middle];
-    const glm::dvec3 axis = bend_axis(problem, link, link.position - problem.origin, problem.tip - link.position);
+    const glm::dvec3 axis = bend_axis(problem, middle, link.position - problem.origin, problem.tip - link.position);
     MiddleTurn best = find_middle_turn(problem, middle, axis, distance);
     if (best.illegality > kSameTurn) {
         // Starts from rest, in the direction in which the constraint allows most.
