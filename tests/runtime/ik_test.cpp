@@ -694,6 +694,46 @@ TEST(Ik, AStraightChainBendsTheWayItPrefers) {
     EXPECT_NEAR(position_of(pose, 1).x, -0.8f, 1e-3f);  // a turn about -Z takes the shin to +X, so the knee goes to -X
 }
 
+TEST(Ik, AStraightChainBendsWhereItsOnlySwingGoesFarther) {
+    // The swing is about Z; both sides would do.
+    for (const double side : {-1.0, 1.0}) {
+        test::ModelSpec spec = rope(2, 0.0);
+        ConstraintRecord elbow = ellipse(30.0, 0.0);
+        elbow.rotation_min[1] = radians(side < 0.0 ? -120.0 : -70.0);
+        elbow.rotation_max[1] = radians(side < 0.0 ? 70.0 : 120.0);
+        spec.joints[1].constraints = {elbow};
+        const Owned model(test::build_file(spec));
+        for (const Solver solver : {Solver::any, Solver::two_bone}) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            const ReachResult result = *reach(pose, model->chain("0"), glm::vec3(0.0f, 1.8f, 0.0f), options);
+            EXPECT_EQ(result.status, ReachStatus::reached);
+            EXPECT_GT(side * pose.local()[1].rotation.z, 0.1);
+            EXPECT_EQ(result.iterations, 1u);
+        }
+    }
+}
+
+TEST(Ik, ATwistedElbowStillBendsInItsPlane) {
+    test::ModelSpec spec = rope(2, 0.0);
+    ConstraintRecord elbow = ellipse(60.0, 0.0);
+    elbow.rotation_max[1] = radians(150.0);
+    spec.joints[1].constraints = {elbow};
+    const Owned model(test::build_file(spec));
+    Pose pose(*model);
+    pose.change_local()[1].rotation = glm::quat(glm::angleAxis(0.7, glm::dvec3(0, 1, 0)));
+    const ReachResult result = *reach(pose, model->chain("0"), glm::vec3(0.9f, 0.9f, 0.3f));
+    EXPECT_EQ(result.status, ReachStatus::reached);
+    EXPECT_EQ(result.iterations, 1u) << "in closed form";
+    const glm::quat q = pose.local()[1].rotation;
+    EXPECT_NEAR(2.0 * std::atan2(q.y, q.w), 0.7, 1e-5) << "the twist stays";
+    const glm::quat bent = q * glm::conjugate(glm::quat(glm::angleAxis(0.7, glm::dvec3(0, 1, 0))));
+    EXPECT_NEAR(bent.x, 0.0, 1e-6);
+    EXPECT_NEAR(bent.y, 0.0, 1e-6);
+    EXPECT_GT(bent.z, 0.1);
+}
+
 TEST(Ik, SoftZoneSlowsTheApproachToALimit) {
     test::ModelSpec hard = rope(2);
     hard.joints[1].constraints = {hinge(-20, 60)};

@@ -58,7 +58,7 @@ export class Crowd extends Handle {
     return this.#members + crowdMemberLayout.size * member;
   }
 
-  /** Returns the index of a mesh's first matrix within a character. A rigid mesh has one matrix. Throws NOT_FOUND. */
+  /** Returns the index of a mesh's first matrix within a character. A rigid mesh has one; neighbours with equal palettes share theirs. Throws NOT_FOUND. */
   firstMatrix(mesh: Key<Mesh>): number {
     return this.runtime.functions.bendy_crowd_first_matrix(this.handle, this.model.meshes.number(mesh));
   }

@@ -77,9 +77,9 @@ std::uint32_t solve_two_bone(IkProblem& problem);
 /// Moves the target of a two-bone problem nearer by its softness: near full reach, where a straight leg would snap, the
 /// tip slows down and approaches the limit asymptotically.
 void soften_target(IkProblem& problem);
-/// Returns which of two equal rotations of a straight chain's hinge is preferred: true for the one against its axis.
-/// The axis's sign in the file carries no meaning. False if it is not a hinge.
-bool hinge_prefers_back(const Constraint* constraint);
+/// Returns which of two equal rotations of a straight chain's joint with only_axis is preferred: true for the one
+/// against the axis, whose sign in the file carries no meaning. False for other joints.
+bool prefers_back(const Constraint* constraint);
 std::uint32_t solve_ccd(IkProblem& problem);
 std::uint32_t solve_fabrik(IkProblem& problem);
 std::uint32_t solve_aim(IkProblem& problem);

@@ -107,7 +107,7 @@ public:
 
     BENDY_ALWAYS_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
-    [[nodiscard]] bool prefers_back() const { return hinge_prefers_back(constraint_); }
+    [[nodiscard]] bool prefers_back() const { return bendy::prefers_back(constraint_); }
     /// True if it only restricts which rotations are legal.
     BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// Computes the only axis about which the joint bends, in the parent's space, for a unit rotation; returns false if

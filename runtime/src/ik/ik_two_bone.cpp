@@ -106,8 +106,8 @@ MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const 
                                                                                 // direction
     const MiddleTurn other{turn(1.0), illegality(problem, middle, turn(1.0))};
     const double excess = one.illegality - other.illegality;
-    const bool is_smaller = std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w
-                                                                            : hinge_prefers_back(link.constraint);
+    const bool is_smaller =
+        std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w : prefers_back(link.constraint);
     return excess > kSameTurn || (excess > -kSameTurn && is_smaller) ? other : one;
 }
 
@@ -194,8 +194,8 @@ glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const 
 
 }  // namespace
 
-bool hinge_prefers_back(const Constraint* constraint) {
-    return constraint != nullptr && constraint->model == ConstraintModel::hinge && preferred_side(*constraint).x < 0.0;
+bool prefers_back(const Constraint* constraint) {
+    return constraint != nullptr && glm::dot(only_axis(*constraint), preferred_side(*constraint)) < 0.0;
 }
 
 void soften_target(IkProblem& problem) {
