@@ -148,6 +148,16 @@ glm::dvec3 only_axis(const Constraint& constraint) {
     }
 }
 
+glm::dvec3 wider_axis(const Constraint& constraint) {
+    const bool has_swing = constraint.model == ConstraintModel::swing_twist_ellipse ||
+                           constraint.model == ConstraintModel::swing_twist_pyramid;
+    if (!has_swing || only_axis(constraint) != glm::dvec3(0.0)) return glm::dvec3(0.0);
+    const LimitShape& shape = constraint.shape;
+    const auto width = [&](std::size_t side) { return shape.swing_low.at(side) + shape.swing_high.at(side); };
+    const glm::dvec3 axis = width(0) >= width(1) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    return glm::dot(axis, preferred_side(constraint)) < 0.0 ? -axis : axis;
+}
+
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector) {
     const glm::dquat axes = link.global * link.frame;
     return axes * (link.freedom * (glm::conjugate(axes) * vector));

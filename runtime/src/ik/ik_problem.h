@@ -64,6 +64,9 @@ glm::dvec3 preferred_side(const Constraint& constraint);
 /// zero width. Zero if there is none. It is an axis of the rest pose: a hinge does not turn its own, and a swing's is
 /// the same whatever the twist.
 glm::dvec3 only_axis(const Constraint& constraint);
+/// Returns the axis of the swing that reaches farther, towards the preferred side. Zero if there is only one axis, or
+/// no swing.
+glm::dvec3 wider_axis(const Constraint& constraint);
 /// Rotates a placed link by a rotation vector in base space, as far as it is free and legal; returns the actual
 /// rotation. Does not place the following links again.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);

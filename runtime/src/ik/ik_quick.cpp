@@ -120,6 +120,13 @@ public:
         return true;
     }
 
+    /// Computes the axis of the wider swing in the parent's space; returns false if there are not two swings.
+    [[nodiscard]] bool find_wider_axis(glm::dvec3& axis) const {
+        const glm::dvec3 wider = is_there() ? wider_axis(*constraint_) : glm::dvec3(0.0);
+        axis = turned(glm::normalize(glm::dquat(rest_->rotation)), turned(constraint_->frame, wider));
+        return wider != glm::dvec3(0.0);
+    }
+
     enum class Side : std::uint8_t { inside, edge, outside };
     /// Returns on which side of the limits a unit rotation is; the edge is what rounding could put on either side.
     BENDY_ALWAYS_INLINE Side side(const glm::dquat& local) const {
@@ -203,15 +210,14 @@ BENDY_ALWAYS_INLINE Turn turn_to(const Bend& bend, double side) {
             (bend.c * bend.wanted - side * bend.b * bend.opening) * share};
 }
 
-/// Returns false if the chain is straight or cannot have the length `distance` (squared).
-BENDY_ALWAYS_INLINE bool find_bend(const LinkConstraint& limit, const glm::dquat& local, const glm::dvec3& rest,
-                                   double distance, Bend& bend) {
+/// Completes a bend whose `bone`, `is_fixed` and, if it is fixed, `axis` are set. Returns false if the chain is
+/// straight or cannot have the length `distance` (squared).
+BENDY_ALWAYS_INLINE bool find_bend(const glm::dvec3& rest, double distance, Bend& bend) {
     const double sizes = squared(bend.bone) * squared(rest);
     constexpr double kStraight = 1e-8;
     double along = 0.0;
     bend.across = rest;
     bend.along = glm::dvec3(0.0);
-    bend.is_fixed = limit.find_bend_axis(local, bend.axis);
     if (bend.is_fixed) {
         bend.along = bend.axis * glm::dot(rest, bend.axis);
         bend.across = rest - bend.along;
@@ -242,22 +248,23 @@ BENDY_ALWAYS_INLINE bool turn_middle(const Bend& bend, const Turn& turn, const g
     return 1.0 + turn.cosine > kHalfAround && normalize(after);
 }
 
-/// Bends by the smaller rotation, or by the other one about a fixed axis; returns false if the limits leave no side, or
-/// no clear one.
-BENDY_ALWAYS_INLINE bool bend_middle(const LinkConstraint& limit, const Bend& bend, glm::dquat& local, Turn& turn) {
-    const glm::dquat before = local;
+/// Bends by the smaller rotation, or by the other one about a fixed axis, and returns on which side of the limits that
+/// is; the edge if no rotation is clear.
+BENDY_ALWAYS_INLINE LinkConstraint::Side bend_middle(const LinkConstraint& limit, const Bend& bend,
+                                                     const glm::dquat& before, glm::dquat& local, Turn& turn) {
+    using Side = LinkConstraint::Side;
     turn = turn_to(bend, -1.0);
-    if (!limit.is_there()) return turn_middle(bend, turn, before, local);
+    if (!limit.is_there()) return turn_middle(bend, turn, before, local) ? Side::inside : Side::edge;
     Turn other = turn;
     if (bend.is_fixed) other = turn_to(bend, 1.0);
     constexpr double kSame = 1e-6;
     const double gain = other.cosine - turn.cosine;
     if (std::abs(gain) > kSame ? gain > 0.0 : limit.prefers_back()) std::swap(turn, other);
-    if (!turn_middle(bend, turn, before, local)) return false;
-    const LinkConstraint::Side side = limit.side(local);
-    if (side != LinkConstraint::Side::outside) return side == LinkConstraint::Side::inside;
+    if (!turn_middle(bend, turn, before, local)) return Side::edge;
+    const Side side = limit.side(local);
+    if (side != Side::outside || !bend.is_fixed) return side;
     turn = other;
-    return bend.is_fixed && turn_middle(bend, turn, before, local) && limit.holds(local);
+    return turn_middle(bend, turn, before, local) ? limit.side(local) : Side::edge;
 }
 
 /// Rotates the start by the smallest rotation that brings the tip, at `reached` relative to the start, into the
@@ -300,9 +307,19 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     bend.bone = glm::dvec3(local[start].scale) * glm::dvec3(local[middle].translation);
     const glm::dvec3 rest =
         turned(lower, mean_scale(local[start]) * glm::dvec3(local[middle].scale) * glm::dvec3(local[tip].translation));
+    bend.is_fixed = lower_limit.find_bend_axis(lower, bend.axis);
+    const glm::dquat before = lower;
+    const auto bend_there = [&](Turn& turn) {
+        return find_bend(rest, distance, bend) ? bend_middle(lower_limit, bend, before, lower, turn)
+                                               : LinkConstraint::Side::edge;
+    };
     Turn turn{};
-    if (!find_bend(lower_limit, lower, rest, distance, bend) || !bend_middle(lower_limit, bend, lower, turn))
-        return std::nullopt;
+    LinkConstraint::Side side = bend_there(turn);
+    if (side == LinkConstraint::Side::outside && lower_limit.find_wider_axis(bend.axis)) {
+        bend.is_fixed = true;
+        side = bend_there(turn);
+    }
+    if (side != LinkConstraint::Side::inside) return std::nullopt;
     const glm::dvec3 reached =
         bend.bone + bend.along + bend.across * turn.cosine + glm::cross(bend.axis, bend.across) * turn.sine;
 

@@ -117,6 +117,12 @@ void bend(IkProblem& problem, std::size_t middle, double distance) {
     const glm::dvec3 axis = bend_axis(problem, middle, link.position - problem.origin, problem.tip - link.position);
     MiddleTurn best = find_middle_turn(problem, middle, axis, distance);
     if (best.illegality > kSameTurn) {
+        // The plane of the bones may be one in which the joint can hardly bend.
+        const glm::dvec3 wider = problem.parent_global(middle) * (link.rest_frame * wider_axis(*link.constraint));
+        const MiddleTurn legal = find_middle_turn(problem, middle, wider, distance);
+        if (wider != glm::dvec3(0.0) && legal.illegality <= kSameTurn) best = legal;
+    }
+    if (best.illegality > kSameTurn) {
         // Starts from rest, in the direction in which the constraint allows most.
         const glm::dquat before = link.local;
         link.local = legal_local(link, glm::normalize(link.rest_frame * glm::conjugate(link.frame)));
