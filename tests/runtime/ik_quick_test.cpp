@@ -210,6 +210,11 @@ TEST(IkQuick, WhatAsksForMoreGoesTheLongWay) {
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].tip_offset = {0.0f, 0.1f, 0.0f}; }));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.chains[0].pole_angle = kNaN; }));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) { spec.joints[2].rest.scale = {1.0f, 2.0f, 1.0f}; }));
+    const auto scale_unevenly = [](test::ModelSpec& spec) { spec.joints[2].rest.scale = {1.0f, 1.000005f, 1.0f}; };
+    EXPECT_TRUE(is_quick(plain, {}, scale_unevenly)) << "a twentieth of the default tolerance";
+    ReachOptions exact;
+    exact.tolerance = 1e-3f;
+    EXPECT_FALSE(is_quick(plain, exact, scale_unevenly));
     EXPECT_FALSE(is_quick(plain, {}, [](test::ModelSpec& spec) {
         ChainWeightRecord chain_weight;
         chain_weight.weight = 0.5f;

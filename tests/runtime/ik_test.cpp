@@ -715,6 +715,21 @@ TEST(Ik, AStraightChainBendsWhereItsOnlySwingGoesFarther) {
     }
 }
 
+TEST(Ik, ScalesThatClipsRoundCostLessThanTheTolerance) {
+    test::ModelSpec spec = rope(4, 20.0);
+    for (test::JointSpec& joint : spec.joints) joint.rest.scale = {1.0f, 1.000009f, 0.999995f};
+    const Owned model(test::build_file(spec));
+    for (const Solver solver : kArriving) {
+        Pose pose(*model);
+        ReachOptions options;
+        options.solver = solver;
+        const glm::vec3 target(1.5f, 1.0f, -1.0f);
+        EXPECT_EQ(reach(pose, model->chain("0"), target, options)->status, ReachStatus::reached);
+        EXPECT_LT(glm::distance(position_of(pose, 4), target),
+                  1.2e-4f * 4.0f);  // lengths: one in ten thousand, and rounding
+    }
+}
+
 TEST(Ik, ATwistedElbowStillBendsInItsPlane) {
     test::ModelSpec spec = rope(2, 0.0);
     ConstraintRecord elbow = ellipse(60.0, 0.0);

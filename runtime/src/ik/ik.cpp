@@ -215,11 +215,11 @@ private:
                 glm::dvec3(shear.y, shear.z, transform.scale.z)};
     }
 
-    static bool is_uneven(const JointTransform& transform, const glm::vec3& shear) {
-        constexpr float kSame = 1e-6f;
+    [[nodiscard]] bool is_uneven(const JointTransform& transform, const glm::vec3& shear) const {
+        const float same = same_scale(chain_, options_);
         const glm::vec3& s = transform.scale;
-        return shear != glm::vec3(0.0f) || std::abs(s.x - s.y) > kSame * std::abs(s.x) ||
-               std::abs(s.x - s.z) > kSame * std::abs(s.x) || s.x < 0.0f;
+        return shear != glm::vec3(0.0f) || std::abs(s.x - s.y) > same * std::abs(s.x) ||
+               std::abs(s.x - s.z) > same * std::abs(s.x) || s.x < 0.0f;
     }
 
     static double mean_scale(const glm::vec3& scale) {

@@ -56,6 +56,13 @@ glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
 /// Returns a rotation vector in base space, scaled by the link's freedom about each of its axes.
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
+/// Returns how far the scales of a joint's axes may differ, as a share of them, and still count as one: what clips hold
+/// after rounding. The bones below are then off by a tenth of the default tolerance at most; if a tolerance is given,
+/// by a millionth of their length.
+inline float same_scale(const Chain& chain, const ReachOptions& options) {
+    constexpr float kRounded = 1e-5f, kExact = 1e-6f;
+    return options.tolerance > 0.0f || chain.record.tolerance > 0.0f ? kExact : kRounded;
+}
 /// Returns the direction in which a joint prefers to turn or, if none is given, the side to which its constraint lets
 /// it turn farther, as a rotation vector about the frame's axes: mirrored for a mirrored joint, whatever the
 /// orientation of its axes. Zero if nothing is preferred.

@@ -68,12 +68,10 @@ BENDY_ALWAYS_INLINE bool read_rotation(const JointTransform& joint, glm::dquat& 
     return std::abs(off) < kMost;
 }
 
-/// Whether all axes have one scale, to within what rounding leaves in files (1.00000012), and there is no shear. What
-/// turns with the bones below it is then off by a millionth at most.
-BENDY_ALWAYS_INLINE bool is_even(const JointTransform& transform, const Joint& joint) {
-    constexpr float kSame = 1e-6f;
+/// Whether all axes have one scale, to within `same` of it, and there is no shear.
+BENDY_ALWAYS_INLINE bool is_even(const JointTransform& transform, const Joint& joint, float same) {
     const glm::vec3& s = transform.scale;
-    return s.x > 0.0f && std::abs(s.x - s.y) <= kSame * s.x && std::abs(s.x - s.z) <= kSame * s.x &&
+    return s.x > 0.0f && std::abs(s.x - s.y) <= same * s.x && std::abs(s.x - s.z) <= same * s.x &&
            joint.shear == glm::vec3(0.0f);
 }
 
@@ -287,7 +285,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     const std::uint32_t middle = joints[tip].parent;
     const std::uint32_t start = chain.start;
     glm::dquat upper, lower, end;
-    const bool is_plain = is_even(local[start], joints[start]) && is_even(local[middle], joints[middle]) &&
+    const float same = same_scale(chain, options);
+    const bool is_plain = is_even(local[start], joints[start], same) && is_even(local[middle], joints[middle], same) &&
                           read_rotation(local[start], upper) && read_rotation(local[middle], lower) &&
                           read_rotation(local[tip], end);
     if (!is_plain) return std::nullopt;
