@@ -126,6 +126,40 @@ TEST_F(CCrowd, MembersAreSkinnedLikePoses) {
     EXPECT_EQ(palette, expected);
 }
 
+/// Three skinned meshes, the first two with the same bind palette.
+Buffer equal_palettes_file() {
+    glm::mat4 bind(1.0f);
+    bind[3] = {1.0f, 2.0f, 3.0f, 1.0f};
+    ModelSpec spec;
+    spec.joints.resize(1);
+    for (const glm::mat4& matrix : {bind, bind, glm::mat4(1.0f)}) {
+        MeshSpec& mesh = spec.meshes.emplace_back();
+        mesh.positions = {{1.0f, 2.0f, 3.0f}};
+        mesh.more = {make_leaf(FourCC("BONE"), stream_payload<std::uint8_t>(1, {0})),
+                     make_leaf(FourCC("WGHT"), stream_payload<float>(1, {1.0f})), palette_leaf({0}, {matrix})};
+    }
+    return build_file(spec);
+}
+
+TEST_F(CCrowd, EqualPalettesAreWrittenOnce) {
+    const ModelHandle model = open_copy(equal_palettes_file());
+    const CrowdHandle crowd(bendy_crowd_new(model.get(), 1, &error_));
+    ASSERT_EQ(bendy_crowd_palette_size(crowd.get()), 2u);
+    EXPECT_EQ(bendy_crowd_first_matrix(crowd.get(), 1), 0u);
+    EXPECT_EQ(bendy_crowd_first_matrix(crowd.get(), 2), 1u);
+    std::array<float, 48> palette{};
+    palette.back() = -7.0f;
+    bendy_crowd_member member = BENDY_CROWD_MEMBER_INIT;
+    member.palette = palette.data();
+    ASSERT_EQ(bendy_crowd_play(crowd.get(), &member, 1, 0, &error_), BENDY_OK) << error_.message;
+    const PoseHandle pose = new_pose(model);
+    std::array<float, 48> expected{};
+    expected.back() = -7.0f;
+    ASSERT_EQ(bendy_bone_matrices(pose.get(), 1, expected.data(), 1, &error_), BENDY_OK);
+    ASSERT_EQ(bendy_bone_matrices(pose.get(), 2, &expected[16], 1, &error_), BENDY_OK);
+    EXPECT_EQ(palette, expected) << "and nothing beyond two matrices";
+}
+
 void pose_member(void* user, std::size_t member, bendy_pose* pose) {
     const float seconds = static_cast<const float*>(user)[member];
     EXPECT_EQ(bendy_sample(pose, 0, seconds, nullptr), BENDY_OK);
