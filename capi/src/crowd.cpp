@@ -53,26 +53,6 @@ bendy_status take_member(const Character& character, const bendy_crowd_member* f
     return take_buffer(values.vertices, model.vertex_count(), taken.member.out, error);
 }
 
-void write_palette(const Crowd& crowd, Pose& pose, float* out) {
-    const Model& model = crowd.model();
-    const std::span<const Mesh> meshes = model.meshes();
-    std::size_t written = 0;
-    const auto write = [&](const auto& matrix) {
-        put_matrix(matrix, out);
-        out += kMatrixNumbers;
-        ++written;
-    };
-    for (std::uint32_t number = 0; number < meshes.size(); ++number) {
-        if (crowd.first_entry(number) < written) continue;  // a palette of an earlier mesh
-        if (meshes[number].is_rigid()) {
-            const std::uint32_t joint = meshes[number].vertices == 0 ? kNone : model.rigid_mover(number, 0);
-            write(joint == kNone ? glm::mat4(1.0f) : pose.model_space()[joint]);
-        } else {
-            for (const PaletteMatrix& matrix : pose.palette(number)) write(matrix);
-        }
-    }
-}
-
 /// Plays the members; set_pose(number, member, pose) sets the pose of each.
 template <class SetPose>
 bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::size_t count, std::uint32_t worker,
@@ -94,11 +74,14 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
         if (const bendy_status status =
                 take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
             return status;
+        const std::span<PaletteMatrix> palette = crowd->palettes[worker];
+        if (request.palette != nullptr) request.member.palette = palette;
         const auto played = crowd->crowd.play({&request.member, 1}, worker, [&](const CrowdMember& member, Pose& pose) {
             set_pose(number, member, pose);
-            if (request.palette != nullptr) write_palette(crowd->crowd, pose, request.palette);
         });
         if (!played) return from_call(played, error);
+        if (request.palette == nullptr) continue;
+        for (std::size_t k = 0; k < palette.size(); ++k) put_matrix(palette[k], request.palette + k * kMatrixNumbers);
     }
     return BENDY_OK;
 }

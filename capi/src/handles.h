@@ -9,6 +9,7 @@
 #include <bendy/runtime/crowd.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/model.h>
+#include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/root_motion.h>
@@ -134,8 +135,11 @@ struct bendy_binding {
 
 struct bendy_crowd {
     bendy_crowd(std::shared_ptr<const bendy::capi::Character> of, std::size_t workers)
-        : character(std::move(of)), crowd(character->model, workers) {}
+        : character(std::move(of)),
+          crowd(character->model, workers),
+          palettes(crowd.workers(), std::vector<bendy::PaletteMatrix>(crowd.palette_size())) {}
 
     std::shared_ptr<const bendy::capi::Character> character;
     bendy::Crowd crowd;
+    std::vector<std::vector<bendy::PaletteMatrix>> palettes;  ///< per worker, of the member that it plays
 };
