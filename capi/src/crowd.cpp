@@ -7,9 +7,12 @@
 
 #include <bendy/runtime/sample.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 
 namespace bendy::capi {
 namespace {
