@@ -67,6 +67,8 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
     if (const bendy_status status = check_out(members, "members", error)) return status;
     if (members->size % alignof(bendy_crowd_member) != 0)
         return fail(error, BENDY_BAD_ARGUMENT, "members: their size is not that of a struct in an array");
+    const std::size_t palette_size = crowd->crowd.palette_size();
+    const std::span<PaletteMatrix> palette = std::span(crowd->palettes).subspan(worker * palette_size, palette_size);
     Request request;
     for (std::size_t number = 0; number < count; ++number) {  // all checks come before the first write
         if (const bendy_status status =
@@ -77,7 +79,6 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
         if (const bendy_status status =
                 take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
             return status;
-        const std::span<PaletteMatrix> palette = crowd->palettes[worker];
         if (request.palette != nullptr) request.member.palette = palette;
         const auto played = crowd->crowd.play({&request.member, 1}, worker, [&](const CrowdMember& member, Pose& pose) {
             set_pose(number, member, pose);
