@@ -149,6 +149,7 @@ def check_files(runner, folder, bendy, corpus):
     else:
         print("no corpus: the examples only")
     runner.run("round trips", tests / "check_round_trip.py", bendy.program, out, *files)
+    runner.run("the block of README.md", tests / "check_readme.py", bendy.program, runner.source / "README.md", folder)
     (folder / "errors").mkdir()
     runner.run("import errors", tests / "check_import_errors.py", bendy.program, files[0], runner.source / "examples" / "tentacle.glb",
                folder / "errors")
