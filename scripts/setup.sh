@@ -67,6 +67,7 @@ if [ "${1:-build}" = test ]; then
     done
     need /usr/include/pybind11/pybind11.h pybind11-dev
     compgen -G '/usr/include/python3*/Python.h' >/dev/null || missing+=(python3-dev)
+    need patchelf patchelf
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need /usr/include/tbb/parallel_for.h libtbb-dev
