@@ -73,7 +73,7 @@ std::vector<Clip> clips_of(const char* path) {
     auto scene = converter::import_gltf(path, {}, report);
     std::vector<Clip> clips;
     if (!scene) return clips;
-    converter::pack_clips(*scene, 1e-4, {}, converter::Probes::shell);
+    converter::pack_clips(*scene, std::vector(scene->clips.size(), 1e-4), {.probes = converter::Probes::shell});
     std::vector<JointTransform> rest;
     for (const converter::Joint& joint : scene->joints) {
         const converter::Transform& at = joint.rest;

@@ -84,17 +84,16 @@ int main(int argc, char** argv) {
                 std::fprintf(stderr, "%s: %s\n", argv[a], scene.error().message.c_str());
                 return 1;
             }
-            auto before = std::chrono::steady_clock::now();
-            std::size_t number = 0;
             std::vector<double> seconds;
-            const auto reports = pack_clips(
-                *scene, error / unit,
-                [&](double) {
-                    const auto now = std::chrono::steady_clock::now();
-                    seconds.push_back(std::chrono::duration<double>(now - before).count());
-                    before = now;
-                },
-                probes);
+            std::vector<PackedReport> reports;
+            for (std::size_t number = 0; number < scene->clips.size(); ++number) {  // one at a time, to time each
+                std::vector<double> bounds(scene->clips.size(), 0.0);
+                bounds[number] = error / unit;
+                const auto before = std::chrono::steady_clock::now();
+                reports.push_back(pack_clips(*scene, bounds, {.probes = probes})[number]);
+                seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
+            }
+            std::size_t number = 0;
             for (const PackedReport& row : reports) {
                 std::printf("%-14s %7llu %8llu %8llu %8.5f %9ld %4ld/%ld %7.2f%s\n", row.name.c_str(),
                             static_cast<unsigned long long>(row.source_bytes),

@@ -220,7 +220,8 @@ void add_convert(CLI::App& program) {
                         "have in it; beside each input if not given");
     command
         ->add_option("-j,--jobs", arguments->jobs,
-                     "with several inputs, how many to convert at a time; one per processor if not given")
+                     "with several inputs, how many to convert at a time; with one and --compact, how many threads "
+                     "work on it, which changes no byte; one per processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
                       "overwrite outputs that bendy did not write (with -o FILE that is always allowed); with several "

@@ -4,8 +4,10 @@
 
 #include <bendy/runtime.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <thread>
 
 namespace bendy::cli {
 namespace {
@@ -97,7 +99,12 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
     options.lod = arguments.lod;
     options.sort_vertices = arguments.sort_vertices;
+    options.threads = jobs_of(arguments);
     return options;
+}
+
+unsigned jobs_of(const ConvertArguments& arguments) {
+    return std::max(arguments.jobs != 0 ? arguments.jobs : std::thread::hardware_concurrency(), 1u);
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {

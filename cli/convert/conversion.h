@@ -32,13 +32,17 @@ struct ConvertArguments {
     std::string max_error;
     bool lod = false;
     bool sort_vertices = false;
-    unsigned jobs = 0;  ///< files at a time; 0: one for each processor
+    unsigned jobs = 0;  ///< files at a time, or threads for one file; 0: one for each processor
     bool force = false;
     bool json = false;
     bool quiet = false;
 };
 
+/// Of one file that is converted alone: with as many threads as there are jobs.
 converter::ConvertOptions options_of(const ConvertArguments& arguments);
+
+/// As asked for, or as many as there are processors; 1 at least.
+unsigned jobs_of(const ConvertArguments& arguments);
 
 /// All that decides which bytes come out, with the program's version, as one line of text.
 std::string recipe_of(const ConvertArguments& arguments);

@@ -121,8 +121,10 @@ public:
         totals_.failed += plan_.unread.size();
         skip_what_is_up_to_date();
         show_bar();
-        const std::size_t wanted = arguments_.jobs != 0 ? arguments_.jobs : std::thread::hardware_concurrency();
-        start_workers(std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(to_do_.size(), 1)));
+        const std::size_t jobs = jobs_of(arguments_);
+        const std::size_t files = std::max<std::size_t>(to_do_.size(), 1);
+        threads_per_file_ = static_cast<unsigned>(std::max<std::size_t>(jobs / files, 1));
+        start_workers(std::min(jobs, files));
         wait();
         for (std::thread& worker : workers_) worker.join();
         write_record();
@@ -197,6 +199,7 @@ private:
         if (is_foreign(file)) return Failure{file.output, "is there, and bendy did not write it: --force replaces it"};
         converter::ConvertOptions options = options_of(arguments_);
         options.output = file.output;
+        options.threads = threads_per_file_;
         options.progress = [&share = shares_[number]](double done) {
             share.done.store(static_cast<float>(done), std::memory_order_relaxed);
         };
@@ -357,6 +360,7 @@ private:
     std::vector<double> sizes_;  // of its inputs, bytes and a bit
     std::vector<Share> shares_;
     std::vector<std::thread> workers_;
+    unsigned threads_per_file_ = 1;
     std::atomic<std::size_t> next_{0};
     std::shared_mutex writing_;  // shared while an output is written
 

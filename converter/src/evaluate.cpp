@@ -3,6 +3,8 @@
 #include "frame_shapes.h"
 #include "space.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -26,9 +28,9 @@ void scale_to(double length, double* numbers, std::size_t count) {
     for (std::size_t c = 0; c < count; ++c) numbers[c] *= length / present;
 }
 
-/// Great-arc interpolation without trigonometry: the arc is halved towards the place until it is so short that the
-/// chord's fraction is the arc's to 1e-14. Lengths next to 1 are interpolated too.
+/// Great-arc interpolation. Lengths next to 1 are interpolated too.
 Quaternion slerp(Quaternion a, Quaternion b, double u) {
+    if (a == b) return a;
     const double length = (1.0 - u) * length_of(a.data(), 4) + u * length_of(b.data(), 4);
     double dot = 0.0;
     for (std::size_t c = 0; c < 4; ++c) dot += a[c] * b[c];
@@ -37,17 +39,24 @@ Quaternion slerp(Quaternion a, Quaternion b, double u) {
     }
     scale_to(1.0, a.data(), 4);
     scale_to(1.0, b.data(), 4);
-    constexpr int kHalvings = 16;
-    for (int step = 0; step < kHalvings; ++step) {
-        Quaternion middle{};
-        for (std::size_t c = 0; c < 4; ++c) middle[c] = a[c] + b[c];
-        scale_to(1.0, middle.data(), 4);
-        const bool in_first_half = u < 0.5;
-        (in_first_half ? b : a) = middle;
-        u = in_first_half ? 2.0 * u : 2.0 * u - 1.0;
+    Quaternion sum{};
+    Quaternion difference{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        sum[c] = a[c] + b[c];
+        difference[c] = b[c] - a[c];
+    }
+    const double cosine = length_of(sum.data(), 4);       // twice that of half the angle between them
+    const double sine = length_of(difference.data(), 4);  // twice the sine
+    double of_a = 1.0 - u;
+    double of_b = u;
+    constexpr double kShort = 1e-8;  // the arc is its chord
+    if (sine > kShort) {
+        const trig::SinCos part = trig::sin_cos(u * 2.0 * trig::atan2(sine, cosine));
+        of_b = part.sin / (0.5 * sine * cosine);
+        of_a = part.cos - 0.25 * (cosine * cosine - sine * sine) * of_b;
     }
     Quaternion result{};
-    for (std::size_t c = 0; c < 4; ++c) result[c] = (1.0 - u) * a[c] + u * b[c];
+    for (std::size_t c = 0; c < 4; ++c) result[c] = of_a * a[c] + of_b * b[c];
     scale_to(length, result.data(), 4);
     return result;
 }

@@ -11,8 +11,9 @@
 
 namespace bendy::converter {
 
-// What a Scene looks like at a time, in double precision and by glTF's rules alone: it shares no code with the runtime,
-// so that each can be held against the other. No function of libm but the square root: the same everywhere.
+// What a Scene looks like at a time, in double precision and by glTF's rules alone: it shares no code with the runtime
+// but trig.h, so that each can be compared with the other. No function of libm but the square root: the same
+// everywhere.
 
 struct EvaluatedPose {
     std::vector<glm::dmat4> joints;                  ///< joint to model space

@@ -2,6 +2,7 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "in_parallel.h"
 #include "space.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +12,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace bendy::converter {
 namespace {
@@ -29,17 +33,31 @@ struct Displacement {
     glm::dvec3 by{0.0};
 };
 
+/// Marks the entries of its palette that a mesh's vertices use.
+void mark_used(const Mesh& mesh, std::vector<bool>& used) {
+    used.resize(mesh.palette.joints.size());
+    for (std::size_t at = 0; at < mesh.weights.size(); ++at) {
+        if (mesh.weights[at] != 0.0f) used[mesh.bones[at]] = true;
+    }
+}
+
 /// A mesh made ready to be posed many times. A rigid one is one with a single bone.
 class PosableMesh {
 public:
-    explicit PosableMesh(const Mesh& mesh)
+    /// \param used  entries of the palette, see mark_used: the others are left out
+    PosableMesh(const Mesh& mesh, const std::vector<bool>& used)
         : base_(mesh.positions.begin(), mesh.positions.end()), positions_(base_), weights_(mesh.targets.size(), 0.0) {
+        std::vector<std::uint32_t> place(used.size(), kNone);  // of each entry among those that are used
         if (mesh.influences == 0) {
             joints_ = {mesh.joint};
             inverse_bind_ = {glm::dmat4(1.0)};
         } else {
-            joints_ = mesh.palette.joints;
-            inverse_bind_.assign(mesh.palette.inverse_bind.begin(), mesh.palette.inverse_bind.end());
+            for (std::size_t entry = 0; entry < used.size(); ++entry) {
+                if (!used[entry]) continue;
+                place[entry] = static_cast<std::uint32_t>(joints_.size());
+                joints_.push_back(mesh.palette.joints[entry]);
+                inverse_bind_.emplace_back(mesh.palette.inverse_bind[entry]);
+            }
         }
         first_.reserve(base_.size() + 1);
         first_.push_back(0);
@@ -47,7 +65,7 @@ public:
             if (mesh.influences == 0) influences_.push_back({0, 1.0});
             for (std::size_t k = 0; k < mesh.influences; ++k) {
                 const std::size_t at = vertex * mesh.influences + k;
-                if (mesh.weights[at] != 0.0f) influences_.push_back({mesh.bones[at], mesh.weights[at]});
+                if (mesh.weights[at] != 0.0f) influences_.push_back({place[mesh.bones[at]], mesh.weights[at]});
             }
             first_.push_back(influences_.size());
         }
@@ -66,7 +84,14 @@ public:
         bool has_changed = false;
         for (std::size_t entry = 0; entry < joints_.size(); ++entry) {
             const std::uint32_t joint = joints_[entry];
-            const Affine matrix(joint == kNone ? inverse_bind_[entry] : joints[joint] * inverse_bind_[entry]);
+            const glm::dmat4& bind = inverse_bind_[entry];
+            Affine matrix(bind);
+            if (joint != kNone) {
+                const Affine place(joints[joint]);
+                for (int c = 0; c < 3; ++c)
+                    matrix.linear[c] = place.linear * matrix.linear[c] + bind[c].w * place.origin;
+                matrix.origin = place.linear * matrix.origin + bind[3].w * place.origin;
+            }
             has_changed = has_changed || !(matrix == matrices_[entry]);
             matrices_[entry] = matrix;
         }
@@ -139,6 +164,11 @@ double stretch_of(const glm::dmat3& m) {
     return std::sqrt(largest);
 }
 
+/// The length of all its numbers: at least the largest factor, too.
+double length_of_all(const glm::dmat3& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
 /// A mesh in both scenes. With P and Q the bones' matrices, p and p' the places, w and w' the weights of the exact and
 /// of the decoded one, a vertex is displaced by
 ///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q p - c) + sum (w - w') c + sum w' Q (p - p')
@@ -146,7 +176,7 @@ double stretch_of(const glm::dmat3& m) {
 class MeshPair {
 public:
     MeshPair(const Mesh& exact, const Mesh& decoded, const std::vector<std::uint32_t>* map)
-        : exact_(exact), decoded_(decoded), map_(map) {
+        : exact_(exact, used_entries(exact, decoded)), decoded_(decoded, used_entries(decoded, exact)), map_(map) {
         touched_.resize(exact_.size());
         std::vector<bool> touched_there(decoded_.size());
         exact_.mark_touched(touched_);
@@ -155,6 +185,7 @@ public:
             const std::uint32_t there = place_in_decoded(vertex);
             if (there != kNone && touched_there[there]) touched_[vertex] = true;
         }
+        find_groups();
         has_bounds_ = exact_.joints() == decoded_.joints();
         if (has_bounds_) prepare_bounds();
     }
@@ -172,19 +203,33 @@ public:
             if (!is_displaced && bound(worst_case_, largest_difference_) <= worst.metres) return false;
         }
         bool has_risen = false;
-        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
-            const std::uint32_t there = place_in_decoded(vertex);
-            if (there == kNone) continue;
-            if (has_bounds_ && !(is_displaced && touched_[vertex]) && bound_of(vertex) <= worst.metres) continue;
-            const double error = glm::distance(exact_.place(vertex), decoded_.place(there));
-            if (error <= worst.metres) continue;
+        const auto look_at = [&](std::uint32_t vertex) {
+            const double error = glm::distance(exact_.place(vertex), decoded_.place(place_in_decoded(vertex)));
+            if (error <= worst.metres) return;
             worst.metres = or_infinite(error);
             worst.mesh = mesh;
-            worst.vertex = static_cast<std::uint32_t>(vertex);
+            worst.vertex = vertex;
             has_risen = true;
+        };
+        for (const Group& group : groups_) {
+            const bool has_bounds = has_bounds_ && !(is_displaced && group.is_touched);
+            double bone_difference = 0.0;
+            if (has_bounds) {
+                for (const std::uint32_t entry : group.entries) {
+                    const BoneDifference& d = bone_differences_[entry];
+                    raise(bone_difference, glm::length(d.matrix(group.middle)) + d.length * group.radius);
+                }
+                if (bound(group.worst_case, bone_difference) <= worst.metres) continue;
+            }
+            for (const std::uint32_t vertex : group.vertices) {
+                if (!has_bounds || !(bound(differences_[vertex], bone_difference) <= worst.metres)) look_at(vertex);
+            }
         }
         return has_risen;
     }
+
+    /// The next pose is measured even if it is that of the last call.
+    void forget_pose() { is_measured_ = false; }
 
     [[nodiscard]] bool can_be_compared() const {
         if (map_ == nullptr) return exact_.size() == decoded_.size();
@@ -194,6 +239,14 @@ public:
     }
 
 private:
+    /// Of a mesh's palette: those that it uses, or the other one with the same palette.
+    static std::vector<bool> used_entries(const Mesh& mesh, const Mesh& other) {
+        std::vector<bool> used;
+        mark_used(mesh, used);
+        if (other.palette.joints == mesh.palette.joints) mark_used(other, used);
+        return used;
+    }
+
     /// How far a vertex's data in the two scenes are apart.
     struct Difference {
         double place = 0.0;          // metres, in mesh space
@@ -203,10 +256,78 @@ private:
         double decoded_total = 0.0;  // sum of w'
     };
 
+    static void raise(Difference& most, const Difference& d) {
+        raise(most.place, d.place);
+        raise(most.weights, d.weights);
+        raise(most.weight_sum, d.weight_sum);
+        raise(most.exact_total, d.exact_total);
+        raise(most.decoded_total, d.decoded_total);
+    }
+    static void raise(double& most, double value) { converter::raise(most, value); }
+
+    /// A few vertices that lie together and that the same bones move in the exact scene.
+    struct Group {
+        std::vector<std::uint32_t> entries;   // of the palette, ascending
+        std::vector<std::uint32_t> vertices;  // that are compared
+        glm::dvec3 middle{0.0};               // in mesh space
+        double radius = 0.0;
+        Difference worst_case;
+        bool is_touched = false;  // by targets
+    };
+    /// Of a bone, in this pose: exact minus decoded.
+    struct BoneDifference {
+        Affine matrix;
+        double length = 0.0;  // of all numbers of the linear part
+    };
+
     [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
         if (map_ != nullptr)
             return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
         return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
+    }
+
+    void find_groups() {
+        std::map<std::pair<bool, std::vector<std::uint32_t>>, std::vector<std::uint32_t>> groups;
+        for (std::uint32_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            if (place_in_decoded(vertex) == kNone) continue;
+            std::vector<std::uint32_t> entries;
+            for (const Influence& influence : exact_.influences(vertex)) entries.push_back(influence.entry);
+            std::sort(entries.begin(), entries.end());
+            groups[{touched_[vertex], std::move(entries)}].push_back(vertex);
+        }
+        for (auto& [key, vertices] : groups) add_groups(key.second, vertices, key.first);
+    }
+
+    /// Halves the vertices across their longest side, until few are left that lie together.
+    void add_groups(const std::vector<std::uint32_t>& entries, std::span<std::uint32_t> all, bool is_touched) {
+        constexpr std::size_t kMost = 16;
+        std::vector<std::span<std::uint32_t>> open{all};
+        while (!open.empty()) {
+            const std::span<std::uint32_t> vertices = open.back();
+            open.pop_back();
+            Box<glm::dvec3> box;
+            for (const std::uint32_t vertex : vertices) box.add(exact_.base(vertex));
+            const glm::dvec3 size = box.high - box.low;
+            const int larger = size.y > size.x ? 1 : 0;
+            const int axis = size.z > size[larger] ? 2 : larger;
+            if (vertices.size() <= kMost || !(size[axis] > 0.0)) {
+                groups_.push_back({entries,
+                                   {vertices.begin(), vertices.end()},
+                                   0.5 * (box.low + box.high),
+                                   0.5 * glm::length(size),
+                                   {},
+                                   is_touched});
+                continue;
+            }
+            const std::size_t half = vertices.size() / 2;
+            std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(half), vertices.end(),
+                             [&](std::uint32_t a, std::uint32_t b) {
+                                 return std::pair(or_infinite(exact_.base(a)[axis]), a) <
+                                        std::pair(or_infinite(exact_.base(b)[axis]), b);
+                             });
+            open.push_back(vertices.subspan(half));
+            open.push_back(vertices.first(half));
+        }
     }
 
     void prepare_bounds() {
@@ -235,11 +356,10 @@ private:
                 }
             }
             d.weight_sum = std::abs(d.exact_total - d.decoded_total);
-            raise(worst_case_.place, d.place);
-            raise(worst_case_.weights, d.weights);
-            raise(worst_case_.weight_sum, d.weight_sum);
-            raise(worst_case_.exact_total, d.exact_total);
-            raise(worst_case_.decoded_total, d.decoded_total);
+            raise(worst_case_, d);
+        }
+        for (Group& group : groups_) {
+            for (const std::uint32_t vertex : group.vertices) raise(group.worst_case, differences_[vertex]);
         }
         bone_differences_.resize(boxes_.size());
     }
@@ -250,39 +370,34 @@ private:
         largest_difference_ = 0.0;
         spread_ = 0.0;
         centre_ = glm::dvec3(0.0);
+        centre_distance_ = 0.0;
         const auto first =
             std::find_if(boxes_.begin(), boxes_.end(), [](const Box<glm::dvec3>& box) { return !box.is_empty(); });
         if (first == boxes_.end()) return;
         centre_ =
             decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())]((first->low + first->high) * 0.5);
+        centre_distance_ = glm::length(centre_);
         for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
             if (boxes_[bone].is_empty()) continue;
             const Affine& p = exact_.matrices()[bone];
             const Affine& q = decoded_.matrices()[bone];
-            raise(stretch_, stretch_of(q.linear));
-            double largest = 0.0;
-            // Distances are convex: over a box they are largest at a corner.
-            for (const glm::dvec3& corner : boxes_[bone].corners()) {
-                const glm::dvec3 there = q(corner);
-                raise(largest, glm::distance(p(corner), there));
-                raise(spread_, glm::distance(there, centre_));
-            }
-            bone_differences_[bone] = largest;
-            raise(largest_difference_, largest);
+            const double stretched = stretch_of(q.linear);
+            raise(stretch_, stretched);
+            // No point of a box is farther off than its middle and what the matrix adds on the way to a corner.
+            const glm::dvec3 middle = 0.5 * (boxes_[bone].low + boxes_[bone].high);
+            const double radius = 0.5 * glm::distance(boxes_[bone].low, boxes_[bone].high);
+            raise(spread_, glm::distance(q(middle), centre_) + stretched * radius);
+            BoneDifference& d = bone_differences_[bone];
+            d.matrix = {p.linear - q.linear, p.origin - q.origin};
+            d.length = length_of_all(d.matrix.linear);
+            raise(largest_difference_, glm::length(d.matrix(middle)) + d.length * radius);
         }
     }
 
     [[nodiscard]] double bound(const Difference& d, double bone_difference) const {
         constexpr double kRounding = 1.0 + 1e-9;
         return kRounding * (d.exact_total * bone_difference + d.decoded_total * stretch_ * d.place +
-                            d.weights * spread_ + d.weight_sum * glm::length(centre_));
-    }
-
-    [[nodiscard]] double bound_of(std::size_t vertex) const {
-        double bone_difference = 0.0;
-        for (const Influence& influence : exact_.influences(vertex))
-            raise(bone_difference, bone_differences_[influence.entry]);
-        return bound(differences_[vertex], bone_difference);
+                            d.weights * spread_ + d.weight_sum * centre_distance_);
     }
 
     PosableMesh exact_, decoded_;
@@ -290,14 +405,16 @@ private:
     std::vector<bool> touched_;  // by a target of either scene
     bool is_measured_ = false;
     bool has_bounds_ = false;
+    std::vector<Group> groups_;
     std::vector<Difference> differences_;
     Difference worst_case_;
     std::vector<Box<glm::dvec3>> boxes_;  // of each bone: the vertices that it moves, in mesh space
-    std::vector<double> bone_differences_;
+    std::vector<BoneDifference> bone_differences_;
     double largest_difference_ = 0.0;
     double stretch_ = 0.0;
     double spread_ = 0.0;  // metres from the centre, of what the bones move
     glm::dvec3 centre_{0.0};
+    double centre_distance_ = 0.0;  // from the origin
 };
 
 /// Joints that no vertex hangs on.
@@ -382,6 +499,10 @@ public:
     }
 
     [[nodiscard]] const MeasuredError& worst() const { return worst_; }
+    void start_anew() {
+        worst_ = {};
+        for (MeshPair& pair : pairs_) pair.forget_pose();
+    }
 
 private:
     void measure(std::uint32_t clip, double seconds) {
@@ -418,43 +539,61 @@ private:
 
 }  // namespace
 
-MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps,
-                            const std::function<void(double)>& progress) {
-    MeasuredError impossible;
-    impossible.metres = kInfinity;
+std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decoded, std::span<const std::uint32_t> clips,
+                                         const MeasureOptions& options) {
+    std::vector<MeasuredError> errors(clips.size() + 1);
+    const auto impossible = [&] {
+        for (MeasuredError& error : errors) error.metres = kInfinity;
+        return errors;
+    };
     if (exact.joints.size() != decoded.joints.size() || exact.meshes.size() != decoded.meshes.size() ||
         exact.clips.size() != decoded.clips.size())
-        return impossible;
+        return impossible();
     for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
-        if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible;
+        if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible();
     }
-    Comparison comparison(exact, decoded, vertex_maps);
-    if (!comparison.is_possible()) return impossible;
+    const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, std::max<std::size_t>(clips.size(), 1));
+    Comparison comparison(exact, decoded, options.vertex_maps);
+    if (!comparison.is_possible()) return impossible();
     comparison.measure_rest();
+    errors.back() = comparison.worst();
 
     std::vector<std::vector<double>> times;
     std::size_t total = 0;
-    for (std::size_t clip = 0; clip < exact.clips.size(); ++clip) {
+    for (const std::uint32_t clip : clips) {
         times.push_back(sample_times(exact.clips[clip], decoded.clips[clip]));
         total += times.back().size();
     }
-    std::size_t done = 0;
-    std::size_t told = 0;
-    // Far apart first: what is found early spares the work of what is less.
-    constexpr std::size_t kCoarse = 64;
-    for (const bool is_coarse : {true, false}) {
-        for (std::uint32_t clip = 0; clip < times.size(); ++clip) {
-            for (std::size_t k = 0; k < times[clip].size(); ++k) {
-                if ((k % kCoarse == 0) != is_coarse) continue;
-                comparison.measure_at(clip, times[clip][k]);
-                ++done;
-                if (!progress || done * 100 / total == told) continue;
-                told = done * 100 / total;
-                progress(static_cast<double>(done) / static_cast<double>(total));
+    SharedProgress progress(options.progress, static_cast<double>(total));
+    std::vector<Comparison> workers(threads, comparison);
+    in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {
+        Comparison& own = workers[worker];
+        own.start_anew();
+        constexpr std::size_t kCoarse = 64;
+        std::size_t done = 0;
+        for (const bool is_coarse :
+             {true, false}) {  // far apart first: what is found early spares the work of what is less
+            for (std::size_t t = 0; t < times[k].size(); ++t) {
+                if ((t % kCoarse == 0) != is_coarse) continue;
+                own.measure_at(clips[k], times[k][t]);
+                if (++done % kCoarse == 0) progress.add(kCoarse);
             }
         }
+        progress.add(static_cast<double>(done % kCoarse));
+        errors[k] = own.worst();
+    });
+    return errors;
+}
+
+MeasuredError measure_error(const Scene& exact, const Scene& decoded, const MeasureOptions& options) {
+    std::vector<std::uint32_t> clips(exact.clips.size());
+    std::iota(clips.begin(), clips.end(), 0u);
+    const std::vector<MeasuredError> errors = measure_clips(exact, decoded, clips, options);
+    MeasuredError worst = errors.back();
+    for (const MeasuredError& error : errors) {
+        if (error.metres > worst.metres) worst = error;
     }
-    return comparison.worst();
+    return worst;
 }
 
 std::string quoted_name(std::string_view name, std::uint32_t number) {

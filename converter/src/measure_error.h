@@ -2,6 +2,7 @@
 
 #include <bendy/converter/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -25,14 +26,22 @@ struct MeasuredError {
 /// or an empty one: the same places.
 using VertexMaps = std::span<const std::vector<std::uint32_t>>;
 
+struct MeasureOptions {
+    VertexMaps vertex_maps{};
+    std::function<void(double)> progress{};  ///< is told the part that is done, 0 to 1; may be empty
+    std::size_t threads = 1;                 ///< at most; the result does not depend on it
+};
+
 /// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every clip:
 /// at 240 times a second, and at all key times of both scenes. Clips longer than 7 minutes are sampled as often as
 /// ones of that length. Nothing is left out for speed: a vertex is passed over only where a bound on its displacement
 /// (docs/decisions/0013) shows that it cannot be the worst.
-/// \param decoded   joints, meshes and clips as the exact scene numbers them
-/// \param progress  is told the part that is done, 0 to 1; may be empty
-MeasuredError measure_error(const Scene& exact, const Scene& decoded, VertexMaps vertex_maps = {},
-                            const std::function<void(double)>& progress = {});
+/// \param decoded  joints, meshes and clips as the exact scene numbers them
+MeasuredError measure_error(const Scene& exact, const Scene& decoded, const MeasureOptions& options = {});
+
+/// The same of some clips, by their numbers: the worst error of each, and as a last one that of the rest pose.
+std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decoded, std::span<const std::uint32_t> clips,
+                                         const MeasureOptions& options = {});
 
 /// `"Hips"`, or `#3` of what has no name.
 std::string quoted_name(std::string_view name, std::uint32_t number);

@@ -18,8 +18,10 @@
 #include <bendy/runtime/lod.h>
 #include <bendy/text_form/text_form.h>
 
+#include <algorithm>
 #include <exception>
 #include <span>
+#include <thread>
 #include <utility>
 
 // convert, validate, inspect, edit, diff, dump and export.
@@ -59,7 +61,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
                          bool embed_images, bool instances, const std::optional<std::filesystem::path>& rig,
                          double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
                          const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
-                         bool sort_vertices, const py::object& progress) {
+                         bool sort_vertices, unsigned jobs, const py::object& progress) {
     converter::ConvertOptions options;
     options.output = output;
     options.gltf.scene = scene;
@@ -73,6 +75,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
     options.skeleton = skeleton;
     options.lod = lod;
     options.sort_vertices = sort_vertices;
+    options.threads = std::max(jobs != 0 ? jobs : std::thread::hardware_concurrency(), 1u);
     if (max_error) {
         const auto bound = max_error->empty() ? converter::ErrorBound() : converter::parse_error_bound(*max_error);
         if (!bound) throw py::value_error("compact: " + bound.error());
@@ -382,7 +385,7 @@ void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
                py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("ticks_per_second"),
                py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"), py::arg("skeleton"),
-               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("progress"),
+               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("jobs"), py::arg("progress"),
                "See bendy.convert.");
     module.def(
         "format_named_by", [](const std::filesystem::path& file) { return text(cli::format_named_by(file)); },

@@ -115,7 +115,7 @@ TEST(MeasureError, VerticesMayBeInOtherPlaces) {
     Scene decoded = exact;
     decoded.meshes[0].positions = {{0, 2, 0}, {0, 0.125f, 0}};
     const std::vector<std::vector<std::uint32_t>> maps{{1, kNone, 0}};
-    const MeasuredError error = measure_error(exact, decoded, maps);
+    const MeasuredError error = measure_error(exact, decoded, {.vertex_maps = maps});
     EXPECT_EQ(error.metres, 0.125);
     EXPECT_EQ(error.vertex, 0u);
 }
@@ -146,7 +146,7 @@ TEST(MeasureError, ScenesThatCannotBeComparedAreInfinitelyWrong) {
     decoded.meshes[0].positions[0].x = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(measure_error(exact, decoded).metres, infinity);
     const std::vector<std::vector<std::uint32_t>> maps{{0, 1, 3}};
-    EXPECT_EQ(measure_error(exact, exact, maps).metres, infinity);
+    EXPECT_EQ(measure_error(exact, exact, {.vertex_maps = maps}).metres, infinity);
 }
 
 /// Changes everything a little, as an encoder would.
@@ -188,7 +188,7 @@ TEST(MeasureError, TheBoundsPassOverNoWorstVertex) {
 TEST(MeasureError, ProgressEndsAtOne) {
     const Scene scene = test::random_scene(3);
     std::vector<double> told;
-    measure_error(scene, scene, {}, [&](double part) { told.push_back(part); });
+    measure_error(scene, scene, {.progress = [&](double part) { told.push_back(part); }});
     ASSERT_FALSE(told.empty());
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 1.0);

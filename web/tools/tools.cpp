@@ -148,6 +148,7 @@ Json run_convert(const Json& request, Made& made) {
         if (!bound) refuse("compact: " + bound.error());
     }
     converter::ConvertOptions options = cli::options_of(arguments);
+    options.threads = 1;  // the module has no others
     if (request.value("progress", false)) options.progress = bendy_tell_progress;
     const Path file = text_of(request, "file");
     converter::Report report;

@@ -19,7 +19,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -115,29 +117,27 @@ namespace {
 constexpr double kGeometryShare = 0.35;
 constexpr double kClipShare = 0.9;
 
-/// One attempt: the bytes, and how far they are from the scene.
-struct Attempt {
-    std::vector<std::byte> bytes;
-    MeasuredError error;
-};
-
 /// Part of a longer work.
 std::function<void(double)> part_of(const std::function<void(double)>& progress, double from, double to) {
     if (!progress) return {};
     return [=](double done) { progress(from + done * (to - from)); };
 }
 
-MeasuredError measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
-                      const std::function<void(double)>& progress) {
+/// What measure_clips finds in the file's bytes; infinite if they cannot be read.
+std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
+                                   std::span<const std::uint32_t> clips, MeasureOptions options) {
     Report unheard;
     const auto decoded = import_bendy(bytes, unheard);
-    MeasuredError unknown;
-    unknown.metres = std::numeric_limits<double>::infinity();
-    if (!decoded) return unknown;
+    if (!decoded) {
+        std::vector<MeasuredError> unknown(clips.size() + 1);
+        for (MeasuredError& error : unknown) error.metres = std::numeric_limits<double>::infinity();
+        return unknown;
+    }
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
-    return measure_error(exact, *decoded, maps, progress);
+    options.vertex_maps = maps;
+    return measure_clips(exact, *decoded, clips, options);
 }
 
 /// A file with BNDS after VERS, where build_chunks puts it: what it says is known only when the file has been measured.
@@ -171,13 +171,14 @@ void count_curves(const Scene& scene, CompactReport& report) {
 
 }  // namespace
 
-std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound, std::string_view generator,
-                                     Report& report, const std::function<void(double)>& progress) {
+std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& options, std::string_view generator,
+                                     Report& report) {
+    const auto& [bound, progress, threads] = options;
     constexpr int kAttempts = 6;            // the last leaves the clips as they are
     constexpr double kPackingShare = 0.6;   // of an attempt
     constexpr double kAttemptShare = 0.75;  // of what is left of the work
-    constexpr double kOvershoot = 1.1;      // of what is taken off the clips, for what is too much
-    constexpr double kLeast = 0.2;          // of their share, from one attempt to the next
+    constexpr double kOvershoot = 1.1;      // of what is taken off a clip, for what is too much
+    constexpr double kLeast = 0.2;          // of its share, from one attempt to the next
     constexpr double kStep =
         0.02;  // taken off at least, twice as much at each attempt: small changes may change nothing
 
@@ -197,42 +198,59 @@ std::vector<std::byte> build_compact(const Scene& exact, const ErrorBound& bound
     const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
         compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
-    double clip_share = kClipShare;
-    Attempt attempt;
+
+    const std::size_t clips = exact.clips.size();
+    Scene scene = geometry_scene;
+    std::vector<double> shares(clips, kClipShare);  // of the bound, for each clip
+    std::vector<MeasuredError> errors(clips + 1);   // of each clip, and at rest
+    std::vector<std::uint32_t> to_pack(clips);      // numbers of clips that are not within the bound yet
+    std::iota(to_pack.begin(), to_pack.end(), 0u);
+    std::vector<std::byte> bytes;
     double done = geometry_done;
     for (int number = 0; number < kAttempts; ++number) {
         // The first is mostly the last: what is told never falls, and leaves some room for others.
         const double attempt_done = done + kAttemptShare * (1.0 - done);
         const double packing_done = done + kPackingShare * (attempt_done - done);
-        Scene scene = geometry_scene;
-        if (number + 1 < kAttempts)
-            pack_clips(scene, result.max_error * clip_share, part_of(progress, done, packing_done));
-        BuildOptions options;
-        options.compact = true;
-        options.geometry = &geometry;
-        attempt.bytes = build_chunks(scene, generator, unheard, options);
-        attempt.error = measure(exact, geometry, attempt.bytes, part_of(progress, packing_done, attempt_done));
-        done = attempt_done;
-        if (attempt.error.metres <= result.max_error) {
-            attempt.bytes = with_bound(attempt.bytes,
-                                       {static_cast<float>(result.max_error), static_cast<float>(attempt.error.metres),
-                                        static_cast<float>(result.height)});
-            break;
+        std::vector<double> bounds(clips, 0.0);
+        for (const std::uint32_t clip : to_pack) {
+            scene.clips[clip] = geometry_scene.clips[clip];
+            if (number + 1 < kAttempts) bounds[clip] = result.max_error * shares[clip];
         }
-        const double excess = attempt.error.metres / result.max_error - 1.0;
-        const double less = std::max(kOvershoot * excess, kStep * (1 << number));
-        clip_share = std::max(clip_share - less, kLeast * clip_share);
+        pack_clips(scene, bounds, {.progress = part_of(progress, done, packing_done), .threads = threads});
+        BuildOptions how;
+        how.compact = true;
+        how.geometry = &geometry;
+        bytes = build_chunks(scene, generator, unheard, how);
+        const std::vector<MeasuredError> found =
+            measure(exact, geometry, bytes, to_pack,
+                    {.progress = part_of(progress, packing_done, attempt_done), .threads = threads});
+        done = attempt_done;
+        for (std::size_t k = 0; k < to_pack.size(); ++k) errors[to_pack[k]] = found[k];
+        errors.back() = found.back();
+        std::erase_if(to_pack, [&](std::uint32_t clip) { return errors[clip].metres <= result.max_error; });
+        if (to_pack.empty() || !(errors.back().metres <= result.max_error)) break;
+        for (const std::uint32_t clip : to_pack) {
+            const double excess = errors[clip].metres / result.max_error - 1.0;
+            const double less = std::max(kOvershoot * excess, kStep * (1 << number));
+            shares[clip] = std::max(shares[clip] - less, kLeast * shares[clip]);
+        }
     }
-    if (!(attempt.error.metres <= result.max_error)) {
+    MeasuredError worst = errors.back();
+    for (const MeasuredError& error : errors) {
+        if (error.metres > worst.metres) worst = error;
+    }
+    if (!(worst.metres <= result.max_error)) {
         report.warn("cannot be kept inside the error that was asked for: written exactly");
         return plain;
     }
-    result.measured_error = attempt.error.metres;
-    result.place = place_of(exact, attempt.error);
-    result.compact = count_bytes(attempt.bytes);
+    bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),
+                               static_cast<float>(result.height)});
+    result.measured_error = worst.metres;
+    result.place = place_of(exact, worst);
+    result.compact = count_bytes(bytes);
     count_curves(exact, result);
     report.compact = std::move(result);
-    return attempt.bytes;
+    return bytes;
 }
 
 }  // namespace bendy::converter

@@ -205,40 +205,66 @@ private:
 
 }  // namespace
 
-WorstError measure_packed(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
-                          const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes, double enough) {
+SourceMotion::SourceMotion(const Scene& scene, const Clip& clip) : scene_(scene), clip_(clip), times_(times_of(clip)) {
+    for (const Joint& joint : scene.joints) rest_.push_back(local_of(joint.rest));
+    constexpr std::size_t kMostBytes = std::size_t{1} << 26U;  // of poses that are kept
+    const std::size_t joints = scene.joints.size();
+    has_all_ = times_.size() <= kMostBytes / (sizeof(Affine) * std::max<std::size_t>(joints, 1));
+    poses_.resize(joints * (has_all_ ? times_.size() : 1));
+    if (!has_all_) return;
+    for (std::size_t k = 0; k < times_.size(); ++k)
+        evaluate_at(times_[k], std::span(poses_).subspan(k * joints, joints));
+}
+
+std::span<const Affine> SourceMotion::pose(std::size_t k) {
+    const std::size_t joints = rest_.size();
+    if (has_all_) return std::span(poses_).subspan(k * joints, joints);
+    evaluate_at(times_[k], poses_);
+    return poses_;
+}
+
+void SourceMotion::evaluate_at(float seconds, std::span<Affine> out) {
+    locals_ = rest_;
+    for (const Track& track : clip_.tracks) {
+        if (track.path == TrackPath::weights) continue;
+        evaluate_track(track, seconds, value_);
+        set_property(track.path, value_, locals_[track.target]);
+    }
+    for (std::size_t j = 0; j < out.size(); ++j) {
+        const Joint& joint = scene_.joints[j];
+        const Affine at = to_affine(locals_[j], joint.rest.shear);
+        out[j] = joint.parent == kNone ? at : out[joint.parent] * at;
+    }
+}
+
+WorstError measure_packed(SourceMotion& source, const std::vector<bool>& is_replaced, const PackedView& packed,
+                          const std::vector<std::vector<glm::dvec3>>& probes, double enough) {
+    const Scene& scene = source.scene();
     const std::size_t joints = scene.joints.size();
     std::vector<Local> rest;
     for (const Joint& joint : scene.joints) rest.push_back(local_of(joint.rest));
-    std::vector<Local> right(joints);
     std::vector<Local> found(joints);
-    std::vector<Affine> right_pose(joints);
-    std::vector<Affine> found_pose(joints);
+    std::vector<Affine> pose(joints);
     PackedPlayer player(scene, packed);
     WorstError worst;
     std::vector<double> value;
-    for (const float time : times_of(source)) {
-        right = rest;
+    for (std::size_t k = 0; k < source.times().size(); ++k) {
+        const float time = source.times()[k];
+        const std::span<const Affine> right = source.pose(k);
         found = rest;
-        for (std::size_t k = 0; k < source.tracks.size(); ++k) {
-            const Track& track = source.tracks[k];
-            if (track.path == TrackPath::weights) continue;
+        for (std::size_t t = 0; t < is_replaced.size(); ++t) {
+            const Track& track = source.clip().tracks[t];
+            if (is_replaced[t] || track.path == TrackPath::weights) continue;
             evaluate_track(track, time, value);
-            set_property(track.path, value, right[track.target]);
-            if (!is_replaced[k]) set_property(track.path, value, found[track.target]);
+            set_property(track.path, value, found[track.target]);
         }
         player.set(time, found);
         for (std::size_t j = 0; j < joints; ++j) {
-            const std::uint32_t parent = scene.joints[j].parent;
-            const glm::vec3& shear = scene.joints[j].rest.shear;
-            right_pose[j] = to_affine(right[j], shear);
-            found_pose[j] = to_affine(found[j], shear);
-            if (parent != kNone) {
-                right_pose[j] = right_pose[parent] * right_pose[j];
-                found_pose[j] = found_pose[parent] * found_pose[j];
-            }
-            const glm::dmat3 linear = right_pose[j].linear - found_pose[j].linear;
-            const glm::dvec3 origin = right_pose[j].origin - found_pose[j].origin;
+            const Joint& joint = scene.joints[j];
+            pose[j] = to_affine(found[j], joint.rest.shear);
+            if (joint.parent != kNone) pose[j] = pose[joint.parent] * pose[j];
+            const glm::dmat3 linear = right[j].linear - pose[j].linear;
+            const glm::dvec3 origin = right[j].origin - pose[j].origin;
             for (const glm::dvec3& probe : probes[j]) {
                 const double error = glm::length(linear * probe + origin);
                 if (error > worst.metres || std::isnan(error))

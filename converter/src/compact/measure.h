@@ -5,7 +5,9 @@
 #include <bendy/converter/scene.h>
 #include <bendy/format/packed_clip.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace bendy::converter {
@@ -27,13 +29,36 @@ struct WorstError {
     double seconds = 0.0;  ///< on the clip's time line
 };
 
-/// Plays a packed clip against its source, 240 times a second and at each of the source's key times, the source
-/// interpolated as glTF says.
-/// \param source       with all tracks
+/// A clip as it is measured: its joints 240 times a second and at each of its key times, interpolated as glTF says.
+class SourceMotion {
+public:
+    /// Refers to both.
+    SourceMotion(const Scene& scene, const Clip& clip);
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Clip& clip() const { return clip_; }
+    /// Seconds on the clip's time line, ascending.
+    [[nodiscard]] std::span<const float> times() const { return times_; }
+    /// Joint to model space of all joints at times()[k], until the next call.
+    std::span<const Affine> pose(std::size_t k);
+
+private:
+    void evaluate_at(float seconds, std::span<Affine> out);
+
+    const Scene& scene_;
+    const Clip& clip_;
+    std::vector<float> times_;
+    std::vector<Local> rest_, locals_;
+    std::vector<double> value_;
+    std::vector<Affine> poses_;  // of all times where there are few, else of one
+    bool has_all_ = false;
+};
+
+/// Plays a packed clip against its source, at all times of that.
 /// \param is_replaced  per track: the packed clip has it, or leaves the property at rest
 /// \param packed       as read from the bytes that are written
 /// \param enough       stops at the first error above this
-WorstError measure_packed(const Scene& scene, const Clip& source, const std::vector<bool>& is_replaced,
-                          const PackedView& packed, const std::vector<std::vector<glm::dvec3>>& probes, double enough);
+WorstError measure_packed(SourceMotion& source, const std::vector<bool>& is_replaced, const PackedView& packed,
+                          const std::vector<std::vector<glm::dvec3>>& probes, double enough);
 
 }  // namespace bendy::converter

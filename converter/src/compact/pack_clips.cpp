@@ -3,6 +3,7 @@
 #include "compact/grid.h"
 #include "compact/quantise_clip.h"
 #include "frame_shapes.h"
+#include "in_parallel.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_clip.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -43,7 +45,7 @@ std::uint64_t stored_size(Bytes payload) {
 
 /// The clip's tracks, packed within the bound; nothing if that cannot be.
 /// \param share  of the bound that frames may take; the rest is for what lies between them
-std::optional<Packed> pack(const Scene& scene, const Clip& clip, const GridTracks& tracks,
+std::optional<Packed> pack(SourceMotion& source, const ClipFrames& frames, const GridTracks& tracks,
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
                            double max_error, double share, bool corrects) {
     constexpr int kAttempts = 6;
@@ -51,12 +53,12 @@ std::optional<Packed> pack(const Scene& scene, const Clip& clip, const GridTrack
         0.998 * share * max_error;  // less than the bound: floats are rounded too, and frames are not all there is
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Packed packed;
-        packed.bytes = smallest_payload(quantise(scene, clip, tracks, probes, {aim, corrects}));
+        packed.bytes = smallest_payload(quantise(frames, source.clip(), tracks, probes, {aim, corrects}));
         Faults faults;
-        const auto joints = static_cast<std::uint32_t>(scene.joints.size());
+        const auto joints = static_cast<std::uint32_t>(frames.joints());
         const auto view = read_packed(packed.bytes, joints, 0, faults);
         if (!view) return std::nullopt;
-        packed.worst = measure_packed(scene, clip, is_replaced, *view, probes, 8.0 * max_error);
+        packed.worst = measure_packed(source, is_replaced, *view, probes, 8.0 * max_error);
         if (packed.worst.metres <= max_error) {
             packed.stored = stored_size(packed.bytes);
             return packed;
@@ -85,34 +87,30 @@ bool is_smaller(const Packed& a, const Packed& b) {
     return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
 }
 
-/// The smaller one of the two ways to quantise.
-std::optional<Packed> pack_best(const Scene& scene, const Clip& clip, const GridTracks& tracks,
-                                const std::vector<bool>& is_replaced,
-                                const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share) {
-    std::optional<Packed> best;
-    constexpr std::uint64_t kLarge = 300'000;  // joints times frames from which one way has to do
-    const bool is_large = std::uint64_t{tracks.grid.frames} * scene.joints.size() > kLarge;
+/// With corrections, which makes most clips smaller; without where they leave an error that is too large.
+std::optional<Packed> pack_frames(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,
+                                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share) {
+    const ClipFrames frames(source.scene(), source.clip(), tracks.grid);
     for (const bool corrects : {true, false}) {
-        if (is_large && best) break;
-        auto packed = pack(scene, clip, tracks, is_replaced, probes, max_error, share, corrects);
-        if (packed && (!best || is_smaller(*packed, *best))) best = std::move(packed);
+        if (auto packed = pack(source, frames, tracks, is_replaced, probes, max_error, share, corrects)) return packed;
     }
-    return best;
+    return std::nullopt;
 }
 
 using Progress = std::function<void(double)>;
 
 /// Takes fewer and fewer frames while that makes the clip smaller: it does where motion is smooth and long.
-void pack_thinner(const Scene& scene, const Clip& clip, const GridTracks& tracks, const std::vector<bool>& is_replaced,
+void pack_thinner(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,
                   const std::vector<std::vector<glm::dvec3>>& probes, double max_error, Packed& best,
                   const Progress& progress) {
     constexpr double kMost = 0.7;  // of the bound, for lines between frames: more leaves steps too fine
     constexpr std::array kFewer{2u, 3u, 4u, 6u, 8u, 12u};
     for (std::size_t k = 0; k < kFewer.size(); ++k) {
-        const std::optional<ThinGrid> thin = thin_grid(scene, clip, tracks, kFewer.at(k), probes, kMost * max_error);
+        const std::optional<ThinGrid> thin =
+            thin_grid(source.scene(), source.clip(), tracks, kFewer.at(k), probes, kMost * max_error);
         if (!thin) return;
         const GridTracks thinner{thin->grid, tracks.tracks};
-        auto packed = pack_best(scene, clip, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
+        auto packed = pack_frames(source, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
         if (!packed || !is_smaller(*packed, best)) return;
         best = *std::move(packed);
         if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(kFewer.size()));
@@ -136,11 +134,12 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     if (!tracks) return report;
     std::vector<bool> is_replaced(clip.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
-    std::optional<Packed> best = pack_best(scene, clip, *tracks, is_replaced, probes, max_error, 1.0);
+    SourceMotion source(scene, clip);
+    std::optional<Packed> best = pack_frames(source, *tracks, is_replaced, probes, max_error, 1.0);
     if (progress) progress(kPackedOnce);
     if (best) {
         pack_thinner(
-            scene, clip, *tracks, is_replaced, probes, max_error, *best,
+            source, *tracks, is_replaced, probes, max_error, *best,
             progress ? Progress([&](double done) { progress(kPackedOnce + (1.0 - kPackedOnce) * done); }) : Progress());
     }
     if (!best || best->bytes.size() >= key_bytes(clip, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
@@ -160,22 +159,29 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
 
 }  // namespace
 
-std::vector<PackedReport> pack_clips(Scene& scene, double max_error, const std::function<void(double)>& progress,
-                                     Probes kind) {
-    const auto probes = find_probes(scene, kind);
-    // A clip takes about as long as it has keys.
-    double all = 0.0;
-    for (const Clip& clip : scene.clips) all += 1.0 + static_cast<double>(key_bytes(clip));
-    double before = 0.0;
-    std::vector<PackedReport> reports;
-    for (Clip& clip : scene.clips) {
-        const double own = 1.0 + static_cast<double>(key_bytes(clip));
-        reports.push_back(pack_clip(
-            scene, clip, probes, max_error,
-            !progress ? Progress() : [&](double done) { progress((before + own * done) / all); }));
-        before += own;
-        if (progress) progress(before / all);
-    }
+std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options) {
+    const auto probes = find_probes(scene, options.probes);
+    // A clip takes about as long as it has keys. The longest go first, so that no thread is left with one at the end.
+    std::vector<double> sizes;
+    for (std::size_t k = 0; k < scene.clips.size(); ++k)
+        sizes.push_back(max_errors[k] > 0.0 ? 1.0 + static_cast<double>(key_bytes(scene.clips[k])) : 0.0);
+    std::vector<std::size_t> order(sizes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+    SharedProgress shared(options.progress, std::accumulate(sizes.begin(), sizes.end(), 0.0));
+    std::vector<PackedReport> reports(sizes.size());
+    in_parallel(options.threads, sizes.size(), [&](std::size_t k, std::size_t) {
+        const std::size_t number = order[k];
+        if (!(max_errors[number] > 0.0)) return;
+        double told = 0.0;
+        const auto tell = [&](double done) {
+            shared.add((done - told) * sizes[number]);
+            told = done;
+        };
+        reports[number] = pack_clip(scene, scene.clips[number], probes, max_errors[number],
+                                    shared.is_heard() ? Progress(tell) : Progress());
+        tell(1.0);
+    });
     return reports;
 }
 

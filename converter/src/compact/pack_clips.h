@@ -4,8 +4,10 @@
 
 #include <bendy/converter/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,12 +25,17 @@ struct PackedReport {
     double worst_time = 0.0;  ///< seconds
 };
 
+struct PackOptions {
+    Probes probes = Probes::skin_and_shell;
+    std::function<void(double)> progress{};  ///< is told the part that is done, 0 to 1; may be empty
+    std::size_t threads = 1;                 ///< at most; the result does not depend on it
+};
+
 /// Packs the clips' tracks (Clip::packed) where that is smaller than timed keys, and takes them out of Clip::tracks.
 /// A track that cannot be packed, because it is stepped or cubic, moves weights or has keys on no grid, stays. No probe
-/// ever is farther than `max_error`, metres in model space, from where the source has it: measured on the bytes
-/// that result, 240 times a second and at all keys.
-/// \param progress  called with the share that is done, 0 to 1; may be empty
-std::vector<PackedReport> pack_clips(Scene& scene, double max_error, const std::function<void(double)>& progress,
-                                     Probes kind = Probes::skin_and_shell);
+/// ever is farther than the clip's bound from where the source has it: measured on the bytes that result, 240 times a
+/// second and at all keys.
+/// \param max_errors  of each clip: metres in model space; 0: the clip is left as it is
+std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options = {});
 
 }  // namespace bendy::converter

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "compact/clip_frames.h"
 #include "compact/grid.h"
-#include "space.h"
 
 #include <bendy/converter/scene.h>
 #include <bendy/format/packed_clip.h>
@@ -21,8 +21,9 @@ struct QuantiseOptions {
 /// Takes time in proportion to frames * joints, times a constant that falls for large clips.
 ///
 /// Steps are found on a part of the frames of long clips: whoever calls this measures the result.
+/// \param frames  of the clip, at the grid's times
 /// \param probes  per joint, see find_probes
-PackedSamples quantise(const Scene& scene, const Clip& clip, const GridTracks& packed,
+PackedSamples quantise(const ClipFrames& frames, const Clip& clip, const GridTracks& packed,
                        const std::vector<std::vector<glm::dvec3>>& probes, const QuantiseOptions& options);
 
 }  // namespace bendy::converter

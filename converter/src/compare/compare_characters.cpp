@@ -405,7 +405,7 @@ private:
             here.clips.push_back(*a);
             there.clips.push_back(*b);
         }
-        const MeasuredError error = measure_error(here, there, {}, progress);
+        const MeasuredError error = measure_error(here, there, {.progress = progress});
         std::swap(here.meshes, a_meshes_);
         std::swap(there.meshes, b_meshes_);
         return error;

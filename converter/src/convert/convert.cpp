@@ -143,7 +143,8 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.lod) collapse_vertices(*scene);
         if (options.sort_vertices && !options.lod && !options.compact)
             std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);
-        Buffer bytes = options.compact ? build_compact(*scene, *options.compact, kGenerator, report, options.progress)
+        Buffer bytes = options.compact ? build_compact(*scene, {*options.compact, options.progress, options.threads},
+                                                       kGenerator, report)
                                        : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
         const Faults faults = validate(bytes);

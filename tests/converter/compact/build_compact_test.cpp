@@ -94,7 +94,7 @@ TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
     ASSERT_TRUE(scene) << scene.error().message;
     for (const double share : {5e-5, 1e-3, 1e-2}) {
         Report report;
-        const auto bytes = build_compact(*scene, {share, true}, "test", report, {});
+        const auto bytes = build_compact(*scene, {.bound = {share, true}}, "test", report);
         ASSERT_TRUE(report.compact) << share;
         EXPECT_GT(report.compact->measured_error, 0.0);
         EXPECT_LE(report.compact->measured_error, report.compact->max_error);
@@ -110,7 +110,7 @@ TEST(BuildCompact, WithoutASkinTheJointsMotionIsBounded) {
         SCOPED_TRACE(number);
         for (const double share : {5e-5, 1e-2}) {
             Report report;
-            const auto bytes = build_compact(scenes[number], {share, true}, "test", report, {});
+            const auto bytes = build_compact(scenes[number], {.bound = {share, true}}, "test", report);
             ASSERT_TRUE(report.compact);
             EXPECT_GT(report.compact->max_error, 0.0);
             EXPECT_LE(report.compact->measured_error, report.compact->max_error);
@@ -149,7 +149,7 @@ TEST(BuildCompact, ClipsKeepTheirLength) {
     with_skin.meshes[0].submeshes = {{Topology::triangles, kNone, {0, 1, 2}}};
     for (const Scene& scene : {clips_with_still_tracks(), with_skin}) {
         Report report;
-        const auto compact = build_compact(scene, {1e-4, true}, "test", report, {});
+        const auto compact = build_compact(scene, {.bound = {1e-4, true}}, "test", report);
         ASSERT_TRUE(report.compact);
         EXPECT_TRUE(validate(compact).empty());
         const auto decoded = import_bendy(compact, report);
@@ -165,6 +165,23 @@ TEST(BuildCompact, ClipsKeepTheirLength) {
             }
         }
         EXPECT_TRUE(report.warnings().empty());
+    }
+}
+
+TEST(BuildCompact, BytesDoNotDependOnThreads) {
+    const Scene scene = skeleton_with_clips(3);
+    ASSERT_GT(scene.clips.size(), 1u);
+    Report report;
+    const auto alone = build_compact(scene, {.bound = {1e-4, true}}, "test", report);
+    for (const std::size_t threads : {2u, 5u}) {
+        Report with_threads;
+        std::vector<double> told;
+        const auto bytes = build_compact(
+            scene, {.bound = {1e-4, true}, .progress = [&](double done) { told.push_back(done); }, .threads = threads},
+            "test", with_threads);
+        EXPECT_EQ(bytes, alone);
+        EXPECT_EQ(with_threads.compact->place, report.compact->place);
+        EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     }
 }
 

@@ -92,7 +92,7 @@ std::vector<glm::vec3> skinned(const std::vector<std::byte>& bytes, float time) 
 double measured(const Scene& exact, const Scene& scene, const CompactGeometry& geometry) {
     std::vector<std::vector<std::uint32_t>> maps;
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
-    return measure_error(exact, scene, maps).metres;
+    return measure_error(exact, scene, {.vertex_maps = maps}).metres;
 }
 
 TEST(CompactGeometry, ThePosedSkinKeepsTheBoundAtEveryScale) {

@@ -129,7 +129,7 @@ Scene lone_joint(std::vector<Curve> curves) {
 TEST(PackCurve, CompactFilesPackAndSayTheError) {
     const Scene scene = lone_joint({random_curve(200, 3, 0, 1, 5), curve_of("/extras/x", {0, 1}, {0.1f, 0.7f})});
     Report report;
-    const std::vector<std::byte> bytes = build_compact(scene, {0.001, false}, "test", report, {});
+    const std::vector<std::byte> bytes = build_compact(scene, {.bound = {0.001, false}}, "test", report);
     ASSERT_TRUE(validate(bytes).empty());
     ASSERT_TRUE(report.compact);
     EXPECT_EQ(report.compact->curves, 2u);

@@ -35,13 +35,16 @@ struct ConvertOptions {
     std::string skeleton;
     /// Encode for size: no point of the skin moves further than this. Nothing: exact.
     std::optional<ErrorBound> compact;
-    /// Called now and then with the share of the work that is done, 0 to 1; may be empty.
+    /// Called now and then with the share of the work that is done, 0 to 1, by one thread at a time; may be empty.
     std::function<void(double)> progress;
     /// Compute the sequence in which vertices are collapsed (LODD), and order the vertices by it.
     bool lod = false;
     /// Put vertices that follow the same bones beside one another, so that skinning takes less. Ignored with `lod` and
     /// `compact`, which have orders of their own.
     bool sort_vertices = false;
+    /// How many threads may work on this file, 1 at least, the caller's among them. The bytes do not depend on
+    /// it. Only `compact` has work for more than one.
+    unsigned threads = 1;
 };
 
 /// Converts a glTF file, a bendy file, an X-file or a Quake II model (told by its content) to the bytes of a bendy
