@@ -246,22 +246,27 @@ private:
     }
 
     void compare_blends(std::size_t joints) {
-        const Floats from = random_pose(joints), other = random_pose(joints);
+        constexpr std::size_t kGroup = 8;  // kernels work on whole ones
+        const std::size_t room = (joints + kGroup - 1) / kGroup * kGroup;
+        const Floats from = random_pose(room), other = random_pose(room);
         Floats mask(joints);
         for (float& each : mask) each = std::abs(number());
-        Floats mixed = from, added = from;
-        kernels_.mix({joints, mixed.data(), other.data(), 0.75f, mask.data()});
-        kernels_.add({joints, added.data(), other.data(), 0.75f, mask.data()});
-        for (std::size_t k = 0; k < joints; ++k) {
-            const double u = 0.75 * mask[k];
-            const float* const a = &from[10 * k];
-            const float* const b = &other[10 * k];
-            note_rotation(errors_.mix, &mixed[10 * k], nlerp(rotation_at(a), rotation_at(b), u));
-            note_rotation(errors_.add, &added[10 * k],
-                          rotation_at(a) * nlerp(glm::dquat(1, 0, 0, 0), rotation_at(b), u));
-            for (std::size_t c = 4; c < 10; ++c) {
-                note(errors_.mix, mixed[10 * k + c], (1.0 - u) * a[c] + u * b[c], 1.3);
-                note(errors_.add, added[10 * k + c], c < 7 ? a[c] + u * b[c] : a[c] * (1.0 - u + u * b[c]), 2.0);
+        for (const float* const weights :
+             {static_cast<const float*>(mask.data()), static_cast<const float*>(nullptr)}) {
+            Floats mixed = from, added = from;
+            kernels_.mix({joints, mixed.data(), other.data(), 0.75f, weights});
+            kernels_.add({joints, added.data(), other.data(), 0.75f, weights});
+            for (std::size_t k = 0; k < joints; ++k) {
+                const double u = 0.75 * (weights == nullptr ? 1.0f : weights[k]);
+                const float* const a = &from[10 * k];
+                const float* const b = &other[10 * k];
+                note_rotation(errors_.mix, &mixed[10 * k], nlerp(rotation_at(a), rotation_at(b), u));
+                note_rotation(errors_.add, &added[10 * k],
+                              rotation_at(a) * nlerp(glm::dquat(1, 0, 0, 0), rotation_at(b), u));
+                for (std::size_t c = 4; c < 10; ++c) {
+                    note(errors_.mix, mixed[10 * k + c], (1.0 - u) * a[c] + u * b[c], 1.3);
+                    note(errors_.add, added[10 * k + c], c < 7 ? a[c] + u * b[c] : a[c] * (1.0 - u + u * b[c]), 2.0);
+                }
             }
         }
     }

@@ -1,5 +1,5 @@
 // The implementation of the blending kernels, included after lanes.h by one source for each instruction set, which also
-// defines roots_of(Lanes).
+// defines inverse_roots_of(Lanes).
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -21,33 +21,46 @@ inline void store_joint_rotations(const Lanes* numbers, float* local) {
 }
 
 inline void normalise_four(Lanes* q) {
-    const Lanes scale = 1.0f / roots_of(dot_of_four(q, q));
+    const Lanes scale = inverse_roots_of(dot_of_four(q, q));
     for (std::size_t c = 0; c < 4; ++c) q[c] = q[c] * scale;
 }
 
-/// kLanes joints.
-inline void mix_joints(float* local, const float* other, Lanes weight) {
-    Lanes a[4];
+/// The rotations of kLanes joints, blended.
+inline void mix_rotations(const float* local, const float* other, Lanes weight, Lanes* mixed) {
     Lanes b[4];
-    load_joint_rotations(local, a);
+    load_joint_rotations(local, mixed);
     load_joint_rotations(other, b);
-    const Lanes by_b = weight ^ signs_of(dot_of_four(a, b));
+    const Lanes by_b = weight ^ signs_of(dot_of_four(mixed, b));
     const Lanes by_a = 1.0f - weight;
-    for (std::size_t c = 0; c < 4; ++c) a[c] = by_a * a[c] + by_b * b[c];
-    normalise_four(a);
-    float weights[kLanes];
-    store(weights, weight);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-        const Lanes by = weights[k];
-        for (std::size_t c = 2; c < 10; c += kLanes) {  // loads the rotation's second half too; it is stored later
-            float* const to = local + 10 * k + c;
-            store(to, (1.0f - by) * load_lanes(to) + by * load_lanes(other + 10 * k + c));
+    for (std::size_t c = 0; c < 4; ++c) mixed[c] = fused(by_b, b[c], by_a * mixed[c]);
+    normalise_four(mixed);
+}
+
+/// Of kLanes joints, with a weight for all of them, or (has_mask) one for each.
+template <bool has_mask>
+inline void mix_joints(float* local, const float* other, Lanes weight) {
+    Lanes rotations[4];
+    mix_rotations(local, other, weight, rotations);
+    if constexpr (has_mask) {
+        float weights[kLanes];
+        store(weights, weight);
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const Lanes by = weights[k];
+            for (std::size_t c = 2; c < 10; c += kLanes) {  // loads the rotation's second half too; it is stored later
+                float* const to = local + 10 * k + c;
+                store(to, fused(by, load_lanes(other + 10 * k + c), (1.0f - by) * load_lanes(to)));
+            }
         }
+    } else {
+        const Lanes rest = 1.0f - weight;
+        for (std::size_t at = 0; at < 10 * kLanes; at += kLanes)  // rotations too; they are stored later
+            store(local + at, fused(weight, load_lanes(other + at), rest * load_lanes(local + at)));
     }
-    store_joint_rotations(a, local);
+    store_joint_rotations(rotations, local);
 }
 
 /// kLanes joints; `other` is a difference.
+template <bool has_mask>
 inline void add_joints(float* local, const float* other, Lanes weight) {
     Lanes q[4];
     Lanes d[4];
@@ -58,56 +71,43 @@ inline void add_joints(float* local, const float* other, Lanes weight) {
     d[3] = d[3] + (1.0f - weight);
     normalise_four(d);
     const Lanes product[4] = {
-        (q[3] * d[0] + q[0] * d[3]) + (q[1] * d[2] - q[2] * d[1]),
-        (q[3] * d[1] + q[1] * d[3]) + (q[2] * d[0] - q[0] * d[2]),
-        (q[3] * d[2] + q[2] * d[3]) + (q[0] * d[1] - q[1] * d[0]),
-        (q[3] * d[3] - q[0] * d[0]) - (q[1] * d[1] + q[2] * d[2]),
+        fused(q[3], d[0], q[0] * d[3]) + fused_difference(q[1], d[2], q[2] * d[1]),
+        fused(q[3], d[1], q[1] * d[3]) + fused_difference(q[2], d[0], q[0] * d[2]),
+        fused(q[3], d[2], q[2] * d[3]) + fused_difference(q[0], d[1], q[1] * d[0]),
+        fused_difference(q[3], d[3], q[0] * d[0]) - fused(q[1], d[1], q[2] * d[2]),
     };
     float weights[kLanes];
-    store(weights, weight);
+    if constexpr (has_mask) store(weights, weight);
     for (std::size_t k = 0; k < kLanes; ++k) {
+        const Quad by_one = has_mask ? Quad(weights[k]) : low(weight);
         float* const to = local + 10 * k;
         const float* const from = other + 10 * k;
-        for (std::size_t c = 4; c < 7; ++c) to[c] += weights[k] * from[c];
-        for (std::size_t c = 7; c < 10; ++c) to[c] *= (1.0f - weights[k]) + weights[k] * from[c];
+        // x y z of the translation and x of the scale, then the last four numbers: x is made twice, from what it was.
+        const Quad moved = fused(by_one, load_quad(from + 4), load_quad(to + 4));
+        const Quad grown = load_quad(to + 6) * fused(by_one, load_quad(from + 6), Quad(1.0f) - by_one);
+        store(to + 6, grown);
+        store_three_of(to + 4, moved);
     }
     store_joint_rotations(product, local);
 }
 
 using BlendJoints = void(float* local, const float* other, Lanes weight);
 
-/// kLanes joints from `joint` on.
-template <BlendJoints blend_joints>
-inline void blend_group(const BlendBlock& block, std::size_t joint, float* local) {
-    const Lanes mask = block.mask == nullptr ? Lanes(1.0f) : load_lanes(block.mask + joint);
-    blend_joints(local, block.other + 10 * joint, block.weight * mask);
-}
-
-/// For fewer joints than lanes.
-template <BlendJoints blend_joints>
-BENDY_NOINLINE void blend_few(const BlendBlock& block) {
-    float local[10 * kLanes]{};
-    float other[10 * kLanes]{};
-    float weights[kLanes]{};
-    for (std::size_t k = 0; k < block.joints; ++k)
-        weights[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[k]);
-    std::memcpy(local, block.local, 10 * block.joints * sizeof(float));
-    std::memcpy(other, block.other, 10 * block.joints * sizeof(float));
-    blend_joints(local, other, load_lanes(weights));
-    std::memcpy(block.local, local, 10 * block.joints * sizeof(float));
-}
-
-template <BlendJoints blend_joints>
+/// Whole groups of kLanes joints, also where fewer are left at the end: poses have room for them, see PoseState::local.
+template <BlendJoints blend_all, BlendJoints blend_masked>
 inline void blend_lanes(const BlendBlock& block) {
-    if (block.joints < kLanes) return blend_few<blend_joints>(block);
-    // The last group overlaps the one before it: it is read before the others are written.
-    const std::size_t last = block.joints - kLanes;
-    float local[10 * kLanes];
-    std::memcpy(local, block.local + 10 * last, sizeof local);
-    blend_group<blend_joints>(block, last, local);
-    for (std::size_t joint = 0; joint < last; joint += kLanes)
-        blend_group<blend_joints>(block, joint, block.local + 10 * joint);
-    std::memcpy(block.local + 10 * last, local, sizeof local);
+    if (block.mask == nullptr) {
+        for (std::size_t joint = 0; joint < block.joints; joint += kLanes)
+            blend_all(block.local + 10 * joint, block.other + 10 * joint, block.weight);
+        return;
+    }
+    std::size_t joint = 0;
+    for (; joint + kLanes <= block.joints; joint += kLanes)
+        blend_masked(block.local + 10 * joint, block.other + 10 * joint, block.weight * load_lanes(block.mask + joint));
+    if (joint == block.joints) return;
+    float mask[kLanes]{};
+    for (std::size_t k = 0; joint + k < block.joints; ++k) mask[k] = block.mask[joint + k];
+    blend_masked(block.local + 10 * joint, block.other + 10 * joint, block.weight * load_lanes(mask));
 }
 
 // NOLINTEND(misc-definitions-in-headers)

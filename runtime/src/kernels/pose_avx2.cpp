@@ -27,13 +27,14 @@ namespace {
 }  // namespace
 }  // namespace pose_with_avx2
 
-const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
-                            pose_with_avx2::palette_lanes,
-                            pose_with_avx2::sample_lanes,
-                            pose_with_avx2::sample_cubic_lanes,
-                            pose_with_avx2::unpack_lanes,
-                            pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints>,
-                            pose_with_avx2::blend_lanes<pose_with_avx2::add_joints>};
+const PoseKernels kPoseAvx2{
+    pose_with_avx2::pose_lanes,
+    pose_with_avx2::palette_lanes,
+    pose_with_avx2::sample_lanes,
+    pose_with_avx2::sample_cubic_lanes,
+    pose_with_avx2::unpack_lanes,
+    pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints<false>, pose_with_avx2::mix_joints<true>>,
+    pose_with_avx2::blend_lanes<pose_with_avx2::add_joints<false>, pose_with_avx2::add_joints<true>>};
 
 }  // namespace bendy
 

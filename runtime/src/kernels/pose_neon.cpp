@@ -27,13 +27,14 @@ namespace {
 }  // namespace
 }  // namespace pose_with_neon
 
-const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
-                            pose_with_neon::palette_lanes,
-                            pose_with_neon::sample_lanes,
-                            pose_with_neon::sample_cubic_lanes,
-                            pose_with_neon::unpack_lanes,
-                            pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
-                            pose_with_neon::blend_lanes<pose_with_neon::add_joints>};
+const PoseKernels kPoseNeon{
+    pose_with_neon::pose_lanes,
+    pose_with_neon::palette_lanes,
+    pose_with_neon::sample_lanes,
+    pose_with_neon::sample_cubic_lanes,
+    pose_with_neon::unpack_lanes,
+    pose_with_neon::blend_lanes<pose_with_neon::mix_joints<false>, pose_with_neon::mix_joints<true>>,
+    pose_with_neon::blend_lanes<pose_with_neon::add_joints<false>, pose_with_neon::add_joints<true>>};
 
 }  // namespace bendy
 

@@ -35,7 +35,7 @@ struct SampleBlock {
 /// Blends transforms into others, joint by joint.
 struct BlendBlock {
     std::size_t joints;
-    float* local;        ///< ten per joint: rotation x y z w, translation, scale
+    float* local;        ///< ten per joint: rotation x y z w, translation, scale; room for a last whole group
     const float* other;  ///< as local
     float weight;
     const float* mask;  ///< one per joint; null: 1

@@ -20,7 +20,7 @@ void PoseState::find_model_space() {
     const PosePlan& plan = *data->pose_plan;
     is_exact = kernels == nullptr || !plan.fits_floats;
     if (!is_exact) {
-        kernels->pose({local.size(), &local.front().rotation.x, data->parents.data(), plan.order.data(),
+        kernels->pose({joints.size(), &local.front().rotation.x, data->parents.data(), plan.order.data(),
                        &model_space.front().matrix[0].x});
         return;
     }

@@ -9,7 +9,7 @@ namespace bendy {
 PoseState::PoseState(const Model& from)
     : model(from),
       data(&ModelData::of(model)),
-      local(data->joints.size()),
+      local((data->joints.size() + kGroup - 1) / kGroup * kGroup),
       model_space(data->joints.size()),
       exact_model_space(data->joints.size()),
       morph_weights(from.morph_target_count()),
@@ -57,12 +57,12 @@ const Model& Pose::model() const {
 }
 
 std::span<const JointTransform> Pose::local() const {
-    return state_->local;
+    return std::span(state_->local).first(state_->data->joints.size());
 }
 
 std::span<JointTransform> Pose::change_local() {
     state_->is_stale = true;
-    return state_->local;
+    return std::span(state_->local).first(state_->data->joints.size());
 }
 
 std::span<const float> Pose::morph_weights() const {

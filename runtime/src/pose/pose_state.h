@@ -67,7 +67,9 @@ struct alignas(64) PoseState {
 
     Model model;
     const ModelData* data;  ///< of `model`
+    /// Of all joints. Kernels blend whole groups of joints: what fills the last one rests.
     std::vector<JointTransform> local;
+    static constexpr std::size_t kGroup = 8;  ///< the lanes of the widest kernel
     std::vector<JointMatrix> model_space;
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
     std::vector<float> morph_weights;
