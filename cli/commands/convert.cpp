@@ -221,7 +221,7 @@ void add_convert(CLI::App& program) {
     command
         ->add_option("-j,--jobs", arguments->jobs,
                      "with several inputs, how many to convert at a time; with one and --compact, how many threads "
-                     "work on it, which changes no byte; one per processor if not given")
+                     "to use, which does not change the output; one per processor if not given")
         ->check(CLI::Range(1u, 1024u));
     command->add_flag("--force", arguments->force,
                       "overwrite outputs that bendy did not write (with -o FILE that is always allowed); with several "

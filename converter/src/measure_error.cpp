@@ -537,6 +537,17 @@ private:
     MeasuredError worst_;
 };
 
+/// At most one for each clip; fewer for large meshes, which every thread has a copy of.
+std::size_t most_threads(const Scene& scene, std::size_t clips) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+    constexpr std::size_t kVertexBytes = 512;  // of both scenes, about
+    constexpr std::size_t kShiftBytes = 64;    // of a vertex that a target displaces
+    std::size_t bytes = 1;
+    for (const Mesh& mesh : scene.meshes)
+        bytes += mesh.positions.size() * (kVertexBytes + kShiftBytes * mesh.targets.size());
+    return std::max<std::size_t>(std::min(clips, kMostBytes / bytes), 1);
+}
+
 }  // namespace
 
 std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decoded, std::span<const std::uint32_t> clips,
@@ -552,7 +563,7 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
     for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
         if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible();
     }
-    const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, std::max<std::size_t>(clips.size(), 1));
+    const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, most_threads(exact, clips.size()));
     Comparison comparison(exact, decoded, options.vertex_maps);
     if (!comparison.is_possible()) return impossible();
     comparison.measure_rest();

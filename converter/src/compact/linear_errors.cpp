@@ -13,9 +13,9 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::size_t kLanes = 8;                          // frames side by side
-constexpr std::size_t kMostTried = 160;                    // that plans are tried on
-constexpr std::size_t kMostBytes = std::size_t{1} << 26U;  // of coefficients
+constexpr std::size_t kLanes = 8;                                     // frames side by side
+constexpr std::size_t kMostTried = 160;                               // that plans are tried on
+constexpr std::size_t kMostCoefficientBytes = std::size_t{1} << 26U;  // of coefficients
 
 // One number, a vector and a matrix for each lane. The loops over lanes are the innermost, and become vector
 // instructions. Like all of the converter they are compiled without fused multiplication, so that every machine
@@ -224,7 +224,7 @@ LinearErrors::LinearErrors(const ClipFrames& frames, const std::vector<std::vect
         set.middle = glm::vec3(middle);
         set.radius = static_cast<float>(radius);
     }
-    const std::size_t most_blocks = kMostBytes / (sizeof(JointFrames) * std::max<std::size_t>(joints_, 1));
+    const std::size_t most_blocks = kMostCoefficientBytes / (sizeof(JointFrames) * std::max<std::size_t>(joints_, 1));
     const std::size_t tried = std::min({frames.frames(), kMostTried, std::max<std::size_t>(most_blocks, 1) * kLanes});
     blocks_ = (tried + kLanes - 1) / kLanes;
     coefficients_.resize(blocks_ * joints_);

@@ -207,9 +207,9 @@ private:
 
 SourceMotion::SourceMotion(const Scene& scene, const Clip& clip) : scene_(scene), clip_(clip), times_(times_of(clip)) {
     for (const Joint& joint : scene.joints) rest_.push_back(local_of(joint.rest));
-    constexpr std::size_t kMostBytes = std::size_t{1} << 26U;  // of poses that are kept
+    constexpr std::size_t kMostPoseBytes = std::size_t{1} << 26U;  // that are kept
     const std::size_t joints = scene.joints.size();
-    has_all_ = times_.size() <= kMostBytes / (sizeof(Affine) * std::max<std::size_t>(joints, 1));
+    has_all_ = times_.size() <= kMostPoseBytes / (sizeof(Affine) * std::max<std::size_t>(joints, 1));
     poses_.resize(joints * (has_all_ ? times_.size() : 1));
     if (!has_all_) return;
     for (std::size_t k = 0; k < times_.size(); ++k)

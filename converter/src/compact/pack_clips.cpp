@@ -157,6 +157,18 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     return report;
 }
 
+/// As many as the memory for the joints at all frames of the largest clip allows.
+std::size_t most_threads(const Scene& scene) {
+    constexpr std::size_t kMostFrameBytes = std::size_t{1} << 30U;
+    constexpr std::size_t kJointBytes = 128;  // at a frame, about
+    std::size_t keys = 1;
+    for (const Clip& clip : scene.clips) {
+        for (const Track& track : clip.tracks) keys = std::max(keys, track.times.size());
+    }
+    return std::max<std::size_t>(kMostFrameBytes / kJointBytes / keys / std::max<std::size_t>(scene.joints.size(), 1),
+                                 1);
+}
+
 }  // namespace
 
 std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options) {
@@ -170,7 +182,7 @@ std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_e
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
     SharedProgress shared(options.progress, std::accumulate(sizes.begin(), sizes.end(), 0.0));
     std::vector<PackedReport> reports(sizes.size());
-    in_parallel(options.threads, sizes.size(), [&](std::size_t k, std::size_t) {
+    in_parallel(std::min(options.threads, most_threads(scene)), sizes.size(), [&](std::size_t k, std::size_t) {
         const std::size_t number = order[k];
         if (!(max_errors[number] > 0.0)) return;
         double told = 0.0;
