@@ -311,6 +311,7 @@ private:
             const int larger = size.y > size.x ? 1 : 0;
             const int axis = size.z > size[larger] ? 2 : larger;
             if (vertices.size() <= kMost || !(size[axis] > 0.0)) {
+                std::sort(vertices.begin(), vertices.end());  // every library's nth_element leaves another order
                 groups_.push_back({entries,
                                    {vertices.begin(), vertices.end()},
                                    0.5 * (box.low + box.high),
