@@ -6,9 +6,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <system_error>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace bendy::converter {
@@ -33,16 +31,18 @@ void in_parallel(std::size_t threads, std::size_t count, const Work& work) {
         }
     };
     std::vector<std::thread> others;
+    others.reserve(std::min(threads, count));
     try {
         while (others.size() + 1 < std::min(threads, count)) others.emplace_back(take_turns, others.size() + 1);
-    } catch (const std::system_error&) {  // the threads that there are do the rest
+    } catch (const std::exception&) {  // no more threads, or no memory for one: those that there are do the rest
     }
     take_turns(0);
     for (std::thread& other : others) other.join();
     if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Adds up what is done by several threads, and tells it one call at a time; what is told never falls.
+/// Adds up what is done by several threads, and tells it one call at a time, in steps of a hundredth at least; what is
+/// told never falls.
 class SharedProgress {
 public:
     /// \param tell  takes the part that is done, 0 to 1; may be empty
@@ -50,17 +50,24 @@ public:
 
     [[nodiscard]] bool is_heard() const { return static_cast<bool>(tell_); }
 
+    /// \param more  of what there is to do: nothing if that is 0
     void add(double more) {
-        if (!tell_) return;
+        if (!tell_ || !(more > 0.0)) return;
         const std::lock_guard lock(guard_);
         done_ += more;
-        tell_(std::min(done_ / all_, 1.0));
+        constexpr double kRounding = 1e-9;
+        const double part = done_ / all_ > 1.0 - kRounding ? 1.0 : done_ / all_;
+        constexpr double kStep = 0.01;
+        if (part < told_ + kStep && !(part == 1.0 && told_ < 1.0)) return;
+        told_ = part;
+        tell_(part);
     }
 
 private:
     const std::function<void(double)>& tell_;
     double all_;
     double done_ = 0.0;
+    double told_ = 0.0;
     std::mutex guard_;
 };
 

@@ -194,6 +194,14 @@ TEST(MeasureError, ProgressEndsAtOne) {
     EXPECT_EQ(told.back(), 1.0);
 }
 
+TEST(MeasureError, WithoutKeysThereIsNoProgress) {
+    Scene scene = still_scene();
+    scene.clips.resize(2);
+    std::vector<double> told;
+    EXPECT_EQ(measure_error(scene, scene, {.progress = [&](double part) { told.push_back(part); }}).metres, 0.0);
+    EXPECT_TRUE(told.empty());
+}
+
 TEST(MeasureError, AnEndlessCycleEnds) {
     Scene scene = still_scene();
     scene.clips.resize(1);
