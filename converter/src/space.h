@@ -94,6 +94,14 @@ inline Affine to_affine(const Local& local, const glm::vec3& shear) {
     return {glm::mat3_cast(local.rotation) * stretch(local.scale, shear), local.translation};
 }
 
+/// Joint to model space of all joints, parents before children. \param locals, places  one for each joint
+inline void place_joints(std::span<const Joint> joints, std::span<const Local> locals, std::span<Affine> places) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const Affine at = to_affine(locals[j], joints[j].rest.shear);
+        places[j] = joints[j].parent == kNone ? at : places[joints[j].parent] * at;
+    }
+}
+
 /// The smallest box round points, its sides along the axes.
 template <class Vector>
 struct Box {

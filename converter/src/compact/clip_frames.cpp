@@ -67,11 +67,7 @@ glm::dvec3 ClipFrames::relative(std::size_t frame, std::size_t joint, TrackPath 
 }
 
 void ClipFrames::place(std::size_t frame, std::span<Affine> out) const {
-    for (std::size_t j = 0; j < rest_.size(); ++j) {
-        const Joint& joint = scene_.joints[j];
-        const Affine at = to_affine(local(frame, j), joint.rest.shear);
-        out[j] = joint.parent == kNone ? at : out[joint.parent] * at;
-    }
+    place_joints(scene_.joints, std::span(locals_).subspan(frame * rest_.size(), rest_.size()), out);
 }
 
 }  // namespace bendy::converter

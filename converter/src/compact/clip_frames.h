@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] std::size_t joints() const { return rest_.size(); }
     [[nodiscard]] std::size_t frames() const { return frames_; }
-    [[nodiscard]] const Local& rest(std::size_t joint) const { return rest_[joint]; }
+    [[nodiscard]] std::span<const Local> rest() const { return rest_; }
     [[nodiscard]] const Local& local(std::size_t frame, std::size_t joint) const {
         return locals_[frame * rest_.size() + joint];
     }

@@ -5,10 +5,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +17,8 @@ namespace bendy::converter {
 /// multiplications for each joint and frame, for several frames side by side.
 class LinearErrors {
 public:
-    /// Refers to the probes. \param aims  per joint, in its space: the points that it corrects; see QuantiseOptions
+    /// \param aims    per joint, in its space: the points that its rotation corrects, see QuantiseOptions
+    /// \param probes  per joint, see find_probes
     LinearErrors(const ClipFrames& frames, const std::vector<std::vector<glm::dvec3>>& aims,
                  const std::vector<std::vector<glm::dvec3>>& probes, bool corrects);
     ~LinearErrors();

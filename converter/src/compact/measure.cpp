@@ -230,19 +230,13 @@ void SourceMotion::evaluate_at(float seconds, std::span<Affine> out) {
         evaluate_track(track, seconds, value_);
         set_property(track.path, value_, locals_[track.target]);
     }
-    for (std::size_t j = 0; j < out.size(); ++j) {
-        const Joint& joint = scene_.joints[j];
-        const Affine at = to_affine(locals_[j], joint.rest.shear);
-        out[j] = joint.parent == kNone ? at : out[joint.parent] * at;
-    }
+    place_joints(scene_.joints, locals_, out);
 }
 
 WorstError measure_packed(SourceMotion& source, const std::vector<bool>& is_replaced, const PackedView& packed,
                           const std::vector<std::vector<glm::dvec3>>& probes, double enough) {
     const Scene& scene = source.scene();
     const std::size_t joints = scene.joints.size();
-    std::vector<Local> rest;
-    for (const Joint& joint : scene.joints) rest.push_back(local_of(joint.rest));
     std::vector<Local> found(joints);
     std::vector<Affine> pose(joints);
     PackedPlayer player(scene, packed);
@@ -251,7 +245,7 @@ WorstError measure_packed(SourceMotion& source, const std::vector<bool>& is_repl
     for (std::size_t k = 0; k < source.times().size(); ++k) {
         const float time = source.times()[k];
         const std::span<const Affine> right = source.pose(k);
-        found = rest;
+        found = source.rest();
         for (std::size_t t = 0; t < is_replaced.size(); ++t) {
             const Track& track = source.clip().tracks[t];
             if (is_replaced[t] || track.path == TrackPath::weights) continue;
@@ -259,10 +253,8 @@ WorstError measure_packed(SourceMotion& source, const std::vector<bool>& is_repl
             set_property(track.path, value, found[track.target]);
         }
         player.set(time, found);
+        place_joints(scene.joints, found, pose);
         for (std::size_t j = 0; j < joints; ++j) {
-            const Joint& joint = scene.joints[j];
-            pose[j] = to_affine(found[j], joint.rest.shear);
-            if (joint.parent != kNone) pose[j] = pose[joint.parent] * pose[j];
             const glm::dmat3 linear = right[j].linear - pose[j].linear;
             const glm::dvec3 origin = right[j].origin - pose[j].origin;
             for (const glm::dvec3& probe : probes[j]) {

@@ -37,6 +37,7 @@ public:
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Clip& clip() const { return clip_; }
+    [[nodiscard]] const std::vector<Local>& rest() const { return rest_; }
     /// Seconds on the clip's time line, ascending.
     [[nodiscard]] std::span<const float> times() const { return times_; }
     /// Joint to model space of all joints at times()[k], until the next call.

@@ -106,11 +106,7 @@ private:
         const std::size_t joints = scene_.joints.size();
         std::vector<std::vector<glm::dvec3>> points(joints);
         std::vector<Affine> pose(joints);
-        for (std::size_t j = 0; j < joints; ++j) {
-            const std::uint32_t parent = scene_.joints[j].parent;
-            pose[j] = to_affine(frames_.rest(j), scene_.joints[j].rest.shear);
-            if (parent != kNone) pose[j] = pose[parent] * pose[j];
-        }
+        place_joints(scene_.joints, frames_.rest(), pose);
         aims_.resize(joints);
         for (std::size_t j = joints; j-- > 0;) {
             points[j].insert(points[j].end(), probes_[j].begin(), probes_[j].end());
@@ -119,7 +115,7 @@ private:
             set_reach(j, above == kNone ? glm::dmat3(1.0) : pose[above].linear, aims_[j]);
             const std::uint32_t parent = scene_.joints[j].parent;
             if (parent == kNone || aims_[j].empty()) continue;
-            const Affine to_parent = to_affine(frames_.rest(j), scene_.joints[j].rest.shear);
+            const Affine to_parent = to_affine(frames_.rest()[j], scene_.joints[j].rest.shear);
             const bool turns = plans_[j][index(TrackPath::rotation)].state == State::animated;
             if (turns && options_.corrects) {
                 points[parent].push_back(to_parent.origin);
@@ -152,8 +148,8 @@ private:
 
     /// \param above  parent's space to model space, at rest
     void set_reach(std::size_t joint, const glm::dmat3& above, const std::vector<glm::dvec3>& points) {
-        const glm::dmat3 stretched = stretch(frames_.rest(joint).scale, scene_.joints[joint].rest.shear);
-        const glm::dmat3 turned = above * glm::mat3_cast(frames_.rest(joint).rotation);
+        const glm::dmat3 stretched = stretch(frames_.rest()[joint].scale, scene_.joints[joint].rest.shear);
+        const glm::dmat3 turned = above * glm::mat3_cast(frames_.rest()[joint].rotation);
         JointPlan& plan = plans_[joint];
         for (int c = 0; c < 3; ++c) {
             glm::dvec3 unit(0.0);
@@ -227,20 +223,20 @@ private:
             glm::dvec3 by = value_of(move, frames_.relative(frame, joint, TrackPath::translation));
             if (move.state == State::animated && options_.corrects) {
                 const glm::dvec3 place =
-                    glm::inverse(parent.linear) * (wanted.origin - parent.origin) - frames_.rest(joint).translation;
+                    glm::inverse(parent.linear) * (wanted.origin - parent.origin) - frames_.rest()[joint].translation;
                 const glm::dvec3 shift = place - by;
                 const double near =
                     64.0 * (step_size(move.steps[0]) + step_size(move.steps[1]) + step_size(move.steps[2]));
                 if (glm::length(shift) < near) by = place;  // not for parents without volume
             }
             if (move.state != State::rest) by = round(move, by, numbers[0]);
-            out.translation = frames_.rest(joint).translation + by;
+            out.translation = frames_.rest()[joint].translation + by;
         }
         const Property& grow = plan[index(TrackPath::scale)];
         if (grow.state != State::unpacked) {
             glm::dvec3 by = value_of(grow, frames_.relative(frame, joint, TrackPath::scale));
             if (grow.state != State::rest) by = round(grow, by, numbers[2]);
-            out.scale = frames_.rest(joint).scale + by;
+            out.scale = frames_.rest()[joint].scale + by;
         }
         const Property& turn = plan[index(TrackPath::rotation)];
         const glm::dmat3 stretched = stretch(out.scale, scene_.joints[joint].rest.shear);
@@ -250,11 +246,11 @@ private:
             glm::dvec3 by = value_of(turn, exact);
             if (turn.state == State::animated && options_.corrects) {
                 const glm::dquat wish = correct(joint, parent, origin, stretched, source.rotation, wanted);
-                by = log_near(glm::conjugate(frames_.rest(joint).rotation) * wish, exact);
+                by = log_near(glm::conjugate(frames_.rest()[joint].rotation) * wish, exact);
             }
             if (turn.state != State::rest) by = round(turn, by, numbers[1]);
-            out.rotation =
-                turn.state == State::rest ? frames_.rest(joint).rotation : frames_.rest(joint).rotation * exp_of(by);
+            out.rotation = turn.state == State::rest ? frames_.rest()[joint].rotation
+                                                     : frames_.rest()[joint].rotation * exp_of(by);
         }
         return {parent.linear * (glm::mat3_cast(out.rotation) * stretched), origin};
     }

@@ -67,8 +67,7 @@ double error_of(const PackedSamples& samples, const ClipFrames& frames,
     double worst = 0.0;
     for (std::uint32_t f = 0; f < frames.frames(); ++f) {
         frames.place(f, right);
-        std::vector<Local> locals;
-        for (std::size_t j = 0; j < joints; ++j) locals.push_back(frames.rest(j));
+        std::vector<Local> locals(frames.rest().begin(), frames.rest().end());
         for (const PackedTrack& track : samples.tracks) {
             std::array<double, 3> by{};
             for (std::uint32_t c = 0; c < 3; ++c) {
