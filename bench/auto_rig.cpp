@@ -197,7 +197,7 @@ private:
                 double worst = 0.0;
                 for (const Constraint& constraint : model_.constraints()) {
                     const glm::quat& rest = model_.joints()[constraint.joint].rest.rotation;
-                    const glm::quat& local = pose_.local()[constraint.joint].rotation;
+                    const glm::quat local = pose_.local(constraint.joint).rotation;
                     worst =
                         std::max(worst, violation(constraint, to_constraint_space(constraint, rest, local)) / kDegree);
                 }
@@ -246,8 +246,10 @@ private:
             for (const std::uint32_t joint : limb.joints) {
                 const glm::quat& rest = model_.joints()[joint].rest.rotation;
                 const Constraint* constraint = model_.ik_constraint(joint);
-                if (constraint != nullptr)
-                    pose_.change_local()[joint].rotation = random_rotation(*constraint, rest, random);
+                if (constraint == nullptr) continue;
+                JointTransform local = pose_.local(joint);
+                local.rotation = random_rotation(*constraint, rest, random);
+                pose_.set_local(joint, local);
             }
             const glm::vec3 where = tip();
             pose_.set_rest();

@@ -2,6 +2,7 @@
 // skeleton, including the copy of the rest pose; at times in order, at random times, and at random times in so many
 // copies that none is in the cache.
 #include "compact/pack_clips.h"
+#include "plan/joint_blocks.h"
 #include "plan/unpack_plan.h"
 #include "play/unpack.h"
 
@@ -54,11 +55,13 @@ void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order ord
             order == Order::next_frame ? static_cast<double>(k % 60) / 60.0 : (random >> 8) / 16777216.0;
         times[k] = static_cast<float>(view.record.start + length * share);
     }
-    std::vector<JointTransform> local(clip.rest.size());
+    const std::vector<JointBlock> rest = to_blocks(clip.rest);
+    const std::vector<JointBlock>& start = unpack == unpack_plain ? rest : plans.front().start;
+    std::vector<JointBlock> local(start.size());
     std::size_t k = 0;
     while (state.KeepRunning()) {
-        std::copy(clip.rest.begin(), clip.rest.end(), local.begin());
-        unpack(plans[(k * 2654435761u >> 4) % copies], times[k % times.size()], local);
+        std::ranges::copy(start, local.begin());
+        unpack(plans[(k * 2654435761u >> 4) % copies], times[k % times.size()], clip.rest.size(), local);
         benchmark::DoNotOptimize(local.data());
         benchmark::ClobberMemory();
         ++k;

@@ -93,15 +93,16 @@ glm::vec3 tip_of(Pose& pose) {
 void pose_at_random(const Model& model, Pose& pose, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(-2.0, 2.0);
     pose.set_rest();
-    const auto local = pose.change_local();
-    for (std::size_t joint = 0; joint + 1 < local.size(); ++joint) {
+    for (std::uint32_t joint = 0; joint + 1 < model.joints().size(); ++joint) {
         const glm::dvec3 turn(angle(random), angle(random), angle(random));
         const glm::dquat R = glm::angleAxis(glm::length(turn), glm::normalize(turn));
-        const Constraint* constraint = model.constraint(static_cast<std::uint32_t>(joint));
+        const Constraint* constraint = model.constraint(joint);
         const glm::quat rest = model.joints()[joint].rest.rotation;
-        local[joint].rotation = constraint == nullptr
-                                    ? glm::quat(glm::dquat(rest) * R)
-                                    : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
+        JointTransform local = pose.local(joint);
+        local.rotation = constraint == nullptr
+                             ? glm::quat(glm::dquat(rest) * R)
+                             : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
+        pose.set_local(joint, local);
     }
 }
 
@@ -137,7 +138,7 @@ void solve(const Model& model, Pose& pose, const glm::vec3& target, const ReachO
         const Constraint* constraint = model.ik_constraint(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
-            to_constraint_space(*constraint, model.joints()[joint].rest.rotation, pose.local()[joint].rotation);
+            to_constraint_space(*constraint, model.joints()[joint].rest.rotation, pose.local(joint).rotation);
         outcome.worst_violation = std::max(outcome.worst_violation, violation(*constraint, R));
     }
 }

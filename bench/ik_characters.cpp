@@ -61,15 +61,16 @@ std::vector<std::uint32_t> joints_of(const Model& model, const Chain& chain) {
 void pose_at_random(const Model& model, const Chain& chain, bool is_free, Pose& pose, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(-2.0, 2.0);
     pose.set_rest();
-    const auto local = pose.change_local();
     for (const std::uint32_t joint : joints_of(model, chain)) {
         const glm::dvec3 turn(angle(random), angle(random), angle(random));
         const glm::dquat R = glm::angleAxis(glm::length(turn), glm::normalize(turn));
         const Constraint* constraint = is_free ? nullptr : model.ik_constraint(joint);
         const glm::quat rest = model.joints()[joint].rest.rotation;
-        local[joint].rotation = constraint == nullptr
-                                    ? glm::quat(glm::dquat(rest) * R)
-                                    : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
+        JointTransform local = pose.local(joint);
+        local.rotation = constraint == nullptr
+                             ? glm::quat(glm::dquat(rest) * R)
+                             : from_constraint_space(*constraint, rest, clamp_rotation(*constraint, R));
+        pose.set_local(joint, local);
     }
 }
 

@@ -85,7 +85,7 @@ void to_model(benchmark::State& state, Character& of) {
     Pose pose(of.model);
     (void)sample(pose, &of.model.clips().front(), 0.5f);
     while (state.KeepRunning()) {
-        (void)pose.change_local();
+        (void)pose.change_local_blocks();
         (void)pose.model_space();
     }
 }

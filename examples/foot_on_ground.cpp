@@ -55,7 +55,9 @@ int main(int argc, char** argv) {
             targets[leg] = ankle + glm::vec3(0.0f, ground(ankle), 0.0f);
             lowest = std::min(lowest, ground(ankle));
         }
-        pose.change_local()[hips].translation.y += lowest;
+        bendy::JointTransform lowered = pose.local(hips);
+        lowered.translation.y += lowest;
+        pose.set_local(hips, lowered);
         std::printf("%6.2f", seconds);
         for (std::size_t leg = 0; leg < legs.size(); ++leg) {
             const float before = std::abs(ground(targets[leg]));

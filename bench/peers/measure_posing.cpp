@@ -240,11 +240,14 @@ void measure_blending(Table& table, const Character& character) {
         table.compare({character.name, std::string(what) + ", into a third", "joint", character.joints()},
                       {{"ours", copy_and_run}, {"ozz, into a third", theirs}});
     };
+    // Forth and back, so that no number shrinks until it is denormal.
+    bool is_a = false;
+    const auto next = [&]() -> const Pose& { return (is_a = !is_a) ? a : b; };
     race(
-        "blend", [&] { return blend(out, b, 0.5f).has_value(); }, ozz(both));
+        "blend", [&] { return blend(out, next(), 0.5f).has_value(); }, ozz(both));
     race(
-        "blend, mask", [&] { return blend(out, b, 1.0f, mask).has_value(); }, ozz(masked));
-    float sign = 0.5f;  // forth and back, so that the numbers stay in their range
+        "blend, mask", [&] { return blend(out, next(), 1.0f, mask).has_value(); }, ozz(masked));
+    float sign = 0.5f;
     race(
         "add", [&] { return add(out, difference, sign = -sign).has_value(); }, ozz(base, addition));
     race_frame(table, character, first, second, ozz_first, ozz_second);

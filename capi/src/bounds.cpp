@@ -38,7 +38,8 @@ bendy_status bendy_socket_matrix(bendy_pose* pose, const bendy_socket* socket, c
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
         bendy::Socket taken;
-        if (const bendy_status status = take_socket(socket, pose->pose.local().size(), taken, error)) return status;
+        if (const bendy_status status = take_socket(socket, pose->pose.model().joints().size(), taken, error))
+            return status;
         if (const bendy_status status = check_pointer(matrix, "matrix", error)) return status;
         const glm::mat4 model_to_world = world == nullptr ? glm::mat4(1.0f) : glm::make_mat4(world);
         put_matrix(bendy::socket_matrix(pose->pose, taken, model_to_world), matrix);

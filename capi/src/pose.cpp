@@ -28,7 +28,7 @@ bendy_status check_poses(const bendy_pose* pose, const bendy_pose* other, const 
 
 /// The joints' numbers; none for NULL.
 std::span<const float> mask_of(const bendy_pose* pose, const float* mask) {
-    return mask == nullptr ? std::span<const float>() : std::span(mask, pose->pose.local().size());
+    return mask == nullptr ? std::span<const float>() : std::span(mask, pose->pose.model().joints().size());
 }
 
 /// Of a range of a pose's numbers and the caller's memory for them.
@@ -140,11 +140,10 @@ bendy_status bendy_get_local(const bendy_pose* pose, uint32_t first, uint32_t co
                              bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const auto local = pose->pose.local();
-        if (const bendy_status status =
-                check_part(first, count, local.size(), "joint", transforms, "transforms", error))
+        const std::size_t joints = pose->pose.model().joints().size();
+        if (const bendy_status status = check_part(first, count, joints, "joint", transforms, "transforms", error))
             return status;
-        for (std::uint32_t k = 0; k < count; ++k) transforms[k] = to_c(local[first + k]);
+        for (std::uint32_t k = 0; k < count; ++k) transforms[k] = to_c(pose->pose.local(first + k));
         return BENDY_OK;
     });
 }
@@ -153,13 +152,12 @@ bendy_status bendy_set_local(bendy_pose* pose, uint32_t first, uint32_t count, c
                              bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        const std::size_t joints = pose->pose.local().size();
+        const std::size_t joints = pose->pose.model().joints().size();
         if (const bendy_status status = check_part(first, count, joints, "joint", transforms, "transforms", error))
             return status;
         if (count == 0) return BENDY_OK;
         if (const bendy_status status = check_transforms({transforms, count}, error)) return status;
-        const auto local = pose->pose.change_local();
-        for (std::uint32_t k = 0; k < count; ++k) local[first + k] = from_c(transforms[k]);
+        for (std::uint32_t k = 0; k < count; ++k) pose->pose.set_local(first + k, from_c(transforms[k]));
         return BENDY_OK;
     });
 }

@@ -55,7 +55,7 @@ bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t cou
                                   bendy_error* error) {
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        if (const bendy_status status = check_range(first, count, pose->pose.local().size(), "joint", error))
+        if (const bendy_status status = check_range(first, count, pose->pose.model().joints().size(), "joint", error))
             return status;
         if (count == 0) return BENDY_OK;
         if (const bendy_status status = check_pointer(matrices, "matrices", error)) return status;

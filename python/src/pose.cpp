@@ -30,6 +30,10 @@ struct PyReachResult {
 
 // Arrays of local transforms.
 
+std::uint32_t joint_count(const PyPose& self) {
+    return static_cast<std::uint32_t>(self.pose.model().joints().size());
+}
+
 template <std::size_t N>
 using Component = std::array<float, N>;
 
@@ -45,11 +49,11 @@ Component<3> scale_of(const JointTransform& joint) {
 
 template <std::size_t N>
 py::array local_array(const PyPose& self, Component<N> (*get)(const JointTransform&)) {
-    const auto local = self.pose.local();
-    py::array_t<float> array({static_cast<py::ssize_t>(local.size()), static_cast<py::ssize_t>(N)});
+    const std::uint32_t joints = joint_count(self);
+    py::array_t<float> array({static_cast<py::ssize_t>(joints), static_cast<py::ssize_t>(N)});
     float* out = array.mutable_data();
-    for (const JointTransform& joint : local) {
-        const Component<N> numbers = get(joint);
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        const Component<N> numbers = get(self.pose.local(joint));
         out = std::copy(numbers.begin(), numbers.end(), out);
     }
     return array;
@@ -68,31 +72,33 @@ Floats table_of(const py::handle& numbers, std::size_t rows, std::size_t columns
 
 void set_rotations(PyPose& self, const py::object& numbers) {
     const Use pose(self);
-    const auto table = table_of(numbers, self.pose.local().size(), 4, "rotations");
+    const auto table = table_of(numbers, joint_count(self), 4, "rotations");
     for (py::ssize_t k = 0; k < table.shape(0); ++k) {
         if (!is_unit(std::span<const float, 4>(table.data(k), 4), kUnitTolerance))
             throw py::value_error("rotation " + std::to_string(k) + " must be a unit quaternion x, y, z, w");
     }
-    const auto local = (*pose).change_local();
-    for (std::size_t k = 0; k < local.size(); ++k) {
-        const float* q = table.data(static_cast<py::ssize_t>(k));
-        local[k].rotation = glm::quat(q[3], q[0], q[1], q[2]);
+    for (std::uint32_t joint = 0; joint < joint_count(self); ++joint) {
+        const float* q = table.data(static_cast<py::ssize_t>(joint));
+        JointTransform local = (*pose).local(joint);
+        local.rotation = glm::quat(q[3], q[0], q[1], q[2]);
+        (*pose).set_local(joint, local);
     }
 }
 
 void set_vectors(PyPose& self, const py::object& numbers, glm::vec3 JointTransform::*member, const char* name) {
     const Use pose(self);
-    const auto table = table_of(numbers, self.pose.local().size(), 3, name);
-    const auto local = (*pose).change_local();
-    for (std::size_t k = 0; k < local.size(); ++k) {
-        const float* v = table.data(static_cast<py::ssize_t>(k));
-        local[k].*member = glm::vec3(v[0], v[1], v[2]);
+    const auto table = table_of(numbers, joint_count(self), 3, name);
+    for (std::uint32_t joint = 0; joint < joint_count(self); ++joint) {
+        const float* v = table.data(static_cast<py::ssize_t>(joint));
+        JointTransform local = (*pose).local(joint);
+        local.*member = glm::vec3(v[0], v[1], v[2]);
+        (*pose).set_local(joint, local);
     }
 }
 
 py::array matrices_of(PyPose& self) {
     const Use pose(self);
-    py::array_t<float> array({static_cast<py::ssize_t>(self.pose.local().size()), py::ssize_t{4}, py::ssize_t{4}});
+    py::array_t<float> array({static_cast<py::ssize_t>(joint_count(self)), py::ssize_t{4}, py::ssize_t{4}});
     write_matrices((*pose).model_space(), array.mutable_data());
     return array;
 }
@@ -255,7 +261,7 @@ PyReachResult reach_target(PyPose& self, const py::object& chain, const py::obje
 
 std::vector<float> mask_of(const PyPose& self, const py::object& mask) {
     if (mask.is_none()) return {};
-    return numbers_of(mask, self.pose.local().size(), "mask");
+    return numbers_of(mask, joint_count(self), "mask");
 }
 
 /// Blends, adds or subtracts. \param work  takes the pose and the other one, which may be the same

@@ -78,11 +78,11 @@ void Stages::add_posing() {
     if (clip_ != nullptr) (void)sample(other_, clip_, 0.5f * (clip_->start + clip_->end));
     add("blend two poses", "joint", joints, [this] { (void)blend(pose_, other_, 0.5f); });
     add("local to model", "joint", joints, [this] {
-        (void)pose_.change_local();
+        (void)pose_.change_local_blocks();
         (void)pose_.model_space();
     });
     add("local to model and palettes", "joint", joints, [this] {
-        (void)pose_.change_local();
+        (void)pose_.change_local_blocks();
         (void)pose_.model_space();
         for (std::uint32_t mesh = 0; mesh < model_.meshes().size(); ++mesh) (void)pose_.palette(mesh);
     });
@@ -107,7 +107,7 @@ void Stages::add_skinning() {
     }
     add("a whole frame", "character", 1.0, [this, most] {
         if (clip_ != nullptr) next_frame();
-        (void)pose_.change_local();
+        (void)pose_.change_local_blocks();
         skin_attributes(most);
     });
 }

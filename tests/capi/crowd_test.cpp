@@ -58,7 +58,7 @@ TEST_F(CCrowd, BindingsPlayAnotherFilesClipsAsInCpp) {
     ASSERT_TRUE(sample(cpp_pose, cpp, &cpp_animated->clips()[1], 1.0f));
     bendy_transform local{};
     bendy_get_local(pose.get(), 0, 1, &local, nullptr);
-    EXPECT_EQ(local.translation[2], cpp_pose.local()[0].translation.z);
+    EXPECT_EQ(local.translation[2], cpp_pose.local(0).translation.z);
     EXPECT_EQ(local.translation[2], 1.0f) << "half a metre, twice";
 }
 

@@ -194,7 +194,7 @@ TEST_F(CPlayback, PackedFramesAreWhereTracksBend) {
     Pose pose(*model);
     const auto translation = [&](float seconds) {
         EXPECT_TRUE(sample(pose, &model->clips()[0], seconds));
-        return pose.local()[1].translation;
+        return pose.local(1).translation;
     };
     const glm::vec3 left = translation(times[20]), right = translation(times[21]);
     EXPECT_GT(glm::distance(left, right), 1e-4f);
@@ -272,10 +272,10 @@ TEST_F(CPlayback, CrossfadesMixAsInCpp) {
         ASSERT_TRUE(sample(cpp_pose, cpp, cpp_scratch));
         std::array<bendy_transform, 2> local{};
         ASSERT_EQ(bendy_get_local(pose.get(), 0, 2, local.data(), &error_), BENDY_OK);
-        for (std::size_t joint = 0; joint < 2; ++joint) {
-            EXPECT_EQ(local[joint].translation[0], cpp_pose.local()[joint].translation.x);
-            EXPECT_EQ(local[joint].translation[2], cpp_pose.local()[joint].translation.z);
-            EXPECT_EQ(local[joint].rotation[1], cpp_pose.local()[joint].rotation.y);
+        for (std::uint32_t joint = 0; joint < 2; ++joint) {
+            EXPECT_EQ(local[joint].translation[0], cpp_pose.local(joint).translation.x);
+            EXPECT_EQ(local[joint].translation[2], cpp_pose.local(joint).translation.z);
+            EXPECT_EQ(local[joint].rotation[1], cpp_pose.local(joint).rotation.y);
         }
     }
     EXPECT_EQ(bendy_crossfade_count(fade.get()), 1u) << "the first clip is covered";

@@ -57,7 +57,7 @@ TEST_F(CMotion, IsTakenOutOfAPose) {
     bendy_transform root{};
     bendy_get_local(pose.get(), 0, 1, &root, nullptr);
     EXPECT_NEAR(root.translation[0], 1.0f, 1e-6f) << "at rest again";
-    EXPECT_EQ(root.rotation[1], cpp_pose.local()[0].rotation.y);
+    EXPECT_EQ(root.rotation[1], cpp_pose.local(0).rotation.y);
     EXPECT_EQ(bendy_root_path_extract(path_.get(), pose.get(), nullptr, &error_), BENDY_OK);
 }
 
@@ -141,7 +141,9 @@ TEST_F(CMotion, SocketsFollowTheirJoints) {
     bendy_set_local(pose.get(), 1, 1, &tip, nullptr);
     Pose cpp_pose(*expected_);
     ASSERT_TRUE(sample(cpp_pose, &expected_->clips()[0], 1.0f));
-    cpp_pose.change_local()[1].scale.x = 3.0f;
+    JointTransform scaled = cpp_pose.local(1);
+    scaled.scale.x = 3.0f;
+    cpp_pose.set_local(1, scaled);
     const std::array<float, 16> world{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1};
     for (const std::uint32_t keeps_size : {0u, 1u}) {
         bendy_socket socket = BENDY_SOCKET_INIT;

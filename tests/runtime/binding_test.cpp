@@ -3,6 +3,7 @@
 #include <bendy/runtime/sample.h>
 
 #include "runtime/clip_model.h"
+#include "runtime/local_joints.h"
 #include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
@@ -87,23 +88,23 @@ TEST(Binding, WhatIsAnimatedComesOverTheRestIsAtRest) {
     const Owned to(test::build_file(posed()));
     Binding binding(*from, *to);
     Pose pose(*to);
-    pose.change_local()[4].translation = {9, 9, 9};
+    test::local_of(pose, 4)->translation = {9, 9, 9};
     pose.change_morph_weights()[0] = 9.0f;
     ASSERT_TRUE(sample(pose, binding, from->clip("move"), 1.0f));
-    EXPECT_EQ(pose.local()[0].translation, glm::vec3(0, 0, 0));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
-    EXPECT_EQ(pose.local()[2].translation, glm::vec3(0, 0.25f, 0));
-    EXPECT_EQ(pose.local()[3].translation, glm::vec3(7, 7, 7));
-    EXPECT_EQ(pose.local()[3].scale, glm::vec3(3, 3, 3));
-    EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
-    EXPECT_EQ(pose.local()[4].translation, glm::vec3(0, 4, 0));
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(0, 0, 0));
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(0, 20, 0));
+    EXPECT_EQ(pose.local(2).translation, glm::vec3(0, 0.25f, 0));
+    EXPECT_EQ(pose.local(3).translation, glm::vec3(7, 7, 7));
+    EXPECT_EQ(pose.local(3).scale, glm::vec3(3, 3, 3));
+    EXPECT_EQ(pose.local(3).rotation.z, 1.0f);
+    EXPECT_EQ(pose.local(4).translation, glm::vec3(0, 4, 0));
     EXPECT_EQ(pose.morph_weights()[0], 0.0f);
     EXPECT_EQ(pose.morph_weights()[1], 0.5f);
     // Another clip animates less.
     ASSERT_TRUE(sample(pose, binding, from->clip("other"), 1.0f));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
-    EXPECT_EQ(pose.local()[1].rotation.y, 1.0f);
-    EXPECT_EQ(pose.local()[3].rotation.w, 1.0f);
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(0, 0.5f, 0));
+    EXPECT_EQ(pose.local(1).rotation.y, 1.0f);
+    EXPECT_EQ(pose.local(3).rotation.w, 1.0f);
     EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
 
@@ -116,15 +117,15 @@ TEST(Binding, LimbsMayKeepTheirLengths) {
     Binding topmost(*from, *to, options);
     Pose pose(*to);
     ASSERT_TRUE(sample(pose, topmost, from->clip("move"), 1.0f));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 10, 0));    // hips: nothing matched above them
-    EXPECT_EQ(pose.local()[3].translation, glm::vec3(0, 1.5f, 0));  // the spine's own
-    EXPECT_EQ(pose.local()[3].rotation.z, 1.0f);
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(0, 10, 0));    // hips: nothing matched above them
+    EXPECT_EQ(pose.local(3).translation, glm::vec3(0, 1.5f, 0));  // the spine's own
+    EXPECT_EQ(pose.local(3).rotation.z, 1.0f);
     options.root = to->joint("spine");
     options.root_scale = 1.0f;
     Binding down_to_spine(*from, *to, options);
     ASSERT_TRUE(sample(pose, down_to_spine, from->clip("move"), 1.0f));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 20, 0));
-    EXPECT_EQ(pose.local()[3].translation, glm::vec3(7, 7, 7));
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(0, 20, 0));
+    EXPECT_EQ(pose.local(3).translation, glm::vec3(7, 7, 7));
 }
 
 TEST(Binding, RefusesWhatIsNotItsOwn) {
@@ -133,10 +134,10 @@ TEST(Binding, RefusesWhatIsNotItsOwn) {
     Binding binding(*from, *to);
     Pose pose(*to);
     Pose of_other(*from);
-    pose.change_local()[1].translation.x = 7.0f;
+    test::local_of(pose, 1)->translation.x = 7.0f;
     EXPECT_FALSE(sample(of_other, binding, from->clip("move"), 1.0f));
     EXPECT_FALSE(sample(pose, binding, nullptr, 1.0f));
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(0, 0.5f, 0));
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(0, 0.5f, 0));
     const Clip stranger;
     EXPECT_FALSE(sample(pose, binding, &stranger, 1.0f));
     EXPECT_FALSE(sample(pose, binding, from->clip("move"), std::numeric_limits<float>::quiet_NaN()));
@@ -164,10 +165,10 @@ TEST(Binding, ToTheSameSkeletonItIsSampling) {
     for (const float seconds : {0.0f, 0.61f, 1.2f, 9.0f}) {
         ASSERT_TRUE(sample(expected, from->clip("packed"), seconds));
         ASSERT_TRUE(sample(pose, binding, from->clip("packed"), seconds));
-        for (std::size_t k = 0; k < 20; ++k) {
-            EXPECT_EQ(pose.local()[k].rotation, expected.local()[k].rotation);
-            EXPECT_EQ(pose.local()[k].translation, expected.local()[k].translation);
-            EXPECT_EQ(pose.local()[k].scale, expected.local()[k].scale);
+        for (std::uint32_t k = 0; k < 20; ++k) {
+            EXPECT_EQ(pose.local(k).rotation, expected.local(k).rotation);
+            EXPECT_EQ(pose.local(k).translation, expected.local(k).translation);
+            EXPECT_EQ(pose.local(k).scale, expected.local(k).scale);
         }
     }
 }

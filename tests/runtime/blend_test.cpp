@@ -4,6 +4,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -29,11 +30,11 @@ test::ModelSpec chain_of(std::uint32_t joints) {
 void put_random(Pose& pose, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-    for (JointTransform& local : pose.change_local()) {
+    test::change_locals(pose, [&](JointTransform& local) {
         local.rotation = glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
         local.translation = {number(random), number(random), number(random)};
         local.scale = {1.5f + number(random), 1.5f + number(random), 1.5f + number(random)};
-    }
+    });
 }
 
 using Four = std::array<double, 4>;  // x y z w
@@ -99,9 +100,9 @@ TEST(Blend, MixesEveryJointByItsWeight) {
                     EXPECT_TRUE(PoseState::of(pose).is_stale);
                     for (std::uint32_t joint = 0; joint < joints; ++joint) {
                         const double u = double{weight} * (is_masked ? mask[joint] : 1.0f);
-                        const JointTransform& a = start.local()[joint];
-                        const JointTransform& b = other.local()[joint];
-                        const JointTransform& found = pose.local()[joint];
+                        const JointTransform& a = start.local(joint);
+                        const JointTransform& b = other.local(joint);
+                        const JointTransform& found = pose.local(joint);
                         expect_rotation(found.rotation, nlerp(four(a.rotation), four(b.rotation), u), 8 * kUnit);
                         for (int c = 0; c < 3; ++c) {
                             EXPECT_NEAR(found.translation[c], (1 - u) * a.translation[c] + u * b.translation[c],
@@ -126,9 +127,9 @@ TEST(Blend, NothingAndEverythingAreExact) {
         ASSERT_TRUE(blend(nothing, other, 0.0f));
         ASSERT_TRUE(blend(everything, other, 1.0f));
         for (std::uint32_t joint = 0; joint < 19; ++joint) {
-            EXPECT_EQ(nothing.local()[joint].translation, start.local()[joint].translation);
-            EXPECT_EQ(everything.local()[joint].translation, other.local()[joint].translation);
-            EXPECT_EQ(everything.local()[joint].scale, other.local()[joint].scale);
+            EXPECT_EQ(nothing.local(joint).translation, start.local(joint).translation);
+            EXPECT_EQ(everything.local(joint).translation, other.local(joint).translation);
+            EXPECT_EQ(everything.local(joint).scale, other.local(joint).scale);
         }
     });
 }
@@ -141,9 +142,9 @@ TEST(Blend, APoseWithItselfStays) {
         const Pose before = pose;
         ASSERT_TRUE(blend(pose, pose, 0.4f));
         for (std::uint32_t joint = 0; joint < 11; ++joint) {
-            expect_rotation(pose.local()[joint].rotation, four(before.local()[joint].rotation), 4 * kUnit);
+            expect_rotation(pose.local(joint).rotation, four(before.local(joint).rotation), 4 * kUnit);
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(pose.local()[joint].translation[c], before.local()[joint].translation[c], 2 * kUnit);
+                EXPECT_NEAR(pose.local(joint).translation[c], before.local(joint).translation[c], 2 * kUnit);
         }
     });
 }
@@ -162,15 +163,15 @@ TEST(Additive, IsTheReferenceAgainAndWhatWasAddedToIt) {
             ASSERT_TRUE(add(none, difference, 0.0f));
             ASSERT_TRUE(add(all, difference, 1.0f));
             for (std::uint32_t joint = 0; joint < joints; ++joint) {
-                const Four target = four(shown.local()[joint].rotation);
+                const Four target = four(shown.local(joint).rotation);
                 double dot = 0.0;
-                for (std::size_t c = 0; c < 4; ++c) dot += target[c] * four(all.local()[joint].rotation)[c];
+                for (std::size_t c = 0; c < 4; ++c) dot += target[c] * four(all.local(joint).rotation)[c];
                 EXPECT_NEAR(std::abs(dot), 1.0, 16 * kUnit);  // the same turn, whatever the sign
-                expect_rotation(none.local()[joint].rotation, four(reference.local()[joint].rotation), 4 * kUnit);
+                expect_rotation(none.local(joint).rotation, four(reference.local(joint).rotation), 4 * kUnit);
                 for (int c = 0; c < 3; ++c) {
-                    EXPECT_NEAR(all.local()[joint].translation[c], shown.local()[joint].translation[c], 8 * kUnit);
-                    EXPECT_NEAR(all.local()[joint].scale[c], shown.local()[joint].scale[c], 16 * kUnit);
-                    EXPECT_EQ(none.local()[joint].scale[c], reference.local()[joint].scale[c]);
+                    EXPECT_NEAR(all.local(joint).translation[c], shown.local(joint).translation[c], 8 * kUnit);
+                    EXPECT_NEAR(all.local(joint).scale[c], shown.local(joint).scale[c], 16 * kUnit);
+                    EXPECT_EQ(none.local(joint).scale[c], reference.local(joint).scale[c]);
                 }
             }
         }
@@ -190,9 +191,9 @@ TEST(Additive, AddsAShareInTheJointsOwnAxes) {
         ASSERT_TRUE(add(pose, difference, 0.6f, mask));
         for (std::uint32_t joint = 0; joint < 13; ++joint) {
             const double u = double{0.6f} * mask[joint];
-            const JointTransform& from = base.local()[joint];
-            const JointTransform& added = difference.local()[joint];
-            const JointTransform& found = pose.local()[joint];
+            const JointTransform& from = base.local(joint);
+            const JointTransform& added = difference.local(joint);
+            const JointTransform& found = pose.local(joint);
             expect_rotation(found.rotation, product(four(from.rotation), nlerp({0, 0, 0, 1}, four(added.rotation), u)),
                             8 * kUnit);
             for (int c = 0; c < 3; ++c) {
@@ -206,10 +207,10 @@ TEST(Additive, AddsAShareInTheJointsOwnAxes) {
 TEST(Additive, AScaleOfNothingHasNoQuotient) {
     const Owned model(test::build_file(chain_of(1)));
     Pose reference(*model), pose(*model);
-    reference.change_local()[0].scale = {0, 2, 1};
-    pose.change_local()[0].scale = {3, 3, 3};
+    test::local_of(reference, 0)->scale = {0, 2, 1};
+    test::local_of(pose, 0)->scale = {3, 3, 3};
     ASSERT_TRUE(make_additive(pose, reference));
-    EXPECT_EQ(pose.local()[0].scale, glm::vec3(1, 1.5f, 3));
+    EXPECT_EQ(pose.local(0).scale, glm::vec3(1, 1.5f, 3));
 }
 
 TEST(Blend, TargetWeightsAreMixedAndAdded) {
@@ -246,8 +247,8 @@ TEST(Blend, RefusesWhatDoesNotFit) {
     EXPECT_FALSE(add(pose, own, 0.5f, short_mask));
     EXPECT_FALSE(blend(pose, own, std::numeric_limits<float>::quiet_NaN()));
     EXPECT_FALSE(add(pose, own, std::numeric_limits<float>::infinity()));
-    for (std::size_t joint = 0; joint < 3; ++joint)
-        EXPECT_EQ(pose.local()[joint].translation, before.local()[joint].translation);
+    for (std::uint32_t joint = 0; joint < 3; ++joint)
+        EXPECT_EQ(pose.local(joint).translation, before.local(joint).translation);
 }
 
 TEST(Blend, WithoutJointsThereIsNothingToDo) {

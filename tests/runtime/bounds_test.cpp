@@ -5,6 +5,7 @@
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
 #include "runtime/limb_model.h"
+#include "runtime/local_joints.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -64,7 +65,7 @@ TEST(Bounds, OfOneJointByHand) {
     EXPECT_EQ(bounds.joint(0).minimum, glm::vec3(-1, 2, -4));
     EXPECT_EQ(bounds.joint(0).maximum, glm::vec3(1, 5, 3));
     Pose pose(*model);
-    pose.change_local()[0].rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));  // x to y, y to -x
+    test::local_of(pose, 0)->rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));  // x to y, y to -x
     const Box box = bounds.of(pose);
     EXPECT_FALSE(PoseState::of(pose).is_stale);
     const glm::vec3 minimum(-5, 9, -4);
@@ -136,7 +137,7 @@ TEST(Bounds, WeightsThatAreNotAverages) {
     const Owned model(test::build_file(spec));
     const Bounds bounds(*model);
     Pose pose(*model);
-    pose.change_local()[1].translation = {30, -40, 5};
+    test::local_of(pose, 1)->translation = {30, -40, 5};
     const auto positions = skinned(*model, pose);
     EXPECT_EQ(positions[0], glm::vec3(0.25f * 50, 0.25f * -18, 0.25f * 29));
     EXPECT_EQ(positions[3], glm::vec3(0));
@@ -170,7 +171,7 @@ TEST(Bounds, WhatIsNotFiniteIsLeftOut) {
     const Owned model(test::build_file(spec));
     const Bounds bounds(*model);
     Pose pose(*model);
-    pose.change_local()[1].translation.x = kNan;
+    test::local_of(pose, 1)->translation.x = kNan;
     const Box box = bounds.of(pose);
     for (const float number :
          {box.minimum.x + 2, box.minimum.y, box.minimum.z, box.maximum.x - 1, box.maximum.y - 2, box.maximum.z - 3})

@@ -77,20 +77,20 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
     EXPECT_EQ(fade.playback(), nullptr);
     fade.play(*model->clip("0"), 1.0f);
     ASSERT_TRUE(sample(pose, fade, scratch));
-    EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 1.0f);
+    EXPECT_FLOAT_EQ(pose.local(0).translation.x, 1.0f);
 
     fade.play(*model->clip("1"), 1.0f, Easing::linear);
     fade.advance(0.25);
     ASSERT_TRUE(sample(pose, fade, scratch));
-    EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);
+    EXPECT_FLOAT_EQ(pose.local(0).translation.x, 0.75f * 1.0f + 0.25f * 10.0f);
 
     fade.play(*model->clip("2"), 0.5f, Easing::linear);
     ASSERT_TRUE(sample(pose, fade, scratch));
-    EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.75f * 1.0f + 0.25f * 10.0f);  // nothing jumps
+    EXPECT_FLOAT_EQ(pose.local(0).translation.x, 0.75f * 1.0f + 0.25f * 10.0f);  // nothing jumps
     fade.advance(0.25);
     ASSERT_TRUE(sample(pose, fade, scratch));
     const float below = 0.5f * 1.0f + 0.5f * 10.0f;
-    EXPECT_FLOAT_EQ(pose.local()[0].translation.x, 0.5f * below + 0.5f * 100.0f);
+    EXPECT_FLOAT_EQ(pose.local(0).translation.x, 0.5f * below + 0.5f * 100.0f);
     ASSERT_EQ(fade.playing().size(), 3u);
     EXPECT_FLOAT_EQ(fade.playing()[0].share, 0.25f);
     EXPECT_FLOAT_EQ(fade.playing()[1].share, 0.25f);
@@ -103,7 +103,7 @@ TEST(Crossfade, WhatIsInterruptedGoesOnBeneath) {
     EXPECT_EQ(fade.playing()[0].clip, model->clip("2"));
     EXPECT_EQ(fade.playing()[0].share, 1.0f);
     ASSERT_TRUE(sample(pose, fade, scratch));
-    EXPECT_EQ(pose.local()[0].translation.x, 100.0f);
+    EXPECT_EQ(pose.local(0).translation.x, 100.0f);
     fade.playback()->set_speed(-1.0);
     fade.advance(0.25);
     EXPECT_EQ(fade.playback()->seconds(), 0.25f);
@@ -125,7 +125,7 @@ TEST(Crossfade, SharesAddUpAndTheOldestMakesRoom) {
         }
         EXPECT_NEAR(all, 1.0, 1e-6);
         ASSERT_TRUE(sample(pose, fade, scratch));
-        EXPECT_NEAR(pose.local()[0].translation.x, x, 1e-5 * x);
+        EXPECT_NEAR(pose.local(0).translation.x, x, 1e-5 * x);
     }
     ASSERT_EQ(fade.playing().size(), Crossfade::kMost);
     EXPECT_EQ(fade.playing().front().clip->name, "2");
@@ -139,7 +139,7 @@ TEST(Crossfade, PosesOfOtherModelsAreRefused) {
     Crossfade fade;
     fade.play(*model->clip("0"), 0.0f);
     EXPECT_FALSE(sample(pose, fade, scratch));
-    EXPECT_EQ(pose.local()[0].translation.x, 0.0f);
+    EXPECT_EQ(pose.local(0).translation.x, 0.0f);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "format/sample_file.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -215,7 +216,7 @@ TEST(Crowd, TheCallerMayPose) {
     member.out.positions = {{&positions.front().x, positions.size() * 3}, 3};
     const auto lift = [&](const CrowdMember& of, Pose& pose) {
         EXPECT_TRUE(sample(pose, model->clip("run"), of.seconds));
-        pose.change_local()[0].translation.y += 2.0f;
+        test::local_of(pose, 0)->translation.y += 2.0f;
     };
     ASSERT_TRUE(crowd.play({&member, 1}, 0, lift));
     Pose pose(*model);

@@ -4,6 +4,7 @@
 
 #include "runtime/build_model.h"
 #include "runtime/limb_model.h"
+#include "runtime/local_joints.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -107,7 +108,7 @@ TEST(DualSkin, ATwistKeepsTheRadius) {
     Pose pose(*model);
     for (const double degrees : {90.0, -150.0, 179.0}) {
         const double half = degrees * M_PI / 360.0;
-        pose.change_local()[1].rotation =
+        test::local_of(pose, 1)->rotation =
             glm::quat(static_cast<float>(std::cos(half)), 0, static_cast<float>(std::sin(half)), 0);
         const Skinned by_dual = dual(*model, pose);
         const Skinned by_linear = linear(*model, pose);
@@ -135,10 +136,11 @@ TEST(DualSkin, WhereAllJointsMoveAlikeItIsLinear) {
         Pose pose(*model);
         for (int round = 0; round < 10; ++round) {
             pose.set_rest();
-            JointTransform& trunk = pose.change_local()[0];
+            JointTransform trunk = pose.local(0);
             trunk.rotation = glm::normalize(glm::quat(limb.number(), limb.number(), limb.number(), limb.number()));
             trunk.translation = 5.0f * glm::vec3(limb.number(), limb.number(), limb.number());
             if (round % 2 == 1) trunk.scale = glm::vec3(round % 4 == 1 ? 2.5f : -0.3f);  // all alike, mirrored too
+            pose.set_local(0, trunk);
             for (float& weight : pose.change_morph_weights()) weight = limb.number();
             expect_same(dual(*model, pose), linear(*model, pose), 4e-6);
         }
@@ -282,14 +284,14 @@ TEST(DualSkin, IsTheSumOfDualQuaternionsByTheirWeights) {
         spec.meshes = {mesh};
         const Owned model(test::build_file(spec));
         Pose pose(*model);
-        for (JointTransform& local : pose.change_local()) {
+        test::change_locals(pose, [&](JointTransform& local) {
             local.rotation = glm::quat(turn());
             local.translation = {number(random), number(random), number(random)};
-        }
+        });
         const std::vector<Skinned> by_kernel = dual_by_every_kernel(*model, pose);
         std::vector<Dual> motions;
         for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
-            const JointTransform& local = pose.local()[joint];
+            const JointTransform& local = pose.local(joint);
             const glm::dquat bound = glm::normalize(glm::quat_cast(glm::dmat3(glm::dmat4(binds[joint]))));
             motions.push_back(multiply(make_dual(glm::normalize(glm::dquat(local.rotation)), local.translation),
                                        make_dual(bound, glm::dvec3(binds[joint][3]))));
@@ -329,9 +331,9 @@ TEST(DualSkin, AScaledJointScalesAboutItself) {
     Pose pose(*model);
     for (const double degrees : {0.0, 60.0, 170.0}) {
         const double half = degrees * M_PI / 360.0;
-        pose.change_local()[1].rotation =
+        test::local_of(pose, 1)->rotation =
             glm::quat(static_cast<float>(std::cos(half)), 0, static_cast<float>(std::sin(half)), 0);
-        pose.change_local()[1].scale = glm::vec3(2.0f);
+        test::local_of(pose, 1)->scale = glm::vec3(2.0f);
         const Skinned is = dual(*model, pose);
         for (std::size_t v = 0; v < is.positions.size(); ++v) {
             const double share = Tube::share(v);
@@ -358,7 +360,7 @@ TEST(DualSkin, MeshesThatShareAPaletteAreAsEachAlone) {
     const Owned model(test::build_file(tube.spec));
     Pose pose(*model);
     for (const float turn : {0.3f, -0.8f}) {
-        pose.change_local()[1].rotation = glm::quat(std::sqrt(1.0f - turn * turn), 0, turn, 0);
+        test::local_of(pose, 1)->rotation = glm::quat(std::sqrt(1.0f - turn * turn), 0, turn, 0);
         Skinned all(model->vertex_count());
         EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = all.all()}));
         for (std::uint32_t mesh = 0; mesh < 5; ++mesh) {
@@ -373,7 +375,7 @@ TEST(DualSkin, MeshesThatShareAPaletteAreAsEachAlone) {
 TEST(DualSkin, LevelsOfDetailAndRigidMeshesAsLinear) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    pose.change_local()[1].rotation = glm::normalize(glm::quat(1, 0, 0, 0.4f));
+    test::local_of(pose, 1)->rotation = glm::normalize(glm::quat(1, 0, 0, 0.4f));
     Skinned all(model->vertex_count());
     ASSERT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = all.all()}));
     Skinned flat(model->vertex_count());
@@ -404,7 +406,7 @@ TEST(DualSkin, RefusesShortMemoryAndBearsNoNumbers) {
     EXPECT_FALSE(skin(pose, {.mesh = 0, .method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}));
     EXPECT_EQ(positions[0], glm::vec3(5.0f));
     positions.emplace_back();
-    pose.change_local()[1].translation.x = std::numeric_limits<float>::quiet_NaN();
+    test::local_of(pose, 1)->translation.x = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(
         skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {.positions = positions}}));  // as skin has it
     EXPECT_FALSE(std::isfinite(positions.back().x));

@@ -4,6 +4,7 @@
 #include <bendy/runtime.h>
 
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -115,13 +116,13 @@ Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
         const test::Owned model(test::build_file(arm(dice, is_limited, is_hinge)));
         for (int k = 0; k < 10; ++k) {
             Pose quick(*model);
-            if (dice.one_in(2)) quick.change_local()[0].rotation = dice.turn(3.0f);
+            if (dice.one_in(2)) test::local_of(quick, 0)->rotation = dice.turn(3.0f);
             if (!is_hinge && dice.one_in(2)) {  // twisted
-                quick.change_local()[2].rotation = quick.local()[2].rotation * dice.turn(1.5f);
+                test::local_of(quick, 2)->rotation = quick.local(2).rotation * dice.turn(1.5f);
                 constrain(quick);
             }
             const glm::vec3 near(quick.model_space()[2][3]);
-            if (dice.one_in(2)) (void)quick.change_local();  // as if it had changed
+            if (dice.one_in(2)) test::local_of(quick, 0);  // as if it had changed
             Pose general(quick);
             ReachOptions options;
             if (dice.one_in(4)) options.pole = dice.point(3.0f);
@@ -129,7 +130,8 @@ Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
             const auto result = reach_quickly(model->chains()[chain], target, quick, options);
             ++count.all;
             if (!result) {
-                EXPECT_EQ(std::memcmp(quick.local().data(), general.local().data(), quick.local().size_bytes()), 0);
+                const auto blocks = quick.local_blocks();
+                EXPECT_EQ(std::memcmp(blocks.data(), general.local_blocks().data(), blocks.size_bytes()), 0);
                 continue;
             }
             ++count.quick;
@@ -139,8 +141,8 @@ Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
             EXPECT_NEAR(result->distance, expected.distance, 1e-5);
             EXPECT_NEAR(result->angle, expected.angle, 1e-6);
             EXPECT_TRUE(PoseState::of(quick).is_stale);
-            for (std::uint32_t joint = 0; joint < quick.local().size(); ++joint) {
-                const double off = angle_between(quick.local()[joint].rotation, general.local()[joint].rotation);
+            for (std::uint32_t joint = 0; joint < quick.model().joints().size(); ++joint) {
+                const double off = angle_between(quick.local(joint).rotation, general.local(joint).rotation);
                 EXPECT_LT(off, 1e-6) << seed << ' ' << k << ' ' << joint;
             }
         }

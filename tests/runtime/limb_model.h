@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -48,12 +49,12 @@ public:
     /// Joints turned anyhow about where they are at rest.
     void pose_at_random(Pose& pose, bool is_scaled, bool has_targets) {
         pose.set_rest();
-        for (JointTransform& local : pose.change_local()) {
+        test::change_locals(pose, [&](JointTransform& local) {
             local.rotation =
                 glm::normalize(local.rotation * glm::quat(1.0f, 0.8f * number(), 0.8f * number(), 0.8f * number()));
             if (is_scaled) local.scale = {1.0f + 0.4f * number(), 1.0f + 0.4f * number(), 1.2f * number()};
             if (is_scaled) local.translation += 0.2f * glm::vec3(number(), number(), number());
-        }
+        });
         if (!has_targets) return;
         for (float& weight : pose.change_morph_weights()) weight = 1.5f * number();
     }

@@ -4,6 +4,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ TEST(LocalToModel, FollowsWhatWasChanged) {
     Pose pose(*model);
     EXPECT_FALSE(PoseState::of(pose).is_stale);
     EXPECT_EQ(place(pose, 2), glm::vec3(0, 1.75f, 0));
-    pose.change_local()[1].translation = {0, 0, 4};
+    test::local_of(pose, 1)->translation = {0, 0, 4};
     EXPECT_TRUE(PoseState::of(pose).is_stale);
     EXPECT_EQ(place(pose, 2), glm::vec3(0, 1.25f, 4));  // as soon as it is asked for
     EXPECT_FALSE(PoseState::of(pose).is_stale);
@@ -66,11 +67,11 @@ constexpr std::uint32_t kDeep = 10'000;
 TEST(LocalToModel, TenThousandLevelsOfTurnsAreExact) {
     const Owned model(test::rope_file(kDeep));
     Pose pose(*model);
-    for (JointTransform& local : pose.change_local()) {
+    test::change_locals(pose, [&](JointTransform& local) {
         local.rotation =
             glm::quat(0.5f, 0.5f, 0.5f, 0.5f);  // a third of a turn: x to y, y to z, z to x; exact in binary
         local.translation = {1, 2, 4};
-    }
+    });
     (void)pose.model_space();
     // Each step turns the axes on, so three steps together go 1 + 2 + 4 along each.
     const std::array<glm::vec3, 3> steps{glm::vec3(1, 2, 4), glm::vec3(4, 1, 2), glm::vec3(2, 4, 1)};
@@ -84,10 +85,10 @@ TEST(LocalToModel, TenThousandLevelsOfTurnsAreExact) {
 TEST(LocalToModel, RoundingDoesNotAddUpAlongAChain) {
     const Owned model(test::rope_file(kDeep));
     Pose pose(*model);
-    for (JointTransform& local : pose.change_local()) {
+    test::change_locals(pose, [&](JointTransform& local) {
         local.rotation = glm::quat(0.5f, 0.5f, 0.5f, 0.5f);
         local.translation = glm::vec3(0.1f);  // along the axis that the turns keep
-    }
+    });
     (void)pose.model_space();
     const double expected = kDeep * double{0.1f};
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(place(pose, kDeep - 1)[c], expected, 1e-4);
@@ -96,8 +97,8 @@ TEST(LocalToModel, RoundingDoesNotAddUpAlongAChain) {
 TEST(LocalToModel, ALeafOfADeepChainComesBackToItsParent) {
     const Owned model(test::rope_file(kDeep));
     Pose pose(*model);
-    const auto local = pose.change_local();
-    for (std::uint32_t joint = 0; joint < kDeep; ++joint) local[joint].translation.x = joint < kDeep / 2 ? 0.7f : -0.7f;
+    for (std::uint32_t joint = 0; joint < kDeep; ++joint)
+        test::local_of(pose, joint)->translation.x = joint < kDeep / 2 ? 0.7f : -0.7f;
     (void)pose.model_space();
     EXPECT_NEAR(place(pose, kDeep / 2 - 1).x, kDeep / 2 * double{0.7f}, 1e-3);
     EXPECT_NEAR(place(pose, kDeep - 1).x, 0.0, 1e-6);

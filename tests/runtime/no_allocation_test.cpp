@@ -2,6 +2,7 @@
 
 #include "mutation/allocations.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 #include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ TEST(NoAllocation, PosingMakesNoneAfterSetUp) {
         is_good = apply_morph_targets(model->meshes()[0], pose.morph_weights(), vertices) && is_good;
         lod.set_share(0.05f * static_cast<float>(frame));
         is_good = skin(pose, {.lod = &lod, .out = vertices}) && is_good;
-        pose.change_local()[0].translation.x += 1.0f;
+        test::local_of(pose, 0)->translation.x += 1.0f;
         pose.change_morph_weights()[0] = 0.5f;
         is_good = skin(pose, {.out = vertices}) && is_good;
         pose.set_rest();

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 // The kernels for posing against doubles, for tests here and on other processors: no GoogleTest, no exceptions.
@@ -53,6 +54,7 @@ public:
 
 private:
     static constexpr double kUnit = 0x1p-24;
+    static constexpr float kOutside = 0.5f;  ///< each number of a lane without a joint: a unit rotation
     using Floats = std::vector<float>;
 
     float number() { return numbers_(random_); }
@@ -62,23 +64,53 @@ private:
         if (!std::isnan(worst) && !(error <= worst)) worst = error;  // what is not a number stays
     }
 
-    /// Ten numbers a joint.
-    Floats random_pose(std::size_t joints) {
-        Floats local;
+    /// The numbers of joints in blocks.
+    class Blocks {
+    public:
+        explicit Blocks(std::size_t joints, float all = 0.0f)
+            : floats_(kBlockFloats * ((joints + kBlockJoints - 1) / kBlockJoints), all) {}
+        float* data() { return floats_.data(); }
+        [[nodiscard]] const float* data() const { return floats_.data(); }
+        float& at(std::size_t joint, std::size_t number) { return floats_[place_of(joint, number)]; }
+        [[nodiscard]] float at(std::size_t joint, std::size_t number) const { return floats_[place_of(joint, number)]; }
+        [[nodiscard]] glm::dquat rotation_of(std::size_t joint) const {
+            return {at(joint, 3), at(joint, 0), at(joint, 1), at(joint, 2)};
+        }
+        [[nodiscard]] glm::dmat4 matrix_of(std::size_t joint) const {
+            glm::dmat4 matrix = glm::mat4_cast(rotation_of(joint));
+            for (int c = 0; c < 3; ++c) matrix[c] *= double{at(joint, 7 + static_cast<std::size_t>(c))};
+            matrix[3] = glm::dvec4(at(joint, 4), at(joint, 5), at(joint, 6), 1.0);
+            return matrix;
+        }
+        static std::uint32_t place_of(std::size_t joint, std::size_t number) {
+            return static_cast<std::uint32_t>(joint / kBlockJoints * kBlockFloats + number * kBlockJoints +
+                                              joint % kBlockJoints);
+        }
+
+    private:
+        Floats floats_;
+    };
+
+    /// The lanes after the last joint are set too, to what a kernel must leave alone or may read.
+    Blocks random_pose(std::size_t joints) {
+        Blocks local(joints, kOutside);
         for (std::size_t k = 0; k < joints; ++k) {
             const glm::quat q = rotation();
-            local.insert(local.end(), {q.x, q.y, q.z, q.w, number(), number(), number(), 1.0f + 0.3f * number(),
-                                       1.0f + 0.3f * number(), -1.0f + 0.3f * number()});
+            const std::array<float, 10> numbers{q.x,
+                                                q.y,
+                                                q.z,
+                                                q.w,
+                                                number(),
+                                                number(),
+                                                number(),
+                                                1.0f + 0.3f * number(),
+                                                1.0f + 0.3f * number(),
+                                                -1.0f + 0.3f * number()};
+            for (std::size_t c = 0; c < numbers.size(); ++c) local.at(k, c) = numbers[c];
         }
         return local;
     }
     static glm::dquat rotation_at(const float* at) { return {at[3], at[0], at[1], at[2]}; }
-    static glm::dmat4 matrix_at(const float* local) {
-        glm::dmat4 matrix = glm::mat4_cast(rotation_at(local));
-        for (int c = 0; c < 3; ++c) matrix[c] *= double{local[7 + c]};
-        matrix[3] = glm::dvec4(local[4], local[5], local[6], 1.0);
-        return matrix;
-    }
     /// The largest a number of the product can be before signs cancel.
     static glm::dmat4 without_signs(glm::dmat4 matrix) {
         for (int c = 0; c < 4; ++c) matrix[c] = glm::abs(matrix[c]);
@@ -86,19 +118,19 @@ private:
     }
 
     void compare_matrices(std::size_t joints) {
-        const Floats local = random_pose(joints);
+        const Blocks local = random_pose(joints);
         std::vector<std::uint32_t> parents(joints, 0xffff'ffffu), order(joints), entries(joints);
         for (std::uint32_t k = 0; k < joints; ++k) {
             order[k] = k;
             entries[k] = static_cast<std::uint32_t>(joints) - 1 - k;
             if (k % 7 != 0) parents[k] = k - 1 - (k % 3 == 2 ? 1 : 0);
         }
-        Floats model(16 * joints);
+        Floats model(16 * ((joints + kBlockJoints - 1) / kBlockJoints * kBlockJoints));
         kernels_.pose({joints, local.data(), parents.data(), order.data(), model.data()});
         std::vector<glm::dmat4> expected(joints), sums(joints);
         std::vector<double> depth(joints, 1.0);
         for (std::size_t k = 0; k < joints; ++k) {
-            expected[k] = matrix_at(&local[10 * k]);
+            expected[k] = local.matrix_of(k);
             sums[k] = without_signs(expected[k]);
             for (int c = 0; c < 3; ++c) sums[k][c] += glm::dvec4(glm::dvec3(1.3), 0.0);
             if (parents[k] != 0xffff'ffffu) {
@@ -150,11 +182,11 @@ private:
         if (angle < 1e-7) return a * (1.0 - u) + b * u;
         return a * (std::sin(angle * (1.0 - u)) / std::sin(angle)) + b * (std::sin(angle * u) / std::sin(angle));
     }
-    static void note_rotation(double& worst, const float* found, const glm::dquat& expected) {
-        note(worst, found[0], expected.x, 1.0);
-        note(worst, found[1], expected.y, 1.0);
-        note(worst, found[2], expected.z, 1.0);
-        note(worst, found[3], expected.w, 1.0);
+    static void note_rotation(double& worst, const glm::dquat& found, const glm::dquat& expected) {
+        note(worst, found.x, expected.x, 1.0);
+        note(worst, found.y, expected.y, 1.0);
+        note(worst, found.z, expected.z, 1.0);
+        note(worst, found.w, expected.w, 1.0);
     }
 
     /// Two groups of rotations, and three vectors; a turn of `angle` between keys.
@@ -171,27 +203,47 @@ private:
         for (Floats& keys : vectors) {
             for (std::size_t k = 0; k < 3 * kKeys; ++k) keys.push_back(number());
         }
-        std::vector<RotationTracks> groups(2);
-        for (std::size_t k = 0; k < 16; ++k) {
-            const std::size_t track = std::min(k, kTracks - 1);
-            groups[k / 8].keys[k % 8] = rotations[track].data();
-            groups[k / 8].places[k % 8] = static_cast<std::uint32_t>(10 * track);
+        // Eleven rotations in two blocks; vectors by group and one by one.
+        std::vector<TrackGroup> groups = groups_of(rotations);
+        TrackGroup vector_group{{}, {}, 5, Blocks::place_of(0, 4)};
+        for (std::size_t k = 0; k < 8; ++k) {
+            vector_group.keys[k] = vectors[k % 3].data();
+            if (k % 3 != 2) vector_group.has_track[k] = kAllBits;
         }
-        std::vector<VectorTrack> straight{{vectors[0].data(), 4}, {vectors[1].data(), 7}, {vectors[2].data(), 104}};
+        const VectorTrack track{vectors[2].data(), Blocks::place_of(10, 7)};
         for (const float u : {0.0f, 0.125f, 0.7f, 1.0f}) {
-            Floats local(10 * kTracks, -9.0f);
-            kernels_.sample({groups.data(), 2, straight.data(), 3, 1, u, 0.0f, local.data()});
+            Blocks local(kTracks, -9.0f);
+            kernels_.sample({groups.data(), 2, &vector_group, 1, &track, 1, 1, u, 0.0f, local.data()});
             for (std::size_t k = 0; k < kTracks; ++k) {
                 const glm::dquat left = rotation_at(&rotations[k][4]), right = rotation_at(&rotations[k][8]);
-                note_rotation(errors_.sample, &local[10 * k], u == 1.0f ? right : slerp(left, right, u));
+                note_rotation(errors_.sample, local.rotation_of(k), u == 1.0f ? right : slerp(left, right, u));
             }
-            for (std::size_t k = 0; k < 3; ++k) {
+            const auto note_vector = [&](const Floats& keys, std::size_t joint, std::size_t first) {
                 for (std::size_t c = 0; c < 3; ++c)
-                    note(errors_.sample, local[straight[k].place + c],
-                         (1.0 - double{u}) * vectors[k][3 + c] + double{u} * vectors[k][6 + c], 1.0);
+                    note(errors_.sample, local.at(joint, first + c),
+                         (1.0 - double{u}) * keys[3 + c] + double{u} * keys[6 + c], 1.0);
+            };
+            for (std::size_t k = 0; k < 8; ++k) {
+                if (k % 3 != 2) note_vector(vectors[k % 3], k, 4);
             }
-            note(errors_.sample, local[17], -9.0, 1e-9);  // what has no track
+            note_vector(vectors[2], 10, 7);
+            for (const auto& [joint, number] : {std::pair{2, 4}, {5, 5}, {0, 7}, {11, 3}, {15, 0}})  // without a track
+                note(errors_.sample, local.at(std::size_t(joint), std::size_t(number)), -9.0, 1e-9);
         }
+    }
+
+    /// Groups of rotation tracks for joints in order.
+    std::vector<TrackGroup> groups_of(const std::vector<Floats>& rotations) {
+        std::vector<TrackGroup> groups((rotations.size() + kBlockJoints - 1) / kBlockJoints);
+        for (std::size_t k = 0; k < groups.size() * kBlockJoints; ++k) {
+            TrackGroup& group = groups[k / kBlockJoints];
+            group.place = Blocks::place_of(k - k % kBlockJoints, 0);
+            group.keys[k % kBlockJoints] = rotations[std::min(k, rotations.size() - 1)].data();
+            if (k >= rotations.size()) continue;
+            group.has_track[k % kBlockJoints] = kAllBits;
+            ++group.count;
+        }
+        return groups;
     }
 
     /// Two groups of cubic rotations, and two vectors.
@@ -211,13 +263,9 @@ private:
         for (Floats& keys : vectors) {
             for (std::size_t k = 0; k < 9 * kKeys; ++k) keys.push_back(number());
         }
-        std::vector<RotationTracks> groups(2);
-        for (std::size_t k = 0; k < 16; ++k) {
-            const std::size_t track = std::min(k, kTracks - 1);
-            groups[k / 8].keys[k % 8] = rotations[track].data();
-            groups[k / 8].places[k % 8] = static_cast<std::uint32_t>(10 * track);
-        }
-        std::vector<VectorTrack> moved{{vectors[0].data(), 4}, {vectors[1].data(), 107}};
+        std::vector<TrackGroup> groups = groups_of(rotations);
+        std::vector<VectorTrack> moved{{vectors[0].data(), Blocks::place_of(0, 4)},
+                                       {vectors[1].data(), Blocks::place_of(10, 7)}};
         for (const float at : {0.125f, 0.5f, 0.9f}) {
             const double u = at, v = 1.0 - u;
             // The same curve by Bernstein's polynomials: the tangents end a third of the interval from their keys.
@@ -229,45 +277,45 @@ private:
                 const double p2 = p3 - kSeconds / 3.0 * keys[6 * n + c];
                 return v * v * v * p0 + 3.0 * v * v * u * p1 + 3.0 * v * u * u * p2 + u * u * u * p3;
             };
-            Floats local(10 * kTracks, -9.0f);
+            Blocks local(kTracks, -9.0f);
             kernels_.sample_cubic(
-                {groups.data(), 2, moved.data(), 2, 1, at, static_cast<float>(kSeconds), local.data()});
+                {groups.data(), 2, nullptr, 0, moved.data(), 2, 1, at, static_cast<float>(kSeconds), local.data()});
             for (std::size_t k = 0; k < kTracks; ++k) {
                 const auto& keys = rotations[k];
                 const glm::dquat q(spline(keys, 4, 3), spline(keys, 4, 0), spline(keys, 4, 1), spline(keys, 4, 2));
-                note_rotation(errors_.sample, &local[10 * k], glm::normalize(q));
+                note_rotation(errors_.sample, local.rotation_of(k), glm::normalize(q));
             }
             for (std::size_t k = 0; k < 2; ++k) {
                 for (std::size_t c = 0; c < 3; ++c)
-                    note(errors_.sample, local[moved[k].place + c], spline(vectors[k], 3, c), 1.0);
+                    note(errors_.sample, local.data()[moved[k].place + c * kBlockJoints], spline(vectors[k], 3, c),
+                         1.0);
             }
-            note(errors_.sample, local[17], -9.0, 1e-9);  // what has no track
+            note(errors_.sample, local.at(1, 7), -9.0, 1e-9);  // without a track
         }
     }
 
     void compare_blends(std::size_t joints) {
-        constexpr std::size_t kGroup = 8;  // kernels work on whole ones
-        const std::size_t room = (joints + kGroup - 1) / kGroup * kGroup;
-        const Floats from = random_pose(room), other = random_pose(room);
+        const Blocks from = random_pose(joints), other = random_pose(joints);
         Floats mask(joints);
         for (float& each : mask) each = std::abs(number());
         for (const float* const weights :
              {static_cast<const float*>(mask.data()), static_cast<const float*>(nullptr)}) {
-            Floats mixed = from, added = from;
+            Blocks mixed = from, added = from;
             kernels_.mix({joints, mixed.data(), other.data(), 0.75f, weights});
             kernels_.add({joints, added.data(), other.data(), 0.75f, weights});
             for (std::size_t k = 0; k < joints; ++k) {
                 const double u = 0.75 * (weights == nullptr ? 1.0f : weights[k]);
-                const float* const a = &from[10 * k];
-                const float* const b = &other[10 * k];
-                note_rotation(errors_.mix, &mixed[10 * k], nlerp(rotation_at(a), rotation_at(b), u));
-                note_rotation(errors_.add, &added[10 * k],
-                              rotation_at(a) * nlerp(glm::dquat(1, 0, 0, 0), rotation_at(b), u));
+                const glm::dquat a = from.rotation_of(k), b = other.rotation_of(k);
+                note_rotation(errors_.mix, mixed.rotation_of(k), nlerp(a, b, u));
+                note_rotation(errors_.add, added.rotation_of(k), a * nlerp(glm::dquat(1, 0, 0, 0), b, u));
                 for (std::size_t c = 4; c < 10; ++c) {
-                    note(errors_.mix, mixed[10 * k + c], (1.0 - u) * a[c] + u * b[c], 1.3);
-                    note(errors_.add, added[10 * k + c], c < 7 ? a[c] + u * b[c] : a[c] * (1.0 - u + u * b[c]), 2.0);
+                    const double to = from.at(k, c), by = other.at(k, c);
+                    note(errors_.mix, mixed.at(k, c), (1.0 - u) * to + u * by, 1.3);
+                    note(errors_.add, added.at(k, c), c < 7 ? to + u * by : to * (1.0 - u + u * by), 2.0);
                 }
             }
+            for (std::size_t k = joints; k % kBlockJoints != 0; ++k)
+                note(errors_.mix, mixed.at(k, 4), kOutside, 1e-9);  // where no joint is
         }
     }
     static glm::dquat nlerp(const glm::dquat& a, const glm::dquat& b, double u) {
@@ -280,6 +328,7 @@ private:
         constexpr std::uint32_t kBits = 12;
         const float step = angle / 4096.0f;
         std::vector<UnpackGroup> groups(2);
+        std::vector<UnpackPart> parts(2);
         std::vector<UnpackWindows> windows(6);
         // The tables, a frame, the next frame.
         const std::size_t size_of_tables = std::size_t{2} * 6 * tracks, size_of_frame = (6 * kBits * tracks + 7) / 8;
@@ -312,11 +361,15 @@ private:
             UnpackGroup& group = groups[k];
             group.is_rotation = k == 0;
             group.count = tracks;
+            group.parts = 1;
+            parts[k].place = Blocks::place_of(0, k == 0 ? 0 : 4);
             group.bases = k * 3 * tracks * 2;
             group.stride = tracks * 2;
             for (std::uint32_t lane = 0; lane < 8; ++lane) {
                 const std::uint32_t track = std::min(lane, tracks - 1);
-                group.places[lane] = 10 * track + (k == 0 ? 0 : 4);
+                parts[k].lanes[lane] = static_cast<std::int32_t>(track);
+                parts[k].has_track[lane] = lane < tracks ? kAllBits : 0;
+                group.places[lane] = Blocks::place_of(track, k == 0 ? 0 : 4);
                 const glm::quat q = rotation();
                 for (int c = 0; c < 4; ++c) group.rest[c][lane] = q[c];
             }
@@ -324,10 +377,11 @@ private:
         for (const bool is_near_end : {true, false}) {
             if (!is_near_end) payload.resize(payload.size() + UnpackBlock::kReadPast);
             for (const float u : {0.0f, 0.3f, 0.9f}) {
-                Floats local(std::size_t{10} * tracks);
+                Blocks local(tracks);
                 UnpackBlock block{};
                 block.groups = groups.data();
                 block.group_count = 2;
+                block.parts = parts.data();
                 block.windows = windows.data();
                 block.tables = payload.data();
                 block.left = payload.data() + size_of_tables;
@@ -355,7 +409,7 @@ private:
     }
     void expect_unpacked(const std::vector<UnpackGroup>& groups,
                          const std::array<std::array<std::array<std::int32_t, 8>, 6>, 2>& numbers, std::uint32_t lane,
-                         double u, const Floats& local) {
+                         double u, const Blocks& local) {
         std::array<std::array<glm::dvec3, 2>, 2> at{};  // [group][frame]
         for (std::size_t k = 0; k < 2; ++k) {
             for (std::size_t frame = 0; frame < 2; ++frame) {
@@ -368,11 +422,11 @@ private:
         const auto& rest = groups[0].rest;
         const glm::dquat q = glm::dquat(rest[3][lane], rest[0][lane], rest[1][lane], rest[2][lane]) *
                              slerp(exp(at[0][0]), exp(at[0][1]), u);
-        note_rotation(errors_.unpack, &local[std::size_t{10} * lane], q);
+        note_rotation(errors_.unpack, local.rotation_of(lane), q);
         const glm::dvec3 moved = (1.0 - u) * at[1][0] + u * at[1][1];
         for (std::uint32_t c = 0; c < 3; ++c) {
             const double expected = groups[1].rest[c][lane] + moved[static_cast<int>(c)];
-            note(errors_.unpack, local[10 * lane + 4 + c], expected, 2.0 + std::abs(expected));
+            note(errors_.unpack, local.at(lane, 4 + c), expected, 2.0 + std::abs(expected));
         }
     }
 

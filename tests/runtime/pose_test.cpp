@@ -1,9 +1,12 @@
 #include <bendy/runtime/pose.h>
 
+#include <bendy/runtime/blend.h>
+#include <bendy/runtime/kernels.h>
 #include <bendy/runtime/sample.h>
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +20,10 @@ using test::Owned;
 
 void expect_rest(const Pose& pose) {
     const auto joints = pose.model().joints();
-    ASSERT_EQ(pose.local().size(), joints.size());
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-        EXPECT_EQ(pose.local()[joint].translation, joints[joint].rest.translation);
-        EXPECT_EQ(pose.local()[joint].scale, joints[joint].rest.scale);
-        EXPECT_TRUE(pose.local()[joint].rotation == joints[joint].rest.rotation);
+    for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
+        EXPECT_EQ(pose.local(joint).translation, joints[joint].rest.translation);
+        EXPECT_EQ(pose.local(joint).scale, joints[joint].rest.scale);
+        EXPECT_TRUE(pose.local(joint).rotation == joints[joint].rest.rotation);
     }
 }
 
@@ -40,7 +42,7 @@ TEST(Pose, StartsAtRestWithItsMatrices) {
 TEST(Pose, GoesBackToRest) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {2, 2, 2}};
+    test::change_locals(pose, [](JointTransform& local) { local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {2, 2, 2}}; });
     for (float& weight : pose.change_morph_weights()) weight = 3.0f;
     (void)pose.model_space();
     pose.set_rest();
@@ -50,20 +52,53 @@ TEST(Pose, GoesBackToRest) {
     EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
 
-TEST(Pose, IsStaleWhenAskedForItsJointsToWrite) {
+TEST(Pose, IsStaleWhenAJointIsSet) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    static_cast<void>(pose.local());
+    static_cast<void>(pose.local(0));
     static_cast<void>(pose.change_morph_weights());  // no matrix follows from these
     EXPECT_FALSE(PoseState::of(pose).is_stale);
-    static_cast<void>(pose.change_local());
+    pose.set_local(0, pose.local(0));
     EXPECT_TRUE(PoseState::of(pose).is_stale);
+}
+
+TEST(Pose, HasItsJointsInBlocksOfEightPaddedWithTheIdentity) {
+    test::ModelSpec spec;
+    spec.joints.resize(11);
+    const Owned model(test::build_file(spec));
+    Pose pose(*model);
+    Pose other(*model);
+    for (std::uint32_t joint = 0; joint < 11; ++joint) {
+        const auto number = static_cast<float>(joint);
+        const JointTransform transform{glm::normalize(glm::quat(1, 2, number, 4)), {number, 5, 6}, {7, 8, -number}};
+        pose.set_local(joint, transform);
+        EXPECT_EQ(pose.local(joint).rotation, transform.rotation);
+        EXPECT_EQ(pose.local(joint).translation, transform.translation);
+        EXPECT_EQ(pose.local(joint).scale, transform.scale);
+    }
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        EXPECT_TRUE(blend(pose, other, -3.0f, {}));
+        EXPECT_TRUE(add(pose, other, 1e6f, {}));
+        ASSERT_EQ(pose.local_blocks().size(), 2u);
+        for (std::uint32_t joint = 0; joint < 11; ++joint)
+            EXPECT_EQ(pose.local_blocks()[joint / 8].joint(joint % 8).scale, pose.local(joint).scale);
+        const JointTransform identity;
+        for (std::uint32_t lane = 3; lane < JointBlock::kJoints; ++lane) {
+            const JointTransform outside = pose.local_blocks()[1].joint(lane);
+            EXPECT_EQ(outside.rotation, identity.rotation) << kernel_name(each);
+            EXPECT_EQ(outside.translation, identity.translation);
+            EXPECT_EQ(outside.scale, identity.scale);
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
 }
 
 TEST(Pose, MatricesFollowTheTransformsAsTheyAre) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    pose.change_local()[1].translation = {0, 0, 4};
+    test::local_of(pose, 1)->translation = {0, 0, 4};
     EXPECT_EQ(glm::vec3(pose.model_space()[2][3]), glm::vec3(0, 1.25f, 4));
     pose.set_rest();
     EXPECT_EQ(glm::vec3(pose.model_space()[2][3]), glm::vec3(0, 1.75f, 0));
@@ -72,7 +107,7 @@ TEST(Pose, MatricesFollowTheTransformsAsTheyAre) {
 TEST(Pose, HasRoomForNothing) {
     const Owned model(test::build_file({}));
     Pose pose(*model);
-    EXPECT_TRUE(pose.local().empty());
+    EXPECT_TRUE(pose.local_blocks().empty());
     EXPECT_TRUE(pose.morph_weights().empty());
     EXPECT_TRUE(pose.model_space().empty());
 }
@@ -81,7 +116,7 @@ TEST(Pose, CopiesAreTheirOwn) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     Pose copy = pose;
-    copy.change_local()[0].translation = {9, 9, 9};
+    test::local_of(copy, 0)->translation = {9, 9, 9};
     EXPECT_EQ(glm::vec3(pose.model_space()[0][3]), glm::vec3(0, 1, 0));
     EXPECT_EQ(glm::vec3(copy.model_space()[0][3]), glm::vec3(9, 9, 9));
 }

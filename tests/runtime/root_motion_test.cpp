@@ -3,6 +3,7 @@
 #include <bendy/runtime/sample.h>
 
 #include "runtime/clip_model.h"
+#include "runtime/local_joints.h"
 #include "runtime/packed_model.h"
 
 #include <glm/mat3x3.hpp>
@@ -218,12 +219,12 @@ TEST(RootMotion, WhatIsTakenOutOfThePoseIsInTheCharacter) {
 
     Pose pose(*model);
     ASSERT_TRUE(sample(pose, &clip, 1.3f));
-    const float height = pose.local()[0].translation.y;
+    const float height = pose.local(0).translation.y;
     path.extract(pose);
-    EXPECT_NEAR(pose.local()[0].translation.x, 0.0, 1e-6);
-    EXPECT_NEAR(pose.local()[0].translation.y, height, 1e-6);  // bobbing stays
-    EXPECT_NEAR(pose.local()[0].translation.z, 0.0, 1e-6);
-    EXPECT_NEAR(std::abs(pose.local()[0].rotation.w), 1.0, 1e-6);
+    EXPECT_NEAR(pose.local(0).translation.x, 0.0, 1e-6);
+    EXPECT_NEAR(pose.local(0).translation.y, height, 1e-6);  // bobbing stays
+    EXPECT_NEAR(pose.local(0).translation.z, 0.0, 1e-6);
+    EXPECT_NEAR(std::abs(pose.local(0).rotation.w), 1.0, 1e-6);
     expect_near(path.extract(pose), glm::dmat4(1.0), 1e-6);
 }
 
@@ -285,13 +286,13 @@ TEST(RootMotion, LeaningIsNoTurn) {
         const glm::dquat leaned(std::cos(lean / 2), std::sin(lean / 2) * std::cos(axis), 0.0,
                                 std::sin(lean / 2) * std::sin(axis));
         Pose pose(*model);
-        pose.change_local()[0].rotation = glm::quat(turned * leaned);
+        test::local_of(pose, 0)->rotation = glm::quat(turned * leaned);
         expect_near(path.extract(pose), yaw(angle), 1e-6);
-        const glm::dquat left(pose.local()[0].rotation);
+        const glm::dquat left(pose.local(0).rotation);
         EXPECT_NEAR(std::abs(glm::dot(left, leaned)), 1.0, 1e-6);
     }
     Pose pose(*model);
-    pose.change_local()[0].rotation = glm::quat(0.0f, 1.0f, 0.0f, 0.0f);  // upside down: no yaw
+    test::local_of(pose, 0)->rotation = glm::quat(0.0f, 1.0f, 0.0f, 0.0f);  // upside down: no yaw
     expect_near(path.extract(pose), glm::dmat4(1.0), 1e-6);
 }
 

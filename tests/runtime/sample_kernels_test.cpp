@@ -79,7 +79,7 @@ test::ModelSpec animated(float angle) {
 void expect_track(const TrackView& track, const Clip& clip, float seconds, const Pose& pose, float tolerance) {
     std::vector<float> expected(track.components);
     sample_track(track, clip, seconds, expected);
-    const JointTransform& joint = pose.local()[track.target];
+    const JointTransform& joint = pose.local(track.target);
     const auto& q = joint.rotation;
     const glm::vec3& vector = track.path == TrackPath::translation ? joint.translation : joint.scale;
     const std::vector<float> found = track.path == TrackPath::rotation
@@ -107,7 +107,7 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
                 // Numbers are at most 1: four units in its last place, and more terms for wider turns.
                 const float units = angle < 1.0f ? 4.0f : 12.0f;
                 for (const TrackView& track : clip.tracks) expect_track(track, clip, seconds, pose, units * 0x1p-24f);
-                EXPECT_EQ(pose.local()[3].scale, glm::vec3(1.0f));
+                EXPECT_EQ(pose.local(3).scale, glm::vec3(1.0f));
             }
         }
     }

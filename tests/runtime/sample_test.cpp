@@ -2,6 +2,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -343,15 +344,15 @@ TEST(SampleTrack, NanSecondsGiveOneOfTheKeys) {
 
 // --- whole clips
 
-void expect_rest(const Pose& pose, std::size_t joint) {
+void expect_rest(const Pose& pose, std::uint32_t joint) {
     const JointTransform& rest = pose.model().joints()[joint].rest;
-    EXPECT_EQ(pose.local()[joint].translation, rest.translation) << joint;
-    EXPECT_EQ(pose.local()[joint].scale, rest.scale) << joint;
-    EXPECT_TRUE(pose.local()[joint].rotation == rest.rotation) << joint;
+    EXPECT_EQ(pose.local(joint).translation, rest.translation) << joint;
+    EXPECT_EQ(pose.local(joint).scale, rest.scale) << joint;
+    EXPECT_TRUE(pose.local(joint).rotation == rest.rotation) << joint;
 }
 
 void move_everything(Pose& pose) {
-    for (JointTransform& local : pose.change_local()) local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {5, 5, 5}};
+    test::change_locals(pose, [](JointTransform& local) { local = {glm::quat(0, 1, 0, 0), {7, 7, 7}, {5, 5, 5}}; });
     for (float& weight : pose.change_morph_weights()) weight = 9.0f;
 }
 
@@ -364,24 +365,24 @@ TEST(Sample, SetsWhatItsTracksAnimate) {
     ASSERT_TRUE(
         sample(pose, run, 0.625f));  // half-way between the first two of three keys, a quarter of the way of two
     EXPECT_TRUE(PoseState::of(pose).is_stale);
-    EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.5f));
-    EXPECT_EQ(pose.local()[2].scale, glm::vec3(1.0f));  // step
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(1.5f));
+    EXPECT_EQ(pose.local(2).scale, glm::vec3(1.0f));    // step
     EXPECT_FLOAT_EQ(pose.morph_weights()[0], 0.25f);    // 0 to 1
     EXPECT_FLOAT_EQ(pose.morph_weights()[1], 0.4375f);  // 0.5 to 0.25
-    const glm::quat frame = pose.local()[2].rotation;   // from the identity to a half turn round y
+    const glm::quat frame = pose.local(2).rotation;     // from the identity to a half turn round y
     EXPECT_NEAR(frame.y, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(frame.w, std::sqrt(0.5), 1e-6);
     // Joint 1, cubic over 0.5 s: z rises as 3u^2 - 2u^3, w falls and has the tangents 6 and 7.
     const double u = 0.25;
     const double z = 3 * u * u - 2 * u * u * u;
     const double w = 1 - z + 0.5 * (u * u * u - 2 * u * u + u) * 6 + 0.5 * (u * u * u - u * u) * 7;
-    EXPECT_NEAR(pose.local()[1].rotation.z, z / std::hypot(z, w), 1e-6);
-    EXPECT_NEAR(pose.local()[1].rotation.w, w / std::hypot(z, w), 1e-6);
+    EXPECT_NEAR(pose.local(1).rotation.z, z / std::hypot(z, w), 1e-6);
+    EXPECT_NEAR(pose.local(1).rotation.w, w / std::hypot(z, w), 1e-6);
 
     ASSERT_TRUE(sample(pose, run, 0.75f));
-    EXPECT_EQ(pose.local()[0].translation, glm::vec3(2.0f));
-    EXPECT_EQ(pose.local()[2].scale, glm::vec3(2.0f));
-    EXPECT_EQ(pose.local()[2].rotation.y, 1.0f);
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(2.0f));
+    EXPECT_EQ(pose.local(2).scale, glm::vec3(2.0f));
+    EXPECT_EQ(pose.local(2).rotation.y, 1.0f);
 }
 
 TEST(Sample, LeavesTheRestAtRest) {
@@ -390,13 +391,13 @@ TEST(Sample, LeavesTheRestAtRest) {
     move_everything(pose);
     ASSERT_TRUE(sample(pose, model->clip("run"), 0.6f));
     expect_rest(pose, 3);
-    EXPECT_EQ(pose.local()[0].scale, glm::vec3(1.0f));
-    EXPECT_EQ(pose.local()[1].translation, model->joints()[1].rest.translation);
+    EXPECT_EQ(pose.local(0).scale, glm::vec3(1.0f));
+    EXPECT_EQ(pose.local(1).translation, model->joints()[1].rest.translation);
 
     Clip empty;
     move_everything(pose);
     ASSERT_TRUE(sample(pose, &empty, 0.0f));
-    for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
+    for (std::uint32_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
     EXPECT_EQ(pose.morph_weights()[0], 0.125f);
     EXPECT_EQ(pose.morph_weights()[1], 0.0f);
 }
@@ -409,9 +410,9 @@ TEST(Sample, OneClipAfterAnotherKeepsNothingOfTheFirst) {
     Pose pose(*model);
     ASSERT_TRUE(sample(pose, model->clip("run"), 0.6f));
     ASSERT_TRUE(sample(pose, &other, 0.6f));
-    for (std::size_t joint = 0; joint < 3; ++joint) expect_rest(pose, joint);
-    EXPECT_EQ(pose.local()[3].scale, glm::vec3(4.0f));
-    EXPECT_EQ(pose.local()[3].translation, model->joints()[3].rest.translation);
+    for (std::uint32_t joint = 0; joint < 3; ++joint) expect_rest(pose, joint);
+    EXPECT_EQ(pose.local(3).scale, glm::vec3(4.0f));
+    EXPECT_EQ(pose.local(3).translation, model->joints()[3].rest.translation);
     EXPECT_EQ(pose.morph_weights()[0], 0.125f);
 }
 
@@ -422,7 +423,7 @@ TEST(Sample, NoClipOrNoTimeIsTheRestPose) {
          {std::pair{static_cast<const Clip*>(nullptr), 0.5f}, std::pair{model->clip("run"), kNan}}) {
         move_everything(pose);
         EXPECT_FALSE(sample(pose, clip, seconds));
-        for (std::size_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
+        for (std::uint32_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
         EXPECT_EQ(pose.morph_weights()[0], 0.125f);
         EXPECT_TRUE(PoseState::of(pose).is_stale);
     }
@@ -432,9 +433,9 @@ TEST(Sample, InfiniteTimesAreHeldAtTheEnds) {
     const Owned model(test::sample_file());
     Pose pose(*model);
     ASSERT_TRUE(sample(pose, model->clip("run"), kInfinity));
-    EXPECT_EQ(pose.local()[0].translation, glm::vec3(3.0f));
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(3.0f));
     ASSERT_TRUE(sample(pose, model->clip("run"), -kInfinity));
-    EXPECT_EQ(pose.local()[0].translation, glm::vec3(1.0f));
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(1.0f));
 }
 
 /// Two meshes with one and two targets.
@@ -487,7 +488,7 @@ TEST(Sample, AClipOfALargerModelChangesNothingOutside) {
     Pose pose(*model);
     ASSERT_TRUE(sample(pose, &clip, 0.5f));
     expect_rest(pose, 0);
-    EXPECT_EQ(pose.local()[1].translation, glm::vec3(1, 2, 3));
+    EXPECT_EQ(pose.local(1).translation, glm::vec3(1, 2, 3));
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
 }
 

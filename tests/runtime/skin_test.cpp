@@ -4,6 +4,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -67,7 +68,7 @@ TEST(Skin, AVertexFollowsItsBonesByTheirWeights) {
     const Owned model(test::build_file(spec));
     Pose pose(*model);
     EXPECT_EQ(Posed(*model, 0, pose).positions[0], glm::vec3(1, 2, 3));
-    pose.change_local()[1].translation = {0, 8, 0};
+    test::local_of(pose, 1)->translation = {0, 8, 0};
     EXPECT_EQ(Posed(*model, 0, pose).positions[0], glm::vec3(1, 8, 3));
 }
 
@@ -113,7 +114,7 @@ TEST(Skin, TheSamplesVerticesByHand) {
 TEST(Skin, TakesAStalePoseUpToDate) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    pose.change_local()[0].translation = {100, 0, 0};
+    test::local_of(pose, 0)->translation = {100, 0, 0};
     EXPECT_EQ(Posed(*model, 1, pose).positions[0], glm::vec3(100, 0.75f, 0));
     EXPECT_FALSE(PoseState::of(pose).is_stale);
 }
@@ -156,7 +157,7 @@ TEST(Skin, MeshesOfOnePaletteAndOfOthersEachFollowTheirOwn) {
     const std::vector<glm::vec3> expected{{2, 2, 3}, {2, 2, 3}, {2, 7, 3}, {1, 7, 3}, {1, 7, 3}, {2, 2, 3}};
     for (const std::uint32_t number : {0u, 1u, 2u, 3u, 4u, 5u, 1u, 4u, 0u, 3u})
         EXPECT_EQ(Posed(*model, number, pose).positions[0], expected[number]) << number;
-    pose.change_local()[0].translation.x = 11.0f;
+    test::local_of(pose, 0)->translation.x = 11.0f;
     for (const std::uint32_t number : {4u, 1u})
         EXPECT_EQ(Posed(*model, number, pose).positions[0], expected[number] + glm::vec3(10, 0, 0)) << number;
 }
@@ -434,7 +435,7 @@ TEST(Skin, WeightsThatCancelGiveNoNan) {
 TEST(Skin, AppliesMorphTargetsBeforeItSkins) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    pose.change_local()[0].rotation = glm::quat(0, 0, 0, 1);  // half round z: x and y change signs
+    test::local_of(pose, 0)->rotation = glm::quat(0, 0, 0, 1);  // half round z: x and y change signs
     pose.change_morph_weights()[0] = 0.0f;
     pose.change_morph_weights()[1] = 1.0f;
     const Posed posed(*model, 0, pose);

@@ -2,6 +2,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 
 #include <glm/vec4.hpp>
 
@@ -47,7 +48,7 @@ TEST(Socket, FollowsItsJoint) {
     socket.keeps_size = false;
     expect_matrix(socket_matrix(pose, socket), {0, 0.01f, 0, 0, -0.01f, 0, 0, 0, 0, 0, 0.01f, 0, 2, 1.005f, 0, 1});
     // A quarter turn more about z, and the character elsewhere, twice as large.
-    pose.change_local()[1].rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));
+    test::local_of(pose, 1)->rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));
     socket.keeps_size = true;
     glm::mat4 world(2.0f);
     world[3] = {10, 0, 0, 1};

@@ -2,6 +2,7 @@
 #include <bendy/runtime/kernels.h>
 
 #include "runtime/build_model.h"
+#include "runtime/local_joints.h"
 #include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
@@ -168,7 +169,7 @@ TEST(Threads, PlayPackedClipsTogether) {
         Pose pose(*model);
         for (int frame = 0; frame < 60; ++frame) {
             EXPECT_TRUE(sample(pose, model->clips().data(), 0.4f + 0.031f * static_cast<float>(frame * 7 % 60)));
-            for (const JointTransform& joint : pose.local()) found[number].push_back(joint.rotation.x);
+            for (const JointTransform& joint : test::locals_of(pose)) found[number].push_back(joint.rotation.x);
         }
     });
     for (const Numbers& numbers : found) EXPECT_EQ(numbers, found.front());

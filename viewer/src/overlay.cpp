@@ -206,7 +206,7 @@ void Overlay::add_constraint(const Constraint& constraint, const ConstraintDrawi
     const glm::mat3 frame = parent * glm::mat3_cast(joint.rest.rotation * glm::quat(constraint.frame));
     const glm::vec3 centre = place(pose, drawing.joint);
     const float radius = std::clamp(0.45f * lengths_[drawing.joint], 0.02f * size_, 0.12f * size_);
-    const glm::dquat R = to_constraint_space(constraint, joint.rest.rotation, pose.local()[drawing.joint].rotation);
+    const glm::dquat R = to_constraint_space(constraint, joint.rest.rotation, pose.local(drawing.joint).rotation);
     const glm::vec3 pointer = centre + 1.15f * radius * (frame * glm::vec3(R * glm::dvec3(drawing.pointer)));
 
     for (const LimitFan& fan : drawing.fans) {

@@ -162,7 +162,7 @@ double Demo::violation() const {
         const Constraint* constraint = constraint_record_of(joint);
         if (constraint == nullptr) continue;
         const glm::dquat R =
-            to_constraint_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local()[joint].rotation);
+            to_constraint_space(*constraint, model_->joints()[joint].rest.rotation, pose_.local(joint).rotation);
         worst = std::max(worst, bendy::violation(*constraint, R));
     }
     return worst;
@@ -173,16 +173,16 @@ const Constraint* Demo::constraint_record_of(std::uint32_t joint) const {
 }
 
 void Demo::hold_constraints() {
-    const auto local = pose_.change_local();
-    for (std::uint32_t joint = 0; joint < local.size(); ++joint) {
+    for (std::uint32_t joint = 0; joint < model_->joints().size(); ++joint) {
         const Constraint* constraint = constraint_record_of(joint);
         if (constraint == nullptr) continue;
         const glm::quat& rest = model_->joints()[joint].rest.rotation;
-        const glm::dquat R = to_constraint_space(*constraint, rest, local[joint].rotation);
+        JointTransform local = pose_.local(joint);
+        const glm::dquat R = to_constraint_space(*constraint, rest, local.rotation);
         const glm::dquat legal = clamp_rotation(*constraint, R);
-        if (legal != R) local[joint].rotation = from_constraint_space(*constraint, rest, legal);
-        local[joint].translation =
-            clamp_translation(*constraint, model_->joints()[joint].rest, local[joint].translation);
+        if (legal != R) local.rotation = from_constraint_space(*constraint, rest, legal);
+        local.translation = clamp_translation(*constraint, model_->joints()[joint].rest, local.translation);
+        pose_.set_local(joint, local);
     }
 }
 
@@ -351,9 +351,11 @@ void Demo::drag_target(const glm::vec3& position) {
 
 void Demo::pose_by_hand() {
     pose_.set_rest();
-    const auto local = pose_.change_local();
-    for (const std::uint32_t joint : links_)
-        local[joint].rotation = glm::normalize(bent_with_all(joint) * joint_bends_[joint]);
+    for (const std::uint32_t joint : links_) {
+        JointTransform local = pose_.local(joint);
+        local.rotation = glm::normalize(bent_with_all(joint) * joint_bends_[joint]);
+        pose_.set_local(joint, local);
+    }
 }
 
 void Demo::pull() {

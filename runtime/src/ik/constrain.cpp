@@ -50,17 +50,17 @@ void constrain(Pose& pose) {
     const Model& model = pose.model();
     const auto constraints = model.constraints();
     if (constraints.empty()) return;
-    const std::span<JointTransform> local = pose.change_local();
     const std::span<const Joint> joints = model.joints();
     for (const Constraint& constraint : constraints) {
         if (model.constraint(constraint.joint) != &constraint) continue;
         const JointTransform& rest = joints[constraint.joint].rest;
-        JointTransform& joint = local[constraint.joint];
+        JointTransform joint = pose.local(constraint.joint);
         const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
         const glm::dquat legal = clamp_rotation(constraint, R);
         if (angle_between(legal, R) > kRounding)
             joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
         if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
+        pose.set_local(constraint.joint, joint);
     }
 }
 

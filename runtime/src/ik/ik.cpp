@@ -15,7 +15,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace bendy {
@@ -31,9 +30,9 @@ public:
           pose_(pose),
           model_(pose.model()),
           joints_(model_.joints()),
-          local_(std::as_const(pose).local()),
+          state_(PoseState::of(pose)),
           options_(options),
-          links_(std::span(PoseState::of(pose).ik_links).first(chain.links)) {}
+          links_(std::span(state_.ik_links).first(chain.links)) {}
 
     /// Returns nothing, and leaves the pose unchanged, if a number is not finite.
     std::optional<ReachResult> run() {
@@ -53,6 +52,8 @@ public:
     }
 
 private:
+    [[nodiscard]] JointTransform local(std::uint32_t joint) const { return state_.local_of(joint); }
+
     [[nodiscard]] Solver solver() const {
         if (options_.solver != Solver::any) return options_.solver;
         if (chain_.solver != Solver::any) return chain_.solver;
@@ -85,10 +86,10 @@ private:
         double length = 0.0;  // in base space
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
-            const JointTransform& transform = local_[link.joint];
+            const JointTransform transform = local(link.joint);
             const Joint& joint = joints_[link.joint];
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
             link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
             length += link.bone_length;
@@ -112,11 +113,11 @@ private:
     void find_longest() {
         double scale = 1.0;  // product over the links so far, along their longest axes
         for (std::size_t i = 0; i < links_.size(); ++i) {
-            const glm::vec3 axes = glm::abs(local_[links_[i].joint].scale);
+            const glm::vec3 axes = glm::abs(local(links_[i].joint).scale);
             const glm::vec3 shear = glm::abs(joints_[links_[i].joint].shear);
             scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
             longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
         }
     }
@@ -141,7 +142,7 @@ private:
         const ChainRecord& record = chain_.record;
         problem_.links = links_;
         problem_.options = &options_;
-        problem_.origin = glm::dvec3(local_[chain_.start].translation) / problem_.scale;
+        problem_.origin = glm::dvec3(local(chain_.start).translation) / problem_.scale;
         problem_.target = to_base(target_.position);
         problem_.tip_rotation =
             unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
@@ -285,7 +286,7 @@ private:
             IkLink& link = links_[i];
             matrix = matrix * link_to_parent(link);
             const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local_[links_[i + 1].joint].translation);
+            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
             const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(offset, 1.0)) / problem_.scale;
             link.bone = glm::conjugate(link.global) * (end - position);
             link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
@@ -297,7 +298,7 @@ private:
     }
 
     [[nodiscard]] glm::dmat4 link_to_parent(const IkLink& link) const {
-        JointTransform transform = local_[link.joint];
+        JointTransform transform = local(link.joint);
         transform.rotation = glm::quat(link.local);
         return to_matrix(transform, joints_[link.joint].shear);
     }
@@ -333,15 +334,15 @@ private:
     void scatter() {
         const double influence =
             std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
-        const std::span<JointTransform> local = pose_.change_local();
         for (const IkLink& link : links_) {
-            JointTransform& joint = local[link.joint];
+            JointTransform joint = local(link.joint);
             const glm::dquat mixed = influence == 1.0
                                          ? link.local
                                          : between(glm::normalize(glm::dquat(joint.rotation)), link.local, influence);
             joint.rotation = glm::quat(glm::normalize(mixed));
             if (stretch_ != 1.0 && link.joint != chain_.start)
                 joint.translation *= static_cast<float>(1.0 + influence * (stretch_ - 1.0));
+            state_.set_local(link.joint, joint);
         }
     }
 
@@ -372,7 +373,7 @@ private:
     Pose& pose_;
     const Model& model_;
     std::span<const Joint> joints_;
-    std::span<const JointTransform> local_;
+    PoseState& state_;
     const ReachOptions& options_;
     std::span<IkLink> links_;
     IkProblem problem_;
@@ -403,7 +404,9 @@ void carry_target(const Chain& chain, Pose& pose) {
     const std::uint32_t parent = model.joints()[chain.target].parent;
     const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : joint_to_model(pose, parent);
     if (std::abs(glm::determinant(space)) < 1e-30) return;
-    pose.change_local()[chain.target].translation = glm::vec3(glm::inverse(space) * tip);
+    JointTransform local = pose.local(chain.target);
+    local.translation = glm::vec3(glm::inverse(space) * tip);
+    pose.set_local(chain.target, local);
 }
 
 }  // namespace
@@ -430,7 +433,7 @@ glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
     glm::dmat4 matrix(1.0);
     for (; joint != kNone; joint = joints[joint].parent) {
         if (!state.is_stale) return state.exact_matrix(joint) * matrix;
-        matrix = to_matrix(state.local[joint], joints[joint].shear) * matrix;
+        matrix = to_matrix(state.local_of(joint), joints[joint].shear) * matrix;
     }
     return matrix;
 }

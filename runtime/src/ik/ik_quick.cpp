@@ -2,6 +2,7 @@
 
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"
+#include "pose/pose_state.h"
 
 #include <bendy/format/public.h>
 #include <bendy/format/trig.h>
@@ -280,15 +281,18 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
                                           const ReachOptions& options) {
     const Model& model = pose.model();
     const auto joints = model.joints();
-    const auto local = std::as_const(pose).local();
+    PoseState& state = PoseState::of(pose);
     const std::uint32_t tip = chain.effector;
     const std::uint32_t middle = joints[tip].parent;
     const std::uint32_t start = chain.start;
+    const JointTransform start_local = state.local_of(start);
+    const JointTransform middle_local = state.local_of(middle);
+    const JointTransform tip_local = state.local_of(tip);
     glm::dquat upper, lower, end;
     const float same = same_scale(chain, options);
-    const bool is_plain = is_even(local[start], joints[start], same) && is_even(local[middle], joints[middle], same) &&
-                          read_rotation(local[start], upper) && read_rotation(local[middle], lower) &&
-                          read_rotation(local[tip], end);
+    const bool is_plain = is_even(start_local, joints[start], same) && is_even(middle_local, joints[middle], same) &&
+                          read_rotation(start_local, upper) && read_rotation(middle_local, lower) &&
+                          read_rotation(tip_local, end);
     if (!is_plain) return std::nullopt;
     const LinkConstraint upper_limit(model, start, options);
     const LinkConstraint lower_limit(model, middle, options);
@@ -299,13 +303,13 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     if (!is_legal) return std::nullopt;
 
     const glm::dmat4 base = joint_to_model(pose, joints[start].parent);
-    const glm::dvec3 origin(local[start].translation);
+    const glm::dvec3 origin(start_local.translation);
     const glm::dvec3 way = from_model(base, target.position) - origin;
     const double distance = squared(way);
     Bend bend;
-    bend.bone = glm::dvec3(local[start].scale) * glm::dvec3(local[middle].translation);
+    bend.bone = glm::dvec3(start_local.scale) * glm::dvec3(middle_local.translation);
     const glm::dvec3 rest =
-        turned(lower, mean_scale(local[start]) * glm::dvec3(local[middle].scale) * glm::dvec3(local[tip].translation));
+        turned(lower, mean_scale(start_local) * glm::dvec3(middle_local.scale) * glm::dvec3(tip_local.translation));
     bend.is_fixed = lower_limit.find_bend_axis(lower, bend.axis);
     const glm::dquat before = lower;
     const auto bend_there = [&](Turn& turn) {
@@ -343,9 +347,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     const double length = std::sqrt(squared(bend.bone)) + std::sqrt(squared(rest));
     const double left = std::abs(std::sqrt(squared(reached)) - std::sqrt(distance));  // the direction is already right
     if (!(left <= tolerance_of(chain, options, base, length)) || !(squared(upper) > 0.5)) return std::nullopt;
-    const auto changed = pose.change_local();
-    changed[start].rotation = glm::quat(upper);
-    changed[middle].rotation = glm::quat(lower);
+    state.set_rotation(start, glm::quat(upper));
+    state.set_rotation(middle, glm::quat(lower));
     return ReachResult{ReachStatus::reached, length_in_model(base, way * (left / std::sqrt(distance))), 0.0f, 1};
 }
 
@@ -353,7 +356,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
                                      const ReachOptions& options) {
     const Model& model = pose.model();
     const std::uint32_t joint = chain.start;
-    const JointTransform& transform = std::as_const(pose).local()[joint];
+    const JointTransform transform = PoseState::of(pose).local_of(joint);
     const LinkConstraint limit(model, joint, options);
     const auto& turned_tip = chain.record.tip_rotation;
     glm::dquat rotation;
@@ -386,7 +389,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
         rotation = look * glm::conjugate(tip);
     }
     if (!limit.holds(rotation) || !(squared(rotation) > 0.5)) return std::nullopt;
-    pose.change_local()[joint].rotation = glm::quat(rotation);
+    PoseState::of(pose).set_rotation(joint, glm::quat(rotation));
     return ReachResult{ReachStatus::aimed, length_in_model(base, way), 0.0f, 1};
 }
 

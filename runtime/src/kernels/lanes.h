@@ -21,12 +21,21 @@ inline Quad low(Lanes lanes) {
 }
 #endif
 
-/// Loads four numbers from `from`; into the upper lanes, if there are any, those `apart` floats further on.
-inline Lanes load_quads(const float* from, [[maybe_unused]] std::size_t apart) {
+/// Loads four numbers; into the upper lanes, if there are any, those from `upper`.
+inline Lanes load_quads(const float* lower, [[maybe_unused]] const float* upper) {
 #if BENDY_LANES == 8
-    return joined(load_quad(from), load_quad(from + apart));
+    return joined(load_quad(lower), load_quad(upper));
 #else
-    return load_quad(from);
+    return load_quad(lower);
+#endif
+}
+inline Lanes load_quads(const float* from, std::size_t apart) {
+    return load_quads(from, from + apart);
+}
+inline void store_quads(Lanes lanes, float* lower, [[maybe_unused]] float* upper) {
+    store(lower, low(lanes));
+#if BENDY_LANES == 8
+    store(upper, high(lanes));
 #endif
 }
 

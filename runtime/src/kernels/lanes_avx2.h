@@ -93,10 +93,6 @@ template <int place>
 inline Lanes everywhere(Lanes lanes) {
     return _mm256_permute_ps(lanes.v, 0b01010101 * place);
 }
-/// Element 0 in the lower half, element 1 of the upper half in the upper one.
-inline Lanes first_and_second(Lanes lanes) {
-    return _mm256_permutevar_ps(lanes.v, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
-}
 inline Lanes with_one(Lanes lanes) {
     return _mm256_blend_ps(lanes.v, _mm256_set1_ps(1.0f), 0b1000'1000);
 }
@@ -106,6 +102,17 @@ inline Lanes lesser(Lanes x, Lanes y) {
 inline Lanes negatives(Lanes lanes) {
     return _mm256_cmp_ps(lanes.v, _mm256_setzero_ps(), _CMP_LT_OQ);
 }
+inline Lanes load_mask(const std::uint32_t* from) {
+    return _mm256_castsi256_ps(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+}
+/// a where all bits of the mask are set, b where none is.
+inline Lanes chosen(Lanes mask, Lanes a, Lanes b) {
+    return _mm256_blendv_ps(b.v, a.v, mask.v);
+}
+/// In each lane, the number of another one.
+inline Lanes permuted(Lanes lanes, const std::int32_t* from) {
+    return _mm256_permutevar8x32_ps(lanes.v, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+}
 inline Lanes roots_of(Lanes squares) {
     return _mm256_sqrt_ps(squares.v);
 }
@@ -113,8 +120,7 @@ inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm256_min_ps(_mm256_max_ps(lanes.v, least.v), most.v);
 }
 inline Lanes inverse_roots_of(Lanes squares) {
-    const Lanes guess = _mm256_rsqrt_ps(squares.v);  // 12 bits; one step of Newton's method gives 23
-    return guess + 0.5f * guess * (1.0f - squares * guess * guess);
+    return 1.0f / roots_of(squares);  // not from _mm256_rsqrt_ps, which differs between processors
 }
 
 #include "lanes.h"

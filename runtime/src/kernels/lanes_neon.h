@@ -115,6 +115,13 @@ inline Quad lesser(Quad x, Quad y) {
 inline Quad negatives(Quad quad) {
     return Quad(vcltzq_f32(quad.v));
 }
+inline Quad load_mask(const std::uint32_t* from) {
+    return Quad(vld1q_u32(from));
+}
+/// a where all bits of the mask are set, b where none is.
+inline Quad chosen(Quad mask, Quad a, Quad b) {
+    return vbslq_f32(mask.bits(), a.v, b.v);
+}
 inline Quad roots_of(Quad squares) {
     return vsqrtq_f32(squares.v);
 }

@@ -21,6 +21,13 @@ inline Lanes with_one(Lanes lanes) {
 inline Lanes from_integers(const std::int32_t (&numbers)[4]) {
     return _mm_cvtepi32_ps(_mm_setr_epi32(numbers[0], numbers[1], numbers[2], numbers[3]));
 }
+inline Lanes load_mask(const std::uint32_t* from) {
+    return _mm_castsi128_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+}
+/// a where all bits of the mask are set, b where none is.
+inline Lanes chosen(Lanes mask, Lanes a, Lanes b) {
+    return _mm_blendv_ps(b.v, a.v, mask.v);
+}
 inline Lanes roots_of(Lanes squares) {
     return _mm_sqrt_ps(squares.v);
 }
@@ -28,8 +35,7 @@ inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm_min_ps(_mm_max_ps(lanes.v, least.v), most.v);
 }
 inline Lanes inverse_roots_of(Lanes squares) {
-    const Lanes guess = _mm_rsqrt_ps(squares.v);  // 12 bits; one step of Newton's method gives 23
-    return guess + 0.5f * guess * (1.0f - squares * guess * guess);
+    return 1.0f / roots_of(squares);  // not from _mm_rsqrt_ps, which differs between processors
 }
 
 #include "lanes.h"

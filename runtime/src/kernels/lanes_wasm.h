@@ -93,6 +93,13 @@ inline Quad lesser(Quad x, Quad y) {
 inline Quad negatives(Quad quad) {
     return wasm_f32x4_lt(quad.v, wasm_f32x4_splat(0.0f));
 }
+inline Quad load_mask(const std::uint32_t* from) {
+    return wasm_v128_load(from);
+}
+/// a where all bits of the mask are set, b where none is.
+inline Quad chosen(Quad mask, Quad a, Quad b) {
+    return wasm_v128_bitselect(a.v, b.v, mask.v);
+}
 inline Quad roots_of(Quad squares) {
     return wasm_f32x4_sqrt(squares.v);
 }

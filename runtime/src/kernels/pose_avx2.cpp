@@ -17,6 +17,8 @@ namespace {
 
 #include "lanes_avx2.h"
 
+#include "joint_lanes.h"
+
 #include "blend_lanes.h"
 #include "pose_lanes.h"
 #include "read_avx2.h"
@@ -27,14 +29,13 @@ namespace {
 }  // namespace
 }  // namespace pose_with_avx2
 
-const PoseKernels kPoseAvx2{
-    pose_with_avx2::pose_lanes,
-    pose_with_avx2::palette_lanes,
-    pose_with_avx2::sample_lanes,
-    pose_with_avx2::sample_cubic_lanes,
-    pose_with_avx2::unpack_lanes,
-    pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints<false>, pose_with_avx2::mix_joints<true>>,
-    pose_with_avx2::blend_lanes<pose_with_avx2::add_joints<false>, pose_with_avx2::add_joints<true>>};
+const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
+                            pose_with_avx2::palette_lanes,
+                            pose_with_avx2::sample_lanes,
+                            pose_with_avx2::sample_cubic_lanes,
+                            pose_with_avx2::unpack_lanes,
+                            pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints>,
+                            pose_with_avx2::blend_lanes<pose_with_avx2::add_joints>};
 
 }  // namespace bendy
 

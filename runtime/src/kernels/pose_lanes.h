@@ -2,44 +2,28 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
-/// Stores two columns of kLanes joints' matrices, given with one joint per lane; the fourth number of `d` counts.
-inline void store_columns(const Three& c, const Lanes* d, float* to) {
+/// Stores one column of kLanes joints' matrices, given with one joint per lane.
+inline void store_column(Lanes x, Lanes y, Lanes z, Lanes w, float* to) {
     Lanes columns[4];
-    transpose(c.x, c.y, c.z, Lanes{}, columns);
-    for (std::size_t k = 0; k < 4; ++k) {
-#if BENDY_LANES == 8
-        store(to + 16 * k, halves<0, 0>(columns[k], d[k]));
-        store(to + 16 * (k + 4), halves<1, 1>(columns[k], d[k]));
-#else
-        store(to + 16 * k, columns[k]);
-        store(to + 16 * k + 4, d[k]);
-#endif
-    }
+    transpose(x, y, z, w, columns);
+    for (std::size_t k = 0; k < 4; ++k) store_quads(columns[k], to + 16 * k, to + 16 * (k + 4));
 }
 
-/// Computes the local matrices of kLanes joints: to_matrix without shear.
+/// Computes the local matrices of kLanes joints of a block: to_matrix without shear.
 inline void make_local(const float* local, float* to) {
-    Lanes q[4];
-    transpose(load_quads(local, 40), load_quads(local + 10, 40), load_quads(local + 20, 40), load_quads(local + 30, 40),
-              q);
-    Lanes scale[4];  // from translation z on
-    transpose(load_quads(local + 6, 40), load_quads(local + 16, 40), load_quads(local + 26, 40),
-              load_quads(local + 36, 40), scale);
-    const Lanes x2 = q[0] + q[0];
-    const Lanes y2 = q[1] + q[1];
-    const Lanes z2 = q[2] + q[2];
-    const Lanes xx = q[0] * x2, yy = q[1] * y2, zz = q[2] * z2;
-    const Lanes xy = q[0] * y2, xz = q[0] * z2, yz = q[1] * z2;
-    const Lanes wx = q[3] * x2, wy = q[3] * y2, wz = q[3] * z2;
-    Lanes second[4];
-    transpose((xy - wz) * scale[2], (1.0f - (xx + zz)) * scale[2], (yz + wx) * scale[2], Lanes{}, second);
-    store_columns({(1.0f - (yy + zz)) * scale[1], (xy + wz) * scale[1], (xz - wy) * scale[1]}, second, to);
-    Lanes fourth[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-        const float* const place = local + 10 * k + 4;
-        fourth[k] = with_one(load_quads(place, 40));
-    }
-    store_columns({(xz + wy) * scale[3], (yz - wx) * scale[3], (1.0f - (xx + yy)) * scale[3]}, fourth, to + 8);
+    Lanes numbers[10];
+    load_numbers<10>(local, numbers);
+    const auto [x, y, z, w, at_x, at_y, at_z, a, b, c] = numbers;
+    const Lanes x2 = x + x;
+    const Lanes y2 = y + y;
+    const Lanes z2 = z + z;
+    const Lanes xx = x * x2, yy = y * y2, zz = z * z2;
+    const Lanes xy = x * y2, xz = x * z2, yz = y * z2;
+    const Lanes wx = w * x2, wy = w * y2, wz = w * z2;
+    store_column((1.0f - (yy + zz)) * a, (xy + wz) * a, (xz - wy) * a, Lanes(0.0f), to);
+    store_column((xy - wz) * b, (1.0f - (xx + zz)) * b, (yz + wx) * b, Lanes(0.0f), to + 4);
+    store_column((xz + wy) * c, (yz - wx) * c, (1.0f - (xx + yy)) * c, Lanes(0.0f), to + 8);
+    store_column(at_x, at_y, at_z, Lanes(1.0f), to + 12);
 }
 
 /// a * b, column-major; the last row of b is 0 0 0 1.
@@ -61,20 +45,10 @@ inline void multiply(const float* a, const float* b, float* to) {
 #endif
 }
 
+/// Of whole blocks: `block.model` has room for them.
 inline void make_locals(const PoseBlock& block) {
-    const std::size_t joints = block.joints;
-    if (joints < kLanes) {
-        float local[kLanes * 10]{};
-        float matrices[kLanes * 16];
-        std::memcpy(local, block.local, joints * 10 * sizeof(float));
-        make_local(local, matrices);
-        std::memcpy(block.model, matrices, joints * 16 * sizeof(float));
-        return;
-    }
-    for (std::size_t joint = 0; joint < joints; joint += kLanes) {
-        const std::size_t first = joint < joints - kLanes ? joint : joints - kLanes;  // some twice, at the end
-        make_local(block.local + 10 * first, block.model + 16 * first);
-    }
+    for (std::size_t joint = 0; joint < block.joints; joint += kLanes)
+        make_local(block.local + joint / kBlockJoints * kBlockFloats + joint % kBlockJoints, block.model + 16 * joint);
 }
 
 inline void pose_lanes(const PoseBlock& block) {
@@ -91,60 +65,42 @@ inline void pose_lanes(const PoseBlock& block) {
     }
 }
 
-#if BENDY_LANES == 8
-/// Rows 0 and 1 of joint * bind, and row 2.
-struct Product {
-    Lanes upper;
-    Quad lower;
-};
-
-/// `column` of the joint's matrix times `row` of the bind matrix, for two rows.
-inline Product outer(const float* column, Lanes row) {
-    const Lanes both = repeat(column);
-    return {first_and_second(both) * row, everywhere<2>(low(both)) * low(row)};
+/// Returns a row of joint * bind, given the joint's columns and the rows of the bind matrix; the last one is 0 0 0 1.
+template <int row>
+inline Lanes product_row(const Lanes* columns, const Lanes* bind) {
+    return everywhere<row>(columns[0]) * bind[0] +
+           (everywhere<row>(columns[1]) * bind[1] +
+            (everywhere<row>(columns[2]) * bind[2] + everywhere<row>(columns[3]) * bind[3]));
 }
 
-inline Product plus(const Product& a, const Product& b) {
-    return {a.upper + b.upper, a.lower + b.lower};
-}
-#endif
-
-constexpr float kLastRow[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-
+/// With two entries in eight lanes.
 inline bool palette_lanes(const PaletteBlock& block) {
-    Quad sum{};  // remains zero if all numbers are finite
-#if BENDY_LANES == 8
-    const Lanes last = repeat(kLastRow);
-    Lanes upper_sum{};
-    for (std::size_t entry = 0; entry < block.entries; ++entry) {
-        const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
-        const float* const bind = block.inverse_bind[entry].rows[0];
-        const Product rows =
-            plus(outer(joint, repeat(bind)), plus(outer(joint + 4, repeat(bind + 4)),
-                                                  plus(outer(joint + 8, repeat(bind + 8)), outer(joint + 12, last))));
-        store(block.palette[entry].rows[0], rows.upper);
-        store(block.palette[entry].rows[2], rows.lower);
-        upper_sum += 0.0f * rows.upper;
-        sum += 0.0f * rows.lower;
-    }
-    sum += low(upper_sum) + high(upper_sum);
-#else
-    const Quad last = load_quad(kLastRow);
-    for (std::size_t entry = 0; entry < block.entries; ++entry) {
-        const float* const joint = block.model + 16 * std::size_t{block.joints[entry]};
-        const float* const bind = block.inverse_bind[entry].rows[0];
-        for (std::size_t row = 0; row < 3; ++row) {
-            const Quad numbers =
-                joint[row] * load_quad(bind) + (joint[row + 4] * load_quad(bind + 4) +
-                                                (joint[row + 8] * load_quad(bind + 8) + joint[row + 12] * last));
-            store(block.palette[entry].rows[row], numbers);
-            sum += 0.0f * numbers;
+    constexpr float kLastRow[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    const auto [entries, model, joints, inverse_bind, palette] = block;
+    Lanes bind[4];
+    bind[3] = repeat(kLastRow);
+    Lanes sum = 0.0f;  // remains zero if all numbers are finite
+    for (std::size_t lower = 0; lower < entries; lower += kLanes / 4) {
+        const std::size_t upper = lower + 1 < entries ? lower + 1 : lower;
+        const float* const joint = model + 16 * std::size_t{joints[lower]};
+        const float* const other = model + 16 * std::size_t{joints[upper]};
+        Lanes columns[4];
+        for (std::size_t c = 0; c < 4; ++c) columns[c] = load_quads(joint + 4 * c, other + 4 * c);
+        for (std::size_t r = 0; r < 3; ++r)
+            bind[r] = load_quads(inverse_bind[lower].rows[r], inverse_bind[upper].rows[r]);
+        const Lanes rows[3] = {product_row<0>(columns, bind), product_row<1>(columns, bind),
+                               product_row<2>(columns, bind)};
+        for (std::size_t r = 0; r < 3; ++r) {
+            store_quads(rows[r], palette[lower].rows[r], palette[upper].rows[r]);
+            sum += 0.0f * rows[r];
         }
     }
-#endif
-    float sums[4];
+    float sums[kLanes];
     store(sums, sum);
-    return sums[0] == 0.0f && sums[1] == 0.0f && sums[2] == 0.0f && sums[3] == 0.0f;
+    for (const float each : sums) {
+        if (each != 0.0f) return false;  // true for NaN
+    }
+    return true;
 }
 
 // NOLINTEND(misc-definitions-in-headers)

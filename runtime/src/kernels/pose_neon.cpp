@@ -17,6 +17,8 @@ namespace {
 
 #include "lanes_neon.h"
 
+#include "joint_lanes.h"
+
 #include "blend_lanes.h"
 #include "pose_lanes.h"
 #include "read_lanes.h"
@@ -27,14 +29,13 @@ namespace {
 }  // namespace
 }  // namespace pose_with_neon
 
-const PoseKernels kPoseNeon{
-    pose_with_neon::pose_lanes,
-    pose_with_neon::palette_lanes,
-    pose_with_neon::sample_lanes,
-    pose_with_neon::sample_cubic_lanes,
-    pose_with_neon::unpack_lanes,
-    pose_with_neon::blend_lanes<pose_with_neon::mix_joints<false>, pose_with_neon::mix_joints<true>>,
-    pose_with_neon::blend_lanes<pose_with_neon::add_joints<false>, pose_with_neon::add_joints<true>>};
+const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
+                            pose_with_neon::palette_lanes,
+                            pose_with_neon::sample_lanes,
+                            pose_with_neon::sample_cubic_lanes,
+                            pose_with_neon::unpack_lanes,
+                            pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
+                            pose_with_neon::blend_lanes<pose_with_neon::add_joints>};
 
 }  // namespace bendy
 

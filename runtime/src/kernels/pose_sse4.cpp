@@ -17,6 +17,8 @@ namespace {
 
 #include "lanes_sse4.h"
 
+#include "joint_lanes.h"
+
 #include "blend_lanes.h"
 #include "pose_lanes.h"
 #include "read_lanes.h"
@@ -27,14 +29,13 @@ namespace {
 }  // namespace
 }  // namespace pose_with_sse4
 
-const PoseKernels kPoseSse4{
-    pose_with_sse4::pose_lanes,
-    pose_with_sse4::palette_lanes,
-    pose_with_sse4::sample_lanes,
-    pose_with_sse4::sample_cubic_lanes,
-    pose_with_sse4::unpack_lanes,
-    pose_with_sse4::blend_lanes<pose_with_sse4::mix_joints<false>, pose_with_sse4::mix_joints<true>>,
-    pose_with_sse4::blend_lanes<pose_with_sse4::add_joints<false>, pose_with_sse4::add_joints<true>>};
+const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
+                            pose_with_sse4::palette_lanes,
+                            pose_with_sse4::sample_lanes,
+                            pose_with_sse4::sample_cubic_lanes,
+                            pose_with_sse4::unpack_lanes,
+                            pose_with_sse4::blend_lanes<pose_with_sse4::mix_joints>,
+                            pose_with_sse4::blend_lanes<pose_with_sse4::add_joints>};
 
 }  // namespace bendy
 

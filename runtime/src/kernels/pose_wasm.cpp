@@ -17,6 +17,8 @@ namespace {
 
 #include "lanes_wasm.h"
 
+#include "joint_lanes.h"
+
 #include "blend_lanes.h"
 #include "pose_lanes.h"
 #include "read_lanes.h"
@@ -27,14 +29,13 @@ namespace {
 }  // namespace
 }  // namespace pose_with_wasm
 
-const PoseKernels kPoseWasm{
-    pose_with_wasm::pose_lanes,
-    pose_with_wasm::palette_lanes,
-    pose_with_wasm::sample_lanes,
-    pose_with_wasm::sample_cubic_lanes,
-    pose_with_wasm::unpack_lanes,
-    pose_with_wasm::blend_lanes<pose_with_wasm::mix_joints<false>, pose_with_wasm::mix_joints<true>>,
-    pose_with_wasm::blend_lanes<pose_with_wasm::add_joints<false>, pose_with_wasm::add_joints<true>>};
+const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
+                            pose_with_wasm::palette_lanes,
+                            pose_with_wasm::sample_lanes,
+                            pose_with_wasm::sample_cubic_lanes,
+                            pose_with_wasm::unpack_lanes,
+                            pose_with_wasm::blend_lanes<pose_with_wasm::mix_joints>,
+                            pose_with_wasm::blend_lanes<pose_with_wasm::add_joints>};
 
 }  // namespace bendy
 

@@ -59,25 +59,23 @@ inline float least_of(Lanes lanes) {
 /// Loads the rotations of kLanes tracks, one track per lane.
 inline void load_rotations(const float* const* keys, std::size_t at, Lanes* to) {
     Lanes quads[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-#if BENDY_LANES == 8
-        quads[k] = joined(load_quad(keys[k] + at), load_quad(keys[k + 4] + at));
-#else
-        quads[k] = load_quad(keys[k] + at);
-#endif
-    }
+    for (std::size_t k = 0; k < 4; ++k) quads[k] = load_quads(keys[k] + at, keys[(k + 4) % kLanes] + at);
     transpose(quads[0], quads[1], quads[2], quads[3], to);
 }
 
-inline void store_rotations(const Lanes* numbers, const std::uint32_t* places, float* to) {
-    Lanes quads[4];
-    transpose(numbers[0], numbers[1], numbers[2], numbers[3], quads);
-    for (std::size_t k = 0; k < 4; ++k) {
-        store(to + places[k], low(quads[k]));
-#if BENDY_LANES == 8
-        store(to + places[k + 4], high(quads[k]));
-#endif
-    }
+/// Stores numbers of the group's lanes from `first` on, where these have a track.
+template <std::size_t count>
+inline void store_tracks(const Lanes* numbers, const TrackGroup& group, std::size_t first, float* local) {
+    float* const to = local + group.place + first;
+    if (group.count == kBlockJoints) return store_numbers<count>(numbers, to);
+    store_numbers<count>(numbers, load_mask(group.has_track + first), to);
+}
+
+/// Stores three numbers of one joint.
+inline void store_joint_vector(float* to, Quad vector) {
+    float numbers[4];
+    store(numbers, vector);
+    for (std::size_t c = 0; c < 3; ++c) to[kBlockJoints * c] = numbers[c];
 }
 
 /// The weights of the two ends of an interpolated rotation.
@@ -95,12 +93,12 @@ inline Shares near_shares(const Moment& moment, Lanes x) {
 }
 
 /// Slerp along the shorter arc.
-inline void sample_rotations(const RotationTracks& tracks, std::size_t first, const SampleBlock& block,
+inline void sample_rotations(const TrackGroup& group, std::size_t first, const SampleBlock& block,
                              const Moment& moment) {
     Lanes a[4];
     Lanes b[4];
-    load_rotations(tracks.keys + first, 4 * block.left, a);
-    load_rotations(tracks.keys + first, 4 * block.left + 4, b);
+    load_rotations(group.keys + first, 4 * block.left, a);
+    load_rotations(group.keys + first, 4 * block.left + 4, b);
     const Lanes dot = dot_of_four(a, b);
     const Lanes signs = signs_of(dot);
     const Lanes cosine = dot ^ signs;
@@ -110,21 +108,43 @@ inline void sample_rotations(const RotationTracks& tracks, std::size_t first, co
     Lanes by_b = shares.right ^ signs;
     if (block.fraction == 1.0f) by_b = Lanes(1.0f);  // exactly the key, including its sign
     for (std::size_t c = 0; c < 4; ++c) a[c] = shares.left * a[c] + by_b * b[c];
-    store_rotations(a, tracks.places + first, block.local);
+    store_tracks<4>(a, group, first, block.local);
+}
+
+/// Interpolates a vector, or two in the upper and lower lanes; the fourth number has no meaning.
+template <class Numbers>
+inline Numbers between_keys(Numbers left, Numbers left_z_and_right, const Moment& moment) {
+    return moment.left.t * left + moment.right.t * shuffle<1, 2, 3, 3>(left_z_and_right, left_z_and_right);
+}
+
+inline void sample_vectors(const TrackGroup& group, std::size_t first, const SampleBlock& block, const Moment& moment) {
+    const float* const* const keys = group.keys + first;
+    const std::size_t at = 3 * block.left;
+    Lanes vectors[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+        const float* const lower = keys[k] + at;
+        const float* const upper = keys[(k + 4) % kLanes] + at;
+        vectors[k] = between_keys(load_quads(lower, upper), load_quads(lower + 2, upper + 2), moment);
+    }
+    Lanes numbers[4];
+    transpose(vectors[0], vectors[1], vectors[2], vectors[3], numbers);
+    store_tracks<3>(numbers, group, first, block.local);
 }
 
 inline void sample_lanes(const SampleBlock& block) {
     const Moment moment(block.fraction);
     for (std::size_t group = 0; group < block.rotation_groups; ++group) {
-        for (std::size_t first = 0; first < RotationTracks::kMost; first += kLanes)
+        for (std::size_t first = 0; first < kBlockJoints; first += kLanes)
             sample_rotations(block.rotations[group], first, block, moment);
     }
-    for (std::size_t k = 0; k < block.vector_tracks; ++k) {
-        const VectorTrack& track = block.vectors[k];
+    for (std::size_t group = 0; group < block.vector_groups; ++group) {
+        for (std::size_t first = 0; first < kBlockJoints; first += kLanes)
+            sample_vectors(block.vectors[group], first, block, moment);
+    }
+    for (std::size_t k = 0; k < block.track_count; ++k) {
+        const VectorTrack& track = block.tracks[k];
         const float* const keys = track.keys + 3 * block.left;
-        const Quad both = load_quad(keys + 2);  // the left key's last number, and the right key
-        const Quad moved = shuffle<1, 2, 3, 3>(both, both);
-        store_three_of(block.local + track.place, moment.left.t * load_quad(keys) + moment.right.t * moved);
+        store_joint_vector(block.local + track.place, between_keys(load_quad(keys), load_quad(keys + 2), moment));
     }
 }
 
@@ -143,37 +163,38 @@ struct CubicWeights {
     }
 };
 
-inline void sample_cubic_rotations(const RotationTracks& tracks, std::size_t first, const SampleBlock& block,
+inline void sample_cubic_rotations(const TrackGroup& group, std::size_t first, const SampleBlock& block,
                                    const CubicWeights& weights) {
     const std::size_t left = 12 * block.left + 4;
     Lanes q[4];
     Lanes out[4];
     Lanes in[4];
     Lanes right[4];
-    load_rotations(tracks.keys + first, left, q);
-    load_rotations(tracks.keys + first, left + 4, out);
-    load_rotations(tracks.keys + first, left + 8, in);
-    load_rotations(tracks.keys + first, left + 12, right);
+    load_rotations(group.keys + first, left, q);
+    load_rotations(group.keys + first, left + 4, out);
+    load_rotations(group.keys + first, left + 8, in);
+    load_rotations(group.keys + first, left + 12, right);
     for (std::size_t c = 0; c < 4; ++c)
         q[c] = (weights.left * q[c] + weights.out * out[c]) + (weights.in * in[c] + weights.right * right[c]);
     constexpr float kLeast = 1e-37f, kMost = 1e37f;  // a quaternion of zeros remains one
     const Lanes scale = 1.0f / roots_of(between(dot_of_four(q, q), kLeast, kMost));
     for (Lanes& number : q) number = number * scale;
-    store_rotations(q, tracks.places + first, block.local);
+    store_tracks<4>(q, group, first, block.local);
 }
 
+/// Vectors one by one only: the plan makes no groups of them.
 inline void sample_cubic_lanes(const SampleBlock& block) {
     const CubicWeights weights(block);
     for (std::size_t group = 0; group < block.rotation_groups; ++group) {
-        for (std::size_t first = 0; first < RotationTracks::kMost; first += kLanes)
+        for (std::size_t first = 0; first < kBlockJoints; first += kLanes)
             sample_cubic_rotations(block.rotations[group], first, block, weights);
     }
-    for (std::size_t k = 0; k < block.vector_tracks; ++k) {
-        const VectorTrack& track = block.vectors[k];
+    for (std::size_t k = 0; k < block.track_count; ++k) {
+        const VectorTrack& track = block.tracks[k];
         const float* const left = track.keys + 9 * block.left + 3;
-        store_three_of(block.local + track.place,
-                       (weights.left * load_quad(left) + weights.out * load_quad(left + 3)) +
-                           (weights.in * load_quad(left + 6) + weights.right * load_quad(left + 9)));
+        store_joint_vector(block.local + track.place,
+                           (weights.left * load_quad(left) + weights.out * load_quad(left + 3)) +
+                               (weights.in * load_quad(left + 6) + weights.right * load_quad(left + 9)));
     }
 }
 

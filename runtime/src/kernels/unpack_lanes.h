@@ -74,9 +74,29 @@ inline Shares shares_at(const Moment& moment, Lanes x) {
     return least >= kMiddleCosine - 1.0f ? far_shares<kMiddleTerms>(moment, x) : far_shares<kFarTerms>(moment, x);
 }
 
+/// Stores numbers of the group's lanes from `first` on in the joints' blocks.
+template <std::size_t count>
+inline void store_unpacked(const Lanes* numbers, const UnpackGroup& group, [[maybe_unused]] std::size_t first,
+                           [[maybe_unused]] const UnpackPart* parts, float* local) {
+#if BENDY_LANES == 8
+    for (const UnpackPart* part = parts; part != parts + group.parts; ++part) {
+        Lanes moved[count];
+        for (std::size_t c = 0; c < count; ++c) moved[c] = permuted(numbers[c], part->lanes);
+        store_numbers<count>(moved, load_mask(part->has_track), local + part->place);
+    }
+#else
+    float lanes[count][kLanes];
+    for (std::size_t c = 0; c < count; ++c) store(lanes[c], numbers[c]);
+    for (std::size_t k = 0; k < kLanes && first + k < group.count; ++k) {
+        float* const to = local + group.places[first + k];
+        for (std::size_t c = 0; c < count; ++c) to[kBlockJoints * c] = lanes[c][k];
+    }
+#endif
+}
+
 /// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
-                             const Moment& moment, float* local) {
+                             const Moment& moment, const UnpackPart* parts, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
     const bool is_near = -least_of(lesser(-of_v, -of_w)) <= kNearHalfTurnSquare;
@@ -90,47 +110,32 @@ inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const 
     Lanes q[4];
     for (std::size_t c = 0; c < 4; ++c) q[c] = shares.left * a.of[c] + by_b * b.of[c];
     Lanes r[4];
-    for (std::size_t c = 0; c < 4; ++c) r[c] = load_lanes(group.rest[c] + first);
+    load_numbers<4>(group.rest[0] + first, r);
     Lanes out[4] = {(r[3] * q[0] + r[0] * q[3]) + (r[1] * q[2] - r[2] * q[1]),
                     (r[3] * q[1] + r[1] * q[3]) + (r[2] * q[0] - r[0] * q[2]),
                     (r[3] * q[2] + r[2] * q[3]) + (r[0] * q[1] - r[1] * q[0]),
                     (r[3] * q[3] - r[0] * q[0]) - (r[1] * q[1] + r[2] * q[2])};
     const Lanes scale = 1.5f - 0.5f * dot_of_four(out, out);  // one Newton step towards 1 / length
     for (Lanes& number : out) number = number * scale;
-    Lanes quads[4];
-    transpose(out[0], out[1], out[2], out[3], quads);
-#if BENDY_LANES == 8
-    for (std::size_t k = 4; k-- > 0;) store(local + group.places[first + k + 4], high(quads[k]));
-#endif
-    for (std::size_t k = 4; k-- > 0;) store(local + group.places[first + k], low(quads[k]));
+    store_unpacked<4>(out, group, first, parts, local);
 }
 
 /// Stores rest + value in the joints' translations or scales.
 inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w, float u,
-                           float* local) {
+                           const UnpackPart* parts, float* local) {
     Lanes at[3];
     for (std::size_t c = 0; c < 3; ++c) at[c] = load_lanes(group.rest[c] + first) + ((w[c] - v[c]) * u + v[c]);
-    Lanes quads[4];
-    transpose(at[0], at[1], at[2], Lanes{}, quads);
-    for (std::size_t k = 0; k < kLanes && first + k < group.count; ++k) {
-#if BENDY_LANES == 8
-        const Quad quad = k < 4 ? low(quads[k]) : high(quads[k - 4]);
-#else
-        const Quad quad = quads[k];
-#endif
-        store_three_of(local + group.places[first + k], quad);
-    }
+    store_unpacked<3>(at, group, first, parts, local);
 }
 
 template <bool is_near_end>
 inline void unpack_groups(const UnpackBlock& block) {
     const Moment moment(block.fraction);
     const UnpackWindows* windows = block.windows;
+    const UnpackPart* parts = block.parts;
     for (std::size_t number = 0; number < block.group_count; ++number) {
         const UnpackGroup& group = block.groups[number];
-        for (std::size_t first = UnpackGroup::kLanes; first > 0;) {  // lanes beyond the last track come first
-            first -= kLanes;
-            if (first != 0 && first >= group.count) continue;
+        for (std::size_t first = 0; first < group.count; first += kLanes) {
             Lanes v[3];
             Lanes w[3];
             for (std::size_t c = 0; c < group.components; ++c)
@@ -140,12 +145,13 @@ inline void unpack_groups(const UnpackBlock& block) {
                 w[1] = w[2] = w[0];
             }
             if (group.is_rotation) {
-                unpack_rotations(group, first, v, w, moment, block.local);
+                unpack_rotations(group, first, v, w, moment, parts, block.local);
             } else {
-                unpack_vectors(group, first, v, w, block.fraction, block.local);
+                unpack_vectors(group, first, v, w, block.fraction, parts, block.local);
             }
         }
         windows += group.components;
+        parts += group.parts;
     }
 }
 

@@ -171,13 +171,13 @@ Result<void, CallError> sample(Pose& pose, Binding& binding, const Clip* clip, f
     while (number < clips.size() && &clips[number] != clip) ++number;
     if (number == clips.size()) return CallError::other_model;
     if (const auto sampled = sample(binding.sampled_, clip, seconds); !sampled) return sampled;
-    const std::span<JointTransform> local = pose.change_local();
     for (const Binding::BoundJoint& joint : binding.clips_[number].joints) {
-        const JointTransform& from = binding.sampled_.local()[joint.from];
-        JointTransform& to = local[joint.to];
+        const JointTransform from = binding.sampled_.local(joint.from);
+        JointTransform to = pose.local(joint.to);
         if (joint.rotation) to.rotation = from.rotation;
         if (joint.translation) to.translation = joint.translation_scale * from.translation;
         if (joint.scale) to.scale = from.scale;
+        pose.set_local(joint.to, to);
     }
     const std::span<float> weights = pose.change_morph_weights();
     for (const Binding::BoundMorphTarget& target : binding.clips_[number].targets)

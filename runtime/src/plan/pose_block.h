@@ -10,10 +10,10 @@ namespace bendy {
 
 struct PoseBlock {
     std::size_t joints;
-    const float* local;            ///< ten per joint: rotation x y z w, translation, scale; no shear
+    const float* local;            ///< blocks of joints, as in sample_block.h; no shear
     const std::uint32_t* parents;  ///< of each joint; 2^32 - 1: a root
     const std::uint32_t* order;    ///< all joints, parents before children; neighbours are not ancestors of one another
-    float* model;                  ///< sixteen per joint, column-major: joint space to model space
+    float* model;                  ///< sixteen per joint, column-major: joint space to model space; for whole blocks
 };
 
 struct PaletteBlock {

@@ -2,6 +2,7 @@
 
 #include <bendy/runtime/model.h>
 
+#include "joint_blocks.h"
 #include "palette_rows.h"
 
 #include <glm/geometric.hpp>
@@ -32,6 +33,21 @@ bool is_same(const PaletteView& a, const PaletteView& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end());
 }
 
+/// Returns the upper three rows with numbers of no weight set to zero: exporters write many that are nearly zero, and
+/// their products are denormal, which costs some processors a hundred cycles each.
+PaletteMatrix without_tiny(const glm::mat4& matrix) {
+    PaletteMatrix entry = to_rows(matrix);
+    float largest = 0.0f;
+    for (const auto& row : entry.rows) {
+        for (const float number : row) largest = std::max(largest, std::abs(number));
+    }
+    constexpr float kWeightless = 0x1p-60f;  // far below a rounding
+    for (auto& row : entry.rows) {
+        for (float& number : row) number = std::abs(number) < kWeightless * largest ? 0.0f : number;
+    }
+    return entry;
+}
+
 /// Parts of a mesh usually follow the same skeleton: each mesh is compared with the last one that had a different
 /// palette.
 void plan_palettes(std::span<const MeshView> meshes, PosePlan& plan) {
@@ -44,7 +60,7 @@ void plan_palettes(std::span<const MeshView> meshes, PosePlan& plan) {
         if (first != number) continue;
         const auto inverse_bind = palette.inverse_bind();
         rows.reserve(inverse_bind.size());
-        std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), to_rows);
+        std::transform(inverse_bind.begin(), inverse_bind.end(), std::back_inserter(rows), without_tiny);
     }
 }
 
@@ -115,19 +131,39 @@ bool is_for_kernels(const TrackView& track) {
     return track.interpolation != Interpolation::step && track.keys >= 2 && track.path != TrackPath::weights;
 }
 
-void add_rotation(const TrackView& track, SampleGroups& groups) {
-    const std::size_t lane = groups.rotation_tracks++ % RotationTracks::kMost;
-    if (lane == 0) groups.rotations.emplace_back();
-    for (std::size_t k = lane; k < RotationTracks::kMost; ++k) {
-        groups.rotations.back().keys[k] = track.values.data();
-        groups.rotations.back().places[k] = kJointFloats * track.target;
+/// Adds a track to the group of its block of joints: one of the last few, or a new one.
+void add_to_group(const TrackView& track, std::vector<TrackGroup>& groups) {
+    constexpr std::ptrdiff_t kLast = 8;
+    const std::uint32_t lane = track.target % kBlockJoints;
+    const std::uint32_t place = place_of(track.target - lane, track.path);
+    const auto first = groups.end() - std::min<std::ptrdiff_t>(kLast, std::ssize(groups));
+    auto group = std::find_if(first, groups.end(), [&](const TrackGroup& each) { return each.place == place; });
+    if (group == groups.end()) {
+        groups.push_back({{}, {}, 0, place});
+        group = groups.end() - 1;
+        std::fill_n(group->keys, kBlockJoints, track.values.data());
     }
+    group->keys[lane] = track.values.data();
+    if (group->has_track[lane] == 0) ++group->count;
+    group->has_track[lane] = kAllBits;
 }
 
 void add_track(const TrackView& track, SampleGroups& groups) {
-    if (track.path == TrackPath::rotation) return add_rotation(track, groups);
-    const std::uint32_t place = track.path == TrackPath::translation ? 4 : 7;
-    groups.vectors.push_back({track.values.data(), kJointFloats * track.target + place});
+    if (track.path == TrackPath::rotation) return add_to_group(track, groups.rotations);
+    if (track.interpolation != Interpolation::cubic) return add_to_group(track, groups.vectors);
+    groups.tracks.push_back({track.values.data(), place_of(track.target, track.path)});
+}
+
+/// Turns small groups of vectors into single tracks.
+void split_small(SampleGroups& groups) {
+    constexpr std::uint32_t kLeast = 3;  // lanes that are worth a group
+    for (const TrackGroup& group : groups.vectors) {
+        if (group.count >= kLeast) continue;
+        for (std::uint32_t lane = 0; lane < kBlockJoints; ++lane) {
+            if (group.has_track[lane] != 0) groups.tracks.push_back({group.keys[lane], group.place + lane});
+        }
+    }
+    std::erase_if(groups.vectors, [](const TrackGroup& group) { return group.count < kLeast; });
 }
 
 /// Returns the line with a track's times: one of the last few, or a new one.
@@ -142,10 +178,25 @@ SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
     return lines.back();
 }
 
-SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
-    SamplePlan plan;
-    if (clip.packed) plan.packed = make_unpack_plan(*clip.packed, rest);
-    for (const TrackView& track : clip.tracks) {
+/// Returns whether a track of a joint has one value. Of longer tracks, reading all keys would take too long.
+bool is_constant(const TrackView& track) {
+    if (track.path == TrackPath::weights || track.interpolation == Interpolation::cubic) return false;
+    const auto second = track.values.begin() + static_cast<std::ptrdiff_t>(track.components);
+    return track.keys == 1 || (track.keys == 2 && std::equal(track.values.begin(), second, second));
+}
+
+void set_constant(const TrackView& track, std::span<JointBlock> start) {
+    const std::uint32_t place = place_of(track.target, track.path);
+    float* const to = &start.front().rotation[0][0] + place;
+    for (std::size_t c = 0; c < track.components; ++c) to[kBlockJoints * c] = track.values[c];
+}
+
+void add_tracks(std::span<const TrackView> tracks, SamplePlan& plan, std::vector<JointBlock>& start) {
+    for (const TrackView& track : tracks) {
+        if (is_constant(track)) {
+            set_constant(track, start);
+            continue;
+        }
         SampleLine& line = line_of(track, plan.lines);
         if (!is_for_kernels(track)) {
             line.others.push_back(&track);
@@ -156,6 +207,20 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
             add_track(track, line.linear);
         }
     }
+    for (SampleLine& line : plan.lines) split_small(line.linear);
+}
+
+SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
+    SamplePlan plan;
+    if (clip.packed) {
+        plan.packed = make_unpack_plan(*clip.packed, rest);
+        add_tracks(clip.tracks, plan, plan.packed.start);
+    } else if (std::any_of(clip.tracks.begin(), clip.tracks.end(), is_constant)) {
+        plan.start = to_blocks(rest);
+        add_tracks(clip.tracks, plan, plan.start);
+    } else {
+        add_tracks(clip.tracks, plan, plan.start);
+    }
     return plan;
 }
 
@@ -163,8 +228,10 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
 
 PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints) {
     PosePlan plan;
-    plan.rest.reserve(joints.size());
-    for (const Joint& joint : joints) plan.rest.push_back(joint.rest);
+    std::vector<JointTransform> rest;
+    rest.reserve(joints.size());
+    for (const Joint& joint : joints) rest.push_back(joint.rest);
+    plan.rest = to_blocks(rest);
     for (const MeshView& mesh : object.meshes) {
         for (const MorphTargetView& target : mesh.targets) plan.rest_weights.push_back(target.rest_weight);
     }
@@ -175,7 +242,7 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
     plan.clips.reserve(object.clips.size());
-    for (const ClipView& clip : object.clips) plan.clips.push_back(make_sample_plan(clip, plan.rest));
+    for (const ClipView& clip : object.clips) plan.clips.push_back(make_sample_plan(clip, rest));
     plan.fits_floats = fits_floats(object, joints);
     return plan;
 }

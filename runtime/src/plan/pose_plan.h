@@ -19,9 +19,9 @@ struct Joint;
 
 /// Tracks of one interpolation, grouped for the kernels.
 struct SampleGroups {
-    std::size_t rotation_tracks = 0;
-    std::vector<RotationTracks> rotations;
-    std::vector<VectorTrack> vectors;
+    std::vector<TrackGroup> rotations;
+    std::vector<TrackGroup> vectors;
+    std::vector<VectorTrack> tracks;  ///< vectors that would leave most lanes of a group empty
 };
 
 /// The tracks of a clip that have the same times. Linear and cubic ones with two keys or more are grouped for the
@@ -34,14 +34,15 @@ struct SampleLine {
     std::vector<const TrackView*> others;
 };
 
-/// The plan for a clip. About 12 bytes per rotation track, 16 per translation or scale track.
+/// The plan for a clip. About 13 bytes per track, 104 if it is the only one of its block of joints with its times.
 struct SamplePlan {
+    std::vector<JointBlock> start;  ///< the joints at rest, with the tracks that are constant; empty: PosePlan::rest
     std::vector<SampleLine> lines;
-    UnpackPlan packed;  ///< for packed clips
+    UnpackPlan packed;  ///< for packed clips, which start at UnpackPlan::start
 };
 
 struct PosePlan {
-    std::vector<JointTransform> rest;
+    std::vector<JointBlock> rest;
     std::vector<float> rest_weights;   ///< of the morph targets
     std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent comes well before it, and so is
                                        ///< already computed

@@ -3,6 +3,7 @@
 #include <bendy/format/packed_clip.h>
 #include <bendy/runtime/transform.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,8 +13,9 @@ struct UnpackPlan;
 
 /// Sets the properties that the tracks animate to their values at `seconds`. Does nothing if the tracks are of a model
 /// with more joints.
-/// \param local  at rest where a track animates
-using Unpack = void(const UnpackPlan& plan, float seconds, std::span<JointTransform> local);
+/// \param joints  in `local`
+/// \param local   UnpackPlan::start; for the plain decoder, at rest where a track animates
+using Unpack = void(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local);
 
 /// In double precision, on any machine: the definition of a packed clip's content, and the reference for the kernels.
 /// Uses only `packed` of the plan.

@@ -1,5 +1,6 @@
 #include "unpack_plan.h"
 
+#include "joint_blocks.h"
 #include "unpack_plain.h"
 
 #include <glm/vec4.hpp>
@@ -13,25 +14,13 @@ namespace {
 
 static_assert(UnpackGroup::kLanes == kPackedGroup &&
               UnpackBlock::kMaxHalfTurnSquare == static_cast<float>(kMaxHalfTurnSquare));
-static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
-
-/// Returns the offset in floats from a joint's transform to one of its properties.
-std::uint32_t place_in_joint(TrackPath path) {
-    if (path == TrackPath::rotation) return offsetof(JointTransform, rotation) / sizeof(float);
-    if (path == TrackPath::translation) return offsetof(JointTransform, translation) / sizeof(float);
-    return offsetof(JointTransform, scale) / sizeof(float);
-}
-
-UnpackedConstant constant_of(const PackedGroup& group, std::uint32_t track, const JointTransform& rest) {
-    JointTransform joint = rest;
-    set_unpacked(group, track, 0.0, joint);
-    const std::uint32_t place = group.joints[track] * kJointFloats + place_in_joint(group.kind.path);
-    if (group.kind.path == TrackPath::rotation) {
-        const glm::quat& q = joint.rotation;
-        return {place, 4, {q.x, q.y, q.z, q.w}};
+/// \param start  at rest
+void set_constants(const PackedGroup& group, std::span<JointBlock> start) {
+    for (std::uint32_t track = 0; track < group.count; ++track) {
+        JointTransform joint = joint_in(start, group.joints[track]);
+        set_unpacked(group, track, 0.0, joint);
+        set_joint_in(start, group.joints[track], joint);
     }
-    const glm::vec3& v = group.kind.path == TrackPath::translation ? joint.translation : joint.scale;
-    return {place, 3, {v.x, v.y, v.z, 0.0f}};
 }
 
 /// Returns the rest values for a lane; rotations are normalised.
@@ -50,11 +39,29 @@ UnpackGroup group_of(const PackedGroup& walked, std::span<const JointTransform> 
     group.count = walked.count;
     for (std::uint32_t lane = 0; lane < kPackedGroup; ++lane) {
         const std::uint32_t joint = walked.joints[lane < walked.count ? lane : walked.count - 1];
-        group.places[lane] = joint * kJointFloats + place_in_joint(walked.kind.path);
+        group.places[lane] = place_of(joint, walked.kind.path);
         const glm::vec4 at_rest = rest_of(walked.kind.path, rest[joint]);
         for (int c = 0; c < 4; ++c) group.rest[c][lane] = at_rest[c];
     }
     return group;
+}
+
+/// Adds the blocks of joints that a group animates.
+void add_parts(const PackedGroup& walked, UnpackGroup& group, std::vector<UnpackPart>& parts) {
+    for (std::uint32_t lane = 0; lane < walked.count; ++lane) {
+        const std::uint32_t joint = walked.joints[lane];
+        const std::uint32_t place = place_of(joint - joint % kBlockJoints, walked.kind.path);
+        const auto of_group = std::span(parts).last(group.parts);
+        auto part =
+            std::find_if(of_group.begin(), of_group.end(), [&](const UnpackPart& p) { return p.place == place; });
+        if (part == of_group.end()) {
+            parts.push_back({{}, {}, place});
+            ++group.parts;
+            part = std::span(parts).last(1).begin();
+        }
+        part->lanes[joint % kBlockJoints] = static_cast<std::int32_t>(lane);
+        part->has_track[joint % kBlockJoints] = kAllBits;
+    }
 }
 
 /// Sets the location of the group's bases, and its steps.
@@ -111,6 +118,7 @@ void add_windows(const PackedView& packed, const PackedSegment& segment, std::ve
 UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTransform> rest) {
     UnpackPlan plan;
     plan.packed = &packed;
+    plan.start = to_blocks(rest);
     PackedGroupReader reader(packed, 0);
     std::uint32_t tables = 0;
     PackedGroup group;
@@ -119,11 +127,11 @@ UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTrans
         for (std::uint32_t first = 0; first < list.count; first += kPackedGroup) {
             reader.next(group);
             if (!group.kind.animated) {
-                for (std::uint32_t track = 0; track < group.count; ++track)
-                    plan.constants.push_back(constant_of(group, track, rest[group.joints[track]]));
+                set_constants(group, plan.start);
                 continue;
             }
             plan.groups.push_back(group_of(group, rest));
+            add_parts(group, plan.groups.back(), plan.parts);
             place_group(list, first, tables, plan.groups.back());
         }
         if (kPackedKinds[k].animated) tables += kPackedKinds[k].components * list.count * (1 + list.base_bytes);

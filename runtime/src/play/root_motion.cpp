@@ -143,18 +143,18 @@ RootMotion RootPath::extract(Pose& pose) const {
     if (path_.empty()) return {};
     const auto joints = model_.joints();
     glm::dmat4 above(1.0);
-    for (std::size_t k = 0; k + 1 < path_.size(); ++k)
-        above *= to_matrix(pose.local()[path_[k]], joints[path_[k]].shear);
+    for (std::size_t k = 0; k + 1 < path_.size(); ++k) above *= to_matrix(pose.local(path_[k]), joints[path_[k]].shear);
     const std::uint32_t joint = path_.back();
-    const glm::dmat4 root = above * to_matrix(pose.local()[joint], joints[joint].shear);
+    const glm::dmat4 root = above * to_matrix(pose.local(joint), joints[joint].shear);
     if (!(std::abs(glm::determinant(glm::dmat3(above))) > 0.0)) return {};
     const RootMotion motion = motion_of(root);
     const RootMotion back = inverse(motion);
     const glm::dquat turn = rigid_rotation(above);
-    JointTransform& local = pose.change_local()[joint];
+    JointTransform local = pose.local(joint);
     const glm::dvec3 to = back.translation + back.rotation * glm::dvec3(root[3]);
     local.translation = glm::dvec3(glm::inverse(above) * glm::dvec4(to, 1.0));
     local.rotation = glm::normalize(glm::conjugate(turn) * back.rotation * turn * glm::dquat(local.rotation));
+    pose.set_local(joint, local);
     return motion;
 }
 

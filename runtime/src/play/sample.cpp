@@ -201,29 +201,37 @@ public:
     Sampling(const Clip& clip, float seconds, Pose& pose)
         : clip_(clip),
           seconds_(seconds),
-          model_(*PoseState::of(pose).data),
-          local_(pose.change_local()),
+          state_(PoseState::of(pose)),
+          model_(*state_.data),
           weights_(pose.change_morph_weights()) {}
 
     void run() const {
-        for (const PlayView& play : clip_.plays) sample_frames(play);
         const PoseKernels* const kernels = pose_kernels();
         const std::size_t number = model_.number_of(clip_);
-        if (number >= model_.object.clips.size()) {  // a clip of another model
+        if (kernels != nullptr && number < model_.object.clips.size()) {
+            run_plan(model_.pose_plan->clips[number], *kernels);
+        } else {  // by the plain kernel, or a clip of another model
+            state_.set_rest();
+            sample_plays();
             sample_tracks();
-            if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}}, seconds_, local_);
-            return;
+            if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}, {}}, seconds_, joints(), state_.local);
         }
-        const SamplePlan& plan = model_.pose_plan->clips[number];
-        if (kernels == nullptr) {
-            sample_tracks();
-        } else {
-            for (const SampleLine& line : plan.lines) sample_line(line, *kernels);
-        }
-        if (clip_.packed) unpack(plan.packed, seconds_, local_);
     }
 
 private:
+    void run_plan(const SamplePlan& plan, const PoseKernels& kernels) const {
+        state_.set_start(clip_.packed ? plan.packed.start : plan.start.empty() ? model_.pose_plan->rest : plan.start);
+        sample_plays();
+        for (const SampleLine& line : plan.lines) sample_line(line, kernels);
+        if (clip_.packed) unpack(plan.packed, seconds_, joints(), state_.local);
+    }
+
+    [[nodiscard]] std::size_t joints() const { return model_.joints.size(); }
+
+    void sample_plays() const {
+        for (const PlayView& play : clip_.plays) sample_frames(play);
+    }
+
     void sample_frames(const PlayView& play) const {
         if (play.mesh >= model_.object.meshes.size()) return;  // a clip of another model
         const Mesh& mesh = model_.object.meshes[play.mesh];
@@ -255,9 +263,11 @@ private:
         if (at.left == at.right) {  // tangents have no part in a key
             for (const TrackView* track : line.cubic_tracks) sample_one(*track, at);
         } else if (!line.cubic_tracks.empty()) {
-            kernels.sample_cubic(block_of(line.cubic, at));
+            SampleBlock block = block_of(line.cubic, at);
+            block.seconds = static_cast<float>(at.seconds);
+            kernels.sample_cubic(block);
         }
-        if (line.linear.rotations.empty() && line.linear.vectors.empty()) return;
+        if (line.linear.rotations.empty() && line.linear.vectors.empty() && line.linear.tracks.empty()) return;
         SampleBlock block = block_of(line.linear, at);
         if (at.left + 1 == line.clock->keys) {  // at the last key: interpolate fully from the one before it
             block.left = at.left - 1;
@@ -271,10 +281,12 @@ private:
                 groups.rotations.size(),
                 groups.vectors.data(),
                 groups.vectors.size(),
+                groups.tracks.data(),
+                groups.tracks.size(),
                 at.left,
                 static_cast<float>(at.fraction),
-                static_cast<float>(at.seconds),
-                &local_.front().rotation.x};
+                0.0f,
+                &state_.local.front().rotation[0][0]};
     }
 
     void sample_one(const TrackView& track, const Interval& at) const {
@@ -285,25 +297,28 @@ private:
             sample_between(track, at, weights_.subspan(first, track.components));
             return;
         }
-        if (track.target >= local_.size()) return;
+        if (track.target >= joints()) return;
         std::array<float, 4> value{};
         sample_between(track, at, std::span(value).first(track.components));
-        set_joint(track, value, local_[track.target]);
+        JointTransform joint = state_.local_of(track.target);
+        set_joint(track, value, joint);
+        state_.set_local(track.target, joint);
     }
 
     const Clip& clip_;
     float seconds_;
+    PoseState& state_;
     const ModelData& model_;
-    std::span<JointTransform> local_;
     std::span<float> weights_;
 };
 
 }  // namespace
 
 Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
-    pose.set_rest();
-    if (clip == nullptr) return CallError::missing;
-    if (std::isnan(seconds)) return CallError::not_finite;
+    if (clip == nullptr || std::isnan(seconds)) {
+        pose.set_rest();
+        return clip == nullptr ? CallError::missing : CallError::not_finite;
+    }
     Sampling(*clip, seconds, pose).run();
     return {};
 }

@@ -4,18 +4,10 @@
 #include "plan/unpack_plan.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
 
 namespace bendy {
 namespace {
-
-void store_constants(std::span<const UnpackedConstant> constants, float* floats) {
-    for (const UnpackedConstant& constant : constants) {
-        float* const out = floats + constant.place;
-        std::memcpy(out, constant.value.data(), 3 * sizeof(float));
-        if (constant.floats == 4) out[3] = constant.value[3];
-    }
-}
 
 UnpackBlock block_at(const UnpackPlan& plan, float seconds, float* floats) {
     const PackedView& packed = *plan.packed;
@@ -32,6 +24,7 @@ UnpackBlock block_at(const UnpackPlan& plan, float seconds, float* floats) {
     UnpackBlock block{};
     block.groups = plan.groups.data();
     block.group_count = plan.groups.size();
+    block.parts = plan.parts.data();
     block.windows = plan.windows.data() + segment->windows;
     block.tables = payload + segment->tables;
     block.left = payload + segment->frames + frame * segment->stride;
@@ -45,13 +38,11 @@ UnpackBlock block_at(const UnpackPlan& plan, float seconds, float* floats) {
 
 }  // namespace
 
-void unpack(const UnpackPlan& plan, float seconds, std::span<JointTransform> local) {
+void unpack(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local) {
     const PoseKernels* const kernels = pose_kernels();
-    if (kernels == nullptr) return unpack_plain(plan, seconds, local);
-    if (plan.packed->record.joints > local.size() || local.empty()) return;
-    float* const floats = &local.front().rotation.x;
-    store_constants(plan.constants, floats);
-    if (!plan.groups.empty()) kernels->unpack(block_at(plan, seconds, floats));
+    if (kernels == nullptr) return unpack_plain(plan, seconds, joints, local);
+    if (plan.packed->record.joints > joints || plan.groups.empty()) return;
+    kernels->unpack(block_at(plan, seconds, &local.front().rotation[0][0]));
 }
 
 }  // namespace bendy

@@ -1,6 +1,8 @@
 #include <bendy/runtime/blend.h>
 
+#include "kernels/flush_denormals.h"
 #include "kernels/pose_kernels.h"
+#include "pose_state.h"
 
 #include <cmath>
 #include <cstddef>
@@ -11,12 +13,12 @@ namespace {
 Result<void, CallError> check_blend(const Pose& pose, const Pose& other, float weight, std::span<const float> mask) {
     if (pose.model() != other.model()) return CallError::other_model;
     if (!std::isfinite(weight)) return CallError::not_finite;
-    if (!mask.empty() && mask.size() != pose.local().size()) return CallError::wrong_size;
+    if (!mask.empty() && mask.size() != pose.model().joints().size()) return CallError::wrong_size;
     return {};
 }
 
-BlendBlock block_of(std::span<JointTransform> local, const Pose& other, float weight, std::span<const float> mask) {
-    return {local.size(), &local.front().rotation.x, &other.local().front().rotation.x, weight,
+BlendBlock block_of(PoseState& pose, const PoseState& other, float weight, std::span<const float> mask) {
+    return {pose.joint_count(), &pose.local.front().rotation[0][0], &other.local.front().rotation[0][0], weight,
             mask.empty() ? nullptr : mask.data()};
 }
 
@@ -26,25 +28,27 @@ glm::dquat mix(const glm::dquat& q, const glm::dquat& towards, double weight) {
     return glm::normalize(sum);
 }
 
-void mix_plain(const BlendBlock& block, std::span<JointTransform> local, std::span<const JointTransform> other) {
-    for (std::size_t joint = 0; joint < local.size(); ++joint) {
+void mix_plain(const BlendBlock& block, PoseState& pose, const PoseState& other) {
+    for (std::uint32_t joint = 0; joint < block.joints; ++joint) {
         const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
-        JointTransform& to = local[joint];
-        const JointTransform& from = other[joint];
+        JointTransform to = pose.local_of(joint);
+        const JointTransform from = other.local_of(joint);
         to.rotation = mix(glm::dquat(to.rotation), glm::dquat(from.rotation), weight);
         to.translation = (1.0 - weight) * glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
         to.scale = (1.0 - weight) * glm::dvec3(to.scale) + weight * glm::dvec3(from.scale);
+        pose.set_local(joint, to);
     }
 }
 
-void add_plain(const BlendBlock& block, std::span<JointTransform> local, std::span<const JointTransform> difference) {
-    for (std::size_t joint = 0; joint < local.size(); ++joint) {
+void add_plain(const BlendBlock& block, PoseState& pose, const PoseState& difference) {
+    for (std::uint32_t joint = 0; joint < block.joints; ++joint) {
         const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
-        JointTransform& to = local[joint];
-        const JointTransform& from = difference[joint];
+        JointTransform to = pose.local_of(joint);
+        const JointTransform from = difference.local_of(joint);
         to.rotation = glm::dquat(to.rotation) * mix(glm::dquat(1, 0, 0, 0), glm::dquat(from.rotation), weight);
         to.translation = glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
         to.scale = glm::dvec3(to.scale) * ((1.0 - weight) + weight * glm::dvec3(from.scale));
+        pose.set_local(joint, to);
     }
 }
 
@@ -55,13 +59,15 @@ Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::
     const std::span<float> targets = pose.change_morph_weights();
     const std::span<const float> others = other.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] = (1.0f - weight) * targets[k] + weight * others[k];
-    const std::span<JointTransform> local = pose.change_local();
-    if (local.empty()) return {};
-    const BlendBlock block = block_of(local, other, weight, mask);
+    PoseState& state = PoseState::of(pose);
+    state.is_stale = true;
+    if (state.local.empty()) return {};
+    const BlendBlock block = block_of(state, PoseState::of(other), weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {
+        const FlushDenormals flush;
         kernels->mix(block);
     } else {
-        mix_plain(block, local, other.local());
+        mix_plain(block, state, PoseState::of(other));
     }
     return {};
 }
@@ -71,14 +77,14 @@ Result<void, CallError> make_additive(Pose& pose, const Pose& reference) {
     const std::span<float> targets = pose.change_morph_weights();
     const std::span<const float> others = reference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] -= others[k];
-    const std::span<JointTransform> local = pose.change_local();
-    const std::span<const JointTransform> reference_local = reference.local();
-    for (std::size_t joint = 0; joint < local.size(); ++joint) {
-        JointTransform& to = local[joint];
-        const JointTransform& from = reference_local[joint];
+    PoseState& state = PoseState::of(pose);
+    for (std::uint32_t joint = 0; joint < state.joint_count(); ++joint) {
+        JointTransform to = state.local_of(joint);
+        const JointTransform from = reference.local(joint);
         to.rotation = glm::normalize(glm::conjugate(glm::dquat(from.rotation)) * glm::dquat(to.rotation));
         to.translation -= from.translation;
         for (int c = 0; c < 3; ++c) to.scale[c] = from.scale[c] == 0.0f ? 1.0f : to.scale[c] / from.scale[c];
+        state.set_local(joint, to);
     }
     return {};
 }
@@ -88,13 +94,15 @@ Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, st
     const std::span<float> targets = pose.change_morph_weights();
     const std::span<const float> others = difference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * others[k];
-    const std::span<JointTransform> local = pose.change_local();
-    if (local.empty()) return {};
-    const BlendBlock block = block_of(local, difference, weight, mask);
+    PoseState& state = PoseState::of(pose);
+    state.is_stale = true;
+    if (state.local.empty()) return {};
+    const BlendBlock block = block_of(state, PoseState::of(difference), weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {
+        const FlushDenormals flush;
         kernels->add(block);
     } else {
-        add_plain(block, local, difference.local());
+        add_plain(block, state, PoseState::of(difference));
     }
     return {};
 }

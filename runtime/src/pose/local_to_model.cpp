@@ -1,16 +1,10 @@
+#include "kernels/flush_denormals.h"
 #include "kernels/pose_kernels.h"
 #include "pose_state.h"
 
-#include <cstddef>
+#include <cstdint>
 
 namespace bendy {
-namespace {
-
-static_assert(sizeof(JointTransform) == 10 * sizeof(float) && offsetof(JointTransform, translation) == 16 &&
-              offsetof(JointTransform, scale) == 28);
-
-}  // namespace
-
 void PoseState::find_model_space() {
     is_stale = false;
     palette_mesh = kNone;
@@ -20,12 +14,13 @@ void PoseState::find_model_space() {
     const PosePlan& plan = *data->pose_plan;
     is_exact = kernels == nullptr || !plan.fits_floats;
     if (!is_exact) {
-        kernels->pose({joints.size(), &local.front().rotation.x, data->parents.data(), plan.order.data(),
+        const FlushDenormals flush;
+        kernels->pose({joints.size(), &local.front().rotation[0][0], data->parents.data(), plan.order.data(),
                        &model_space.front().matrix[0].x});
         return;
     }
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-        const glm::dmat4 matrix = to_matrix(local[joint], joints[joint].shear);
+    for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
+        const glm::dmat4 matrix = to_matrix(local_of(joint), joints[joint].shear);
         const std::uint32_t parent = joints[joint].parent;
         exact_model_space[joint] = parent == kNone ? matrix : exact_model_space[parent] * matrix;
         model_space[joint].matrix = glm::mat4(exact_model_space[joint]);

@@ -1,3 +1,4 @@
+#include "kernels/flush_denormals.h"
 #include "kernels/pose_kernels.h"
 #include "plan/palette_rows.h"
 #include "pose_state.h"
@@ -40,6 +41,7 @@ bool PoseState::compute_palette(std::uint32_t mesh, PaletteMatrix* out) const {
     const PoseKernels* const kernels = pose_kernels();
     if (kernels != nullptr && !is_exact) {
         const std::vector<PaletteMatrix>& inverse_bind = data->pose_plan->inverse_bind[mesh];
+        const FlushDenormals flush;
         return kernels->palette(
             {bind.joints.size(), &model_space.front().matrix[0].x, bind.joints.data(), inverse_bind.data(), out});
     }

@@ -3,29 +3,29 @@
 #include "pose_state.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace bendy {
 
 PoseState::PoseState(const Model& from)
     : model(from),
       data(&ModelData::of(model)),
-      local((data->joints.size() + kGroup - 1) / kGroup * kGroup),
-      model_space(data->joints.size()),
       exact_model_space(data->joints.size()),
       morph_weights(from.morph_target_count()),
       active_targets(data->most_targets),
       ik_links(data->longest_chain),
       palette(std::max(data->largest_palette, 1u)) {
     data->make_plans();
+    local.resize(data->pose_plan->rest.size());
+    model_space.resize(local.size() * JointBlock::kJoints);
     set_rest();
     find_model_space();
 }
 
-void PoseState::set_rest() {
-    const PosePlan& plan = *data->pose_plan;
+void PoseState::set_start(std::span<const JointBlock> from) {
     is_stale = true;
-    std::copy(plan.rest.begin(), plan.rest.end(), local.begin());
-    std::copy(plan.rest_weights.begin(), plan.rest_weights.end(), morph_weights.begin());
+    std::copy_n(from.data(), from.size(), local.data());
+    std::copy(data->pose_plan->rest_weights.begin(), data->pose_plan->rest_weights.end(), morph_weights.begin());
 }
 
 Pose::Pose(const Model& model) : state_(std::make_unique<PoseState>(model)) {}
@@ -56,13 +56,23 @@ const Model& Pose::model() const {
     return state_->model;
 }
 
-std::span<const JointTransform> Pose::local() const {
-    return std::span(state_->local).first(state_->data->joints.size());
+JointTransform Pose::local(std::uint32_t joint) const {
+    assert(joint < state_->joint_count());
+    return state_->local_of(joint);
 }
 
-std::span<JointTransform> Pose::change_local() {
+void Pose::set_local(std::uint32_t joint, const JointTransform& transform) {
+    assert(joint < state_->joint_count());
+    state_->set_local(joint, transform);
+}
+
+std::span<const JointBlock> Pose::local_blocks() const {
+    return state_->local;
+}
+
+std::span<JointBlock> Pose::change_local_blocks() {
     state_->is_stale = true;
-    return std::span(state_->local).first(state_->data->joints.size());
+    return state_->local;
 }
 
 std::span<const float> Pose::morph_weights() const {
@@ -76,7 +86,7 @@ std::span<float> Pose::change_morph_weights() {
 std::span<const glm::mat4> Pose::model_space() {
     state_->refresh();
     if (state_->model_space.empty()) return {};
-    return {&state_->model_space.front().matrix, state_->model_space.size()};
+    return {&state_->model_space.front().matrix, state_->joint_count()};
 }
 
 std::span<const PaletteMatrix> Pose::palette(std::uint32_t mesh) {

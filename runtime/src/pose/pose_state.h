@@ -6,6 +6,7 @@
 #include "active_target.h"
 #include "ik_link.h"
 #include "model/model_data.h"
+#include "plan/joint_blocks.h"
 #include "plan/skin_block.h"
 #include "plan/stretched_motion.h"
 
@@ -46,7 +47,19 @@ struct alignas(64) PoseState {
 
     explicit PoseState(const Model& from);
 
-    void set_rest();
+    void set_rest() { set_start(data->pose_plan->rest); }
+    /// Sets the local transforms, and the weights of morph targets to those at rest.
+    void set_start(std::span<const JointBlock> from);
+    [[nodiscard]] std::uint32_t joint_count() const { return static_cast<std::uint32_t>(data->joints.size()); }
+    [[nodiscard]] JointTransform local_of(std::uint32_t joint) const { return joint_in(local, joint); }
+    void set_local(std::uint32_t joint, const JointTransform& transform) {
+        is_stale = true;
+        set_joint_in(local, joint, transform);
+    }
+    void set_rotation(std::uint32_t joint, const glm::quat& rotation) {
+        is_stale = true;
+        local[joint / JointBlock::kJoints].set_rotation(joint % JointBlock::kJoints, rotation);
+    }
     /// Computes model_space from the local transforms, parents before children, if these may have changed.
     void refresh() {
         if (is_stale) find_model_space();
@@ -67,10 +80,8 @@ struct alignas(64) PoseState {
 
     Model model;
     const ModelData* data;  ///< of `model`
-    /// Of all joints. Kernels blend whole groups of joints: what fills the last one rests.
-    std::vector<JointTransform> local;
-    static constexpr std::size_t kGroup = 8;  ///< the lanes of the widest kernel
-    std::vector<JointMatrix> model_space;
+    std::vector<JointBlock> local;
+    std::vector<JointMatrix> model_space;       ///< one per lane of `local`
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
     std::vector<float> morph_weights;
     std::vector<ActiveTarget> active_targets;  ///< of the mesh that is being skinned; room for any mesh's targets

@@ -37,10 +37,15 @@ public:
     void set_rest();
 
     [[nodiscard]] const Model& model() const;
-    /// Relative to the parent, one per joint.
-    [[nodiscard]] std::span<const JointTransform> local() const;
+    /// Returns a joint's transform relative to its parent.
+    /// \param joint  less than the number of the model's joints
+    [[nodiscard]] JointTransform local(std::uint32_t joint) const;
+    void set_local(std::uint32_t joint, const JointTransform& transform);
+    /// The same transforms as they are stored, for code that copies them or works on eight joints at a time: joint
+    /// 8 * k + i is lane i of block k.
+    [[nodiscard]] std::span<const JointBlock> local_blocks() const;
     /// The same for writing. The next call on the pose ends the write access: later writes may go unnoticed.
-    [[nodiscard]] std::span<JointTransform> change_local();
+    [[nodiscard]] std::span<JointBlock> change_local_blocks();
     /// One per morph target, all meshes: see Model::first_morph_target.
     [[nodiscard]] std::span<const float> morph_weights() const;
     [[nodiscard]] std::span<float> change_morph_weights();
