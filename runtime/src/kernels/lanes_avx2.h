@@ -93,9 +93,6 @@ template <int place>
 inline Lanes everywhere(Lanes lanes) {
     return _mm256_permute_ps(lanes.v, 0b01010101 * place);
 }
-inline Lanes with_one(Lanes lanes) {
-    return _mm256_blend_ps(lanes.v, _mm256_set1_ps(1.0f), 0b1000'1000);
-}
 inline Lanes lesser(Lanes x, Lanes y) {
     return _mm256_min_ps(x.v, y.v);
 }

@@ -97,9 +97,6 @@ template <int place>
 inline Quad everywhere(Quad quad) {
     return vdupq_laneq_f32(quad.v, place);
 }
-inline Quad with_one(Quad quad) {
-    return vsetq_lane_f32(1.0f, quad.v, 3);
-}
 inline Quad from_integers(const std::int32_t (&numbers)[4]) {
     int32x4_t integers = vdupq_n_s32(numbers[0]);
     integers = vsetq_lane_s32(numbers[1], integers, 1);

@@ -15,9 +15,6 @@ inline Quad fused(Quad a, Quad b, Quad c) {
 inline Quad fused_difference(Quad a, Quad b, Quad c) {
     return a * b - c;
 }
-inline Lanes with_one(Lanes lanes) {
-    return _mm_blend_ps(lanes.v, _mm_set1_ps(1.0f), 0b1000);
-}
 inline Lanes from_integers(const std::int32_t (&numbers)[4]) {
     return _mm_cvtepi32_ps(_mm_setr_epi32(numbers[0], numbers[1], numbers[2], numbers[3]));
 }

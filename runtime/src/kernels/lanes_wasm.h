@@ -79,9 +79,6 @@ template <int place>
 inline Quad everywhere(Quad quad) {
     return wasm_i32x4_shuffle(quad.v, quad.v, place, place, place, place);
 }
-inline Quad with_one(Quad quad) {
-    return wasm_f32x4_replace_lane(quad.v, 3, 1.0f);
-}
 inline Quad from_integers(const std::int32_t (&numbers)[4]) {
     return wasm_f32x4_convert_i32x4(wasm_i32x4_make(numbers[0], numbers[1], numbers[2], numbers[3]));
 }
