@@ -1,3 +1,4 @@
+#include <bendy/format/find_key.h>
 #include <bendy/format/packed_clip.h>
 
 #include "packed_layout.h"
@@ -7,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 
 namespace bendy {
@@ -112,21 +114,18 @@ bool check_segments(const PackedView& view, Parts parts, std::uint64_t offset, F
     return true;
 }
 
-/// Returns the last frame that is not after the time, by bisection.
 PackedMoment uneven_moment(const PackedView& view, float seconds) {
-    std::uint32_t left = 0;
-    // No branch depends on a time, since none could be predicted for random moments.
-    for (std::uint32_t count = view.record.frames; count > 1;) {
-        const std::uint32_t half = count / 2;
-        float middle = 0.0f;
-        copy_at(view.payload, view.times_at + std::uint64_t{left + half} * 4, middle);
-        left += middle <= seconds ? half : 0;
-        count -= half;
-    }
+    const std::byte* const times = view.payload.data() + view.times_at;
+    const auto time_at = [times](std::size_t frame) {
+        float time = 0.0f;
+        std::memcpy(&time, times + frame * sizeof time, sizeof time);
+        return time;
+    };
+    const auto left = static_cast<std::uint32_t>(find_key(view.record.frames, time_at, seconds));
     const std::uint32_t right = left + 1;
-    const double start = view.time_of(left);
+    const double start = time_at(left);
     if (right == view.record.frames || !(seconds > start)) return {left, 0.0};
-    const double fraction = (seconds - start) / (view.time_of(right) - start);
+    const double fraction = (seconds - start) / (time_at(right) - start);
     return {left, fraction < 1.0 ? fraction : 0.0};
 }
 

@@ -9,7 +9,7 @@ inline void normalise_four(Lanes* q) {
 }
 
 /// kLanes joints of a block.
-inline void mix_joints(float* local, const float* other, Lanes weight) {
+BENDY_ALWAYS_INLINE void mix_joints(float* local, const float* other, Lanes weight) {
     Lanes a[4];
     Lanes b[4];
     load_numbers<4>(local, a);
@@ -28,7 +28,7 @@ inline void mix_joints(float* local, const float* other, Lanes weight) {
 }
 
 /// kLanes joints of a block; `other` is a difference.
-inline void add_joints(float* local, const float* other, Lanes weight) {
+BENDY_ALWAYS_INLINE void add_joints(float* local, const float* other, Lanes weight) {
     Lanes q[4];
     Lanes d[4];
     load_numbers<4>(local, q);
@@ -54,14 +54,20 @@ inline void add_joints(float* local, const float* other, Lanes weight) {
     store_numbers<6>(to, local + kTranslation);
 }
 
+/// All bits in the first `count` lanes.
+inline Lanes first_lanes(std::size_t count) {
+    constexpr float kNumbers[8] = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+    return negatives(load_lanes(kNumbers) - static_cast<float>(count));
+}
+
 /// The weights of joints from `joint` on; 0 after the last one, so that the rest of its block remains at rest.
 inline Lanes weights_at(const BlendBlock& block, std::size_t joint) {
-    if (joint + kLanes <= block.joints)
-        return block.mask == nullptr ? Lanes(block.weight) : block.weight * load_lanes(block.mask + joint);
-    float weights[kLanes]{};
-    for (std::size_t k = 0; joint + k < block.joints; ++k)
-        weights[k] = block.weight * (block.mask == nullptr ? 1.0f : block.mask[joint + k]);
-    return load_lanes(weights);
+    const std::size_t left = block.joints - joint;
+    if (block.mask == nullptr) return block.weight & first_lanes(left);
+    if (left >= kLanes) return block.weight * load_lanes(block.mask + joint);
+    float mask[kLanes]{};
+    for (std::size_t k = 0; k < left; ++k) mask[k] = block.mask[joint + k];
+    return block.weight * load_lanes(mask);
 }
 
 using BlendJoints = void(float* local, const float* other, Lanes weight);

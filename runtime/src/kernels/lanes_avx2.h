@@ -116,8 +116,11 @@ inline Lanes roots_of(Lanes squares) {
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm256_min_ps(_mm256_max_ps(lanes.v, least.v), most.v);
 }
+/// By Lomont, "Fast Inverse Square Root", 2003: half the bits of a float, subtracted, halve and negate its exponent.
 inline Lanes inverse_roots_of(Lanes squares) {
-    return 1.0f / roots_of(squares);  // not from _mm256_rsqrt_ps, which differs between processors
+    const __m256i half = _mm256_srli_epi32(_mm256_castps_si256(squares.v), 1);
+    return refine_inverse_roots<Lanes>(_mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(0x5f37'5a86), half)),
+                                       squares);
 }
 
 #include "lanes.h"

@@ -65,15 +65,6 @@ inline Lanes half_turn_square(const Lanes* v) {
     return 0.25f * (v[0] * v[0] + (v[1] * v[1] + v[2] * v[2]));
 }
 
-/// Uses as many terms as the largest angle needs.
-inline Shares shares_at(const Moment& moment, Lanes x) {
-    constexpr int kMiddleTerms = 9;
-    constexpr float kMiddleCosine = 0.55f;
-    const float least = least_of(x);
-    if (least >= kNearCosine - 1.0f) return near_shares(moment, x);
-    return least >= kMiddleCosine - 1.0f ? far_shares<kMiddleTerms>(moment, x) : far_shares<kFarTerms>(moment, x);
-}
-
 /// Stores numbers of the group's lanes from `first` on in the joints' blocks.
 template <std::size_t count>
 inline void store_unpacked(const Lanes* numbers, const UnpackGroup& group, [[maybe_unused]] std::size_t first,
@@ -94,21 +85,26 @@ inline void store_unpacked(const Lanes* numbers, const UnpackGroup& group, [[may
 #endif
 }
 
+inline float least_of(Lanes lanes) {
+#if BENDY_LANES == 8
+    Quad least = lesser(low(lanes), high(lanes));
+#else
+    Quad least = lanes;
+#endif
+    least = lesser(least, shuffle<2, 3, 0, 1>(least, least));
+    return first_of(lesser(least, shuffle<1, 0, 3, 2>(least, least)));
+}
+
 /// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
                              const Moment& moment, const UnpackPart* parts, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
     const bool is_near = -least_of(lesser(-of_v, -of_w)) <= kNearHalfTurnSquare;
-    const Rotations a = is_near ? near_exp(v, of_v) : far_exp(v, of_v);
+    Rotations a = is_near ? near_exp(v, of_v) : far_exp(v, of_v);
     const Rotations b = is_near ? near_exp(w, of_w) : far_exp(w, of_w);
-    const Lanes dot = dot_of_four(a.of, b.of);
-    const Lanes signs = signs_of(dot);
-    const Lanes cosine = dot ^ signs;
-    const Shares shares = shares_at(moment, lesser(1.0f, cosine) - 1.0f);
-    const Lanes by_b = shares.right ^ signs;
-    Lanes q[4];
-    for (std::size_t c = 0; c < 4; ++c) q[c] = shares.left * a.of[c] + by_b * b.of[c];
+    slerp(a.of, b.of, moment);
+    const Lanes* const q = a.of;
     Lanes r[4];
     load_numbers<4>(group.rest[0] + first, r);
     Lanes out[4] = {(r[3] * q[0] + r[0] * q[3]) + (r[1] * q[2] - r[2] * q[1]),

@@ -1,3 +1,4 @@
+#include <bendy/format/find_key.h>
 #include <bendy/runtime/curve.h>
 
 #include <algorithm>
@@ -15,13 +16,10 @@ struct KeyInterval {
     double seconds = 0.0;   ///< from left to right
 };
 
-/// Stays within the keys whatever the times are: opening a file does not check that they ascend.
 KeyInterval interval_at(std::span<const float> times, double seconds) {
-    const auto after = std::upper_bound(times.begin(), times.end(), seconds,
-                                        [](double wanted, float time) { return wanted < double{time}; });
-    if (after == times.begin()) return {};
-    const auto left = static_cast<std::size_t>(after - times.begin()) - 1;
-    if (after == times.end() || double{times[left]} == seconds) return {left, left};
+    const std::size_t left = find_key(
+        times.size(), [times](std::size_t key) { return double{times[key]}; }, seconds);
+    if (left + 1 == times.size() || !(seconds > times[left])) return {left, left};
     const double length = double{times[left + 1]} - times[left];
     return {left, left + 1, (seconds - times[left]) / length, length};
 }

@@ -1,6 +1,8 @@
+#include <bendy/format/find_key.h>
 #include <bendy/format/trig.h>
 #include <bendy/runtime/sample.h>
 
+#include "kernels/flush_denormals.h"
 #include "kernels/pose_kernels.h"
 #include "pose/pose_state.h"
 #include "unpack.h"
@@ -22,26 +24,10 @@ struct Interval {
     double seconds = 0.0;   // from left to right
 };
 
-/// Returns the first time after `seconds`. Most tracks have evenly spaced keys: then it is at the computed position,
-/// and no search is needed.
-std::span<const float>::iterator first_after(std::span<const float> times, float seconds) {
-    const float length = times.back() - times.front();
-    const float guess = (seconds - times.front()) / length * static_cast<float>(times.size() - 1);
-    if (guess >= 0.0f && guess < static_cast<float>(times.size() - 1)) {
-        auto left = static_cast<std::size_t>(guess);
-        if (left > 0 && times[left] > seconds) --left;  // rounding, or nearly evenly spaced
-        if (left + 2 < times.size() && times[left + 1] <= seconds) ++left;
-        if (times[left] <= seconds && times[left + 1] > seconds)
-            return times.begin() + static_cast<std::ptrdiff_t>(left) + 1;
-    }
-    return std::upper_bound(times.begin(), times.end(), seconds);
-}
-
 Interval timed_interval(std::span<const float> times, float seconds) {
-    const auto after = first_after(times, seconds);
-    if (after == times.begin()) return {};
-    const auto left = static_cast<std::size_t>(after - times.begin()) - 1;
-    if (after == times.end() || times[left] == seconds) return {left, left};
+    const std::size_t left = find_key(
+        times.size(), [times](std::size_t key) { return times[key]; }, seconds);
+    if (left + 1 == times.size() || !(seconds > times[left])) return {left, left};
     const double length = double{times[left + 1]} - times[left];
     return {left, left + 1, (double{seconds} - times[left]) / length, length};
 }
@@ -220,6 +206,7 @@ public:
 
 private:
     void run_plan(const SamplePlan& plan, const PoseKernels& kernels) const {
+        const FlushDenormals flush;
         state_.set_start(clip_.packed ? plan.packed.start : plan.start.empty() ? model_.pose_plan->rest : plan.start);
         sample_plays();
         for (const SampleLine& line : plan.lines) sample_line(line, kernels);
