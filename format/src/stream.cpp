@@ -231,6 +231,15 @@ void StreamView::decode(std::span<glm::vec4> out) const {
     decode_vectors(*this, out);
 }
 
+void StreamView::decode(std::span<float> out) const {
+    assert(out.size() <= std::size_t{elements} * components);
+    with_type(*this, [&](const auto& load) {
+        for (std::uint32_t c = 0; c < components; ++c) {
+            for (std::size_t at = c; at < out.size(); at += components) out[at] = scaled(load(at), *this, c);
+        }
+    });
+}
+
 float StreamView::number(std::uint32_t element, std::uint32_t component) const {
     assert(element < elements && component < components);
     const std::uint64_t at = std::uint64_t{element} * components + component;

@@ -102,11 +102,9 @@ void list(const MeshView& mesh, SkinPlan& plan) {
     } else if (weights.type == ComponentType::u16 && !is_boxed) {
         list_normalised<Bone, std::uint16_t>(mesh, plan);
     } else {
-        const std::uint32_t influences = weights.components;
-        list<Bone>(mesh, plan, [&](std::size_t at) {
-            return weights.number(static_cast<std::uint32_t>(at / influences),
-                                  static_cast<std::uint32_t>(at % influences));
-        });
+        std::vector<float> numbers(std::size_t{weights.elements} * weights.components);
+        weights.decode(numbers);
+        list<Bone>(mesh, plan, [&](std::size_t at) { return numbers[at]; });
     }
 }
 

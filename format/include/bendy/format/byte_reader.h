@@ -26,7 +26,12 @@ template <class T>
 requires std::is_trivially_copyable_v<T>
 void copy_at(Bytes bytes, std::uint64_t offset, T& value) {
     if (offset >= bytes.size()) return;
-    std::memcpy(&value, bytes.data() + offset, std::min<std::uint64_t>(sizeof(T), bytes.size() - offset));
+    const std::uint64_t left = bytes.size() - offset;
+    if (left >= sizeof(T)) {
+        std::memcpy(&value, bytes.data() + offset, sizeof(T));  // of a fixed size: one instruction
+    } else {
+        std::memcpy(&value, bytes.data() + offset, static_cast<std::size_t>(left));
+    }
 }
 
 /// Returns `count` values of T at `offset` in place, or an empty span if they do not fit: the result is always inside

@@ -51,6 +51,8 @@ struct StreamView {
     /// Decodes the first out.size() elements, at most `elements`; faster than one by one.
     void decode(std::span<glm::vec3> out) const;
     void decode(std::span<glm::vec4> out) const;
+    /// Decodes the numbers of the first out.size() / components elements, as number() does.
+    void decode(std::span<float> out) const;
     /// Returns all numbers in place. The caller must ensure that T matches the stream's type (float for f32, ...).
     template <class T>
     [[nodiscard]] std::span<const T> as() const {
