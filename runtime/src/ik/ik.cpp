@@ -392,6 +392,12 @@ bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ances
     return joint != kNone;
 }
 
+/// a * b of matrices whose last row is 0 0 0 1.
+glm::dmat4 affine_product(const glm::dmat4& a, const glm::dmat4& b) {
+    const auto turned = [&a](const glm::dvec4& v) { return a[0] * v.x + a[1] * v.y + a[2] * v.z; };
+    return {turned(b[0]), turned(b[1]), turned(b[2]), turned(b[3]) + a[3]};
+}
+
 /// See ReachOptions::carry_target.
 void carry_target(const Chain& chain, Pose& pose) {
     const Model& model = pose.model();
@@ -429,12 +435,12 @@ std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget
 
 glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
     const PoseState& state = PoseState::of(pose);
+    if (joint == kNone) return glm::dmat4(1.0);
+    if (!state.is_stale) return state.exact_matrix(joint);
     const std::vector<Joint>& joints = state.data->joints;
-    glm::dmat4 matrix(1.0);
-    for (; joint != kNone; joint = joints[joint].parent) {
-        if (!state.is_stale) return state.exact_matrix(joint) * matrix;
-        matrix = to_matrix(state.local_of(joint), joints[joint].shear) * matrix;
-    }
+    const auto local = [&](std::uint32_t at) { return to_matrix(state.local_of(at), joints[at].shear); };
+    glm::dmat4 matrix = local(joint);
+    while ((joint = joints[joint].parent) != kNone) matrix = affine_product(local(joint), matrix);
     return matrix;
 }
 

@@ -102,6 +102,10 @@ inline Lanes negatives(Lanes lanes) {
 inline Lanes load_mask(const std::uint32_t* from) {
     return _mm256_castsi256_ps(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
 }
+/// Reads no other numbers than those of the mask; zeros elsewhere.
+inline Lanes load_some(const float* from, Lanes mask) {
+    return _mm256_maskload_ps(from, _mm256_castps_si256(mask.v));
+}
 /// a where all bits of the mask are set, b where none is.
 inline Lanes chosen(Lanes mask, Lanes a, Lanes b) {
     return _mm256_blendv_ps(b.v, a.v, mask.v);
@@ -116,11 +120,13 @@ inline Lanes roots_of(Lanes squares) {
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm256_min_ps(_mm256_max_ps(lanes.v, least.v), most.v);
 }
-/// By Lomont, "Fast Inverse Square Root", 2003: half the bits of a float, subtracted, halve and negate its exponent.
 inline Lanes inverse_roots_of(Lanes squares) {
+    return 1.0f / roots_of(squares);  // not from _mm256_rsqrt_ps, which differs between processors
+}
+/// By Lomont, "Fast Inverse Square Root", 2003: half the bits of a float, subtracted, halve and negate its exponent.
+inline Lanes guess_inverse_roots(Lanes squares) {
     const __m256i half = _mm256_srli_epi32(_mm256_castps_si256(squares.v), 1);
-    return refine_inverse_roots<Lanes>(_mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(0x5f37'5a86), half)),
-                                       squares);
+    return _mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(0x5f37'5a86), half));
 }
 
 #include "lanes.h"

@@ -31,10 +31,13 @@ inline Lanes roots_of(Lanes squares) {
 inline Lanes between(Lanes lanes, Lanes least, Lanes most) {
     return _mm_min_ps(_mm_max_ps(lanes.v, least.v), most.v);
 }
-/// By Lomont, "Fast Inverse Square Root", 2003: half the bits of a float, subtracted, halve and negate its exponent.
 inline Lanes inverse_roots_of(Lanes squares) {
+    return 1.0f / roots_of(squares);  // not from _mm_rsqrt_ps, which differs between processors
+}
+/// By Lomont, "Fast Inverse Square Root", 2003: half the bits of a float, subtracted, halve and negate its exponent.
+inline Lanes guess_inverse_roots(Lanes squares) {
     const __m128i half = _mm_srli_epi32(_mm_castps_si128(squares.v), 1);
-    return refine_inverse_roots<Lanes>(_mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(0x5f37'5a86), half)), squares);
+    return _mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(0x5f37'5a86), half));
 }
 
 #include "lanes.h"

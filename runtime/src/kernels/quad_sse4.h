@@ -81,12 +81,4 @@ inline Quad lesser(Quad x, Quad y) {
 inline Quad negatives(Quad quad) {
     return _mm_cmplt_ps(quad.v, _mm_setzero_ps());
 }
-/// 1 / sqrt from a guess within 4 %, to 1.5 units in the last place: a step of Newton's method and one of Halley's. A
-/// root and a division take longer, and _mm_rsqrt_ps differs between processors.
-template <class Numbers>
-inline Numbers refine_inverse_roots(Numbers guess, Numbers squares) {
-    const Numbers better = guess * (1.5f - 0.5f * squares * guess * guess);
-    const Numbers error = 1.0f - squares * better * better;
-    return better + better * error * (0.5f + 0.375f * error);
-}
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)
