@@ -26,8 +26,8 @@ viewer::RenderOptions options_of(std::uint32_t side, const Clip* clip, const std
     return options;
 }
 
-std::vector<std::byte> animate(const Model& model, const Clip& clip, const std::filesystem::path& folder) {
-    viewer::PictureMaker maker(model, options_of(kClipSide, &clip, folder), [](const std::string&) {});
+std::vector<std::byte> animate(viewer::PictureMaker& maker, const Clip& clip) {
+    maker.change(options_of(kClipSide, &clip, {}));
     const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
     if (!(length > 0.0)) return viewer::encode_png(maker.draw(clip.start));
     const auto file = viewer::make_webp(kClipSide, kClipSide);
@@ -57,7 +57,7 @@ PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder)
             const Clip& clip = clips[shown];
             const bool moves = clip.end > clip.start;
             pictures.list.push_back(
-                {std::string(clip.name), true, moves ? "image/webp" : "image/png", animate(*model, clip, folder)});
+                {std::string(clip.name), true, moves ? "image/webp" : "image/png", animate(maker, clip)});
             bytes += pictures.list.back().bytes.size();
         }
         pictures.clips_left_out = clips.size() - shown;

@@ -27,6 +27,10 @@ FULL_DISK = {"restore_signals": False,
              "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))}
 
 
+# An environment in which `inspect --html` finds no OpenGL: its pictures take a second, and most tests do not look at them.
+WITHOUT_PICTURES = os.environ | {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"}
+
+
 def main(arguments=REST):
     unittest.main(argv=[sys.argv[0], *arguments])
 

@@ -36,7 +36,8 @@ Character::Character(std::vector<std::byte> file_bytes, std::string name, const 
     Result<ChunkTree> chunks = read_chunk_tree(bytes);
     if (chunks) tree = *std::move(chunks);
     box = box_of(*model);
-    renderer = std::make_unique<Renderer>(*model, box, folder, warn);
+    renderer = std::make_unique<Renderer>(*model, folder, warn);
+    renderer->set_box(box);
     player = std::make_unique<Player>(*model);
     if (is_demo) demo = std::make_unique<Demo>(*model);
 }

@@ -113,11 +113,15 @@ void OverlayList::triangle(std::vector<OverlayVertex>& list, const glm::vec3& a,
     list.insert(list.end(), {{a, a, colour}, {b, b, colour}, {c, c, colour}});
 }
 
-Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
+float Overlay::length_of(std::uint32_t joint) const {
+    constexpr float kDefaultLength = 0.06f;  // of the character's size
+    return lengths_[joint] > 0.0f ? lengths_[joint] : kDefaultLength * size_;
+}
+
+Overlay::Overlay(const Model& model) : model_(&model) {
     std::vector<bool> is_bone = find_bones(model);
     const std::vector<bool> is_control = find_controls(model);
     Pose rest(model);
-    constexpr float kDefaultLength = 0.06f;  // of the character's size
     lengths_.assign(is_bone.size(), 0.0f);
     std::vector<std::uint32_t> child(is_bone.size(), kNone);  // at the end of each joint's longest bone
     std::vector<bool> is_end(is_bone.size());
@@ -136,7 +140,6 @@ Overlay::Overlay(const Model& model, float size) : model_(&model), size_(size) {
     }
     for (std::uint32_t joint = 0; joint < is_bone.size(); ++joint) {
         if (is_end[joint]) ends_.push_back(joint);
-        if (lengths_[joint] == 0.0f) lengths_[joint] = kDefaultLength * size;
     }
     for (const Constraint& constraint : model.constraints()) {
         const Constraint* in_poses = model.constraint(constraint.joint);
@@ -162,12 +165,12 @@ void Overlay::add_bones(Pose& pose, OverlayList& list) const {
         add_octahedron(from, to, kWaist, std::min(kWidth * glm::length(to - from), widest), kBoneColour, list);
     }
     for (const std::uint32_t joint : ends_)
-        add_diamond(place(pose, joint), std::min(0.06f * lengths_[joint], 0.008f * size_), kEndColour, list);
+        add_diamond(place(pose, joint), std::min(0.06f * length_of(joint), 0.008f * size_), kEndColour, list);
 }
 
 void Overlay::add_axes(Pose& pose, OverlayList& list) const {
     for (const std::uint32_t joint : ends_)
-        add_axes_of(pose, joint, std::min(0.35f * lengths_[joint], 0.06f * size_), 1.5f, list);
+        add_axes_of(pose, joint, std::min(0.35f * length_of(joint), 0.06f * size_), 1.5f, list);
 }
 
 void Overlay::add_axes_of(Pose& pose, std::uint32_t joint, float length, float pixels, OverlayList& list) {
@@ -205,7 +208,7 @@ void Overlay::add_constraint(const Constraint& constraint, const ConstraintDrawi
     }
     const glm::mat3 frame = parent * glm::mat3_cast(joint.rest.rotation * glm::quat(constraint.frame));
     const glm::vec3 centre = place(pose, drawing.joint);
-    const float radius = std::clamp(0.45f * lengths_[drawing.joint], 0.02f * size_, 0.12f * size_);
+    const float radius = std::clamp(0.45f * length_of(drawing.joint), 0.02f * size_, 0.12f * size_);
     const glm::dquat R = to_constraint_space(constraint, joint.rest.rotation, pose.local(drawing.joint).rotation);
     const glm::vec3 pointer = centre + 1.15f * radius * (frame * glm::vec3(R * glm::dvec3(drawing.pointer)));
 

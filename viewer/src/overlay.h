@@ -43,7 +43,9 @@ struct TargetMark {
 class Overlay {
 public:
     /// `size`: of the whole character, metres; determines the size of what has no bone to scale with.
-    Overlay(const Model& model, float size);
+    explicit Overlay(const Model& model);
+    /// \param size  of the character, in metres
+    void set_size(float size) { size_ = size; }
 
     /// Each function adds to the list.
     void add_bones(Pose& pose, OverlayList& list) const;
@@ -57,14 +59,16 @@ private:
     void add_constraint(const Constraint& constraint, const ConstraintDrawing& drawing, Pose& pose,
                         OverlayList& list) const;
 
+    [[nodiscard]] float length_of(std::uint32_t joint) const;
+
     struct Bone {
         std::uint32_t from, to;
     };
     const Model* model_;
-    float size_;
+    float size_ = 1.0f;
     std::vector<Bone> bones_;
     std::vector<std::uint32_t> ends_;             // joints where a bone ends
-    std::vector<float> lengths_;                  // of each joint's longest bone at rest, or a share of the size
+    std::vector<float> lengths_;                  // of each joint's longest bone at rest; 0: none
     std::vector<const Constraint*> constraints_;  // one per joint: for poses, otherwise for IK
     std::vector<ConstraintDrawing> limits_;       // of the same constraints
 };

@@ -27,16 +27,21 @@ Box box_of(const Model& model, const RenderOptions& options) {
 /// In the order of construction; the context is destroyed after everything that uses it.
 struct PictureMaker::Parts {
     Parts(const Model& model, const RenderOptions& wanted, const Warn& warn)
-        : options(wanted),
-          frame(wanted.width, wanted.height),
-          box(box_of(model, wanted)),
-          renderer(model, box, wanted.folder, warn),
-          pose(model) {
+        : frame(wanted.width, wanted.height), renderer(model, wanted.folder, warn), pose(model) {
+        set(wanted);
+        if (!has_surface(model) && model.joints().empty()) warn("there is nothing to draw: no surface and no joints");
+    }
+
+    void set(const RenderOptions& wanted) {
+        const Model& model = pose.model();
+        options = wanted;
+        if (!has_surface(model)) options.draw.bones = true;
+        if (frame.width() != wanted.width || frame.height() != wanted.height)
+            frame = Frame(wanted.width, wanted.height);
+        const Box box = box_of(model, wanted);
+        renderer.set_box(box);
         camera.fit(box, wanted.camera, static_cast<float>(wanted.width) / static_cast<float>(wanted.height));
         renderer.set_level(wanted.lod);
-        if (has_surface(model)) return;
-        options.draw.bones = true;
-        if (model.joints().empty()) warn("there is nothing to draw: no surface and no joints");
     }
 
     [[nodiscard]] std::vector<TargetMark> marks() {
@@ -59,7 +64,6 @@ struct PictureMaker::Parts {
     RenderOptions options;
     OffscreenContext context;
     Frame frame;
-    Box box;
     Renderer renderer;
     Camera camera;
     Pose pose;
@@ -72,6 +76,10 @@ PictureMaker::~PictureMaker() = default;
 
 const std::string& PictureMaker::context() const {
     return parts_->context.description();
+}
+
+void PictureMaker::change(const RenderOptions& options) {
+    parts_->set(options);
 }
 
 Picture PictureMaker::draw(float time) {

@@ -79,13 +79,13 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
 
 }  // namespace
 
-Renderer::Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn)
+Renderer::Renderer(const Model& model, const std::filesystem::path& folder, const Warn& warn)
     : model_(&model),
       surfaces_(shown_surfaces(model)),
       level_(model),
       buffers_(model),
       textures_(model, folder, warn),
-      overlay_(model, 2.0f * box.radius()),
+      overlay_(model),
       surface_(kSkinShader, kSurfaceShader),
       flat_(kSkinShader, kFlatShader),
       numbers_(kSkinShader, kNumberShader),

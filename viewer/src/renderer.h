@@ -18,8 +18,10 @@ namespace bendy::viewer {
 /// Draws one model into the bound framebuffer, for pictures and for the window. The model must outlive it.
 class Renderer {
 public:
-    Renderer(const Model& model, const Box& box, const std::filesystem::path& folder, const Warn& warn);
+    Renderer(const Model& model, const std::filesystem::path& folder, const Warn& warn);
 
+    /// Sets the box that the camera is fitted to: marks are as large as it needs.
+    void set_box(const Box& box) { overlay_.set_size(2.0f * box.radius()); }
     void set_level(float share);
     [[nodiscard]] const Lod& level() const { return level_; }
 
