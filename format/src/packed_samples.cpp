@@ -112,12 +112,6 @@ private:
     std::uint64_t bit_;
 };
 
-/// Writes the low `width` bits of `value` at a bit position that holds zeros.
-void put_bits(std::vector<std::byte>& out, std::uint64_t bit, std::uint32_t value) {
-    std::uint64_t word = std::uint64_t{value} << (bit % 8);
-    for (std::uint64_t at = bit / 8; word != 0; ++at, word >>= 8) out[at] |= static_cast<std::byte>(word);
-}
-
 void put_base(std::vector<std::byte>& out, std::int32_t base, std::uint32_t size) {
     const auto bytes = std::as_bytes(std::span(&base, 1)).first(size);
     out.insert(out.end(), bytes.begin(), bytes.end());
@@ -258,10 +252,19 @@ private:
         const std::size_t frames = out_.size();
         const std::uint64_t stride = (bits + 7) / 8;
         out_.resize(frames + frames_of(s) * stride);
-        for (std::uint32_t f = 0; f < frames_of(s); ++f) put_frame(s, f, (frames + f * stride) * 8);
+        const std::vector<Column> columns = columns_of(s);
+        for (std::uint32_t f = 0; f < frames_of(s); ++f) put_frame(columns, f, out_.data() + frames + f * stride);
     }
 
-    void put_frame(std::uint32_t s, std::uint32_t f, std::uint64_t bit) {
+    /// One component of a track in a segment.
+    struct Column {
+        const std::int32_t* numbers;  ///< of the segment's frames
+        std::uint32_t base, width;
+    };
+
+    /// In the order of a frame.
+    std::vector<Column> columns_of(std::uint32_t s) {
+        std::vector<Column> columns;
         for (std::size_t k = 0; k < kPackedLists; ++k) {
             if (!kPackedKinds[k].animated) continue;
             for (std::size_t group = 0; group < lists_[k].size(); group += kPackedGroup) {
@@ -269,14 +272,28 @@ private:
                 for (std::uint32_t c = 0; c < kPackedKinds[k].components; ++c) {
                     for (std::size_t t = group; t < end; ++t) {
                         const Range& found = range(k, s, c, t);
-                        const std::int32_t number = numbers(*lists_[k][t], c, s)[f];
-                        put_bits(out_, bit,
-                                 static_cast<std::uint32_t>(number) - static_cast<std::uint32_t>(found.base));
-                        bit += found.width;
+                        columns.push_back(
+                            {numbers(*lists_[k][t], c, s).data(), static_cast<std::uint32_t>(found.base), found.width});
                     }
                 }
             }
         }
+        return columns;
+    }
+
+    static void put_frame(std::span<const Column> columns, std::uint32_t f, std::byte* to) {
+        std::uint64_t word = 0;
+        std::uint32_t bits = 0;  // in `word`; fewer than 32 before a number is added
+        for (const Column& column : columns) {
+            word |= std::uint64_t{static_cast<std::uint32_t>(column.numbers[f]) - column.base} << bits;
+            bits += column.width;
+            if (bits < 32) continue;
+            std::memcpy(to, &word, 4);
+            to += 4;
+            word >>= 32;
+            bits -= 32;
+        }
+        std::memcpy(to, &word, (bits + 7) / 8);
     }
 
     const PackedSamples& samples_;
