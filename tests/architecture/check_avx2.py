@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Looks for `vzeroupper` in the AVX2 kernels, whose callers are not compiled for AVX2: where it is missing, some processors take
-150 ns for each call. GCC leaves it out of functions that only call others which take registers.
+150 ns longer for each call. GCC leaves it out of functions that only call others which take registers.
 
     check_avx2.py OBJDUMP LIBRARY
 """

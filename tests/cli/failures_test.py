@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
-from program import BENDY, REST, SOURCE, WITHOUT_PICTURES, has_viewer, main  # noqa: E402
+from program import BENDY, REST, SOURCE, has_viewer, main  # noqa: E402
 
 LIBRARY = ""
 SEEDS = Path("tests/seeds")
@@ -51,7 +51,7 @@ class Failures(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def bendy(self, *arguments, fail=None, at=1, how="error", **options):
-        environment = dict(WITHOUT_PICTURES if arguments[0] == "inspect" else os.environ)
+        environment = dict(os.environ)
         if fail:
             environment |= {"LD_PRELOAD": LIBRARY, "BENDY_FAIL": fail, "BENDY_FAIL_AT": str(at), "BENDY_FAIL_HOW": how}
         return subprocess.run([BENDY, *(SOURCE / one if isinstance(one, Path) else one for one in arguments)],

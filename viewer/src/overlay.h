@@ -42,9 +42,8 @@ struct TargetMark {
 /// Draws the skeleton, the constraints and the targets of one model. The model must outlive it.
 class Overlay {
 public:
-    /// `size`: of the whole character, metres; determines the size of what has no bone to scale with.
     explicit Overlay(const Model& model);
-    /// \param size  of the character, in metres
+    /// Sets the size of the whole character, in metres: what has no bone to scale with is drawn in proportion to it.
     void set_size(float size) { size_ = size; }
 
     /// Each function adds to the list.

@@ -20,7 +20,7 @@ class Renderer {
 public:
     Renderer(const Model& model, const std::filesystem::path& folder, const Warn& warn);
 
-    /// Sets the box that the camera is fitted to: marks are as large as it needs.
+    /// Sets the box that the camera is fitted to: bones, axes and marks are drawn in proportion to it.
     void set_box(const Box& box) { overlay_.set_size(2.0f * box.radius()); }
     void set_level(float share);
     [[nodiscard]] const Lod& level() const { return level_; }

@@ -1,5 +1,5 @@
 // The implementation of the blending kernels, included after lanes.h by one source for each instruction set, which also
-// defines inverse_roots_of(Lanes).
+// defines inverse_roots_of(Lanes) and, on x86-64, guess_inverse_roots(Lanes).
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 

@@ -35,6 +35,7 @@ struct SlerpWeight {
     }
 };
 
+/// The weights of two keys, and which sign the right one takes.
 struct Moment {
     SlerpWeight left, right;
     float sign;  ///< the bits of the right key to flip if the shorter arc leads to its negative; none at the key itself
