@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
             const float seconds = static_cast<float>(frame) / 60.0f + 0.37f * static_cast<float>(k);
             if (member.clip != nullptr) member.seconds = member.clip->start + std::fmod(seconds, length(*member.clip));
         }
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4), [&](const auto& range) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, bendy::Crowd::kAtOnce), [&](const auto& range) {
             const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
             if (!crowd.play(std::span(members).subspan(range.begin(), range.size()), worker)) is_good = false;
         });

@@ -1165,8 +1165,9 @@ BENDY_API bendy_status bendy_prepare_skin(bendy_pose* pose, uint32_t method, ben
 
 /* ---- Crowds ---------------------------------------------------------------------------------------------- */
 
-/* The work memory for many characters of one model, played on the caller's threads: one pose per worker, nothing per
- * member. Different workers may be used by different threads at the same time; one worker by one thread at a time. */
+/* The work memory for many characters of one model, played on the caller's threads: the size of some twenty poses per
+ * worker, nothing per member. Palettes of eight members are computed together, so calls for multiples of eight are the
+ * fastest. Different workers may be used by different threads at the same time; one worker by one thread at a time. */
 typedef struct bendy_crowd bendy_crowd;
 
 typedef struct bendy_crowd_member { /* one character of a crowd; members must not share outputs */
@@ -1195,7 +1196,7 @@ BENDY_API size_t bendy_crowd_first_matrix(const bendy_crowd* crowd, uint32_t mes
  * worker. If one member has a bad argument, nothing is written for any. */
 BENDY_API bendy_status bendy_crowd_play(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
                                         uint32_t worker, bendy_error* error);
-/* Sets the whole pose of a member, which is as the worker's last member left it; `user` is what the caller passed. The
+/* Sets the whole pose of a member, which holds values of other members; `user` is what the caller passed. The
  * pose is valid during the call and must not be freed. */
 typedef void (*bendy_pose_member)(void* user, size_t member, bendy_pose* pose);
 /* As bendy_crowd_play, but the caller sets each pose: blends clips, solves IK chains. The members' clips and times are

@@ -7,6 +7,8 @@
 
 #include <bendy/runtime/sample.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -67,25 +69,37 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
     if (const bendy_status status = check_out(members, "members", error)) return status;
     if (members->size % alignof(bendy_crowd_member) != 0)
         return fail(error, BENDY_BAD_ARGUMENT, "members: their size is not that of a struct in an array");
-    const std::size_t palette_size = crowd->crowd.palette_size();
-    const std::span<PaletteMatrix> palette = std::span(crowd->palettes).subspan(worker * palette_size, palette_size);
     Request request;
+    const auto take_number = [&](std::size_t number) {
+        return take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error);
+    };
     for (std::size_t number = 0; number < count; ++number) {  // all checks come before the first write
-        if (const bendy_status status =
-                take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
-            return status;
+        if (const bendy_status status = take_number(number)) return status;
     }
-    for (std::size_t number = 0; number < count; ++number) {
-        if (const bendy_status status =
-                take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error))
-            return status;
-        if (request.palette != nullptr) request.member.palette = palette;
-        const auto played = crowd->crowd.play({&request.member, 1}, worker, [&](const CrowdMember& member, Pose& pose) {
-            set_pose(number, member, pose);
+    const std::size_t palette_size = crowd->crowd.palette_size();
+    PaletteMatrix* const palettes = crowd->palettes.data() + worker * Crowd::kAtOnce * palette_size;
+    std::array<CrowdMember, Crowd::kAtOnce> taken;
+    std::array<float*, Crowd::kAtOnce> outputs{};
+    for (std::size_t first = 0; first < count; first += Crowd::kAtOnce) {
+        const std::size_t size = std::min(Crowd::kAtOnce, count - first);
+        for (std::size_t k = 0; k < size; ++k) {
+            if (const bendy_status status = take_number(first + k)) return status;
+            taken[k] = request.member;
+            outputs[k] = request.palette;
+            if (outputs[k] != nullptr) taken[k].palette = {palettes + k * palette_size, palette_size};
+        }
+        const auto played = crowd->crowd.play({taken.data(), size}, worker, [&](const CrowdMember& member, Pose& pose) {
+            set_pose(first + static_cast<std::size_t>(&member - taken.data()), member, pose);
         });
         if (!played) return from_call(played, error);
-        if (request.palette == nullptr) continue;
-        for (std::size_t k = 0; k < palette.size(); ++k) put_matrix(palette[k], request.palette + k * kMatrixNumbers);
+        for (std::size_t k = 0; k < size; ++k) {
+            if (outputs[k] == nullptr) continue;
+            float* to = outputs[k];
+            for (const PaletteMatrix& matrix : taken[k].palette) {
+                put_matrix(matrix, to);
+                to += kMatrixNumbers;
+            }
+        }
     }
     return BENDY_OK;
 }

@@ -137,9 +137,9 @@ struct bendy_crowd {
     bendy_crowd(std::shared_ptr<const bendy::capi::Character> of, std::size_t workers)
         : character(std::move(of)),
           crowd(character->model, workers),
-          palettes(crowd.workers() * crowd.palette_size()) {}
+          palettes(crowd.workers() * bendy::Crowd::kAtOnce * crowd.palette_size()) {}
 
     std::shared_ptr<const bendy::capi::Character> character;
     bendy::Crowd crowd;
-    std::vector<bendy::PaletteMatrix> palettes;  ///< of the member that each worker plays, one after another
+    std::vector<bendy::PaletteMatrix> palettes;  ///< of the kAtOnce members that each worker plays
 };

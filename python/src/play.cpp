@@ -428,7 +428,7 @@ std::vector<CrowdMember> members_of(const SharedCharacter& character, const py::
 
 /// Plays on as many threads as the crowd has workers; on fewer if the system refuses one.
 Result<void, CallError> play_all(Crowd& crowd, std::span<const CrowdMember> members) {
-    constexpr std::size_t kAtOnce = 8;
+    constexpr std::size_t kAtOnce = Crowd::kAtOnce;
     std::atomic<std::size_t> next{0};
     std::vector<Result<void, CallError>> results(crowd.workers());
     const auto work = [&](std::size_t worker) {

@@ -91,6 +91,29 @@ TEST_F(CCrowd, BindingsRefuseBadArguments) {
     bendy_binding_free(nullptr);
 }
 
+TEST_F(CCrowd, PalettesOfManyMembersAreThoseOfPoses) {
+    constexpr std::uint32_t kMembers = 19;
+    const CrowdHandle crowd(bendy_crowd_new(model_.get(), 1, &error_));
+    std::array<std::array<float, 48>, kMembers> palettes{};
+    std::array<bendy_crowd_member, kMembers> members;
+    for (std::uint32_t k = 0; k < kMembers; ++k) {
+        members[k] = BENDY_CROWD_MEMBER_INIT;
+        members[k].clip = 0;
+        members[k].seconds = 0.1f * static_cast<float>(k);
+        if (k % 5 != 3) members[k].palette = palettes[k].data();
+    }
+    ASSERT_EQ(bendy_crowd_play(crowd.get(), members.data(), kMembers, 0, &error_), BENDY_OK) << error_.message;
+    const PoseHandle pose = new_pose(model_);
+    for (std::uint32_t k = 0; k < kMembers; ++k) {
+        bendy_sample(pose.get(), 0, members[k].seconds, nullptr);
+        std::array<float, 48> expected{};
+        if (k % 5 != 3) {
+            ASSERT_EQ(bendy_bone_matrices(pose.get(), 0, expected.data(), 2, &error_), BENDY_OK) << error_.message;
+        }
+        EXPECT_TRUE(std::equal(expected.begin(), expected.begin() + 32, palettes[k].begin())) << k;
+    }
+}
+
 TEST_F(CCrowd, MembersAreSkinnedLikePoses) {
     const CrowdHandle crowd(bendy_crowd_new(model_.get(), 2, &error_));
     EXPECT_EQ(bendy_crowd_workers(crowd.get()), 2u);

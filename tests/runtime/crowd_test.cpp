@@ -207,6 +207,74 @@ TEST(Crowd, NeighboursWithTheSameBindPaletteShareTheirMatrices) {
     EXPECT_TRUE(set_kernel(before));
 }
 
+/// 21 joints and two meshes: one that all of them move, and a rigid one.
+/// \param far  metres from the origin to the first joint; so many that joint matrices need doubles
+test::ModelSpec with_many_joints(float far) {
+    test::ModelSpec spec;
+    std::vector<std::uint32_t> joints(21);
+    std::vector<glm::mat4> inverse_bind(joints.size(), glm::mat4(1.0f));
+    for (std::uint32_t k = 0; k < joints.size(); ++k) {
+        joints[k] = k;
+        test::JointSpec joint;
+        joint.parent = k == 0 ? kNone : k - 1 - (k % 5 == 4 ? 1 : 0);
+        joint.rest.translation[1] = k == 0 ? far : 0.1f;
+        spec.joints.push_back(joint);
+        inverse_bind[k][3] = {0.3f, -0.1f * static_cast<float>(k) - far, 0.2f, 1.0f};
+    }
+    test::MeshSpec& skinned = spec.meshes.emplace_back();
+    skinned.positions = {{1.0f, 2.0f, 3.0f}};
+    skinned.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<std::uint8_t>(1, {1})),
+                    test::make_leaf(FourCC("WGHT"), test::stream_payload<float>(1, {1.0f})),
+                    test::palette_leaf(joints, inverse_bind)};
+    test::MeshSpec& rigid = spec.meshes.emplace_back();
+    rigid.joint = 20;
+    rigid.positions = {{1.0f, 2.0f, 3.0f}};
+    return spec;
+}
+
+/// A pose that no other number gives.
+void pose_by_number(float number, Pose& pose) {
+    pose.set_rest();
+    for (std::uint32_t joint = 0; joint < 21; ++joint) {
+        const float angle = number + 0.3f * static_cast<float>(joint);
+        test::local_of(pose, joint)->rotation = glm::angleAxis(angle, glm::normalize(glm::vec3(1.0f, angle, 0.5f)));
+    }
+}
+
+TEST(Crowd, PalettesOfAnyNumberOfMembersAreThoseOfPosesAlone) {
+    const Kernel before = kernel();
+    for (const float far : {0.0f, 1e6f}) {
+        const test::Owned model(test::build_file(with_many_joints(far)));
+        Crowd crowd(*model);
+        ASSERT_EQ(crowd.palette_size(), 22u);
+        for (const Kernel each : kernels()) {
+            ASSERT_TRUE(set_kernel(each));
+            for (const std::size_t count : {1u, 2u, 3u, 7u, 8u, 9u, 11u, 24u}) {
+                SCOPED_TRACE(testing::Message() << kernel_name(each) << ", " << count << " members, " << far);
+                std::vector<PaletteMatrix> palettes(count * crowd.palette_size());
+                std::vector<CrowdMember> members(count);
+                for (std::size_t k = 0; k < count; ++k) {
+                    members[k].seconds = static_cast<float>(k);
+                    members[k].palette = std::span(palettes).subspan(k * crowd.palette_size(), crowd.palette_size());
+                }
+                const auto set = [](const CrowdMember& member, Pose& pose) { pose_by_number(member.seconds, pose); };
+                ASSERT_TRUE(crowd.play(members, 0, set));
+                Pose pose(*model);
+                for (const CrowdMember& member : members) {
+                    pose_by_number(member.seconds, pose);
+                    const std::span<const PaletteMatrix> expected = pose.palette(0);
+                    ASSERT_EQ(expected.size(), 21u);
+                    EXPECT_EQ(std::memcmp(member.palette.data(), expected.data(), expected.size_bytes()), 0)
+                        << "member " << member.seconds;
+                    const glm::mat4 last = pose.model_space()[20];
+                    EXPECT_EQ(member.palette[21].rows[2][1], last[1][2]) << "member " << member.seconds;
+                }
+            }
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
 TEST(Crowd, TheCallerMayPose) {
     const test::Owned model(test::sample_file());
     Crowd crowd(*model);

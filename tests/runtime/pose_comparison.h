@@ -23,6 +23,7 @@ namespace bendy::test {
 struct PoseErrors {
     double pose = 0.0, palette = 0.0, sample = 0.0, unpack = 0.0, mix = 0.0, add = 0.0;
     bool finds_infinity = true;  ///< the palette kernel's answer
+    bool poses_match = true;     ///< those posed side by side are those posed one by one, bit for bit
 
     static constexpr double kMostForPose = 2.0;  // for each joint on the way
     static constexpr double kMostForPalette = 3.0;
@@ -31,7 +32,8 @@ struct PoseErrors {
     static constexpr double kMostForBlends = 4.0;
     [[nodiscard]] bool are_small() const {
         return pose <= kMostForPose && palette <= kMostForPalette && sample <= kMostForSample &&
-               unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends && finds_infinity;
+               unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends && finds_infinity &&
+               poses_match;
     }
 };
 
@@ -42,6 +44,7 @@ public:
     PoseErrors run() {
         for (const std::size_t joints : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 31u}) {
             compare_matrices(joints);
+            compare_poses(joints);
             compare_blends(joints);
         }
         for (const float angle : {0.0f, 0.3f, 1.5f, 3.0f}) {
@@ -173,6 +176,56 @@ private:
         }
         model[16 * std::size_t{joints.back()} + 13] = INFINITY;
         errors_.finds_infinity = !kernels_.palette(block) && errors_.finds_infinity;
+    }
+
+    /// Eight poses side by side, the last two the same.
+    void compare_poses(std::size_t joints) {
+        constexpr std::size_t kPoses = PosesBlock::kPoses;
+        std::vector<Blocks> poses;
+        for (std::size_t k = 0; k + 1 < kPoses; ++k) poses.push_back(random_pose(joints));
+        for (std::size_t k = 0; k < joints; k += 2) {  // products with zeros, of both signs
+            for (std::size_t c = 0; c < 7; ++c) poses[1].at(k, c) = c == 3 ? 1.0f : c % 2 == 0 ? 0.0f : -0.0f;
+        }
+        std::vector<std::uint32_t> parents(joints, 0xffff'ffffu), order(joints), entries(joints + 2);
+        for (std::uint32_t k = 0; k < joints; ++k) {
+            order[k] = k;
+            if (k % 7 != 0) parents[k] = k - 1 - (k % 3 == 2 ? 1 : 0);
+        }
+        for (std::uint32_t& joint : entries) joint = static_cast<std::uint32_t>(random_() % joints);
+        std::vector<PaletteMatrix> bind(entries.size()), expected(entries.size());
+        for (PaletteMatrix& entry : bind) {
+            for (auto& row : entry.rows) {
+                for (float& each : row) each = random_() % 4 == 0 ? -0.0f : number();
+            }
+        }
+        std::vector<std::vector<PaletteMatrix>> palettes(kPoses - 1, expected), matrices = palettes;
+        Floats together(kMatrixLanes * joints);
+        PosesBlock block{joints, {}, parents.data(), together.data()};
+        PalettesBlock skinned{entries.size(), together.data(), entries.data(), bind.data(), {}};
+        PalettesBlock own{entries.size(), together.data(), entries.data(), nullptr, {}};
+        for (std::size_t k = 0; k < kPoses; ++k) {
+            const std::size_t pose = std::min(k, poses.size() - 1);
+            block.local[k] = poses[pose].data();
+            skinned.palette[k] = palettes[pose].data();
+            own.palette[k] = matrices[pose].data();
+        }
+        kernels_.poses(block);
+        kernels_.palettes(skinned);
+        kernels_.palettes(own);
+        Floats model(16 * ((joints + kBlockJoints - 1) / kBlockJoints * kBlockJoints));
+        for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+            kernels_.pose({joints, poses[pose].data(), parents.data(), order.data(), model.data()});
+            (void)kernels_.palette({entries.size(), model.data(), entries.data(), bind.data(), expected.data()});
+            const std::size_t bytes = entries.size() * sizeof(PaletteMatrix);
+            if (std::memcmp(palettes[pose].data(), expected.data(), bytes) != 0) errors_.poses_match = false;
+            for (std::size_t entry = 0; entry < entries.size(); ++entry) {
+                for (std::size_t row = 0; row < 3; ++row) {
+                    for (std::size_t column = 0; column < 4; ++column)
+                        expected[entry].rows[row][column] = model[16 * std::size_t{entries[entry]} + 4 * column + row];
+                }
+            }
+            if (std::memcmp(matrices[pose].data(), expected.data(), bytes) != 0) errors_.poses_match = false;
+        }
     }
 
     static glm::dquat slerp(const glm::dquat& a, glm::dquat b, double u) {

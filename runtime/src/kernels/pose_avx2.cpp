@@ -21,6 +21,7 @@ namespace {
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
+#include "poses_lanes.h"
 #include "read_avx2.h"
 #include "sample_lanes.h"
 
@@ -31,6 +32,8 @@ namespace {
 
 const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
                             pose_with_avx2::palette_lanes,
+                            pose_with_avx2::poses_lanes,
+                            pose_with_avx2::palettes_lanes,
                             pose_with_avx2::sample_lanes,
                             pose_with_avx2::sample_cubic_lanes,
                             pose_with_avx2::unpack_lanes,

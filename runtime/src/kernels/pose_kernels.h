@@ -12,7 +12,9 @@ namespace bendy {
 struct PoseKernels {
     void (*pose)(const PoseBlock& block);        ///< local_to_model
     bool (*palette)(const PaletteBlock& block);  ///< model * inverse_bind of each entry; returns whether all are finite
-    void (*sample)(const SampleBlock& block);    ///< slerp of rotations along the shorter arc; lerp of vectors
+    void (*poses)(const PosesBlock& block);      ///< the same bits as `pose`
+    void (*palettes)(const PalettesBlock& block);    ///< the same bits as `palette`
+    void (*sample)(const SampleBlock& block);        ///< slerp of rotations along the shorter arc; lerp of vectors
     void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
     /// Each component of a rotation is within 2e-6 of the plain decoder's.
     void (*unpack)(const UnpackBlock& block);

@@ -1,4 +1,5 @@
-// The implementation of the joint matrix kernels, included after lanes.h by one source for each instruction set.
+// The implementation of the joint matrix kernels, included after lanes.h by one source for each instruction set. All
+// sums of products say what is fused: those of poses_lanes.h have to round in the same way.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -9,21 +10,35 @@ inline void store_column(Lanes x, Lanes y, Lanes z, Lanes w, float* to) {
     for (std::size_t k = 0; k < 4; ++k) store_quads(columns[k], to + 16 * k, to + 16 * (k + 4));
 }
 
-/// Computes the local matrices of kLanes joints of a block: to_matrix without shear.
-inline void make_local(const float* local, float* to) {
-    Lanes numbers[10];
-    load_numbers<10>(local, numbers);
-    const auto [x, y, z, w, at_x, at_y, at_z, a, b, c] = numbers;
+/// Computes the columns of scaled rotations, as to_matrix without shear.
+/// \param q      x y z w
+/// \param scale  three numbers
+inline void make_columns(const Lanes* q, const Lanes* scale, Three* columns) {
+    const Lanes x = q[0], y = q[1], z = q[2], w = q[3];
     const Lanes x2 = x + x;
     const Lanes y2 = y + y;
     const Lanes z2 = z + z;
-    const Lanes xx = x * x2, yy = y * y2, zz = z * z2;
-    const Lanes xy = x * y2, xz = x * z2, yz = y * z2;
+    const Lanes yy = y * y2, zz = z * z2;
     const Lanes wx = w * x2, wy = w * y2, wz = w * z2;
-    store_column((1.0f - (yy + zz)) * a, (xy + wz) * a, (xz - wy) * a, Lanes(0.0f), to);
-    store_column((xy - wz) * b, (1.0f - (xx + zz)) * b, (yz + wx) * b, Lanes(0.0f), to + 4);
-    store_column((xz + wy) * c, (yz - wx) * c, (1.0f - (xx + yy)) * c, Lanes(0.0f), to + 8);
-    store_column(at_x, at_y, at_z, Lanes(1.0f), to + 12);
+    columns[0] = {(1.0f - fused(y, y2, zz)) * scale[0], fused(x, y2, wz) * scale[0],
+                  fused_difference(x, z2, wy) * scale[0]};
+    columns[1] = {fused_difference(x, y2, wz) * scale[1], (1.0f - fused(x, x2, zz)) * scale[1],
+                  fused(y, z2, wx) * scale[1]};
+    columns[2] = {fused(x, z2, wy) * scale[2], fused_difference(y, z2, wx) * scale[2],
+                  (1.0f - fused(x, x2, yy)) * scale[2]};
+}
+
+/// Computes the local matrices of kLanes joints of a block.
+inline void make_local(const float* local, float* to) {
+    Lanes numbers[10];
+    load_numbers<10>(local, numbers);
+    Three columns[3];
+    make_columns(numbers, numbers + 7, columns);
+    const Lanes none = 0.0f;
+    store_column(columns[0].x, columns[0].y, columns[0].z, none, to);
+    store_column(columns[1].x, columns[1].y, columns[1].z, none, to + 4);
+    store_column(columns[2].x, columns[2].y, columns[2].z, none, to + 8);
+    store_column(numbers[4], numbers[5], numbers[6], Lanes(1.0f), to + 12);
 }
 
 /// a * b, column-major; the last row of b is 0 0 0 1.
@@ -32,15 +47,16 @@ inline void multiply(const float* a, const float* b, float* to) {
 #if BENDY_LANES == 8
     const Lanes left = load_lanes(b);
     const Lanes right = load_lanes(b + 8);
-    const Lanes moved = joined(Quad{}, load_quad(a + 12));
-    store(to, a0 * everywhere<0>(left) + (a1 * everywhere<1>(left) + a2 * everywhere<2>(left)));
-    store(to + 8, a0 * everywhere<0>(right) + (a1 * everywhere<1>(right) + (a2 * everywhere<2>(right) + moved)));
+    const Lanes moved = joined(Quad(-0.0f), load_quad(a + 12));  // -0 leaves every product as it is, also zeros
+    store(to, fused(a0, everywhere<0>(left), fused(a1, everywhere<1>(left), a2 * everywhere<2>(left))));
+    store(to + 8,
+          fused(a0, everywhere<0>(right), fused(a1, everywhere<1>(right), fused(a2, everywhere<2>(right), moved))));
 #else
     const Lanes a3 = repeat(a + 12);
     for (std::size_t k = 0; k < 4; ++k) {
         const Lanes column = load_lanes(b + 4 * k);
-        const Lanes sum = a0 * everywhere<0>(column) + (a1 * everywhere<1>(column) + a2 * everywhere<2>(column));
-        store(to + 4 * k, k < 3 ? sum : sum + a3);
+        const Lanes z = a2 * everywhere<2>(column);
+        store(to + 4 * k, fused(a0, everywhere<0>(column), fused(a1, everywhere<1>(column), k < 3 ? z : z + a3)));
     }
 #endif
 }
@@ -68,9 +84,8 @@ inline void pose_lanes(const PoseBlock& block) {
 /// Returns a row of joint * bind, given the joint's columns and the rows of the bind matrix; the last one is 0 0 0 1.
 template <int row>
 inline Lanes product_row(const Lanes* columns, const Lanes* bind) {
-    return everywhere<row>(columns[0]) * bind[0] +
-           (everywhere<row>(columns[1]) * bind[1] +
-            (everywhere<row>(columns[2]) * bind[2] + everywhere<row>(columns[3]) * bind[3]));
+    const Lanes sum = fused(everywhere<row>(columns[2]), bind[2], everywhere<row>(columns[3]) * bind[3]);
+    return fused(everywhere<row>(columns[0]), bind[0], fused(everywhere<row>(columns[1]), bind[1], sum));
 }
 
 /// With two entries in eight lanes.

@@ -21,6 +21,7 @@ namespace {
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
+#include "poses_lanes.h"
 #include "read_lanes.h"
 #include "sample_lanes.h"
 
@@ -31,6 +32,8 @@ namespace {
 
 const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
                             pose_with_neon::palette_lanes,
+                            pose_with_neon::poses_lanes,
+                            pose_with_neon::palettes_lanes,
                             pose_with_neon::sample_lanes,
                             pose_with_neon::sample_cubic_lanes,
                             pose_with_neon::unpack_lanes,

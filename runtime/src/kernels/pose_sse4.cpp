@@ -21,6 +21,7 @@ namespace {
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
+#include "poses_lanes.h"
 #include "read_lanes.h"
 #include "sample_lanes.h"
 
@@ -31,6 +32,8 @@ namespace {
 
 const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
                             pose_with_sse4::palette_lanes,
+                            pose_with_sse4::poses_lanes,
+                            pose_with_sse4::palettes_lanes,
                             pose_with_sse4::sample_lanes,
                             pose_with_sse4::sample_cubic_lanes,
                             pose_with_sse4::unpack_lanes,

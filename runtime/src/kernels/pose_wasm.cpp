@@ -21,6 +21,7 @@ namespace {
 
 #include "blend_lanes.h"
 #include "pose_lanes.h"
+#include "poses_lanes.h"
 #include "read_lanes.h"
 #include "sample_lanes.h"
 
@@ -31,6 +32,8 @@ namespace {
 
 const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
                             pose_with_wasm::palette_lanes,
+                            pose_with_wasm::poses_lanes,
+                            pose_with_wasm::palettes_lanes,
                             pose_with_wasm::sample_lanes,
                             pose_with_wasm::sample_cubic_lanes,
                             pose_with_wasm::unpack_lanes,

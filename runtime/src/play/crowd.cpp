@@ -3,15 +3,20 @@
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
 
+#include "kernels/flush_denormals.h"
+#include "kernels/pose_kernels.h"
 #include "model/model_data.h"
 #include "plan/palette_rows.h"
 #include "plan/pose_plan.h"
 #include "pose/pose_state.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bendy {
 namespace {
+
+static_assert(Crowd::kAtOnce == PosesBlock::kPoses);
 
 bool is_wanted(const VertexBuffer& out) {
     return !out.positions.floats.empty() || !out.normals.floats.empty() || !out.tangents.floats.empty();
@@ -21,6 +26,23 @@ std::size_t entries_of(const Mesh& mesh) {
     return mesh.is_rigid() ? 1 : mesh.palette.joints.size();
 }
 
+/// Returns the joint that moves a rigid mesh's first vertex; kNone if there is none.
+std::uint32_t mover_of(const Model& model, std::uint32_t mesh) {
+    return model.meshes()[mesh].vertices == 0 ? kNone : model.rigid_mover(mesh, 0);
+}
+
+/// Calls write(number, mesh, first entry) for each mesh that does not share an earlier one's matrices.
+template <class Write>
+void each_palette(const Model& model, std::span<const std::size_t> first_entry, const Write& write) {
+    std::size_t end = 0;
+    for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
+        const Mesh& mesh = model.meshes()[number];
+        if (first_entry[number] < end) continue;
+        write(number, mesh, first_entry[number]);
+        end = first_entry[number] + entries_of(mesh);
+    }
+}
+
 }  // namespace
 
 Crowd::Crowd(const Model& model, std::size_t workers) : model_(model) {
@@ -28,6 +50,13 @@ Crowd::Crowd(const Model& model, std::size_t workers) : model_(model) {
     poses_.reserve(workers);
     for (std::size_t worker = 0; worker < workers; ++worker) poses_.emplace_back(model);
     const PosePlan& plan = *ModelData::of(model).pose_plan;
+    batches_.resize(workers);
+    if (plan.fits_floats) {
+        for (Batch& batch : batches_) {
+            for (auto& local : batch.locals) local = plan.rest;
+            batch.model_space.resize(model.joints().size());
+        }
+    }
     std::size_t entries = 0;
     for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
         const Mesh& mesh = model.meshes()[number];
@@ -45,32 +74,76 @@ Result<void, CallError> Crowd::play(std::span<const CrowdMember> members, std::s
     });
 }
 
-Result<void, CallError> Crowd::write(const CrowdMember& member, Pose& pose) const {
+Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t worker) {
+    Pose& pose = poses_[worker];
     Result<void, CallError> result;
-    if (is_wanted(member.out)) result = skin(pose, {.lod = member.lod, .out = member.out});
+    const bool is_skinned = is_wanted(member.out);
+    if (is_skinned) result = skin(pose, {.lod = member.lod, .out = member.out});
     if (member.palette.empty()) return result;
     if (member.palette.size() < palette_size()) return CallError::output_too_short;
-    write_palette(pose, member.palette);
+    Batch& batch = batches_[worker];
+    if (is_skinned || batch.model_space.empty() || pose_kernels() == nullptr) {
+        write_palette(pose, member.palette.data());
+        return result;
+    }
+    PoseState& state = PoseState::of(pose);
+    state.is_stale = true;
+    state.local.swap(batch.locals[batch.count]);
+    batch.palettes[batch.count++] = member.palette.data();
+    if (batch.count == kAtOnce) write_batch(worker);
     return result;
 }
 
-void Crowd::write_palette(Pose& pose, std::span<PaletteMatrix> palette) const {
-    const std::span<const Mesh> meshes = model_.meshes();
+void Crowd::write_batch(std::size_t worker) {
+    constexpr std::size_t kFew = 2;  // faster one by one
+    Batch& batch = batches_[worker];
+    const std::size_t count = std::exchange(batch.count, 0);
+    const PoseKernels* const kernels = pose_kernels();
+    if (count <= kFew || kernels == nullptr) {
+        for (std::size_t k = 0; k < count; ++k) {
+            PoseState& state = PoseState::of(poses_[worker]);
+            state.is_stale = true;
+            state.local.swap(batch.locals[k]);
+            write_palette(poses_[worker], batch.palettes[k]);
+        }
+        return;
+    }
+    const ModelData& data = ModelData::of(model_);
+    float* const matrices = batch.model_space.front().numbers.data();
+    PosesBlock block{data.joints.size(), {}, data.parents.data(), matrices};
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+        const std::size_t member = std::min(k, count - 1);  // the last one fills the lanes that are left
+        block.local[k] = &batch.locals[member].front().rotation[0][0];
+        batch.palettes[k] = batch.palettes[member];
+    }
+    const FlushDenormals flush;
+    kernels->poses(block);
+    each_palette(model_, first_entry_, [&](std::uint32_t number, const Mesh& mesh, std::size_t first) {
+        PalettesBlock palettes{1, matrices, nullptr, nullptr, {}};
+        for (std::size_t k = 0; k < kAtOnce; ++k) palettes.palette[k] = batch.palettes[k] + first;
+        const std::uint32_t mover = mesh.is_rigid() ? mover_of(model_, number) : kNone;
+        if (!mesh.is_rigid()) {
+            palettes.entries = mesh.palette.joints.size();
+            palettes.joints = mesh.palette.joints.data();
+            palettes.inverse_bind = data.pose_plan->inverse_bind[number].data();
+        } else if (mover != kNone) {
+            palettes.joints = &mover;
+        } else {
+            for (PaletteMatrix* const palette : palettes.palette) *palette = to_rows(glm::mat4(1.0f));
+            return;
+        }
+        kernels->palettes(palettes);
+    });
+}
+
+void Crowd::write_palette(Pose& pose, PaletteMatrix* palette) const {
     PoseState& state = PoseState::of(pose);
     state.refresh();
-    std::size_t written = 0;
-    for (std::uint32_t number = 0; number < meshes.size(); ++number) {
-        if (first_entry_[number] < written) continue;  // a palette of an earlier mesh
-        const Mesh& mesh = meshes[number];
-        const auto entries = palette.subspan(written, entries_of(mesh));
-        written += entries.size();
-        if (mesh.is_rigid()) {
-            const std::uint32_t joint = mesh.vertices == 0 ? kNone : model_.rigid_mover(number, 0);
-            entries.front() = to_rows(joint == kNone ? glm::mat4(1.0f) : state.model_space[joint].matrix);
-        } else {
-            state.write_palette(number, entries);
-        }
-    }
+    each_palette(model_, first_entry_, [&](std::uint32_t number, const Mesh& mesh, std::size_t first) {
+        if (!mesh.is_rigid()) return state.write_palette(number, {palette + first, entries_of(mesh)});
+        const std::uint32_t mover = mover_of(model_, number);
+        palette[first] = to_rows(mover == kNone ? glm::mat4(1.0f) : state.model_space[mover].matrix);
+    });
 }
 
 }  // namespace bendy

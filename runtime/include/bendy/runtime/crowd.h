@@ -6,8 +6,10 @@
 #include <bendy/runtime/lod.h>
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/transform.h>
 #include <bendy/runtime/vertices.h>
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +21,7 @@
 // same time. With TBB:
 //
 //     bendy::Crowd crowd(*model, tbb::this_task_arena::max_concurrency());
-//     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 8), [&](const auto& range) {
+//     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 32), [&](const auto& range) {
 //         const auto part = members.subspan(range.begin(), range.size());
 //         if (!crowd.play(part, tbb::this_task_arena::current_thread_index())) is_too_short = true;
 //     });
@@ -34,9 +36,13 @@ struct CrowdMember {
     std::span<PaletteMatrix> palette;  ///< Crowd::palette_size() matrices, for skinning elsewhere; empty: not wanted
 };
 
-/// The work memory of a crowd: one Pose per worker, and nothing per member. Playing allocates nothing.
+/// The work memory of a crowd: the size of some ten poses per worker, and nothing per member. Playing allocates
+/// nothing.
 class Crowd {
 public:
+    /// Number of members whose palettes are computed together, a SIMD lane for each. Ranges of multiples are fastest.
+    static constexpr std::size_t kAtOnce = 8;
+
     /// \param workers  maximum number of ranges played at the same time: the size of the thread pool; at least 1
     explicit Crowd(const Model& model, std::size_t workers = 1);
 
@@ -50,17 +56,19 @@ public:
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker = 0);
 
     /// As above, but the caller sets the pose: blends clips, solves IK chains. pose_member(member, pose) must set the
-    /// whole pose, which is as the worker's last member left it; the members' clips and times are not used.
+    /// whole pose, which holds values of other members; the members' clips and times are not used.
     template <class PoseMember>
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker,
                                                const PoseMember& pose_member) {
         assert(worker < poses_.size());
         Result<void, CallError> result;
+        batches_[worker].count = 0;
         for (const CrowdMember& member : members) {
             pose_member(member, poses_[worker]);
-            const Result<void, CallError> written = write(member, poses_[worker]);
+            const Result<void, CallError> written = write(member, worker);
             if (result && !written) result = written;
         }
+        write_batch(worker);
         return result;
     }
 
@@ -71,11 +79,25 @@ public:
     [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const { return first_entry_[mesh]; }
 
 private:
-    Result<void, CallError> write(const CrowdMember& member, Pose& pose) const;
-    void write_palette(Pose& pose, std::span<PaletteMatrix> palette) const;
+    /// Posed members whose palettes are still to be computed.
+    struct Batch {
+        struct alignas(64) JointMatrices {
+            std::array<float, 12 * kAtOnce> numbers;
+        };
+
+        std::array<std::vector<JointBlock>, kAtOnce> locals;
+        std::array<PaletteMatrix*, kAtOnce> palettes{};
+        std::vector<JointMatrices> model_space;  // empty if members are computed one by one
+        std::size_t count = 0;
+    };
+
+    Result<void, CallError> write(const CrowdMember& member, std::size_t worker);
+    void write_batch(std::size_t worker);
+    void write_palette(Pose& pose, PaletteMatrix* palette) const;
 
     Model model_;
     std::vector<Pose> poses_;               // one per worker
+    std::vector<Batch> batches_;            // one per worker
     std::vector<std::size_t> first_entry_;  // one per mesh, and the total
 };
 
