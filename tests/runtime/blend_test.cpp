@@ -97,7 +97,7 @@ TEST(Blend, MixesEveryJointByItsWeight) {
                 for (const bool is_masked : {false, true}) {
                     Pose pose = start;
                     ASSERT_TRUE(blend(pose, other, weight, is_masked ? mask : std::vector<float>()));
-                    EXPECT_TRUE(PoseState::of(pose).is_stale);
+                    EXPECT_FALSE(PoseState::of(pose).stale.is_empty());
                     for (std::uint32_t joint = 0; joint < joints; ++joint) {
                         const double u = double{weight} * (is_masked ? mask[joint] : 1.0f);
                         const JointTransform& a = start.local(joint);

@@ -67,7 +67,7 @@ TEST(Bounds, OfOneJointByHand) {
     Pose pose(*model);
     test::local_of(pose, 0)->rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));  // x to y, y to -x
     const Box box = bounds.of(pose);
-    EXPECT_FALSE(PoseState::of(pose).is_stale);
+    EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
     const glm::vec3 minimum(-5, 9, -4);
     const glm::vec3 maximum(-2, 11, 3);
     for (int c = 0; c < 3; ++c) {

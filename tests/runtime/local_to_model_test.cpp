@@ -53,12 +53,12 @@ TEST(LocalToModel, ShearOfTheParentReachesTheChild) {
 TEST(LocalToModel, FollowsWhatWasChanged) {
     const Owned model(test::sample_file());
     Pose pose(*model);
-    EXPECT_FALSE(PoseState::of(pose).is_stale);
+    EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
     EXPECT_EQ(place(pose, 2), glm::vec3(0, 1.75f, 0));
     test::local_of(pose, 1)->translation = {0, 0, 4};
-    EXPECT_TRUE(PoseState::of(pose).is_stale);
+    EXPECT_FALSE(PoseState::of(pose).stale.is_empty());
     EXPECT_EQ(place(pose, 2), glm::vec3(0, 1.25f, 4));  // as soon as it is asked for
-    EXPECT_FALSE(PoseState::of(pose).is_stale);
+    EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
     EXPECT_EQ(place(pose, 3), glm::vec3(0, 0.75f, 0));  // its parent is joint 0
 }
 

@@ -23,7 +23,7 @@ namespace bendy::test {
 struct PoseErrors {
     double pose = 0.0, palette = 0.0, sample = 0.0, unpack = 0.0, mix = 0.0, add = 0.0;
     bool finds_infinity = true;  ///< the palette kernel's answer
-    bool poses_match = true;     ///< those posed side by side are those posed one by one, bit for bit
+    bool poses_match = true;     ///< poses side by side, or joint by joint, have the bits of whole ones
 
     static constexpr double kMostForPose = 2.0;  // for each joint on the way
     static constexpr double kMostForPalette = 3.0;
@@ -147,7 +147,19 @@ private:
                          depth[k] * sums[k][c][r]);
             }
         }
+        compare_subtree(local, parents, model);
         compare_palette(model, entries);
+    }
+
+    /// The last joints again, from the matrices of the others.
+    void compare_subtree(const Blocks& local, const std::vector<std::uint32_t>& parents, Floats model) {
+        const auto end = static_cast<std::uint32_t>(parents.size());
+        const Floats expected = model;
+        for (std::uint32_t first = 0; first < end; first += 3) {
+            std::fill(model.begin() + 16 * first, model.begin() + 16 * end, -9.0f);
+            kernels_.pose_subtree({end, local.data(), parents.data(), nullptr, model.data()}, first, end);
+            if (std::memcmp(model.data(), expected.data(), 16 * end * sizeof(float)) != 0) errors_.poses_match = false;
+        }
     }
 
     void compare_palette(Floats& model, const std::vector<std::uint32_t>& joints) {

@@ -116,7 +116,7 @@ TEST(Skin, TakesAStalePoseUpToDate) {
     Pose pose(*model);
     test::local_of(pose, 0)->translation = {100, 0, 0};
     EXPECT_EQ(Posed(*model, 1, pose).positions[0], glm::vec3(100, 0.75f, 0));
-    EXPECT_FALSE(PoseState::of(pose).is_stale);
+    EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
 }
 
 TEST(Skin, LargeTranslationsCancel) {

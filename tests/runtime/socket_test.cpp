@@ -54,7 +54,7 @@ TEST(Socket, FollowsItsJoint) {
     world[3] = {10, 0, 0, 1};
     // The hand at (0, 3, 0), its x axis along -x: (-0.5, 3, 0), doubled and moved.
     expect_matrix(socket_matrix(pose, socket, world), {-2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 2, 0, 9, 6, 0, 1});
-    EXPECT_FALSE(PoseState::of(pose).is_stale);
+    EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
 }
 
 TEST(Socket, WithoutAJointItIsInTheModel) {

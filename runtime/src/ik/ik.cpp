@@ -74,7 +74,7 @@ private:
     bool gather() {
         std::uint32_t joint = chain_.effector;
         for (std::size_t i = links_.size(); i-- > 0; joint = joints_[joint].parent) links_[i].joint = joint;
-        base_ = joint_to_model(pose_, joints_[chain_.start].parent);
+        base_ = state_.fresh_matrix(joints_[chain_.start].parent);
         inverse_base_ = glm::affineInverse(base_);
         gather_links();
         gather_weights();
@@ -190,7 +190,7 @@ private:
         if (options_.pole) {
             problem_.pole = to_base(*options_.pole);
         } else if (chain_.pole != kNone) {
-            problem_.pole = to_base(glm::dvec3(joint_to_model(pose_, chain_.pole)[3]));
+            problem_.pole = to_base(glm::dvec3(state_.fresh_matrix(chain_.pole)[3]));
         } else if (direction != glm::dvec3(0.0)) {
             constexpr double kFar = 1e3;  // chain lengths: a direction becomes a distant point
             problem_.pole = problem_.origin + kFar * direction;
@@ -392,23 +392,18 @@ bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ances
     return joint != kNone;
 }
 
-/// a * b of matrices whose last row is 0 0 0 1.
-glm::dmat4 affine_product(const glm::dmat4& a, const glm::dmat4& b) {
-    const auto turned = [&a](const glm::dvec4& v) { return a[0] * v.x + a[1] * v.y + a[2] * v.z; };
-    return {turned(b[0]), turned(b[1]), turned(b[2]), turned(b[3]) + a[3]};
-}
-
 /// See ReachOptions::carry_target.
 void carry_target(const Chain& chain, Pose& pose) {
     const Model& model = pose.model();
+    PoseState& state = PoseState::of(pose);
     if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
         is_at_or_below(model, chain.start, chain.target)) {
         return;
     }
     const auto& offset = chain.record.tip_offset;
-    const glm::dvec4 tip = joint_to_model(pose, chain.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const glm::dvec4 tip = state.fresh_matrix(chain.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
     const std::uint32_t parent = model.joints()[chain.target].parent;
-    const glm::dmat4 space = parent == kNone ? glm::dmat4(1.0) : joint_to_model(pose, parent);
+    const glm::dmat4 space = state.fresh_matrix(parent);
     if (std::abs(glm::determinant(space)) < 1e-30) return;
     JointTransform local = pose.local(chain.target);
     local.translation = glm::vec3(glm::inverse(space) * tip);
@@ -433,23 +428,13 @@ std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget
     return Reach(chain, target, pose, options).run();
 }
 
-glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint) {
-    const PoseState& state = PoseState::of(pose);
-    if (joint == kNone) return glm::dmat4(1.0);
-    if (!state.is_stale) return state.exact_matrix(joint);
-    const std::vector<Joint>& joints = state.data->joints;
-    const auto local = [&](std::uint32_t at) { return to_matrix(state.local_of(at), joints[at].shear); };
-    glm::dmat4 matrix = local(joint);
-    while ((joint = joints[joint].parent) != kNone) matrix = affine_product(local(joint), matrix);
-    return matrix;
-}
-
 void reach_all(Pose& pose) {
     const Model& model = pose.model();
+    PoseState& state = PoseState::of(pose);
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
         if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
-        const glm::dmat4 followed = joint_to_model(pose, chain.target);
+        const glm::dmat4 followed = state.fresh_matrix(chain.target);
         ReachTarget target{glm::vec3(followed[3])};
         if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rigid_rotation(followed));
         ReachOptions options;

@@ -155,14 +155,14 @@ private:
 };
 
 /// Finds the pole as seen from the chain's start, in base space; returns false if it has none.
-BENDY_ALWAYS_INLINE bool find_pole(const Chain& chain, const Pose& pose, const ReachOptions& options,
+BENDY_ALWAYS_INLINE bool find_pole(const Chain& chain, PoseState& state, const ReachOptions& options,
                                    const glm::dmat4& base, const glm::dvec3& origin, glm::dvec3& pole) {
     const auto& vector = chain.record.pole_vector;
     pole = {vector[0], vector[1], vector[2]};
     if (options.pole) {
         pole = from_model(base, *options.pole) - origin;
     } else if (chain.pole != kNone) {
-        pole = from_model(base, glm::dvec3(joint_to_model(pose, chain.pole)[3])) - origin;
+        pole = from_model(base, glm::dvec3(state.fresh_matrix(chain.pole)[3])) - origin;
     } else {
         return pole != glm::dvec3(0.0);
     }
@@ -302,7 +302,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
                           end_limit.holds(end);
     if (!is_legal) return std::nullopt;
 
-    const glm::dmat4 base = joint_to_model(pose, joints[start].parent);
+    const glm::dmat4 base = state.fresh_matrix(joints[start].parent);
     const glm::dvec3 origin(start_local.translation);
     const glm::dvec3 way = from_model(base, target.position) - origin;
     const double distance = squared(way);
@@ -327,7 +327,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
         bend.bone + bend.along + bend.across * turn.cosine + glm::cross(bend.axis, bend.across) * turn.sine;
 
     glm::dvec3 pole;
-    if (!find_pole(chain, pose, options, base, origin, pole)) {
+    if (!find_pole(chain, state, options, base, origin, pole)) {
         if (!aim_start(reached, way, distance, upper)) return std::nullopt;
     } else {
         // From the tip's direction and the knee's side to the target's direction and the pole's side.
@@ -356,7 +356,8 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
                                      const ReachOptions& options) {
     const Model& model = pose.model();
     const std::uint32_t joint = chain.start;
-    const JointTransform transform = PoseState::of(pose).local_of(joint);
+    PoseState& state = PoseState::of(pose);
+    const JointTransform transform = state.local_of(joint);
     const LinkConstraint limit(model, joint, options);
     const auto& turned_tip = chain.record.tip_rotation;
     glm::dquat rotation;
@@ -365,7 +366,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     const bool is_plain = read_rotation(transform, rotation) && limit.is_plain() && !limit.is_hinge() &&
                           limit.holds(rotation) && squared(tip) < kOdd && kOdd * squared(tip) > 1.0 && normalize(tip);
     if (!is_plain) return std::nullopt;
-    const glm::dmat4 base = joint_to_model(pose, model.joints()[joint].parent);
+    const glm::dmat4 base = state.fresh_matrix(model.joints()[joint].parent);
     const glm::dvec3 origin(transform.translation);
     const glm::dvec3 way = from_model(base, target.position) - origin;
     const double distance = std::sqrt(squared(way));
@@ -377,7 +378,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     constexpr double kOpposite = 1e-4;
     if (!(squared(vector_of(turn)) > 4.0 * tolerance * tolerance && turn.w > kOpposite)) return std::nullopt;
     glm::dvec3 pole;
-    if (!find_pole(chain, pose, options, base, origin, pole)) {
+    if (!find_pole(chain, state, options, base, origin, pole)) {
         rotation = turn * rotation;
         if (!normalize(rotation)) return std::nullopt;
     } else {
@@ -389,7 +390,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
         rotation = look * glm::conjugate(tip);
     }
     if (!limit.holds(rotation) || !(squared(rotation) > 0.5)) return std::nullopt;
-    PoseState::of(pose).set_rotation(joint, glm::quat(rotation));
+    state.set_rotation(joint, glm::quat(rotation));
     return ReachResult{ReachStatus::aimed, length_in_model(base, way), 0.0f, 1};
 }
 

@@ -2,9 +2,6 @@
 
 #include <bendy/runtime/ik.h>
 
-#include <glm/mat4x4.hpp>
-
-#include <cstdint>
 #include <optional>
 
 // A fast path for simple chains: from the pose directly to the closed form and back, without an IkProblem.
@@ -21,9 +18,5 @@ std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& 
 /// Returns nothing, and leaves the pose unchanged, if a number in the pose, the chain or the target is not finite.
 std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
                                            const ReachOptions& options);
-
-/// Returns a joint's matrix, joint space to model space, computed from the local transforms alone if the pose has
-/// changed; identity for kNone.
-glm::dmat4 joint_to_model(const Pose& pose, std::uint32_t joint);
 
 }  // namespace bendy

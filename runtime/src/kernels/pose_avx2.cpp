@@ -31,6 +31,7 @@ namespace {
 }  // namespace pose_with_avx2
 
 const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
+                            pose_with_avx2::pose_subtree_lanes,
                             pose_with_avx2::palette_lanes,
                             pose_with_avx2::poses_lanes,
                             pose_with_avx2::palettes_lanes,

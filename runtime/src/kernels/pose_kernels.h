@@ -6,11 +6,15 @@
 
 #include <bendy/format/public.h>
 
+#include <cstdint>
+
 // The functions of one instruction set. Plain data only: see skin_block.h.
 namespace bendy {
 
 struct PoseKernels {
-    void (*pose)(const PoseBlock& block);        ///< local_to_model
+    void (*pose)(const PoseBlock& block);  ///< local_to_model
+    /// The same for some joints, whose parents are among them or have their matrices in model space; the same bits.
+    void (*pose_subtree)(const PoseBlock& block, std::uint32_t first, std::uint32_t end);
     bool (*palette)(const PaletteBlock& block);  ///< model * inverse_bind of each entry; returns whether all are finite
     void (*poses)(const PosesBlock& block);      ///< the same bits as `pose`
     void (*palettes)(const PalettesBlock& block);    ///< the same bits as `palette`

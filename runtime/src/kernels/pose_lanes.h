@@ -81,6 +81,22 @@ inline void pose_lanes(const PoseBlock& block) {
     }
 }
 
+inline void pose_subtree_lanes(const PoseBlock& block, std::uint32_t first, std::uint32_t end) {
+    for (std::size_t joint = first / kLanes * kLanes; joint < end; joint += kLanes) {
+        float locals[16 * kLanes];
+        make_local(block.local + joint / kBlockJoints * kBlockFloats + joint % kBlockJoints, locals);
+        for (std::size_t k = joint < first ? first - joint : 0; k < kLanes && joint + k < end; ++k) {
+            const std::uint32_t parent = block.parents[joint + k];
+            float* const to = block.model + 16 * (joint + k);
+            if (parent != 0xffff'ffffu) {
+                multiply(block.model + 16 * std::size_t{parent}, locals + 16 * k, to);
+            } else {
+                std::memcpy(to, locals + 16 * k, 16 * sizeof(float));
+            }
+        }
+    }
+}
+
 /// Returns a row of joint * bind, given the joint's columns and the rows of the bind matrix; the last one is 0 0 0 1.
 template <int row>
 inline Lanes product_row(const Lanes* columns, const Lanes* bind) {

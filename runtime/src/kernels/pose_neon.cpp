@@ -31,6 +31,7 @@ namespace {
 }  // namespace pose_with_neon
 
 const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
+                            pose_with_neon::pose_subtree_lanes,
                             pose_with_neon::palette_lanes,
                             pose_with_neon::poses_lanes,
                             pose_with_neon::palettes_lanes,

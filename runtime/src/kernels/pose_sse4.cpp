@@ -31,6 +31,7 @@ namespace {
 }  // namespace pose_with_sse4
 
 const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
+                            pose_with_sse4::pose_subtree_lanes,
                             pose_with_sse4::palette_lanes,
                             pose_with_sse4::poses_lanes,
                             pose_with_sse4::palettes_lanes,

@@ -31,6 +31,7 @@ namespace {
 }  // namespace pose_with_wasm
 
 const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
+                            pose_with_wasm::pose_subtree_lanes,
                             pose_with_wasm::palette_lanes,
                             pose_with_wasm::poses_lanes,
                             pose_with_wasm::palettes_lanes,

@@ -17,6 +17,17 @@
 namespace bendy {
 namespace {
 
+/// Returns, for each joint, the number after the last joint below it: these follow it.
+std::vector<std::uint32_t> ends_of(std::span<const Joint> joints) {
+    std::vector<std::uint32_t> ends(joints.size());
+    for (std::uint32_t joint = static_cast<std::uint32_t>(joints.size()); joint-- > 0;) {
+        ends[joint] = std::max(ends[joint], joint + 1);
+        const std::uint32_t parent = joints[joint].parent;
+        if (parent != kNone) ends[parent] = std::max(ends[parent], ends[joint]);
+    }
+    return ends;
+}
+
 std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
     std::vector<std::uint32_t> depths(joints.size());
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
@@ -236,6 +247,7 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
         for (const MorphTargetView& target : mesh.targets) plan.rest_weights.push_back(target.rest_weight);
     }
     plan_palettes(object.meshes, plan);
+    plan.subtree_ends = ends_of(joints);
     plan.order.resize(joints.size());
     std::iota(plan.order.begin(), plan.order.end(), 0u);
     const std::vector<std::uint32_t> depths = depths_of(joints);

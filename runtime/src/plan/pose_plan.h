@@ -43,9 +43,10 @@ struct SamplePlan {
 
 struct PosePlan {
     std::vector<JointBlock> rest;
-    std::vector<float> rest_weights;   ///< of the morph targets
-    std::vector<std::uint32_t> order;  ///< the joints by depth: a joint's parent comes well before it, and so is
-                                       ///< already computed
+    std::vector<float> rest_weights;          ///< of the morph targets
+    std::vector<std::uint32_t> order;         ///< the joints by depth: a joint's parent comes well before it, and so is
+                                              ///< already computed
+    std::vector<std::uint32_t> subtree_ends;  ///< for each joint, the number after the last joint below it
     std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< per mesh; empty if same_palette is another mesh
     std::vector<std::uint32_t> same_palette;  ///< per mesh: the first neighbouring mesh with the same palette
     std::vector<SamplePlan> clips;

@@ -87,7 +87,7 @@ Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t work
         return result;
     }
     PoseState& state = PoseState::of(pose);
-    state.is_stale = true;
+    state.stale.mark_all();
     state.local.swap(batch.locals[batch.count]);
     batch.palettes[batch.count++] = member.palette.data();
     if (batch.count == kAtOnce) write_batch(worker);
@@ -102,7 +102,7 @@ void Crowd::write_batch(std::size_t worker) {
     if (count <= kFew || kernels == nullptr) {
         for (std::size_t k = 0; k < count; ++k) {
             PoseState& state = PoseState::of(poses_[worker]);
-            state.is_stale = true;
+            state.stale.mark_all();
             state.local.swap(batch.locals[k]);
             write_palette(poses_[worker], batch.palettes[k]);
         }

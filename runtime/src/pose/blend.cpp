@@ -60,7 +60,7 @@ Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::
     const std::span<const float> others = other.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] = (1.0f - weight) * targets[k] + weight * others[k];
     PoseState& state = PoseState::of(pose);
-    state.is_stale = true;
+    state.stale.mark_all();
     if (state.local.empty()) return {};
     const BlendBlock block = block_of(state, PoseState::of(other), weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {
@@ -95,7 +95,7 @@ Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, st
     const std::span<const float> others = difference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * others[k];
     PoseState& state = PoseState::of(pose);
-    state.is_stale = true;
+    state.stale.mark_all();
     if (state.local.empty()) return {};
     const BlendBlock block = block_of(state, PoseState::of(difference), weight, mask);
     if (const PoseKernels* kernels = pose_kernels()) {

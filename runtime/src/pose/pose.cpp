@@ -19,11 +19,11 @@ PoseState::PoseState(const Model& from)
     local.resize(data->pose_plan->rest.size());
     model_space.resize(local.size() * JointBlock::kJoints);
     set_rest();
-    find_model_space();
+    refresh();
 }
 
 void PoseState::set_start(std::span<const JointBlock> from) {
-    is_stale = true;
+    stale.mark_all();
     std::copy_n(from.data(), from.size(), local.data());
     std::copy(data->pose_plan->rest_weights.begin(), data->pose_plan->rest_weights.end(), morph_weights.begin());
 }
@@ -71,7 +71,7 @@ std::span<const JointBlock> Pose::local_blocks() const {
 }
 
 std::span<JointBlock> Pose::change_local_blocks() {
-    state_->is_stale = true;
+    state_->stale.mark_all();
     return state_->local;
 }
 

@@ -7,8 +7,10 @@
 #include "ik_link.h"
 #include "model/model_data.h"
 #include "plan/joint_blocks.h"
+#include "plan/pose_plan.h"
 #include "plan/skin_block.h"
 #include "plan/stretched_motion.h"
+#include "stale_joints.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -53,19 +55,25 @@ struct alignas(64) PoseState {
     [[nodiscard]] std::uint32_t joint_count() const { return static_cast<std::uint32_t>(data->joints.size()); }
     [[nodiscard]] JointTransform local_of(std::uint32_t joint) const { return joint_in(local, joint); }
     void set_local(std::uint32_t joint, const JointTransform& transform) {
-        is_stale = true;
+        mark_stale(joint);
         set_joint_in(local, joint, transform);
     }
     void set_rotation(std::uint32_t joint, const glm::quat& rotation) {
-        is_stale = true;
+        mark_stale(joint);
         local[joint / JointBlock::kJoints].set_rotation(joint % JointBlock::kJoints, rotation);
     }
-    /// Computes model_space from the local transforms, parents before children, if these may have changed.
+    void mark_stale(std::uint32_t joint) { stale.mark({joint, data->pose_plan->subtree_ends[joint]}); }
+    /// Computes model_space from the local transforms, parents before children, where these may have changed.
     void refresh() {
-        if (is_stale) find_model_space();
+        if (!stale.is_empty()) find_model_space();
     }
-    void find_model_space();
-    /// Returns the matrix from joint space to model space, as accurate as find_model_space computed it.
+    /// Returns the matrix from joint space to model space; identity for kNone.
+    [[nodiscard]] glm::dmat4 fresh_matrix(std::uint32_t joint) {
+        if (joint == kNone) return glm::dmat4(1.0);
+        if (stale.has(joint)) find_model_space();
+        return exact_matrix(joint);
+    }
+    /// The same for a joint that is not stale, as accurate as find_model_space computed it.
     [[nodiscard]] glm::dmat4 exact_matrix(std::uint32_t joint) const {
         return is_exact ? exact_model_space[joint] : glm::dmat4(model_space[joint].matrix);
     }
@@ -89,11 +97,14 @@ struct alignas(64) PoseState {
     std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
     std::uint32_t palette_mesh = kNone;        ///< whose palette is
     bool is_palette_finite = false;
-    bool is_exact = true;             ///< in doubles, so that rounding does not accumulate along deep chains
-    bool is_stale = true;             ///< a local transform may have changed since find_model_space
+    bool is_exact = true;  ///< in doubles, so that rounding does not accumulate along deep chains
+    StaleJoints stale;     ///< whose matrices in model_space do not have the local transforms' latest changes
     std::optional<DualMotions> dual;  ///< set once the pose has been skinned by dual quaternions
 
 private:
+    void find_model_space();
+    void find_subtree(const StaleJoints::Subtree& subtree);
+    void find_exactly(const StaleJoints::Subtree& subtree);
     /// Returns whether all numbers are finite.
     bool compute_palette(std::uint32_t mesh, PaletteMatrix* out) const;
 };
