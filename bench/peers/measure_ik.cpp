@@ -177,22 +177,19 @@ public:
           limbs_(limbs),
           pose_(character.model),
           times_{clip_.end - clip_.start},
-          targets_(limbs.size()),
-          poles_(limbs.size()) {}
+          requests_(limbs.size()),
+          results_(limbs.size()) {
+        for (std::size_t k = 0; k < limbs.size(); ++k) requests_[k].chain = limbs[k].chain;
+    }
 
     void run(bool reaches, bool obeys) {
         sample_at(pose_, clip_, clip_.start + times_.next());
         if (reaches) {
             find_targets();
-            ReachOptions options;
-            options.obey_constraints = obeys;
-            for (std::size_t k = 0; k < limbs_.size(); ++k) {
-                options.pole = poles_[k];
-                const auto result = reach(pose_, limbs_[k].chain, targets_[k], options);
-                check(result.has_value(), "reach");
-                reached_ += result->status == ReachStatus::reached ? 1 : 0;
-                ++solved_;
-            }
+            for (ReachRequest& request : requests_) request.options.obey_constraints = obeys;
+            check(reach(pose_, requests_, results_).has_value(), "reach");
+            for (const ReachResult& result : results_) reached_ += result.status == ReachStatus::reached ? 1 : 0;
+            solved_ += static_cast<long>(results_.size());
         }
         (void)pose_.model_space();
         make_palettes(pose_);
@@ -211,8 +208,9 @@ private:
         for (std::size_t k = 0; k < limbs_.size(); ++k) {
             const glm::vec3 start = place_of(pose_, limbs_[k].chain->start);
             const glm::vec3 middle = place_of(pose_, limbs_[k].middle);
-            targets_[k] = place_of(pose_, limbs_[k].chain->effector) + kBeside;
-            poles_[k] = middle + (middle - 0.5f * (start + targets_[k]));
+            ReachRequest& request = requests_[k];
+            request.target = place_of(pose_, limbs_[k].chain->effector) + kBeside;
+            request.options.pole = middle + (middle - 0.5f * (start + request.target.position));
         }
     }
 
@@ -220,7 +218,8 @@ private:
     const std::vector<Limb>& limbs_;
     Pose pose_;
     FrameTimes times_;
-    std::vector<glm::vec3> targets_, poles_;
+    std::vector<ReachRequest> requests_;
+    std::vector<ReachResult> results_;
     long reached_ = 0, solved_ = 0;
 };
 

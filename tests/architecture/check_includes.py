@@ -29,7 +29,7 @@ ROOMS = {
         "model": {"math", "plan"},
         "pose": {"math", "plan", "kernels", "model"},
         "play": {"math", "plan", "kernels", "model", "pose"},
-        "ik": {"math", "model", "pose"},
+        "ik": {"math", "plan", "kernels", "model", "pose"},
         "skin": {"math", "plan", "kernels", "model", "pose"},
     },
     "converter": {

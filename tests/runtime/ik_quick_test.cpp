@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 // The short way of plain chains against the long one, which holds for all chains.
@@ -176,6 +178,122 @@ TEST(IkQuick, AimInsideItsLimitsToo) {
     const Count count = compare(1, true);
     EXPECT_GT(count.quick, count.all / 20);
     EXPECT_LT(count.quick, count.all);
+}
+
+/// Six arms below one root: chain k is a limb for even k, and aims for odd k. The last arm hangs on the second one's
+/// forearm, and the one before it has its pole there.
+test::ModelSpec arms(Dice& dice, bool is_limited) {
+    test::ModelSpec spec;
+    for (std::uint32_t number = 0; number < 6; ++number) {
+        test::ModelSpec own = arm(dice, is_limited && dice.one_in(2), dice.one_in(2));
+        if (number == 0) spec.joints.push_back(own.joints[0]);
+        const auto first = static_cast<std::uint32_t>(spec.joints.size());
+        const auto moved = [&](std::uint32_t joint) {
+            return joint == kNone || joint == 0 ? joint : first + joint - 1;
+        };
+        for (std::uint32_t joint = 1; joint < own.joints.size(); ++joint) {
+            test::JointSpec& added = spec.joints.emplace_back(own.joints[joint]);
+            added.parent = moved(added.parent);
+        }
+        for (ChainRecord& chain : own.chains) {
+            chain.start = moved(chain.start);
+            chain.effector = moved(chain.effector);
+            if (chain.pole != kNone) chain.pole = number == 4 ? 6 : moved(chain.pole);
+            spec.chains.push_back(chain);
+        }
+    }
+    return spec;
+}
+
+/// Puts the last arm where the second one's forearm is its parent: joints are in pre-order.
+test::ModelSpec arms_on_arms(Dice& dice, bool is_limited) {
+    test::ModelSpec spec = arms(dice, is_limited);
+    constexpr std::uint32_t kForearm = 6, kEnd = 8, kLast = 21, kOfAnArm = 4;
+    std::vector<std::uint32_t> numbers(spec.joints.size());  // new ones
+    for (std::uint32_t joint = 0; joint < numbers.size(); ++joint)
+        numbers[joint] = joint >= kLast ? joint - kLast + kEnd : joint >= kEnd ? joint + kOfAnArm : joint;
+    spec.joints[kLast].parent = spec.joints[kLast + 3].parent = kForearm;
+    std::vector<test::JointSpec> joints(spec.joints.size());
+    for (std::uint32_t joint = 0; joint < numbers.size(); ++joint) {
+        joints[numbers[joint]] = spec.joints[joint];
+        std::uint32_t& parent = joints[numbers[joint]].parent;
+        if (parent != kNone) parent = numbers[parent];
+    }
+    spec.joints = joints;
+    for (ChainRecord& chain : spec.chains) {
+        chain.start = numbers[chain.start];
+        chain.effector = numbers[chain.effector];
+        if (chain.pole != kNone) chain.pole = numbers[chain.pole];
+    }
+    return spec;
+}
+
+TEST(IkQuick, ChainsTogetherComeOutAsOneAfterAnother) {
+    const Kernel before = kernel();
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        int reached = 0;
+        for (std::uint32_t seed = 0; seed < 300; ++seed) {
+            Dice dice(seed);
+            const test::Owned model(test::build_file(arms_on_arms(dice, seed % 2 == 0)));
+            Pose together(*model);
+            if (dice.one_in(2)) test::local_of(together, 0)->rotation = dice.turn(3.0f);
+            std::vector<ReachRequest> requests;
+            for (std::size_t k = 0; k < 9; ++k) {
+                ReachRequest& request = requests.emplace_back();
+                request.chain = &model->chains()[static_cast<std::size_t>(dice.number(0.0f, 11.99f))];
+                const std::uint32_t middle = model->joints()[request.chain->effector].parent;
+                request.target = glm::vec3(together.model_space()[middle][3]) + dice.point(1.0f);
+                if (dice.one_in(4)) request.options.pole = dice.point(3.0f);
+                if (dice.one_in(3)) request.options.obey_constraints = false;
+                if (dice.one_in(5)) request.options.tolerance = 0.01f;
+                if (dice.one_in(20)) request.options.influence = 0.5f;
+                if (dice.one_in(20)) request.options.carry_target = true;
+                if (dice.one_in(20)) request.target.position.x = std::numeric_limits<float>::quiet_NaN();
+                if (dice.one_in(20)) request.chain = nullptr;
+            }
+            if (dice.one_in(2)) test::local_of(together, 0);  // as if it had changed
+            Pose alone(together);
+            std::vector<ReachResult> results(requests.size(), {ReachStatus::aimed, 7.0f, 7.0f, 7});
+            const auto outcome = reach(together, requests, results);
+            Result<void, CallError> expected_outcome;
+            for (std::size_t k = 0; k < requests.size(); ++k) {
+                const auto& [chain, target, options] = requests[k];
+                const auto expected = reach(alone, chain, target, options);
+                if (!expected && expected_outcome) expected_outcome = expected.error();
+                const ReachResult result = expected ? *expected : ReachResult{};
+                EXPECT_EQ(results[k].status, result.status) << seed << ' ' << k;
+                EXPECT_EQ(results[k].distance, result.distance) << seed << ' ' << k;
+                EXPECT_EQ(results[k].angle, result.angle) << seed << ' ' << k;
+                EXPECT_EQ(results[k].iterations, result.iterations) << seed << ' ' << k;
+                reached += result.status == ReachStatus::reached && result.iterations == 1 ? 1 : 0;
+            }
+            ASSERT_EQ(outcome.has_value(), expected_outcome.has_value()) << seed;
+            if (!outcome) {
+                EXPECT_EQ(outcome.error(), expected_outcome.error()) << seed;
+            }
+            const auto blocks = together.local_blocks();
+            EXPECT_EQ(std::memcmp(blocks.data(), alone.local_blocks().data(), blocks.size_bytes()), 0)
+                << kernel_name(each) << ' ' << seed;
+        }
+        EXPECT_GT(reached, 500);
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
+TEST(IkQuick, TooFewResultsAreRefusedAndNothingMoves) {
+    Dice dice(1);
+    const test::Owned model(test::build_file(arms(dice, false)));
+    Pose pose(*model);
+    const std::vector<ReachRequest> requests(2, {&model->chains()[0], glm::vec3(0.0f), {}});
+    std::vector<ReachResult> results(1);
+    const auto outcome = reach(pose, requests, results);
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error(), CallError::output_too_short);
+    const Pose rest(*model);
+    const auto blocks = pose.local_blocks();
+    EXPECT_EQ(std::memcmp(blocks.data(), rest.local_blocks().data(), blocks.size_bytes()), 0);
+    EXPECT_TRUE(reach(pose, std::span<const ReachRequest>()));
 }
 
 TEST(IkQuick, WhatAsksForMoreGoesTheLongWay) {

@@ -27,7 +27,6 @@ public:
     Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options)
         : chain_(chain),
           target_(target),
-          pose_(pose),
           model_(pose.model()),
           joints_(model_.joints()),
           state_(PoseState::of(pose)),
@@ -370,7 +369,6 @@ private:
 
     const Chain& chain_;
     const ReachTarget& target_;
-    Pose& pose_;
     const Model& model_;
     std::span<const Joint> joints_;
     PoseState& state_;
@@ -426,21 +424,6 @@ Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const Reach
 std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
                                            const ReachOptions& options) {
     return Reach(chain, target, pose, options).run();
-}
-
-void reach_all(Pose& pose) {
-    const Model& model = pose.model();
-    PoseState& state = PoseState::of(pose);
-    for (const std::uint32_t number : model.chain_order()) {
-        const Chain& chain = model.chains()[number];
-        if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
-        const glm::dmat4 followed = state.fresh_matrix(chain.target);
-        ReachTarget target{glm::vec3(followed[3])};
-        if (chain.record.rotation_weight > 0.0f) target.rotation = glm::quat(rigid_rotation(followed));
-        ReachOptions options;
-        options.influence = chain.record.influence;
-        (void)reach(pose, &chain, target, options);
-    }
 }
 
 }  // namespace bendy

@@ -2,6 +2,11 @@
 
 #include <bendy/runtime/ik.h>
 
+#include "plan/two_bone_block.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstddef>
 #include <optional>
 
 // A fast path for simple chains: from the pose directly to the closed form and back, without an IkProblem.
@@ -12,6 +17,20 @@ namespace bendy {
 /// the chain, the target or an option needs more.
 std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
                                          const ReachOptions& options);
+
+/// Whether a chain is of two bones that reach_quickly may solve.
+bool is_plain_limb(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options);
+
+/// Reads such a chain's joints and target into one of the limbs; returns false if reach_quickly would not solve it.
+template <std::size_t count>
+bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options,
+                 TwoBoneLimbs<count>& limbs, std::size_t number);
+extern template bool gather_limb(const Chain&, const ReachTarget&, Pose&, const ReachOptions&,
+                                 TwoBoneLimbs<TwoBoneBlock::kLimbs>&, std::size_t);
+
+/// Whether such a chain's limits hold rotations of its start and its middle joint.
+bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dquat& upper,
+               const glm::dquat& lower);
 
 /// What reach does with a chain that has no fast path; the target's numbers are finite.
 ///

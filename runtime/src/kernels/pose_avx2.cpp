@@ -39,7 +39,8 @@ const PoseKernels kPoseAvx2{pose_with_avx2::pose_lanes,
                             pose_with_avx2::sample_cubic_lanes,
                             pose_with_avx2::unpack_lanes,
                             pose_with_avx2::blend_lanes<pose_with_avx2::mix_joints>,
-                            pose_with_avx2::blend_lanes<pose_with_avx2::add_joints>};
+                            pose_with_avx2::blend_lanes<pose_with_avx2::add_joints>,
+                            two_bones_avx2};
 
 }  // namespace bendy
 

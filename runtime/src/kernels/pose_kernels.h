@@ -2,6 +2,7 @@
 
 #include "plan/pose_block.h"
 #include "plan/sample_block.h"
+#include "plan/two_bone_block.h"
 #include "plan/unpack_block.h"
 
 #include <bendy/format/public.h>
@@ -24,7 +25,12 @@ struct PoseKernels {
     void (*unpack)(const UnpackBlock& block);
     void (*mix)(const BlendBlock& block);  ///< blends towards the other pose, rotations normalised
     void (*add)(const BlendBlock& block);  ///< adds the other pose, which is a difference
+    /// The same bits as one limb alone; null: limbs are solved one by one.
+    void (*two_bones)(TwoBoneBlock& block);
 };
+
+/// Limbs that reach, without regard to limits.
+void two_bones_avx2(TwoBoneBlock& block);
 
 /// Returns the functions of the kernel in use; null: the plain one, in double precision.
 const PoseKernels* pose_kernels();

@@ -39,7 +39,8 @@ const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
                             pose_with_neon::sample_cubic_lanes,
                             pose_with_neon::unpack_lanes,
                             pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
-                            pose_with_neon::blend_lanes<pose_with_neon::add_joints>};
+                            pose_with_neon::blend_lanes<pose_with_neon::add_joints>,
+                            nullptr};
 
 }  // namespace bendy
 

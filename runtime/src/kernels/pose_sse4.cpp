@@ -39,7 +39,8 @@ const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
                             pose_with_sse4::sample_cubic_lanes,
                             pose_with_sse4::unpack_lanes,
                             pose_with_sse4::blend_lanes<pose_with_sse4::mix_joints>,
-                            pose_with_sse4::blend_lanes<pose_with_sse4::add_joints>};
+                            pose_with_sse4::blend_lanes<pose_with_sse4::add_joints>,
+                            nullptr};
 
 }  // namespace bendy
 

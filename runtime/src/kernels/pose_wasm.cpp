@@ -39,7 +39,8 @@ const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
                             pose_with_wasm::sample_cubic_lanes,
                             pose_with_wasm::unpack_lanes,
                             pose_with_wasm::blend_lanes<pose_with_wasm::mix_joints>,
-                            pose_with_wasm::blend_lanes<pose_with_wasm::add_joints>};
+                            pose_with_wasm::blend_lanes<pose_with_wasm::add_joints>,
+                            nullptr};
 
 }  // namespace bendy
 

@@ -237,8 +237,7 @@ const Constraint* Model::constraint(std::uint32_t joint) const {
 }
 
 const Constraint* Model::ik_constraint(std::uint32_t joint) const {
-    if (data_->joint_constraints.empty() || data_->joint_constraints[joint].in_ik == kNone) return nullptr;
-    return &data_->constraints[data_->joint_constraints[joint].in_ik];
+    return data_->ik_constraint(joint);
 }
 
 std::uint32_t Model::joint(std::string_view name) const {

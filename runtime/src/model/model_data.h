@@ -43,6 +43,12 @@ struct ModelData {
         return of_mesh.per_vertex.empty() ? of_mesh.joint : of_mesh.per_vertex[vertex];
     }
 
+    /// Returns the constraint that IK obeys at a joint; null if there is none.
+    [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const {
+        if (joint_constraints.empty() || joint_constraints[joint].in_ik == kNone) return nullptr;
+        return &constraints[joint_constraints[joint].in_ik];
+    }
+
     MappedFile file;
     Bytes bytes;           ///< the whole file: of `file`, or the caller's
     AlignedBytes decoded;  ///< decoded leaves; the document's views refer to this or to `bytes`
