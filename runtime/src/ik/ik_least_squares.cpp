@@ -15,12 +15,12 @@ namespace bendy {
 namespace {
 
 constexpr std::size_t kMost = 6;
-using Vector = std::array<double, kMost>;
-using Matrix = std::array<Vector, kMost>;
+using Unknowns = std::array<double, kMost>;
+using Matrix = std::array<Unknowns, kMost>;
 
 /// Solves (A + damping) y = e for the first `size` rows, by Cholesky decomposition; A is symmetric with no negative
 /// eigenvalue.
-Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
+Unknowns solve(Matrix A, const Unknowns& e, std::size_t size, double damping) {
     for (std::size_t j = 0; j < size; ++j) {
         double diagonal = A[j][j] + damping;
         for (std::size_t k = 0; k < j; ++k) diagonal -= A[j][k] * A[j][k];
@@ -31,7 +31,7 @@ Vector solve(Matrix A, const Vector& e, std::size_t size, double damping) {
             A[i][j] = sum / A[j][j];
         }
     }
-    Vector y = e;
+    Unknowns y = e;
     for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t k = 0; k < i; ++k) y[i] -= A[i][k] * y[k];
         y[i] /= A[i][i];
@@ -90,14 +90,14 @@ private:
         constexpr std::size_t kShort = 4;
         const int rounds = problem_.links.size() <= kShort ? 3 : 2;
         for (int round = 0; round < rounds; ++round) {
-            const Vector y = solve(gather(), errors(), size_, damping);
+            const Unknowns y = solve(gather(), errors(), size_, damping);
             if (!apply(y)) return;
         }
     }
 
-    [[nodiscard]] Vector errors() const {
+    [[nodiscard]] Unknowns errors() const {
         const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
-        Vector e{p.x, p.y, p.z};
+        Unknowns e{p.x, p.y, p.z};
         if (size_ == 6) {
             const glm::dvec3 r = rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
             e[3] = r.x;
@@ -142,7 +142,7 @@ private:
 
     /// Applies the rotation mobility J^T y to every link's trial. Returns true if a constraint stopped a link in a
     /// direction in which it was free so far: that direction is then removed from its mobility.
-    bool apply(const Vector& y) {
+    bool apply(const Unknowns& y) {
         const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
         const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);
         bool is_stopped = false;

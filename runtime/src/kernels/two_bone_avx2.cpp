@@ -99,11 +99,7 @@ inline void store(const Rotation& rotation, double (&to)[4][kLimbs]) {
     _mm256_storeu_pd(to[3], rotation.w.v);
 }
 
-}  // namespace
-}  // namespace two_bone_with_avx2
-
-void two_bones_avx2(TwoBoneBlock& block) {
-    using namespace two_bone_with_avx2;
+inline void solve(TwoBoneBlock& block) {
     const Limb limb = load_limb(block.limbs);
     Reaching reach;
     Bend bend{};
@@ -117,6 +113,13 @@ void two_bones_avx2(TwoBoneBlock& block) {
     store(reach.upper, block.upper);
     store(reach.lower, block.lower);
     _mm256_storeu_pd(block.distance, chosen(both(are_plain, both(can_bend, is_turned)), distance, -1.0).v);
+}
+
+}  // namespace
+}  // namespace two_bone_with_avx2
+
+void two_bones_avx2(TwoBoneBlock& block) {
+    two_bone_with_avx2::solve(block);
 }
 
 }  // namespace bendy
