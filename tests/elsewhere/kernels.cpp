@@ -91,10 +91,11 @@ bool skins_by_duals() {
 bool poses() {
     const test::PoseErrors errors = test::PoseComparison(kPoseKernels).run();
     std::printf(
-        "%s: posing: pose %.2f, palette %.2f, sample %.2f, unpack %.2f, mix %.2f, add %.2f units in the last "
-        "place%s\n",
-        kName, errors.pose, errors.palette, errors.sample, errors.unpack, errors.mix, errors.add,
-        errors.finds_infinity ? "" : "; infinity not found");
+        "%s: posing: pose %.2f, palette %.2f, sample %.2f, unpack %.2f, mix %.2f, add %.2f, decode %.2f units "
+        "in the last place%s%s\n",
+        kName, errors.pose, errors.palette, errors.sample, errors.unpack, errors.mix, errors.add, errors.decode,
+        errors.finds_infinity ? "" : "; infinity not found",
+        errors.poses_match ? "" : "; poses together differ from poses alone");
     return errors.are_small();
 }
 

@@ -12,7 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <random>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,7 @@ namespace bendy::test {
 
 /// Worst errors, in units in the last place of the largest number that goes into one.
 struct PoseErrors {
-    double pose = 0.0, palette = 0.0, sample = 0.0, unpack = 0.0, mix = 0.0, add = 0.0;
+    double pose = 0.0, palette = 0.0, sample = 0.0, unpack = 0.0, mix = 0.0, add = 0.0, decode = 0.0;
     bool finds_infinity = true;  ///< the palette kernel's answer
     bool poses_match = true;     ///< poses side by side, or joint by joint, have the bits of whole ones
 
@@ -30,10 +32,11 @@ struct PoseErrors {
     static constexpr double kMostForSample = 4.0;
     static constexpr double kMostForUnpack = 8.0;
     static constexpr double kMostForBlends = 4.0;
+    static constexpr double kMostForDecoding = 2.0;
     [[nodiscard]] bool are_small() const {
         return pose <= kMostForPose && palette <= kMostForPalette && sample <= kMostForSample &&
-               unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends && finds_infinity &&
-               poses_match;
+               unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends &&
+               decode <= kMostForDecoding && finds_infinity && poses_match;
     }
 };
 
@@ -52,6 +55,11 @@ public:
             for (const std::uint32_t tracks : {1u, 3u, 4u, 5u, 8u}) compare_unpacking(angle, tracks);
         }
         compare_splines();
+        compare_decoding<std::uint8_t>();
+        compare_decoding<std::int8_t>();
+        compare_decoding<std::uint16_t>();
+        compare_decoding<std::int16_t>();
+        compare_decoding<std::uint32_t>();
         return errors_;
     }
 
@@ -357,6 +365,73 @@ private:
             }
             note(errors_.sample, local.at(1, 7), -9.0, 1e-9);  // without a track
         }
+    }
+
+    /// Numbers of all magnitudes, the smallest and the largest among them.
+    template <class T>
+    std::vector<T> random_integers(std::size_t count) {
+        std::vector<T> integers(count);
+        for (T& each : integers) {
+            each = static_cast<T>(random_() >> random_() % 32);
+            if (random_() % 6 == 0)
+                each = random_() % 2 == 0 ? std::numeric_limits<T>::min() : std::numeric_limits<T>::max();
+        }
+        return integers;
+    }
+
+    template <class T>
+    void compare_decoding() {
+        for (std::size_t count : {1u, 2u, 5u, 7u, 8u, 9u, 16u, 40u}) {
+            compare_boxes<T>(count);
+            if constexpr (std::is_signed_v<T>) {
+                for (const std::size_t width : {2u, 3u}) compare_directions<T>(count, width);
+            }
+        }
+    }
+
+    template <class T>
+    void compare_boxes(std::size_t count) {
+        const std::vector<T> integers = random_integers<T>(3 * count);
+        BoxedBlock block{{integers.data(), sizeof(T), std::is_signed_v<T>}, integers.size(), {}, {}, nullptr};
+        for (std::size_t k = 0; k < BoxedBlock::kPattern; ++k) {
+            block.minimum[k] = k < 3 ? number() : block.minimum[k - 3];
+            block.step[k] = k < 3 ? std::ldexp(number(), -8 * static_cast<int>(sizeof(T))) : block.step[k - 3];
+        }
+        Floats decoded(integers.size() + 1, kOutside);
+        block.to = decoded.data();
+        kernels_.decode_boxed(block);
+        for (std::size_t k = 0; k < integers.size(); ++k) {
+            const double moved = double{block.step[k % 3]} * static_cast<double>(integers[k]);
+            note(errors_.decode, decoded[k], block.minimum[k % 3] + moved,
+                 std::abs(double{block.minimum[k % 3]}) + std::abs(moved));
+        }
+        note(errors_.decode, decoded.back(), kOutside, 1e-9);
+    }
+
+    template <class T>
+    void compare_directions(std::size_t count, std::size_t width) {
+        std::vector<T> integers = random_integers<T>(width * count);
+        constexpr T kNone = std::numeric_limits<T>::min();
+        if (count > 2) integers[width] = integers[width + 1] = kNone;
+        Floats decoded((width + 1) * count + 1, kOutside);
+        kernels_.decode_directions({{integers.data(), sizeof(T), true}, count, width, decoded.data()});
+        for (std::size_t k = 0; k < count; ++k) {
+            const T* const element = &integers[width * k];
+            const auto normalised = [](T integer) {
+                return std::max(double{static_cast<double>(integer)} / std::numeric_limits<T>::max(), -1.0);
+            };
+            const double a = normalised(element[0]), b = normalised(element[1]);
+            glm::dvec3 expected(a, b, 1.0 - std::abs(a) - std::abs(b));
+            if (expected.z < 0.0) {
+                expected.x = (1.0 - std::abs(b)) * (a < 0.0 ? -1.0 : 1.0);
+                expected.y = (1.0 - std::abs(a)) * (b < 0.0 ? -1.0 : 1.0);
+            }
+            expected = element[0] == kNone && element[1] == kNone ? glm::dvec3(0.0) : glm::normalize(expected);
+            const float* const found = &decoded[(width + 1) * k];
+            for (int c = 0; c < 3; ++c) note(errors_.decode, found[c], expected[c], 1.0);
+            if (width == 3) note(errors_.decode, found[3], normalised(element[2]), 1.0);
+        }
+        note(errors_.decode, decoded.back(), kOutside, 1e-9);
     }
 
     void compare_blends(std::size_t joints) {

@@ -27,11 +27,12 @@ TEST(PoseKernels, AreWithinTheirBoundsOfDoubles) {
         EXPECT_LE(errors.unpack, test::PoseErrors::kMostForUnpack);
         EXPECT_LE(errors.mix, test::PoseErrors::kMostForBlends);
         EXPECT_LE(errors.add, test::PoseErrors::kMostForBlends);
+        EXPECT_LE(errors.decode, test::PoseErrors::kMostForDecoding);
         EXPECT_TRUE(errors.finds_infinity);
         EXPECT_TRUE(errors.poses_match);
         std::cout << kernel_name(each) << ": units in the last place: pose " << errors.pose << ", palette "
                   << errors.palette << ", sample " << errors.sample << ", unpack " << errors.unpack << ", mix "
-                  << errors.mix << ", add " << errors.add << '\n';
+                  << errors.mix << ", add " << errors.add << ", decode " << errors.decode << '\n';
     }
     EXPECT_TRUE(set_kernel(before));
 }

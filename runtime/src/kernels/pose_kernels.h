@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plan/decode_block.h"
 #include "plan/pose_block.h"
 #include "plan/sample_block.h"
 #include "plan/two_bone_block.h"
@@ -23,6 +24,9 @@ struct PoseKernels {
     void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
     /// Each component of a rotation is within 2e-6 of the plain decoder's.
     void (*unpack)(const UnpackBlock& block);
+    /// Both: within two units in the last place of the largest number that goes into one.
+    void (*decode_boxed)(const BoxedBlock& block);
+    void (*decode_directions)(const DirectionsBlock& block);
     void (*mix)(const BlendBlock& block);  ///< blends towards the other pose, rotations normalised
     void (*add)(const BlendBlock& block);  ///< adds the other pose, which is a difference
     /// The same bits as one limb alone; null: limbs are solved one by one.

@@ -18,8 +18,10 @@ namespace {
 #include "lanes_neon.h"
 
 #include "joint_lanes.h"
+#include "store_lanes.h"
 
 #include "blend_lanes.h"
+#include "decode_lanes.h"
 #include "pose_lanes.h"
 #include "poses_lanes.h"
 #include "read_lanes.h"
@@ -38,6 +40,8 @@ const PoseKernels kPoseNeon{pose_with_neon::pose_lanes,
                             pose_with_neon::sample_lanes,
                             pose_with_neon::sample_cubic_lanes,
                             pose_with_neon::unpack_lanes,
+                            pose_with_neon::decode_boxed_lanes,
+                            pose_with_neon::decode_directions_lanes,
                             pose_with_neon::blend_lanes<pose_with_neon::mix_joints>,
                             pose_with_neon::blend_lanes<pose_with_neon::add_joints>,
                             nullptr};

@@ -18,8 +18,10 @@ namespace {
 #include "lanes_sse4.h"
 
 #include "joint_lanes.h"
+#include "store_lanes.h"
 
 #include "blend_lanes.h"
+#include "decode_lanes.h"
 #include "pose_lanes.h"
 #include "poses_lanes.h"
 #include "read_lanes.h"
@@ -38,6 +40,8 @@ const PoseKernels kPoseSse4{pose_with_sse4::pose_lanes,
                             pose_with_sse4::sample_lanes,
                             pose_with_sse4::sample_cubic_lanes,
                             pose_with_sse4::unpack_lanes,
+                            pose_with_sse4::decode_boxed_lanes,
+                            pose_with_sse4::decode_directions_lanes,
                             pose_with_sse4::blend_lanes<pose_with_sse4::mix_joints>,
                             pose_with_sse4::blend_lanes<pose_with_sse4::add_joints>,
                             nullptr};

@@ -18,8 +18,10 @@ namespace {
 #include "lanes_wasm.h"
 
 #include "joint_lanes.h"
+#include "store_lanes.h"
 
 #include "blend_lanes.h"
+#include "decode_lanes.h"
 #include "pose_lanes.h"
 #include "poses_lanes.h"
 #include "read_lanes.h"
@@ -38,6 +40,8 @@ const PoseKernels kPoseWasm{pose_with_wasm::pose_lanes,
                             pose_with_wasm::sample_lanes,
                             pose_with_wasm::sample_cubic_lanes,
                             pose_with_wasm::unpack_lanes,
+                            pose_with_wasm::decode_boxed_lanes,
+                            pose_with_wasm::decode_directions_lanes,
                             pose_with_wasm::blend_lanes<pose_with_wasm::mix_joints>,
                             pose_with_wasm::blend_lanes<pose_with_wasm::add_joints>,
                             nullptr};

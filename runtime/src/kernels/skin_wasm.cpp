@@ -17,6 +17,8 @@ namespace {
 
 #include "lanes_wasm.h"
 
+#include "store_lanes.h"
+
 #include "skin_lanes.h"
 
 #include "dual_lanes.h"

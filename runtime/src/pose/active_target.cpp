@@ -1,5 +1,6 @@
 #include "active_target.h"
 
+#include "decode.h"
 #include "model/frame_shape.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ void add_entries(const MorphTargetView& target, const StreamView& shifts, float 
     while (begin < end) {
         const std::size_t count = std::min<std::size_t>(end - begin, decoded.size());
         const auto some = std::span(decoded).first(count);
-        part_of(shifts, begin, count).decode(some);
+        decode(shifts, begin, some);
         add_some(target, begin, std::span<const glm::vec3>(some), weight, first, vectors);
         begin += static_cast<std::uint32_t>(count);
     }

@@ -11,15 +11,6 @@
 
 namespace bendy {
 
-/// Elements [first, first + count) of a stream.
-inline StreamView part_of(const StreamView& stream, std::size_t first, std::size_t count) {
-    StreamView part = stream;
-    const std::size_t bytes = std::size_t{stream.components} * component_size(stream.type);
-    part.data = stream.data.subspan(first * bytes, count * bytes);
-    part.elements = static_cast<std::uint32_t>(count);
-    return part;
-}
-
 /// A morph target with a weight other than zero, and its entries in the vertices that are being displaced. An entry
 /// is one touched vertex.
 class ActiveTarget {

@@ -22,6 +22,8 @@
 
 namespace bendy {
 
+struct PoseKernels;
+
 /// The work memory for skinning by dual quaternions.
 struct DualMotions {
     explicit DualMotions(const Model& model);
@@ -103,7 +105,7 @@ struct alignas(64) PoseState {
 
 private:
     void find_model_space();
-    void find_subtree(const StaleJoints::Subtree& subtree);
+    void find_subtree(const StaleJoints::Subtree& subtree, const PoseKernels* kernels);
     void find_exactly(const StaleJoints::Subtree& subtree);
     /// Returns whether all numbers are finite.
     bool compute_palette(std::uint32_t mesh, PaletteMatrix* out) const;

@@ -1,6 +1,7 @@
 #include "staging.h"
 
 #include "model/frame_shape.h"
+#include "pose/decode.h"
 
 #include <algorithm>
 #include <cassert>
@@ -63,7 +64,7 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
         std::fill(vectors.begin(), vectors.end(), Vector(0.0f));
         if (shifts != &MorphTargetView::positions) return scratch.data();  // displacements without a stream to displace
     } else {
-        part_of(*stream, first, count).decode(vectors);
+        decode(*stream, first, vectors);
     }
     if (have_frames(mesh_, shifts)) lighten(rest_share_, vectors);
     for (const ActiveTarget& active : active_) {
