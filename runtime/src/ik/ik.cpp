@@ -94,9 +94,12 @@ private:
             length += link.bone_length;
             is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
             scale *= mean_scale(transform.scale);
-            link.constraint = options_.obey_constraints ? model_.ik_constraint(link.joint) : nullptr;
-            link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
-            link.rest_frame = glm::normalize(glm::dquat(joint.rest.rotation)) * link.frame;
+            const std::uint32_t number = options_.obey_constraints ? state_.data->ik_constraint(link.joint) : kNone;
+            const bool is_free = number == kNone;
+            link.constraint = is_free ? nullptr : &state_.data->constraints[number];
+            link.frame = is_free ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
+            link.rest_frame =
+                is_free ? glm::normalize(glm::dquat(joint.rest.rotation)) : state_.data->rest_frames[number];
             link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
             link.local = nearest_legal_local(link, glm::normalize(glm::dquat(transform.rotation)));
         }

@@ -76,9 +76,12 @@ BENDY_ALWAYS_INLINE void put(const Numbers& from, double (&to)[numbers][limbs], 
 /// A joint's constraint while its chain is solved.
 class LinkConstraint {
 public:
-    BENDY_ALWAYS_INLINE LinkConstraint(const ModelData& model, std::uint32_t joint, const ReachOptions& options)
-        : constraint_(options.obey_constraints ? model.ik_constraint(joint) : nullptr),
-          rest_(&model.joints[joint].rest) {}
+    BENDY_ALWAYS_INLINE LinkConstraint(const ModelData& model, std::uint32_t joint, const ReachOptions& options) {
+        const std::uint32_t number = options.obey_constraints ? model.ik_constraint(joint) : kNone;
+        if (number == kNone) return;
+        constraint_ = &model.constraints[number];
+        rest_frame_ = &model.rest_frames[number];
+    }
 
     BENDY_ALWAYS_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
@@ -90,16 +93,24 @@ public:
     BENDY_ALWAYS_INLINE bool find_bend_axis(const glm::dquat& local, glm::dvec3& axis) const {
         const glm::dvec3 only = is_there() ? only_axis(*constraint_) : glm::dvec3(0.0);
         if (only == glm::dvec3(0.0)) return false;
-        const glm::dquat before = is_hinge() ? local : glm::normalize(glm::dquat(rest_->rotation));
-        axis = before * (constraint_->frame * only);
+        axis = is_hinge() ? local * (constraint_->frame * only) : *rest_frame_ * only;
         return true;
     }
 
     /// Computes the axis of the wider swing in the parent's space; returns false if there are not two swings.
     [[nodiscard]] bool find_wider_axis(glm::dvec3& axis) const {
         const glm::dvec3 wider = is_there() ? wider_axis(*constraint_) : glm::dvec3(0.0);
-        axis = glm::normalize(glm::dquat(rest_->rotation)) * (constraint_->frame * wider);
+        if (is_there()) axis = *rest_frame_ * wider;
         return wider != glm::dvec3(0.0);
+    }
+
+    /// Turns a unit rotation, which the limits do not hold, about a unit axis until they do; returns false if they
+    /// never do. \param local  not normalised again
+    bool swivel(glm::dquat& local, const glm::dvec3& axis) const {
+        const double half = 0.5 * best_swivel(*constraint_, *rest_frame_, local, axis);
+        const trig::SinCos turn = trig::sin_cos(half);
+        local = glm::dquat(turn.cos, axis * turn.sin) * local;
+        return holds(local);
     }
 
     enum class Side : std::uint8_t { inside, edge, outside };
@@ -115,20 +126,19 @@ private:
                constraint_->stiffness == glm::dvec3(0.0);
     }
     [[nodiscard]] Side find_side(const glm::dquat& local) const {
-        const glm::dquat& frame = constraint_->frame;
-        const glm::dquat rest = glm::normalize(glm::dquat(rest_->rotation));
-        const glm::dquat R = glm::conjugate(rest * frame) * local * frame;
-        const glm::dquat legal =
-            quick_legal_rotation(constraint_->model, constraint_->euler_order, constraint_->shape, R);
-        const glm::dquat by = glm::conjugate(legal) * R;
+        const Rotation rest_frame = rotation_of(*rest_frame_);
+        const Rotation R = conjugate(rest_frame) * rotation_of(local) * rotation_of(constraint_->frame);
+        const Rotation legal = rotation_of(
+            quick_legal_rotation(constraint_->model, constraint_->euler_order, constraint_->shape, glm_of(R)));
+        const Rotation by = conjugate(legal) * R;
         const double off = 4.0 * (by.x * by.x + by.y * by.y + by.z * by.z);  // angle squared
         constexpr double kInside = 1e-7, kOutside = 2e-6;
         if (off < kInside * kInside) return Side::inside;
         return off > kOutside * kOutside ? Side::outside : Side::edge;
     }
 
-    const Constraint* constraint_;
-    const JointTransform* rest_;
+    const Constraint* constraint_ = nullptr;
+    const glm::dquat* rest_frame_ = nullptr;  // with a constraint
 };
 
 /// The limits of a limb's joints.
@@ -205,8 +215,13 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     }
     if (side != LinkConstraint::Side::inside) return std::nullopt;
     const double distance = finish(limb, bend, turn, reach);
-    if (!(distance >= 0.0) || !limits.upper.holds(glm_of(reach.upper))) return std::nullopt;
-    state.set_rotation(chain.start, glm::quat(glm_of(reach.upper)));
+    if (!(distance >= 0.0)) return std::nullopt;
+    glm::dquat upper = glm_of(reach.upper);
+    if (!limits.upper.holds(upper)) {
+        const Vector axis = reach.way * (1.0 / root(reach.distance));
+        if (!limits.upper.swivel(upper, {axis.x, axis.y, axis.z})) return std::nullopt;
+    }
+    state.set_rotation(chain.start, glm::quat(upper));
     state.set_rotation(model.parents[chain.effector], glm::quat(glm_of(reach.lower)));
     return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
 }
@@ -254,7 +269,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
             aside = rolled(aside, ahead, roll.cos, roll.sin);
         }
         const Rotation look = rotation_of(aside, cross(ahead, aside), ahead, rotation * tip);
-        rotation = look * Rotation{-tip.x, -tip.y, -tip.z, tip.w};
+        rotation = look * conjugate(tip);
     }
     if (!limit.holds(glm_of(rotation)) || !(squared(rotation) > 0.5)) return std::nullopt;
     state.set_rotation(joint, glm::quat(glm_of(rotation)));

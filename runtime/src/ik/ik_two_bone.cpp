@@ -152,52 +152,6 @@ glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm
     return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
 }
 
-/// Returns the full-circle rotation about `axis` that takes the start least outside its constraint; of the legal ones
-/// the smallest, to either side, so that a mirrored chain turns the other way.
-glm::dquat best_swivel(const IkProblem& problem, const glm::dquat& aimed, const glm::dvec3& axis) {
-    constexpr int kTurns = 24;
-    constexpr double kStep = 2.0 * trig::kPi / kTurns;
-    constexpr double kLegal = 1e-9;  // radians
-    const auto badness = [&](double angle) { return illegality(problem, 0, from_vector(axis * angle) * aimed); };
-    double best = 0.0;
-    double least = illegality(problem, 0, aimed);
-    const auto consider = [&](double angle) {
-        const double here = badness(angle);
-        if (here >= least) return;
-        least = here;
-        best = angle;
-    };
-    /// The smallest legal rotation to this side, given that the sample before `legal` is illegal.
-    const auto edge = [&](double legal) {
-        double illegal = legal - std::copysign(kStep, legal);
-        constexpr double kNear = 1e-6;
-        while (std::abs(legal - illegal) > kNear) {
-            const double middle = 0.5 * (legal + illegal);
-            (badness(middle) > kLegal ? illegal : legal) = middle;
-        }
-        return legal;
-    };
-    for (int i = 1; i <= kTurns / 2 && least > kLegal; ++i) {
-        const double there = badness(kStep * i);
-        const double back = badness(-kStep * i);
-        if (there <= kLegal || back <= kLegal) {
-            constexpr double kMore = 4.0;  // more than half a turn
-            const double one = there <= kLegal ? edge(kStep * i) : kMore;
-            const double other = back <= kLegal ? edge(-kStep * i) : -kMore;
-            best = one <= -other ? one : other;
-            least = 0.0;
-        } else {
-            consider(there <= back ? kStep * i : -kStep * i);
-        }
-    }
-    for (double step = 0.5 * kStep; step > 1e-7 && least > kLegal; step *= 0.5) {
-        const double middle = best;
-        consider(middle - step);
-        consider(middle + step);
-    }
-    return best == 0.0 ? aimed : from_vector(axis * best) * aimed;
-}
-
 }  // namespace
 
 bool prefers_back(const Constraint* constraint) {
@@ -229,7 +183,11 @@ std::uint32_t solve_two_bone(IkProblem& problem) {
     if (distance > 1e-12) {
         const glm::dvec3 axis = way / distance;
         if (problem.has_pole) aim = pole_turn(problem, aim * (knee - problem.origin), axis) * aim;
-        if (problem.links[0].constraint != nullptr) aim = best_swivel(problem, aim, axis);
+        if (problem.links[0].constraint != nullptr) {
+            const IkLink& start = problem.links[0];
+            const double angle = best_swivel(*start.constraint, start.rest_frame, aim * start.global, axis);
+            if (angle != 0.0) aim = from_vector(axis * angle) * aim;
+        }
     }
     turn_link(problem, 0, aim);
     problem.place();

@@ -43,6 +43,9 @@ BENDY_ALWAYS_INLINE Rotation operator*(const Rotation& a, const Rotation& b) {
     return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
             a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
+BENDY_ALWAYS_INLINE Rotation conjugate(const Rotation& q) {
+    return {-q.x, -q.y, -q.z, q.w};
+}
 BENDY_ALWAYS_INLINE Vector chosen(Mask mask, const Vector& a, const Vector& b) {
     return {chosen(mask, a.x, b.x), chosen(mask, a.y, b.y), chosen(mask, a.z, b.z)};
 }

@@ -71,7 +71,9 @@ void build_rig(ModelData& data) {
     data.constraints.reserve(skeleton.constraints.size());
     for (const ConstraintView& constraint : skeleton.constraints) {
         const auto number = static_cast<std::uint32_t>(data.constraints.size());
-        data.constraints.push_back(make_constraint(constraint));
+        const Constraint& made = data.constraints.emplace_back(make_constraint(constraint));
+        const glm::quat& rest = data.joints[made.joint].rest.rotation;
+        data.rest_frames.push_back(glm::normalize(glm::dquat(rest)) * made.frame);
         JointConstraints& joint_constraints = data.joint_constraints[constraint.joint];
         // A constraint for a specific scope takes precedence over one for all scopes.
         switch (data.constraints.back().scope) {
@@ -237,7 +239,8 @@ const Constraint* Model::constraint(std::uint32_t joint) const {
 }
 
 const Constraint* Model::ik_constraint(std::uint32_t joint) const {
-    return data_->ik_constraint(joint);
+    const std::uint32_t number = data_->ik_constraint(joint);
+    return number == kNone ? nullptr : &data_->constraints[number];
 }
 
 std::uint32_t Model::joint(std::string_view name) const {

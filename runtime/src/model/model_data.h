@@ -43,10 +43,9 @@ struct ModelData {
         return of_mesh.per_vertex.empty() ? of_mesh.joint : of_mesh.per_vertex[vertex];
     }
 
-    /// Returns the constraint that IK obeys at a joint; null if there is none.
-    [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const {
-        if (joint_constraints.empty() || joint_constraints[joint].in_ik == kNone) return nullptr;
-        return &constraints[joint_constraints[joint].in_ik];
+    /// Returns the number of the constraint that IK obeys at a joint; kNone if there is none.
+    [[nodiscard]] std::uint32_t ik_constraint(std::uint32_t joint) const {
+        return joint_constraints.empty() ? kNone : joint_constraints[joint].in_ik;
     }
 
     MappedFile file;
@@ -63,6 +62,7 @@ struct ModelData {
     std::vector<RigidMovers> movers;                ///< one per mesh
     std::uint32_t largest_palette = 0;
     std::vector<Constraint> constraints;
+    std::vector<glm::dquat> rest_frames;  ///< of each constraint: its joint's rotation at rest, times its frame
     std::vector<JointConstraints> joint_constraints;  ///< one per joint, if there are constraints
     std::vector<Chain> chains;
     std::vector<std::uint32_t> chain_order;
