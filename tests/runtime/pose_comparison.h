@@ -164,7 +164,7 @@ private:
         const auto end = static_cast<std::uint32_t>(parents.size());
         const Floats expected = model;
         for (std::uint32_t first = 0; first < end; first += 3) {
-            std::fill(model.begin() + 16 * first, model.begin() + 16 * end, -9.0f);
+            std::fill_n(model.data() + 16 * first, 16 * (end - first), -9.0f);
             kernels_.pose_subtree({end, local.data(), parents.data(), nullptr, model.data()}, first, end);
             if (std::memcmp(model.data(), expected.data(), 16 * end * sizeof(float)) != 0) errors_.poses_match = false;
         }
