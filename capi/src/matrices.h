@@ -19,10 +19,10 @@ inline void put_matrix(const glm::mat4& matrix, float* out) {
 
 /// Writes the rows of a 3x4 matrix as the columns of a 4x4 one.
 inline void put_matrix(const PaletteMatrix& matrix, float* out) {
-    for (int column = 0; column < 4; ++column) {
-        for (const auto& row : matrix.rows) *out++ = row[column];
-        *out++ = column == 3 ? 1.0f : 0.0f;
-    }
+    const auto& [x, y, z] = matrix.rows;
+    const float columns[kMatrixNumbers] = {x[0], y[0], z[0], 0.0f, x[1], y[1], z[1], 0.0f,
+                                           x[2], y[2], z[2], 0.0f, x[3], y[3], z[3], 1.0f};
+    std::copy_n(columns, kMatrixNumbers, out);
 }
 
 }  // namespace bendy::capi

@@ -81,109 +81,6 @@ Vector vector_at(const StreamView& stream, const Load& load, std::uint64_t eleme
     return vector;
 }
 
-/// minimum + step * integer, for elements of three components. Four elements at a time, so that compilers use lanes.
-template <class T>
-void decode_boxed(const StreamView& stream, std::span<glm::vec3> out) {
-    constexpr std::size_t kAxes = 3, kGroup = 4 * kAxes;
-    std::array<float, kGroup> minimum, step;
-    for (std::size_t i = 0; i < kGroup; ++i) {
-        minimum[i] = stream.boxes[i % kAxes].minimum;
-        step[i] = stream.boxes[i % kAxes].step;
-    }
-    const std::size_t numbers = out.size() * kAxes;
-    const std::span<const T> from = stream.as<T>().first(numbers);
-    float* const to = numbers == 0 ? nullptr : &out.front().x;
-    std::size_t at = 0;
-    for (; at + kGroup <= numbers; at += kGroup) {
-        std::array<float, kGroup> group;
-        for (std::size_t i = 0; i < kGroup; ++i) group[i] = minimum[i] + step[i] * static_cast<float>(from[at + i]);
-        std::copy(group.begin(), group.end(), to + at);
-    }
-    for (std::size_t i = 0; at + i < numbers; ++i) to[at + i] = minimum[i] + step[i] * static_cast<float>(from[at + i]);
-}
-
-/// Octahedral directions, eight at a time, with the operations of decode_octahedral in its order.
-/// \tparam T  i8 or i16: normalised
-template <class T, class Vector>
-void decode_directions(const StreamView& stream, std::span<Vector> out) {
-    constexpr std::size_t kLanes = 8;
-    constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
-    constexpr T kNoDirection = std::numeric_limits<T>::min();
-    const std::size_t width = stream.components;
-    const std::span<const T> from = stream.as<T>();
-    const auto normalised = [](T value) { return std::max(static_cast<float>(value) / kLargest, -1.0f); };
-    std::array<T, kLanes> u{}, v{};
-    std::array<float, kLanes> x, y, z;
-    for (std::size_t first = 0; first < out.size(); first += kLanes) {
-        const std::size_t count = std::min(kLanes, out.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            u[i] = from[(first + i) * width];
-            v[i] = from[(first + i) * width + 1];
-        }
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const float a = normalised(u[i]), b = normalised(v[i]);
-            const float up = 1.0f - std::abs(a) - std::abs(b);
-            const float folded_a = (1.0f - std::abs(b)) * (a < 0.0f ? -1.0f : 1.0f);
-            const float folded_b = (1.0f - std::abs(a)) * (b < 0.0f ? -1.0f : 1.0f);
-            const float right = up < 0.0f ? folded_a : a;
-            const float ahead = up < 0.0f ? folded_b : b;
-            const float length = std::sqrt(right * right + ahead * ahead + up * up);
-            x[i] = right / length;
-            y[i] = ahead / length;
-            z[i] = up / length;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            Vector& vector = out[first + i];
-            const bool is_none = u[i] == kNoDirection && v[i] == kNoDirection;
-            vector.x = is_none ? 0.0f : x[i];
-            vector.y = is_none ? 0.0f : y[i];
-            vector.z = is_none ? 0.0f : z[i];
-            if constexpr (Vector::length() == 4) vector.w = normalised(from[(first + i) * width + 2]);
-        }
-    }
-}
-
-/// The forms that files have most; false for any other.
-template <class T>
-bool decode_in_lanes(const StreamView& stream, std::span<glm::vec3> out) {
-    if constexpr (std::is_signed_v<T>) {
-        if (stream.is_octahedral && stream.normalised && stream.boxes.empty()) {
-            decode_directions<T>(stream, out);
-            return true;
-        }
-    }
-    if (stream.is_octahedral || !stream.list.empty() || stream.boxes.empty() || stream.components != 3) return false;
-    decode_boxed<T>(stream, out);
-    return true;
-}
-
-template <class T>
-bool decode_in_lanes(const StreamView& stream, std::span<glm::vec4> out) {
-    if constexpr (std::is_signed_v<T>) {
-        if (stream.is_octahedral && stream.normalised && stream.boxes.empty()) {
-            decode_directions<T>(stream, out);
-            return true;
-        }
-    }
-    return false;
-}
-
-template <class Vector>
-bool try_lanes(const StreamView& stream, std::span<Vector> out) {
-    switch (stream.type) {
-        case ComponentType::u8:
-            return decode_in_lanes<std::uint8_t>(stream, out);
-        case ComponentType::i8:
-            return decode_in_lanes<std::int8_t>(stream, out);
-        case ComponentType::u16:
-            return decode_in_lanes<std::uint16_t>(stream, out);
-        case ComponentType::i16:
-            return decode_in_lanes<std::int16_t>(stream, out);
-        default:
-            return false;
-    }
-}
-
 template <class Vector>
 void decode_vectors(const StreamView& stream, std::span<Vector> out) {
     assert(out.size() <= stream.elements);
@@ -192,7 +89,6 @@ void decode_vectors(const StreamView& stream, std::span<Vector> out) {
         std::copy(source.begin(), source.end(), out.begin());
         return;
     }
-    if (try_lanes(stream, out)) return;
     with_type(stream, [&](const auto& load) {
         for (std::size_t element = 0; element < out.size(); ++element)
             out[element] = vector_at<Vector>(stream, load, element);

@@ -42,6 +42,7 @@ public:
 
     /// Solves what was added.
     void solve() {
+        if constexpr (!kSolvesLimbsTogether) return;
         const std::size_t count = std::exchange(count_, 0);
         if (count == 1) return solve_alone(limbs_[0].request, limbs_[0].number);
         if (count == 0) return;
@@ -62,6 +63,7 @@ private:
 
     /// Adds a request to those that are solved side by side, if it can be one of them.
     bool add_limb(const ReachRequest& request, std::size_t number) {
+        if constexpr (!kSolvesLimbsTogether) return false;
         if (kernels_ == nullptr || kernels_->two_bones == nullptr || count_ == kLimbs) return false;
         const auto& [chain, target, options] = request;
         if (chain == nullptr || options.carry_target || !is_finite(target) ||

@@ -129,5 +129,24 @@ inline Lanes guess_inverse_roots(Lanes squares) {
     return _mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(0x5f37'5a86), half));
 }
 
+inline Lanes load_integers(const std::uint8_t* from) {
+    return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::int8_t* from) {
+    return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::uint16_t* from) {
+    return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::int16_t* from) {
+    return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::uint32_t* from) {
+    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    const Lanes upper = _mm256_cvtepi32_ps(_mm256_srli_epi32(all, 16));
+    const Lanes lower = _mm256_cvtepi32_ps(_mm256_and_si256(all, _mm256_set1_epi32(0xffff)));
+    return fused(upper, Lanes(65536.0f), lower);
+}
+
 #include "lanes.h"
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)

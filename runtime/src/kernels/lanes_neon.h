@@ -63,12 +63,6 @@ inline void store_three_of(float* to, Quad quad) {
     vst1_f32(to, vget_low_f32(quad.v));
     vst1q_lane_f32(to + 2, quad.v, 2);
 }
-inline void stream(float* to, Quad quad) {
-    vst1q_f32(to, quad.v);
-}
-inline void end_streams() {}
-inline void prefetch(const float* /*from*/) {}  // only what is streamed is prefetched
-
 /// Elements a and b of x, c and d of y.
 template <int a, int b, int c, int d>
 inline Quad shuffle(Quad x, Quad y) {
@@ -129,6 +123,26 @@ inline Quad inverse_roots_of(Quad squares) {
     const Quad guess = vrsqrteq_f32(squares.v);  // 8 bits; each step of Newton's method doubles them
     const Quad better = guess * Quad(vrsqrtsq_f32((squares * guess).v, guess.v));
     return better + 0.5f * better * (1.0f - squares * better * better);
+}
+
+inline Lanes load_integers(const std::uint8_t* from) {
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, from, sizeof bytes);
+    return vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(vcreate_u8(bytes)))));
+}
+inline Lanes load_integers(const std::int8_t* from) {
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, from, sizeof bytes);
+    return vcvtq_f32_s32(vmovl_s16(vget_low_s16(vmovl_s8(vcreate_s8(bytes)))));
+}
+inline Lanes load_integers(const std::uint16_t* from) {
+    return vcvtq_f32_u32(vmovl_u16(vld1_u16(from)));
+}
+inline Lanes load_integers(const std::int16_t* from) {
+    return vcvtq_f32_s32(vmovl_s16(vld1_s16(from)));
+}
+inline Lanes load_integers(const std::uint32_t* from) {
+    return vcvtq_f32_u32(vld1q_u32(from));
 }
 
 #include "lanes.h"

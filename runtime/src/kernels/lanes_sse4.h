@@ -40,5 +40,30 @@ inline Lanes guess_inverse_roots(Lanes squares) {
     return _mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(0x5f37'5a86), half));
 }
 
+/// Four integers of one byte.
+inline __m128i load_four_bytes(const void* from) {
+    std::int32_t bytes = 0;
+    std::memcpy(&bytes, from, sizeof bytes);
+    return _mm_cvtsi32_si128(bytes);
+}
+inline Lanes load_integers(const std::uint8_t* from) {
+    return _mm_cvtepi32_ps(_mm_cvtepu8_epi32(load_four_bytes(from)));
+}
+inline Lanes load_integers(const std::int8_t* from) {
+    return _mm_cvtepi32_ps(_mm_cvtepi8_epi32(load_four_bytes(from)));
+}
+inline Lanes load_integers(const std::uint16_t* from) {
+    return _mm_cvtepi32_ps(_mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::int16_t* from) {
+    return _mm_cvtepi32_ps(_mm_cvtepi16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
+inline Lanes load_integers(const std::uint32_t* from) {
+    const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    const Lanes upper = _mm_cvtepi32_ps(_mm_srli_epi32(all, 16));
+    const Lanes lower = _mm_cvtepi32_ps(_mm_and_si128(all, _mm_set1_epi32(0xffff)));
+    return fused(upper, Lanes(65536.0f), lower);
+}
+
 #include "lanes.h"
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)

@@ -60,12 +60,6 @@ inline void store_three_of(float* to, Quad quad) {
     wasm_v128_store64_lane(to, quad.v, 0);
     wasm_v128_store32_lane(to + 2, quad.v, 2);
 }
-inline void stream(float* to, Quad quad) {
-    store(to, quad);
-}
-inline void end_streams() {}
-inline void prefetch(const float* /*from*/) {}
-
 /// Elements a and b of x, c and d of y.
 template <int a, int b, int c, int d>
 inline Quad shuffle(Quad x, Quad y) {
@@ -105,6 +99,24 @@ inline Quad between(Quad quad, Quad least, Quad most) {
 }
 inline Quad inverse_roots_of(Quad squares) {
     return 1.0f / Quad(wasm_f32x4_sqrt(squares.v));
+}
+
+inline Lanes load_integers(const std::uint8_t* from) {
+    return wasm_f32x4_convert_u32x4(
+        wasm_u32x4_extend_low_u16x8(wasm_u16x8_extend_low_u8x16(wasm_v128_load32_zero(from))));
+}
+inline Lanes load_integers(const std::int8_t* from) {
+    return wasm_f32x4_convert_i32x4(
+        wasm_i32x4_extend_low_i16x8(wasm_i16x8_extend_low_i8x16(wasm_v128_load32_zero(from))));
+}
+inline Lanes load_integers(const std::uint16_t* from) {
+    return wasm_f32x4_convert_u32x4(wasm_u32x4_load16x4(from));
+}
+inline Lanes load_integers(const std::int16_t* from) {
+    return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(from));
+}
+inline Lanes load_integers(const std::uint32_t* from) {
+    return wasm_f32x4_convert_u32x4(wasm_v128_load(from));
 }
 
 #include "lanes.h"

@@ -6,6 +6,7 @@
 #include "plan/two_bone_block.h"
 #include "plan/unpack_block.h"
 
+#include <bendy/format/processor.h>
 #include <bendy/format/public.h>
 
 #include <cstdint>
@@ -32,6 +33,13 @@ struct PoseKernels {
     /// The same bits as one limb alone; null: limbs are solved one by one.
     void (*two_bones)(TwoBoneBlock& block);
 };
+
+/// Whether any kernel has two_bones; otherwise nothing need be built that leads to it.
+#if defined(BENDY_X86_64)
+inline constexpr bool kSolvesLimbsTogether = true;
+#else
+inline constexpr bool kSolvesLimbsTogether = false;
+#endif
 
 /// Limbs that reach, without regard to limits.
 void two_bones_avx2(TwoBoneBlock& block);

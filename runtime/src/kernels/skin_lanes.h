@@ -113,6 +113,8 @@ BENDY_ALWAYS_INLINE void finish(const Moved* moved, const SkinBlock& block, std:
     }
 }
 
+#if defined(BENDY_X86_64)  // others write through the caches
+
 /// Prefetches the input of a group in the chunk after the next one. The processor does that by itself, but not across
 /// pages.
 template <class F>
@@ -126,6 +128,8 @@ inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
     if (wants<F, 4>(block.out_tangents)) fetch(block.tangents, 4);
 }
 
+#endif
+
 /// Processes whole groups, `count` vertices from `vertex` on; matrix_of(vertex) is the matrix of a group.
 template <class F, class Blend>
 BENDY_ALWAYS_INLINE void transform(const SkinBlock& block, std::size_t vertex, std::size_t count,
@@ -133,7 +137,9 @@ BENDY_ALWAYS_INLINE void transform(const SkinBlock& block, std::size_t vertex, s
     Moved moved[kChunk / kLanes];
     if constexpr (F::wanted == 0) std::memset(&moved, 0, sizeof moved);
     for (std::size_t k = 0; k < count; k += kLanes) {
+#if defined(BENDY_X86_64)
         if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
+#endif
         move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
     }
     if constexpr (F::streams) {  // one attribute at a time, so that whole cache lines are written
@@ -404,9 +410,11 @@ void skin_as(const SkinBlock& block) {
 inline bool is_packed(const SkinOutput& out, std::size_t numbers) {
     return out.data == nullptr || out.stride == numbers;
 }
+#if defined(BENDY_X86_64)
 inline bool is_aligned(const SkinOutput& out) {
     return reinterpret_cast<std::uintptr_t>(out.data) % 16 == 0;
 }
+#endif
 
 template <bool streams>
 void skin_packed(const SkinBlock& block, int wanted) {
@@ -427,12 +435,14 @@ void skin_lanes(const SkinBlock& block) {
                        (block.out_tangents.data != nullptr ? 4 : 0);
     if (!is_packed(block.out_positions, 3) || !is_packed(block.out_normals, 3) || !is_packed(block.out_tangents, 4))
         return skin_as<AnyForm>(block);
+#if defined(BENDY_X86_64)
     if (block.streams && is_aligned(block.out_positions) && is_aligned(block.out_normals) &&
         is_aligned(block.out_tangents)) {
         skin_packed<true>(block, wanted);
         end_streams();
         return;
     }
+#endif
     skin_packed<false>(block, wanted);
 }
 // NOLINTEND(misc-definitions-in-headers)

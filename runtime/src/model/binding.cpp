@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 namespace bendy {
 namespace {
 
-using ByName = std::unordered_map<std::string_view, std::uint32_t>;
+/// Numbers by name, of a mesh or ("") of anything.
+using ByName = std::map<std::pair<std::string_view, std::string_view>, std::uint32_t>;
 
-std::uint32_t find(const ByName& numbers, std::string_view name) {
-    const auto found = numbers.find(name);
+std::uint32_t find(const ByName& numbers, std::string_view mesh, std::string_view name) {
+    const auto found = numbers.find({mesh, name});
     return name.empty() || found == numbers.end() ? kNone : found->second;
 }
 
@@ -72,11 +73,11 @@ Binding::Binding(const Model& animated, Model posed, const BindingOptions& optio
 void Binding::match_joints() {
     ByName numbers;
     for (std::uint32_t joint = 0; joint < posed_.joints().size(); ++joint)
-        numbers.emplace(posed_.joints()[joint].name, joint);  // keeps the first
+        numbers.emplace(std::pair("", posed_.joints()[joint].name), joint);  // keeps the first
     std::vector<bool> is_taken(posed_.joints().size());
     joints_.reserve(animated_.joints().size());
     for (const Joint& joint : animated_.joints()) {
-        std::uint32_t found = find(numbers, joint.name);
+        std::uint32_t found = find(numbers, "", joint.name);
         if (found != kNone && is_taken[found]) found = kNone;
         if (found != kNone) is_taken[found] = true;
         joints_.push_back(found);
@@ -84,21 +85,19 @@ void Binding::match_joints() {
 }
 
 void Binding::match_targets() {
-    ByName anywhere;
-    std::unordered_map<std::string_view, ByName> in_mesh;
+    ByName anywhere, in_mesh;
     for (std::uint32_t mesh = 0; mesh < posed_.meshes().size(); ++mesh) {
         std::uint32_t number = posed_.first_morph_target(mesh);
         for (const MorphTargetView& target : posed_.meshes()[mesh].targets) {
-            anywhere.emplace(target.name, number);
-            in_mesh[posed_.meshes()[mesh].name].emplace(target.name, number);
+            anywhere.emplace(std::pair("", target.name), number);
+            in_mesh.emplace(std::pair(posed_.meshes()[mesh].name, target.name), number);
             ++number;
         }
     }
     for (const Mesh& mesh : animated_.meshes()) {
-        const auto same = in_mesh.find(mesh.name);
         for (const MorphTargetView& target : mesh.targets) {
-            const std::uint32_t found = same == in_mesh.end() ? kNone : find(same->second, target.name);
-            targets_.push_back(found == kNone ? find(anywhere, target.name) : found);
+            const std::uint32_t found = find(in_mesh, mesh.name, target.name);
+            targets_.push_back(found == kNone ? find(anywhere, "", target.name) : found);
         }
     }
 }

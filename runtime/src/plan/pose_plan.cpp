@@ -20,7 +20,7 @@ namespace {
 /// Returns, for each joint, the number after the last joint below it: these follow it.
 std::vector<std::uint32_t> ends_of(std::span<const Joint> joints) {
     std::vector<std::uint32_t> ends(joints.size());
-    for (std::uint32_t joint = static_cast<std::uint32_t>(joints.size()); joint-- > 0;) {
+    for (auto joint = static_cast<std::uint32_t>(joints.size()); joint-- > 0;) {
         ends[joint] = std::max(ends[joint], joint + 1);
         const std::uint32_t parent = joints[joint].parent;
         if (parent != kNone) ends[parent] = std::max(ends[parent], ends[joint]);

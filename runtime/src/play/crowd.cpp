@@ -52,10 +52,8 @@ Crowd::Crowd(const Model& model, std::size_t workers) : model_(model) {
     const PosePlan& plan = *ModelData::of(model).pose_plan;
     batches_.resize(workers);
     if (plan.fits_floats) {
-        for (Batch& batch : batches_) {
-            for (auto& local : batch.locals) local = plan.rest;
-            batch.model_space.resize(model.joints().size());
-        }
+        locals_.assign(workers * kAtOnce, plan.rest);
+        model_space_.resize(workers * model.joints().size());
     }
     std::size_t entries = 0;
     for (std::uint32_t number = 0; number < model.meshes().size(); ++number) {
@@ -82,13 +80,13 @@ Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t work
     if (member.palette.empty()) return result;
     if (member.palette.size() < palette_size()) return CallError::output_too_short;
     Batch& batch = batches_[worker];
-    if (is_skinned || batch.model_space.empty() || pose_kernels() == nullptr) {
+    if (is_skinned || model_space_.empty() || pose_kernels() == nullptr) {
         write_palette(pose, member.palette.data());
         return result;
     }
     PoseState& state = PoseState::of(pose);
     state.stale.mark_all();
-    state.local.swap(batch.locals[batch.count]);
+    state.local.swap(locals_[worker * kAtOnce + batch.count]);
     batch.palettes[batch.count++] = member.palette.data();
     if (batch.count == kAtOnce) write_batch(worker);
     return result;
@@ -103,17 +101,17 @@ void Crowd::write_batch(std::size_t worker) {
         for (std::size_t k = 0; k < count; ++k) {
             PoseState& state = PoseState::of(poses_[worker]);
             state.stale.mark_all();
-            state.local.swap(batch.locals[k]);
+            state.local.swap(locals_[worker * kAtOnce + k]);
             write_palette(poses_[worker], batch.palettes[k]);
         }
         return;
     }
     const ModelData& data = ModelData::of(model_);
-    float* const matrices = batch.model_space.front().numbers.data();
+    float* const matrices = model_space_[worker * data.joints.size()].numbers.data();
     PosesBlock block{data.joints.size(), {}, data.parents.data(), matrices};
     for (std::size_t k = 0; k < kAtOnce; ++k) {
         const std::size_t member = std::min(k, count - 1);  // the last one fills the lanes that are left
-        block.local[k] = &batch.locals[member].front().rotation[0][0];
+        block.local[k] = &locals_[worker * kAtOnce + member].front().rotation[0][0];
         batch.palettes[k] = batch.palettes[member];
     }
     const FlushDenormals flush;

@@ -8,7 +8,10 @@
 
 /// `inline`, and to the compiler, an order: for functions whose call costs as much as their work. And the opposite: for
 /// functions that are seldom called, and would spoil the code around the call.
-#if defined(BENDY_GNU)
+#if defined(BENDY_GNU) && defined(__OPTIMIZE_SIZE__)
+#define BENDY_ALWAYS_INLINE inline
+#define BENDY_NOINLINE [[gnu::noinline]]
+#elif defined(BENDY_GNU)
 #define BENDY_ALWAYS_INLINE [[gnu::always_inline]] inline
 #define BENDY_NOINLINE [[gnu::noinline]]
 #elif defined(_MSC_VER)

@@ -81,14 +81,12 @@ public:
 private:
     /// Posed members whose palettes are still to be computed.
     struct Batch {
-        struct alignas(64) JointMatrices {
-            std::array<float, 12 * kAtOnce> numbers;
-        };
-
-        std::array<std::vector<JointBlock>, kAtOnce> locals;
         std::array<PaletteMatrix*, kAtOnce> palettes{};
-        std::vector<JointMatrices> model_space;  // empty if members are computed one by one
         std::size_t count = 0;
+    };
+    /// A joint's, of the members of a batch.
+    struct alignas(64) JointMatrices {
+        std::array<float, 12 * kAtOnce> numbers;
     };
 
     Result<void, CallError> write(const CrowdMember& member, std::size_t worker);
@@ -96,8 +94,11 @@ private:
     void write_palette(Pose& pose, PaletteMatrix* palette) const;
 
     Model model_;
-    std::vector<Pose> poses_;               // one per worker
-    std::vector<Batch> batches_;            // one per worker
+    std::vector<Pose> poses_;     // one per worker
+    std::vector<Batch> batches_;  // one per worker
+    // Both for each worker in turn, and empty if members are computed one by one.
+    std::vector<std::vector<JointBlock>> locals_;  // of the members of the batches
+    std::vector<JointMatrices> model_space_;
     std::vector<std::size_t> first_entry_;  // one per mesh, and the total
 };
 
