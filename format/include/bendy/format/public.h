@@ -6,8 +6,8 @@
 #define BENDY_GNU
 #endif
 
-/// `inline`, and to a compiler that optimises for speed, an order: for functions whose call costs as much as their work.
-/// And the opposite: for functions that are seldom called, and would spoil the code around the call.
+/// `inline`, and to a compiler that optimises for speed, an order: for functions whose call costs as much as their
+/// work. And the opposite: for functions that are seldom called, and would spoil the code around the call.
 #if defined(BENDY_GNU) && defined(__OPTIMIZE_SIZE__)
 #define BENDY_ALWAYS_INLINE inline
 #define BENDY_NOINLINE [[gnu::noinline]]
