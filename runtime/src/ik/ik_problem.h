@@ -88,8 +88,9 @@ std::uint32_t solve_two_bone(IkProblem& problem);
 /// tip slows down and approaches the limit asymptotically.
 void soften_target(IkProblem& problem);
 /// Returns the angle about a unit axis that takes the start of a chain least outside its constraint; of the legal ones
-/// the smallest, to either side, so that a mirrored chain turns the other way. \param rest_frame  the constraint's
-/// frame at rest, in base space \param start       the start's rotation, aimed at the target, in base space
+/// the smallest, to either side, so that a mirrored chain turns the other way.
+/// \param rest_frame  the constraint's frame at rest, in base space
+/// \param start       the start's rotation, aimed at the target, in base space
 double best_swivel(const Constraint& constraint, const glm::dquat& rest_frame, const glm::dquat& start,
                    const glm::dvec3& axis);
 /// Returns which of two equal rotations of a straight chain's joint with only_axis is preferred: true for the one

@@ -104,8 +104,8 @@ public:
         return wider != glm::dvec3(0.0);
     }
 
-    /// Turns a unit rotation, which the limits do not hold, about a unit axis until they do; returns false if they
-    /// never do. \param local  not normalised again
+    /// Turns a unit rotation, which the limits do not hold, about a unit axis until they do; returns false if no turn
+    /// does that.
     bool swivel(glm::dquat& local, const glm::dvec3& axis) const {
         const double half = 0.5 * best_swivel(*constraint_, *rest_frame_, local, axis);
         const trig::SinCos turn = trig::sin_cos(half);

@@ -32,7 +32,7 @@ struct alignas(8 * limbs) TwoBoneLimbs {
 struct TwoBoneBlock {
     static constexpr std::size_t kLimbs = 4;
 
-    TwoBoneLimbs<kLimbs> limbs;  ///< all of them; may be the same one several times
+    TwoBoneLimbs<kLimbs> limbs;  ///< any numbers where there is none
     double upper[4][kLimbs];     ///< solved, of nearly unit length
     double lower[4][kLimbs];
     double distance[kLimbs];  ///< metres between tip and target; negative: not solved

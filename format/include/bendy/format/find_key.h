@@ -6,10 +6,10 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Returns the number of the last of `count` ascending times that is not after `seconds`; 0 if all of them are after
-/// it. Most times are evenly spaced: then the key is at the computed position or next to it, and nothing is searched.
-/// Stays below `count`, which is at least 1, whatever the times are. \param time_at  returns the time of a key, given
-/// its number
+/// Returns the number of the last of `count` ascending times that is not after `seconds`; 0 if all are after it. Most
+/// times are evenly spaced: then the key is at the computed position or next to it, and nothing is searched. Stays
+/// below `count`, which is at least 1, whatever the times are.
+/// \param time_at  returns the time of a key, given its number
 template <class TimeAt, class Seconds>
 std::size_t find_key(std::size_t count, const TimeAt& time_at, Seconds seconds) {
     const std::size_t last = count - 1;
