@@ -4,10 +4,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh build
-cmake --preset release -DBENDY_TESTS=OFF >/dev/null
-cmake --build --preset release --target bendy
+cmake --preset demo >/dev/null
+cmake --build --preset demo
 
-bendy=build/release/cli/bendy
+bendy=build/demo/cli/bendy
 mkdir -p out
 set -x
 $bendy convert examples/mannequin.glb -o out/mannequin.bendy

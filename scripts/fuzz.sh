@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Fuzzes for a while; exit 1 and the inputs, if anything was found.
-#   scripts/fuzz.sh                        four minutes of processor for all targets, two at a time: for every change; with
-#                                          one seed, so that two changes are judged by the same inputs
-#   scripts/fuzz.sh 7200 animate gltf      two hours each for these, other inputs every time
+#   scripts/fuzz.sh                        ten seconds for each target, two at a time: for every change; with one seed and an
+#                                          empty corpus, so that two changes are judged by the same inputs
+#   scripts/fuzz.sh 7200 [animate gltf]    two hours each for these, or all, other inputs every time
 # The corpora stay in build/fuzz/corpus and grow from run to run; findings are in build/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seconds=${1:-20}
+seconds=${1:-10}
 targets=("${@:2}")
 seed=$([ $# -gt 0 ] && echo 0 || echo 1)
 programs=build/asan-ubsan
@@ -32,11 +32,15 @@ fuzz() { # fuzz TARGET: one process, its last lines printed
         gltf | md2 | rig | text | x) seeds=$build/seeds/$target ;;
         codec) seeds=$build/seeds/codec ;;
     esac
-    mkdir -p "$build/corpus/$target" "$build/findings"
-    local log=$build/fuzz_$target.log status=0
+    local corpus=$build/corpus/$target log=$build/fuzz_$target.log status=0
+    if [ "$seed" = 1 ]; then
+        corpus=$build/empty/$target
+        rm -rf "$corpus"
+    fi
+    mkdir -p "$corpus" "$build/findings"
     "$programs/tests/fuzz/fuzz_$target" -seed="$seed" -max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=3072 \
         -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" \
-        "$build/corpus/$target" "$seeds" >"$log" 2>&1 || status=$?
+        "$corpus" "$seeds" >"$log" 2>&1 || status=$?
     printf '%-14s %s executions, %s\n' "$target" \
         "$(sed -n 's/stat::number_of_executed_units: *//p' "$log")" "$([ $status = 0 ] && echo "nothing found" || echo FOUND)"
     [ $status = 0 ] || tail -n 60 "$log"

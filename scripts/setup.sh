@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test|cross|static|web]   build (default): compiler and libraries; test: also what only the tests need;
-#                                                    cross, static, web: also what the script of that name needs
+#   scripts/setup.sh [build|test|all|cross|static|web]   build (default): compiler and libraries; test: also what scripts/test.sh
+#                                                        needs; all: also what scripts/test.sh all needs; cross, static, web:
+#                                                        also what the script of that name needs
 set -euo pipefail
+cd "$(dirname "$0")/.."
 
 need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the command or file is not there
     case "$1" in
@@ -11,6 +13,22 @@ need() { # need COMMAND-OR-FILE PACKAGE: adds the package to the list if the com
     esac || missing+=("$2")
 }
 
+install_missing() {
+    [ ${#missing[@]} -gt 0 ] || return 0
+    if [ "$(id -u)" = 0 ]; then
+        as_root=()
+    elif sudo -n true 2>/dev/null; then
+        as_root=(sudo -n)
+    else
+        echo "Missing packages. Install them with: sudo apt-get install ${missing[*]}" >&2
+        exit 1
+    fi
+    echo "Installing: ${missing[*]}" >&2
+    "${as_root[@]}" apt-get update -qq
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+what=${1:-build}
 missing=()
 need g++ g++
 need cmake cmake
@@ -37,53 +55,62 @@ need /usr/include/gif_lib.h libgif-dev
 need /usr/include/stb/stb_image.h libstb-dev
 need /usr/lib/x86_64-linux-gnu/libEGL.so.1 libegl1
 need /usr/lib/x86_64-linux-gnu/dri/swrast_dri.so libgl1-mesa-dri
-if [ "${1:-build}" = cross ]; then
-    need python3 python3
+wants() { [[ " $* " = *" $what "* ]]; } # wants KIND...: whether one of these is asked for
+if wants cross; then
     need /usr/src/googletest/CMakeLists.txt googletest
     need /usr/include/gtest/gtest.h libgtest-dev
-    need dpkg-source dpkg-dev
-    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
-    need qemu-aarch64 qemu-user
-    need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
     need wine wine
     need /usr/lib/wine/wine64 wine64
+    need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
 fi
-if [ "${1:-build}" = static ]; then
+if wants cross static web test all; then
     need dpkg-source dpkg-dev
+fi
+if wants static all; then
     need unshare util-linux
     need file file
 fi
-if [ "${1:-build}" = web ] || [ "${1:-build}" = test ]; then
+if wants web test all; then
     need emcc emscripten
-    need dpkg-source dpkg-dev
     need node nodejs
     need npm npm
-    need chromium chromium
 fi
-if [ "${1:-build}" = test ]; then
+if wants test all; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
-    for module in numpy pytest setuptools wheel pip venv; do # of the system's Python, for which the Python package is built
+    for module in numpy pytest; do # of the system's Python, for which the Python package is built
         /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
     done
     need /usr/include/pybind11/pybind11.h pybind11-dev
     compgen -G '/usr/include/python3*/Python.h' >/dev/null || missing+=(python3-dev)
-    need patchelf patchelf
     need /usr/include/gtest/gtest.h libgtest-dev
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
-    need /usr/include/tbb/parallel_for.h libtbb-dev
-    need /usr/include/assimp/Importer.hpp libassimp-dev
-    need valgrind valgrind
     need clang++ clang
-    compgen -G '/usr/lib/llvm-*/include/c++/v1/vector' >/dev/null || missing+=(libc++-dev libc++abi-dev)
-    need /usr/src/googletest/CMakeLists.txt googletest
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format
     need clang-tidy clang-tidy
+    need ccache ccache
     need git git
-    need dpkg-shlibdeps dpkg-dev
-    need file file
+fi
+if wants web all; then
+    need chromium chromium
+fi
+if wants cross all; then
+    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+    need qemu-aarch64 qemu-user
+fi
+if wants all; then
+    for module in setuptools wheel pip venv; do
+        /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
+    done
+    need patchelf patchelf
+    need /usr/include/tbb/parallel_for.h libtbb-dev
+    need /usr/include/assimp/Importer.hpp libassimp-dev
+    compgen -G '/usr/lib/llvm-*/include/c++/v1/vector' >/dev/null || missing+=(libc++-dev libc++abi-dev)
+    need /usr/src/googletest/CMakeLists.txt googletest
     need groff groff-base
     need mandoc mandoc
+    need fish fish
+    need zsh zsh
     need update-mime-database shared-mime-info
     need gio libglib2.0-bin
     need desktop-file-validate desktop-file-utils
@@ -93,23 +120,14 @@ if [ "${1:-build}" = test ]; then
     need xdotool xdotool
     need blender blender
     need bazel bazel-bootstrap
-    need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
-    need qemu-aarch64 qemu-user
     need /usr/lib/wasm32-wasi/libc.a wasi-libc
     need /usr/lib/wasm32-wasi/libc++.a libc++-dev-wasm32
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a' >/dev/null || missing+=(libclang-rt-dev-wasm32)
     need wasm-ld lld
 fi
-[ ${#missing[@]} -gt 0 ] || exit 0
-
-if [ "$(id -u)" = 0 ]; then
-    as_root=()
-elif sudo -n true 2>/dev/null; then
-    as_root=(sudo -n)
-else
-    echo "Missing packages. Install them with: sudo apt-get install ${missing[*]}" >&2
-    exit 1
+install_missing
+# What the WebAssembly build needs from elsewhere, so that the checks download nothing.
+if wants test; then
+    for system in web web-plain; do scripts/cross_dependencies.sh "$system"; done
+    [ -e web/node_modules/typescript ] || (cd web && npm ci --silent --no-audit --no-fund)
 fi
-echo "Installing: ${missing[*]}" >&2
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -43,8 +43,8 @@ def read_build(build):
         if file.suffix == ".c":
             continue
         sources = [str(file)]
-        if file.parent.name == "Unity":
-            sources = re.findall(r'^#include "(.*)"$', file.read_text(), re.MULTILINE)
+        if file.parent.parent.name == "batches":
+            sources = [os.path.normpath(file.parent / name) for name in re.findall(r'^#include "(.*)"$', file.read_text(), re.MULTILINE)]
         for source in sources:
             flags[source] = flags_of(entry)
     return flags

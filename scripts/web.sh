@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Builds the npm package in web/dist, with the runtime and the tools as WebAssembly, and the page web/dist/page.html; tests them in
-# node and in Chromium.
+# Builds the npm package in web/dist and tests it in node: the runtime and the tools as WebAssembly, and the page web/dist/page.html,
+# which Chromium tests.
+#   scripts/web.sh            all of it
+#   scripts/web.sh runtime    the runtime alone, without the tools and the page
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh web
+what=${1:-all}
+[ "$what" = runtime ] || scripts/setup.sh web
 PATH=/usr/bin:$PATH # emscripten's scripts are for the system's Python
 export NODE_PATH=/usr/share/nodejs # where emscripten's acorn is
 export BENDY_PROGRAM=${BENDY_PROGRAM:-$PWD/build/release/cli/bendy}
@@ -13,21 +16,27 @@ if [ ! -x "$BENDY_PROGRAM" ]; then
     cmake --build --preset release --target bendy
 fi
 
+systems=(web web-plain)
+[ "$what" = runtime ] || systems+=(web-tools)
 mkdir -p web/src/generated
-for system in web web-plain web-tools; do
+for system in "${systems[@]}"; do
     scripts/cross_dependencies.sh "$system"
     cmake --preset "$system" >/dev/null
     cmake --build --preset "$system"
 done
 cp build/cross/web/build/web/bindings.ts web/src/generated/
-tools=build/cross/web-tools/build/web/tools
-{ echo '// @ts-nocheck'; cat "$tools/tools.js"; } >web/src/generated/tools_glue.ts
 cd web
+[ -e node_modules/puppeteer-core ] || npm ci --silent
 node embed.mjs ../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
 node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
-node embed.mjs ../$tools/tools.wasm src/generated/tools.ts 900000
-[ -e node_modules/puppeteer-core ] || npm ci --silent
 rm -rf dist
+if [ "$what" = runtime ]; then
+    npx --no-install tsc -p tsconfig.runtime.json
+    exec node --test --test-concurrency=2 test/{broken,load,memory,model,play,pose,three}.test.mjs
+fi
+tools=../build/cross/web-tools/build/web/tools
+{ echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts
+node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
 npm run --silent build
 npx --no-install tsc -p page
 "$BENDY_PROGRAM" convert ../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy

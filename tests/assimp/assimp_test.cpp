@@ -3,6 +3,7 @@
 #include "converter/posed_scene.h"
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/convert.h>
@@ -29,7 +30,7 @@
 namespace bendy::converter::assimp_test {
 namespace {
 
-const std::filesystem::path kSource = BENDY_SOURCE_DIR;
+const std::filesystem::path kSource = source_folder();
 constexpr double kTolerance = 1e-5;  // of the size of what is drawn
 
 glm::dmat4 to_matrix(const aiMatrix4x4& m) {

@@ -1,6 +1,7 @@
 // Streams, bind palettes, morph targets and movers through the C API: the numbers of test::sample_file, and the C++
 // API's.
 #include "capi/open_handles.h"
+#include "source_folder.h"
 
 #include <cstring>
 #include <string>
@@ -95,7 +96,7 @@ TEST_F(CGeometry, StoredNumbersAreThereWithoutACopy) {
 
 // Quantised positions and octahedral normals.
 TEST_F(CGeometry, EncodedStreamsAreDecodedAsInCpp) {
-    const std::string path = std::string(BENDY_SOURCE_DIR) + "/tests/seeds/rope_compact.bendy";
+    const std::string path = (source_folder() / "tests/seeds/rope_compact.bendy").string();
     const auto expected = Model::open(path);
     ASSERT_TRUE(expected.has_value());
     const ModelHandle model(bendy_open(path.c_str(), nullptr, &error_));

@@ -1,5 +1,6 @@
 // Posing and skinning through the C API: the same bits as by the C++ one, and numbers worked out here.
 #include "capi/open_handles.h"
+#include "source_folder.h"
 
 #include <array>
 #include <filesystem>
@@ -10,7 +11,7 @@ namespace bendy::test::pose_test {
 namespace {
 
 std::string seed(const char* name) {
-    return std::string(BENDY_SOURCE_DIR) + "/tests/seeds/" + name;
+    return (source_folder() / "tests/seeds" / name).string();
 }
 
 std::vector<float> skin_all(bendy_pose* pose, const bendy_model* model, const bendy_lod* lod = nullptr) {

@@ -3,6 +3,8 @@
 #include <bendy/format/file.h>
 #include <bendy/runtime.h>
 
+#include "source_folder.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +19,7 @@
 namespace bendy::compat_test {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(BENDY_SOURCE_DIR) / "tests" / "compat";
+const std::filesystem::path kFolder = source_folder() / "tests" / "compat";
 
 std::vector<std::filesystem::path> all_files() {
     std::vector<std::filesystem::path> files;

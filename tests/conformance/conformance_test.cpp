@@ -1,5 +1,6 @@
 #include "cases.h"
 #include "fuzz/use_model.h"
+#include "source_folder.h"
 
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
@@ -22,7 +23,7 @@ using conformance::Case;
 using conformance::Fault;
 
 const std::vector<Case>& cases() {
-    static const std::vector<Case> kCases = conformance::read_cases(BENDY_SOURCE_DIR "/tests/conformance");
+    static const std::vector<Case> kCases = conformance::read_cases(source_folder() / "tests/conformance");
     return kCases;
 }
 

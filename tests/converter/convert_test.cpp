@@ -3,6 +3,7 @@
 #include <bendy/format/document.h>
 #include <bendy/runtime.h>
 
+#include "source_folder.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ namespace {
 using Buffer = std::vector<std::byte>;
 
 std::filesystem::path example(const std::string& name) {
-    return std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name;
+    return source_folder() / "examples" / name;
 }
 
 Buffer convert_good(const std::filesystem::path& file, const ConvertOptions& options = {}) {

@@ -2,6 +2,7 @@
 
 #include "converter/posed_scene.h"
 #include "format/sample_file.h"
+#include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
@@ -114,7 +115,7 @@ TEST(Evaluate, AgreesWithTheRuntimeOnEveryChunk) {
 TEST(Evaluate, AgreesWithTheRuntimeOnTheExamples) {
     for (const char* name : {"mannequin.glb", "tentacle.glb"}) {
         Report report;
-        const auto scene = import_gltf(std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name, {}, report);
+        const auto scene = import_gltf(source_folder() / "examples" / name, {}, report);
         ASSERT_TRUE(scene);
         compare_with_runtime(*scene, 2e-6);
     }

@@ -5,6 +5,7 @@
 #include <bendy/format/marker.h>
 
 #include "format/edit_file.h"
+#include "source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 using bendy::test::Buffer;
 
-const std::filesystem::path kSource = BENDY_SOURCE_DIR;
+const std::filesystem::path kSource = source_folder();
 
 Scene import_good(Bytes bytes, Report& report) {
     Result<Scene, ImportError> scene = import_bendy(bytes, report);

@@ -23,11 +23,19 @@ def run(*command, **options):
 
 
 def install(build, work):
-    """Installs a build, moves it elsewhere, and returns where it is then."""
+    """Installs a build of this script's own, moves it elsewhere, and returns where it is then."""
     shutil.rmtree(work, ignore_errors=True)
     run(ARGUMENTS.cmake, "--install", build, "--prefix", work / "first")
     (work / "first").rename(work / "moved")
     return work / "moved"
+
+
+def new_folder(name):
+    """An empty folder to work in."""
+    folder = ARGUMENTS.work / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder
 
 
 def without_paths():
@@ -70,16 +78,13 @@ class Case(unittest.TestCase):
 
 class Static(Case):
     def test_embedding(self):
-        work = ARGUMENTS.work / "static"
-        prefix = install(ARGUMENTS.build, work)
+        work, prefix = new_folder("static"), ARGUMENTS.prefix
         self.assertFalse(list(prefix.rglob("libbendy-format.so*")))
         self.check_find_package(prefix, work, shared=False)
         self.check_pkg_config(prefix, work, shared=False)
 
-
     def test_the_c_api_is_found_under_a_prefix_of_ones_own(self):
-        work = ARGUMENTS.work / "c"
-        prefix = install(ARGUMENTS.build, work)
+        work, prefix = new_folder("c"), ARGUMENTS.prefix
         library = next(prefix.rglob("libbendy.so.0"), None)
         if library is None:
             self.skipTest("this build has no shared libbendy")
@@ -173,6 +178,7 @@ def main():
     parser.add_argument("--cxx", required=True)
     parser.add_argument("--source", required=True, type=Path)
     parser.add_argument("--build", required=True, type=Path, help="a static build")
+    parser.add_argument("--prefix", required=True, type=Path, help="where that is installed")
     parser.add_argument("--work", required=True, type=Path, help="a folder to work in")
     _, rest = parser.parse_known_args(namespace=ARGUMENTS)
     unittest.main(argv=[sys.argv[0], *rest])

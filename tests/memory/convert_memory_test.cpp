@@ -6,6 +6,7 @@
 #include <bendy/format/document.h>
 
 #include "mutation/fail_each.h"
+#include "source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace bendy::converter::convert_memory_test {
 namespace {
 
-const std::filesystem::path kSeeds = std::filesystem::path(BENDY_SOURCE_DIR) / "tests/seeds";
+const std::filesystem::path kSeeds = source_folder() / "tests/seeds";
 
 /// Every `step`-th allocation of a conversion fails once; gives how many.
 std::uint64_t fail_each_of(const std::filesystem::path& source, const ConvertOptions& options, std::uint64_t step) {

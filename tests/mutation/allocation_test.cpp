@@ -7,6 +7,7 @@
 #include "mutation/fail_each.h"
 #include "mutation/seeds.h"
 #include "runtime/packed_model.h"
+#include "source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, FailedAllocation,
                          [](const auto& seed) { return test_name(seed.param); });
 
 TEST(FailedAllocation, OfOpeningAFileLeavesNothingBehind) {
-    const std::string path = std::string(BENDY_SOURCE_DIR) + "/tests/seeds/rope.bendy";
+    const std::string path = (source_folder() / "tests/seeds/rope.bendy").string();
     EXPECT_GE(fail_each_allocation([&] { ASSERT_TRUE(Model::open(path).has_value()); }), 10u);
 }
 

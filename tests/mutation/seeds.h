@@ -5,6 +5,7 @@
 #include <bendy/format/file.h>
 
 #include "format/edit_file.h"
+#include "source_folder.h"
 
 #include <array>
 #include <filesystem>
@@ -107,7 +108,7 @@ inline Buffer every_codec() {
 
 inline Buffer read_seed(const std::string& name) {
     if (name == "every_codec") return every_codec();
-    const auto file = MappedFile::open(std::filesystem::path(BENDY_SOURCE_DIR) / (name + ".bendy"));
+    const auto file = MappedFile::open(source_folder() / (name + ".bendy"));
     if (!file) throw std::runtime_error("no seed " + name);
     return {file->bytes().begin(), file->bytes().end()};
 }

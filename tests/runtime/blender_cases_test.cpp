@@ -1,5 +1,7 @@
 #include <bendy/runtime/constrain.h>
 
+#include "source_folder.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -48,7 +50,7 @@ glm::dquat limited_part(const Constraint& constraint, const Json& q) {
 }
 
 TEST(BlenderCases, AreLegalAndNearestWhereTheySaySo) {
-    std::ifstream file(BENDY_SOURCE_DIR "/tests/blender/cases.json");
+    std::ifstream file(source_folder() / "tests/blender/cases.json");
     const Json document = Json::parse(file);
     const double tolerance = document.at("tolerance").get<double>();
     ASSERT_LE(tolerance, 1e-4);  // radians

@@ -228,10 +228,10 @@ TEST_P(ConstrainCase, TheQuickClampComesInsideAndStaysThereAndWhatIsInsideStaysA
     EXPECT_TRUE(!has_volume() || inside > count / 1000) << inside;
 }
 
-TEST_P(ConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
-    constexpr std::array<std::string_view, 3> kHollow{"WideEllipse", "WidePyramid",
-                                                      "BoxWide"};  // wider than half a turn
-    if (std::find(kHollow.begin(), kHollow.end(), GetParam().name) != kHollow.end()) GTEST_SKIP();
+/// Of the constraints that are not hollow, as those wider than half a turn are.
+using FullConstrainCase = ConstrainCase;
+
+TEST_P(FullConstrainCase, SmallStepsNearTheBoundaryMakeSmallSteps) {
     constexpr double kStep = 1e-5;  // radians
     const Constraint constraint = prepared(record());
     std::mt19937 random(17);
@@ -267,8 +267,23 @@ TEST_P(ConstrainCase, NoLegalRotationIsNearer) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ConstrainCase, testing::ValuesIn(all_cases()),
-                         [](const auto& test) { return test.param.name; });
+std::string name_of(const testing::TestParamInfo<Case>& test) {
+    return test.param.name;
+}
+
+std::vector<Case> full_cases() {
+    constexpr std::array<std::string_view, 3> kHollow{"WideEllipse", "WidePyramid", "BoxWide"};
+    std::vector<Case> cases = all_cases();
+    cases.erase(std::remove_if(cases.begin(), cases.end(),
+                               [&](const Case& one) {
+                                   return std::find(kHollow.begin(), kHollow.end(), one.name) != kHollow.end();
+                               }),
+                cases.end());
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ConstrainCase, testing::ValuesIn(all_cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, FullConstrainCase, testing::ValuesIn(full_cases()), name_of);
 
 /// Follows R(angle) from 0 to 4 pi; returns the largest step of what it is clamped to by the step of R.
 template <class Path>

@@ -1,6 +1,6 @@
 #include <bendy/runtime.h>
 
-#include "mutation/step.h"
+#include "mutation/places.h"
 #include "runtime/build_model.h"
 #include "runtime/use_model.h"
 
@@ -32,7 +32,8 @@ TEST(DamagedFile, AnyBitWithSumsRepairedIsRefusedOrHarmless) {
     const Buffer good = test::sample_file();
     int accepted = 0;
     int refused = 0;
-    for (std::size_t bit = 0; bit < good.size() * 8; bit += test::kStep) {
+    const test::Places visited = test::places();
+    for (std::size_t bit = visited.first; bit < good.size() * 8; bit += visited.step) {
         Buffer file = good;
         file[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
         if (!test::resum(file)) {
@@ -71,7 +72,8 @@ TEST(DamagedFile, AnyFieldWithAnExtremeNumberIsRefusedOrHarmless) {
                                                      0x0001'0000};
     OpenOptions options;
     options.sums = Sums::later;
-    for (std::size_t at = 0; at + 4 <= good.size(); at += 4 * test::kStep) {
+    const test::Places visited = test::places();
+    for (std::size_t at = 4 * visited.first; at + 4 <= good.size(); at += 4 * visited.step) {
         for (const std::uint32_t number : kNumbers) {
             Buffer file = good;
             test::patch(file, at, number);

@@ -6,6 +6,8 @@
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
 
+#include "source_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -31,7 +33,7 @@ const Places kTurned{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
 class Frames : public testing::Test {
 protected:
     void SetUp() override {
-        auto opened = Model::open(BENDY_SOURCE_DIR "/spec/examples/every_chunk.bendy");
+        auto opened = Model::open(source_folder() / "spec/examples/every_chunk.bendy");
         ASSERT_TRUE(opened) << static_cast<int>(opened.error().code);
         model_ = std::make_unique<Model>(std::move(*opened));
         flap_ = model_->clip("flap");

@@ -6,7 +6,7 @@
 #include <bendy/runtime/kernels.h>
 
 #include "format/packed_samples.h"
-#include "mutation/step.h"
+#include "mutation/places.h"
 #include "runtime/local_joints.h"
 #include "runtime/packed_model.h"
 
@@ -204,7 +204,8 @@ TEST(Unpack, SamplePlaysClipsOfItsModelAndOfAnother) {
 TEST(Unpack, DamageStaysInBounds) {
     const auto good = write_packed(make_samples(kJoints, 6, 2)).value();
     double sum = 0.0;
-    for (std::size_t at = 0; at < good.size(); at += test::kStep) {
+    const test::Places visited = test::places();
+    for (std::size_t at = visited.first; at < good.size(); at += visited.step) {
         for (const int value : {0x00, 0x01, 0x18, 0x80, 0xff}) {
             // A buffer of its own, so that a read past its end is one past an allocation.
             std::vector<std::byte> bad(good);

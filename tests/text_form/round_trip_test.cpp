@@ -4,6 +4,7 @@
 #include "format/edit_file.h"
 #include "format/packed_samples.h"
 #include "format/sample_file.h"
+#include "source_folder.h"
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/codec.h>
@@ -22,7 +23,7 @@ namespace {
 
 TEST(RoundTrip, FilesOfTheSpecification) {
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(BENDY_SOURCE_DIR "/spec/examples")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() / "spec/examples")) {
         if (entry.path().extension() != ".bendy") continue;
         SCOPED_TRACE(entry.path());
         const auto file = MappedFile::open(entry.path());
@@ -35,7 +36,7 @@ TEST(RoundTrip, FilesOfTheSpecification) {
 
 TEST(RoundTrip, EveryConformanceFileThatCanBeWalked) {
     std::size_t files = 0;
-    for (const conformance::Case& one : conformance::read_cases(BENDY_SOURCE_DIR "/tests/conformance")) {
+    for (const conformance::Case& one : conformance::read_cases(source_folder() / "tests/conformance")) {
         SCOPED_TRACE(one.name);
         const auto tree = read_chunk_tree(one.bytes);
         Faults faults;

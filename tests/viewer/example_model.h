@@ -3,6 +3,8 @@
 #include <bendy/converter/convert.h>
 #include <bendy/runtime.h>
 
+#include "source_folder.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <stdexcept>
@@ -39,11 +41,11 @@ private:
 };
 
 inline std::filesystem::path example(const char* name) {
-    return std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / name;
+    return source_folder() / "examples" / name;
 }
 /// A file of the corpus beside the project; it may be missing.
 inline std::filesystem::path corpus(const char* name) {
-    return std::filesystem::path(BENDY_SOURCE_DIR) / "../shared/corpus/visible" / name;
+    return source_folder() / "../shared/corpus/visible" / name;
 }
 
 }  // namespace bendy::test

@@ -3,6 +3,7 @@
 #include "converter/posed_scene.h"
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
@@ -90,7 +91,7 @@ double farthest(const Scene& a, const Scene& b, double size) {
 
 TEST(BuildCompact, EveryBoundIsKeptAndNoneGivesTheExactFile) {
     Report unheard;
-    const auto scene = import_gltf(std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / "tentacle.glb", {}, unheard);
+    const auto scene = import_gltf(source_folder() / "examples" / "tentacle.glb", {}, unheard);
     ASSERT_TRUE(scene) << scene.error().message;
     for (const double share : {5e-5, 1e-3, 1e-2}) {
         Report report;

@@ -2,6 +2,7 @@
 
 #include "humanoid_gltf.h"
 #include "rest_frames.h"
+#include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/constraint.h>
@@ -605,7 +606,7 @@ TEST(AutoRig, KnowsTheNamesOfManyTools) {
 
 TEST(AutoRig, TheExampleWalksInsideItsLimits) {
     Report report;
-    auto scene = import_gltf(std::filesystem::path(BENDY_SOURCE_DIR) / "examples" / "mannequin.glb", {}, report);
+    auto scene = import_gltf(source_folder() / "examples" / "mannequin.glb", {}, report);
     ASSERT_TRUE(scene.has_value());
     const Rigged rigged = rig(*std::move(scene));
     EXPECT_EQ(rigged.scene.chains.size(), 6u);

@@ -1,5 +1,7 @@
 #include "build_scene.h"
 
+#include "source_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -29,7 +31,7 @@ std::string chain_error(const std::string& members) {
 }
 
 TEST(ParseRig, TheExampleOfTheSpecification) {
-    std::ifstream file(std::string(BENDY_SOURCE_DIR) + "/spec/rig.md");
+    std::ifstream file((source_folder() / "spec/rig.md").string());
     const std::string page((std::istreambuf_iterator<char>(file)), {});
     const std::size_t begin = page.find("```json\n") + 8;
     Report report;

@@ -6,6 +6,7 @@
 #include <bendy/format/file.h>
 
 #include "converter/posed_scene.h"
+#include "source_folder.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,7 +22,7 @@
 namespace bendy::converter::export_x_test {
 namespace {
 
-const std::filesystem::path kSource = BENDY_SOURCE_DIR;
+const std::filesystem::path kSource = source_folder();
 
 struct Trip {
     Scene before;
