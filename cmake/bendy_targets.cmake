@@ -168,7 +168,9 @@ function(bendy_optimise target level)
   if(EMSCRIPTEN AND level EQUAL 1)
     set(level z)  # what need not be fast need not be loaded either
   endif()
-  if(NOT MSVC)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND level EQUAL 1)
+    target_compile_options(${target} PRIVATE -O0)  # templates with sanitizers compile slowest of all
+  elseif(NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
   endif()
 endfunction()
