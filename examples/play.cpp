@@ -50,7 +50,9 @@ int main(int argc, char** argv) {
         float share = 0.0f;
         for (const bendy::Playing& playing : fade.playing()) {
             share += playing.share;
-            if (share > 0.0f) moved = blend(moved, root.over(*playing.clip, playing.played), playing.share / share);
+            const auto step = root.over(*playing.clip, playing.played);
+            if (!step) return 1;
+            if (share > 0.0f) moved = blend(moved, *step, playing.share / share);
             // A foot is set down at a quarter and at three quarters of each clip.
             const float length = playing.clip->end - playing.clip->start;
             const std::array<bendy::Marker, 2> feet{
@@ -59,17 +61,18 @@ int main(int argc, char** argv) {
         }
         character = compose(character, moved);
 
-        if (!bendy::sample(pose, fade, scratch)) return 1;
-        root.extract(pose);
-        const bendy::Box box = bounds.of(pose);  // in model space: hold it against the camera before skinning
-        if (!bendy::skin(pose, {.out = {.positions = positions}})) return 1;
-        for (const glm::vec3& position : positions) outside += box.contains(position) ? 0 : 1;
+        if (!bendy::sample(pose, fade, scratch) || !root.extract(pose)) return 1;
+        const auto box = bounds.of(pose);  // in model space: hold it against the camera before skinning
+        if (!box || !bendy::skin(pose, {.out = {.positions = positions}})) return 1;
+        for (const glm::vec3& position : positions) outside += box->contains(position) ? 0 : 1;
         if (frame % 20 != 0) continue;
-        const glm::mat4 sword = bendy::socket_matrix(pose, hand, glm::mat4(character.matrix()));
+        const auto sword = bendy::socket_matrix(pose, hand, glm::mat4(character.matrix()));
+        if (!sword) return 1;
+        const glm::vec4 place = (*sword)[3];
         std::printf("%5.2f s  %-12.12s %3.0f %%  at (%6.3f, %6.3f)  hand at (%6.3f, %6.3f, %6.3f)  %zu steps\n",
                     frame / 60.0, std::string(fade.playing().back().clip->name).c_str(),
-                    100.0 * fade.playing().back().share, character.translation.x, character.translation.z, sword[3].x,
-                    sword[3].y, sword[3].z, steps);
+                    100.0 * fade.playing().back().share, character.translation.x, character.translation.z, place.x,
+                    place.y, place.z, steps);
     }
     std::printf("%zu vertices were outside their bounds\n", outside);
     return outside == 0 ? 0 : 1;

@@ -42,7 +42,7 @@ bendy_status bendy_socket_matrix(bendy_pose* pose, const bendy_socket* socket, c
             return status;
         if (const bendy_status status = check_pointer(matrix, "matrix", error)) return status;
         const glm::mat4 model_to_world = world == nullptr ? glm::mat4(1.0f) : glm::make_mat4(world);
-        put_matrix(bendy::socket_matrix(pose->pose, taken, model_to_world), matrix);
+        put_matrix(*bendy::socket_matrix(pose->pose, taken, model_to_world), matrix);
         return BENDY_OK;
     });
 }
@@ -66,7 +66,7 @@ bendy_status bendy_bounds_of_pose(const bendy_bounds* bounds, bendy_pose* pose, 
         if (const bendy_status status = check_pointer(bounds, "bounds", error)) return status;
         if (const bendy_status status = check_pose_of(pose, *bounds->character, "pose", "bounds", error)) return status;
         if (const bendy_status status = check_pointer(out, "out", error)) return status;
-        *out = to_c(bounds->bounds.of(pose->pose));
+        *out = to_c(*bounds->bounds.of(pose->pose));
         return BENDY_OK;
     });
 }
@@ -82,7 +82,7 @@ bendy_status bendy_bounds_of_joint(const bendy_bounds* bounds, bendy_pose* pose,
         if (const bendy_status status = check_index(joint, character.model.joints().size(), "joint", error))
             return status;
         if (const bendy_status status = check_pointer(out, "out", error)) return status;
-        *out = to_c(pose == nullptr ? bounds->bounds.joint(joint) : bounds->bounds.of(pose->pose, joint));
+        *out = to_c(pose == nullptr ? bounds->bounds.joint(joint) : *bounds->bounds.of(pose->pose, joint));
         return BENDY_OK;
     });
 }

@@ -130,7 +130,7 @@ bendy_status bendy_root_path_at(const bendy_root_path* path, uint32_t clip, doub
     return guarded(error, [&] {
         if (const bendy_status status = check_path(path, clip, out, error)) return status;
         if (const bendy_status status = check_double(seconds, "seconds", error)) return status;
-        *out = to_c(path->path.at(clip_of(path, clip), seconds));
+        *out = to_c(*path->path.at(clip_of(path, clip), seconds));
         return BENDY_OK;
     });
 }
@@ -141,7 +141,7 @@ bendy_status bendy_root_path_between(const bendy_root_path* path, uint32_t clip,
         if (const bendy_status status = check_path(path, clip, out, error)) return status;
         if (const bendy_status status = check_double(from, "from", error)) return status;
         if (const bendy_status status = check_double(to, "to", error)) return status;
-        *out = to_c(path->path.between(clip_of(path, clip), from, to));
+        *out = to_c(*path->path.between(clip_of(path, clip), from, to));
         return BENDY_OK;
     });
 }
@@ -152,7 +152,7 @@ bendy_status bendy_root_path_over(const bendy_root_path* path, uint32_t clip, co
         if (const bendy_status status = check_path(path, clip, out, error)) return status;
         bendy::PlayedInterval taken;
         if (const bendy_status status = take_played(played, taken, error)) return status;
-        *out = to_c(path->path.over(clip_of(path, clip), taken));
+        *out = to_c(*path->path.over(clip_of(path, clip), taken));
         return BENDY_OK;
     });
 }
@@ -162,7 +162,7 @@ bendy_status bendy_root_path_extract(const bendy_root_path* path, bendy_pose* po
     return guarded(error, [&] {
         if (const bendy_status status = check_pointer(path, "path", error)) return status;
         if (const bendy_status status = check_pose_of(pose, *path->character, "pose", "path", error)) return status;
-        const bendy::RootMotion motion = path->path.extract(pose->pose);
+        const bendy::RootMotion motion = *path->path.extract(pose->pose);
         if (out != nullptr) *out = to_c(motion);
         return BENDY_OK;
     });

@@ -311,13 +311,13 @@ void bind_root_motion(py::module_& module) {
         .def(
             "at",
             [](const PyRootPath& self, const py::object& clip, double seconds) {
-                return self.path.at(find_clip(self.character, clip), finite(seconds, "seconds"));
+                return *self.path.at(find_clip(self.character, clip), finite(seconds, "seconds"));
             },
             py::arg("clip"), py::arg("seconds"), "From the root's rest pose to where it is in the clip: a RootMotion.")
         .def(
             "between",
             [](const PyRootPath& self, const py::object& clip, double from, double to) {
-                return self.path.between(find_clip(self.character, clip), finite(from, "start"), finite(to, "end"));
+                return *self.path.between(find_clip(self.character, clip), finite(from, "start"), finite(to, "end"));
             },
             py::arg("clip"), py::arg("start"), py::arg("end"),
             "From one time of a clip to another, in the axes that the character has at the start.")
@@ -326,7 +326,7 @@ void bind_root_motion(py::module_& module) {
             [](const PyRootPath& self, const PyPlayedInterval& played) {
                 if (played.clip.character != self.character)
                     throw py::value_error("the clip that was played belongs to another model");
-                return self.path.over(*played.clip.clip, played.interval);
+                return *self.path.over(*played.clip.clip, played.interval);
             },
             py::arg("played"),
             "Over what a Playback has played; passes continue where the one before ended. Raises ValueError.")
@@ -335,7 +335,7 @@ void bind_root_motion(py::module_& module) {
             [](const PyRootPath& self, PyPose& pose) {
                 if (pose.character != self.character) throw py::value_error("the pose belongs to another model");
                 const Use use(pose);
-                return self.path.extract(*use);
+                return *self.path.extract(*use);
             },
             py::arg("pose"), "Takes the motion out of a pose and returns it. Raises ValueError.");
 }

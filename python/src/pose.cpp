@@ -341,7 +341,7 @@ py::array pose_clip(const py::object& model, const py::object& clip, const py::o
 
 py::array bounds_of(PyPose& self) {
     const Use pose(self);
-    const Box box = without_gil([&] { return self.character->bounds().of(*pose); });
+    const Box box = without_gil([&] { return *self.character->bounds().of(*pose); });
     const std::array<float, 6> corners{box.minimum.x, box.minimum.y, box.minimum.z,
                                        box.maximum.x, box.maximum.y, box.maximum.z};
     return py::array_t<float>({2, 3}, corners.data());
@@ -478,7 +478,7 @@ void bind_pose(py::module_& module) {
                 const glm::mat4 world =
                     model_to_world.is_none() ? glm::mat4(1.0f) : matrix_of(model_to_world, "model_to_world");
                 const Use pose(self);
-                const glm::mat4 matrix = socket_matrix(*pose, socket, world);
+                const glm::mat4 matrix = *socket_matrix(*pose, socket, world);  // the joint was looked up
                 py::array_t<float> array({4, 4});
                 write_matrices(std::span(&matrix, 1), array.mutable_data());
                 return array;

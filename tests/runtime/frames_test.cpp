@@ -146,7 +146,7 @@ TEST_F(Frames, BlendAndHaveBounds) {
     ASSERT_TRUE(skin(a, {.mesh = kMesh, .out = {.positions = positions}}));
     EXPECT_EQ(positions[1], glm::vec3(1, 1, 0));
     const Bounds bounds(*model_);
-    const Box box = bounds.of(a);
+    const Box box = *bounds.of(a);
     for (const glm::vec3& place : positions) EXPECT_TRUE(box.contains(place));
 }
 

@@ -57,13 +57,13 @@ std::vector<glm::vec3> play(Character& character, double seconds) {
     const auto keep_positions = [&] { all.insert(all.end(), c.positions.begin(), c.positions.end()); };
     c.fade.advance(seconds);
     EXPECT_TRUE(sample(c.pose, c.fade, c.scratch));
-    keep(glm::vec3(c.path.extract(c.pose).translation));
+    keep(glm::vec3(c.path.extract(c.pose)->translation));
     EXPECT_TRUE(blend(c.pose, c.scratch, 0.25f));
     for (const Chain& chain : c.pose.model().chains()) EXPECT_TRUE(reach(c.pose, &chain, glm::vec3(0.1f, 1.0f, 0.2f)));
     constrain(c.pose);
     for (const glm::mat4& joint : c.pose.model_space()) keep(glm::vec3(joint[3]));
-    keep(glm::vec3(socket_matrix(c.pose, c.socket)[3]));
-    keep(c.bounds.of(c.pose).maximum);
+    keep(glm::vec3((*socket_matrix(c.pose, c.socket))[3]));
+    keep(c.bounds.of(c.pose)->maximum);
     c.lod.set_share(0.5f);
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion}) {
         EXPECT_TRUE(skin(c.pose, {.method = method, .out = {.positions = c.positions}}));

@@ -2,6 +2,7 @@
 
 #include "pose/pose_state.h"
 #include "runtime/build_model.h"
+#include "runtime/clip_model.h"
 #include "runtime/local_joints.h"
 
 #include <gtest/gtest.h>
@@ -393,27 +394,6 @@ TEST(Sample, LeavesTheRestAtRest) {
     expect_rest(pose, 3);
     EXPECT_EQ(pose.local(0).scale, glm::vec3(1.0f));
     EXPECT_EQ(pose.local(1).translation, model->joints()[1].rest.translation);
-
-    Clip empty;
-    move_everything(pose);
-    ASSERT_TRUE(sample(pose, &empty, 0.0f));
-    for (std::uint32_t joint = 0; joint < 4; ++joint) expect_rest(pose, joint);
-    EXPECT_EQ(pose.morph_weights()[0], 0.125f);
-    EXPECT_EQ(pose.morph_weights()[1], 0.0f);
-}
-
-TEST(Sample, OneClipAfterAnotherKeepsNothingOfTheFirst) {
-    const Owned model(test::sample_file());
-    const Keys keys{TrackPath::scale, Interpolation::step, 3, {0}, {4, 4, 4}, 3};
-    Clip other;
-    other.tracks = {keys.track()};
-    Pose pose(*model);
-    ASSERT_TRUE(sample(pose, model->clip("run"), 0.6f));
-    ASSERT_TRUE(sample(pose, &other, 0.6f));
-    for (std::uint32_t joint = 0; joint < 3; ++joint) expect_rest(pose, joint);
-    EXPECT_EQ(pose.local(3).scale, glm::vec3(4.0f));
-    EXPECT_EQ(pose.local(3).translation, model->joints()[3].rest.translation);
-    EXPECT_EQ(pose.morph_weights()[0], 0.125f);
 }
 
 TEST(Sample, NoClipOrNoTimeIsTheRestPose) {
@@ -459,48 +439,46 @@ std::vector<float> weights_of(const Pose& pose) {
     return {pose.morph_weights().begin(), pose.morph_weights().end()};
 }
 
-TEST(Sample, WeightsGoToTheMeshesOwnTargets) {
-    const Owned model(test::build_file(two_meshes()));
-    const Keys keys{TrackPath::weights, Interpolation::linear, 2, {0, 1}, {1, 2, 3, 6}, 1};
-    Clip clip;
-    clip.tracks = {keys.track()};
+TEST(Sample, AnEmptyClipIsTheRestPose) {
+    test::ModelSpec spec = two_meshes();
+    spec.more = {test::clip_node({"empty"})};
+    const Owned model(test::build_file(spec));
     Pose pose(*model);
+    test::local_of(pose, 1)->translation.x = 7.0f;
+    pose.change_morph_weights()[0] = 7.0f;
+    ASSERT_TRUE(sample(pose, model->clip("empty"), 0.0f));
+    expect_rest(pose, 1);
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
-    ASSERT_TRUE(sample(pose, &clip, 0.5f));
-    EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 2.0f, 4.0f}));
 }
 
-TEST(Sample, AClipOfALargerModelChangesNothingOutside) {
-    const Owned model(test::build_file(two_meshes()));
-    const std::vector<float> many(10, 7.0f);
-    std::vector<Keys> all;
-    for (const std::uint32_t joint : {2u, 3u, 100u, 0xffff'fffeu, kNone}) {
-        all.push_back({TrackPath::translation, Interpolation::step, 3, {0}, {7, 7, 7}, joint});
-        all.push_back({TrackPath::rotation, Interpolation::step, 4, {0}, {0, 0, 1, 0}, joint});
-        all.push_back({TrackPath::scale, Interpolation::step, 3, {0}, {7, 7, 7}, joint});
-        all.push_back({TrackPath::weights, Interpolation::step, 1, {0}, {7}, joint});
-    }
-    all.push_back({TrackPath::weights, Interpolation::step, 10, {0}, many, 0});
-    all.push_back({TrackPath::weights, Interpolation::step, 3, {0}, {7, 7, 7}, 1});
-    all.push_back({TrackPath::translation, Interpolation::step, 3, {0}, {1, 2, 3}, 1});  // this one is for us, too
-    Clip clip;
-    for (const Keys& keys : all) clip.tracks.push_back(keys.track());
+TEST(Sample, OneClipAfterAnotherKeepsNothingOfTheFirst) {
+    test::ModelSpec spec = two_meshes();
+    spec.more = {
+        test::clip_node({"move",
+                         0.0f,
+                         1.0f,
+                         false,
+                         {{TrackPath::translation, 0, 3, {0}, {7, 7, 7}}, {TrackPath::weights, 0, 1, {0}, {7}}}}),
+        test::clip_node({"grow", 0.0f, 1.0f, false, {{TrackPath::scale, 1, 3, {0}, {4, 4, 4}}}})};
+    const Owned model(test::build_file(spec));
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, &clip, 0.5f));
+    ASSERT_TRUE(sample(pose, model->clip("move"), 0.6f));
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(7.0f));
+    ASSERT_TRUE(sample(pose, model->clip("grow"), 0.6f));
     expect_rest(pose, 0);
-    EXPECT_EQ(pose.local(1).translation, glm::vec3(1, 2, 3));
+    EXPECT_EQ(pose.local(1).scale, glm::vec3(4.0f));
+    EXPECT_EQ(pose.local(1).translation, model->joints()[1].rest.translation);
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
 }
 
-TEST(Sample, WeightsOfAMeshWithMoreTargetsDoNotSpillIntoTheNextMesh) {
-    const Owned model(test::build_file(two_meshes()));
-    const Keys keys{TrackPath::weights, Interpolation::step, 2, {0}, {7, 8}, 0};  // mesh 0 has one target here
-    Clip clip;
-    clip.tracks = {keys.track()};
+TEST(Sample, WeightsGoToTheMeshesOwnTargets) {
+    test::ModelSpec spec = two_meshes();
+    spec.more = {test::clip_node({"smile", 0.0f, 1.0f, false, {{TrackPath::weights, 1, 2, {0, 1}, {1, 2, 3, 6}}}})};
+    const Owned model(test::build_file(spec));
     Pose pose(*model);
-    ASSERT_TRUE(sample(pose, &clip, 0.5f));
-    EXPECT_EQ(weights_of(pose)[1], 0.25f);
-    EXPECT_EQ(weights_of(pose)[2], 1.25f);
+    EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
+    ASSERT_TRUE(sample(pose, model->clip("smile"), 0.5f));
+    EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 2.0f, 4.0f}));
 }
 
 }  // namespace

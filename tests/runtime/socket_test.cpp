@@ -44,16 +44,16 @@ TEST(Socket, FollowsItsJoint) {
     Socket socket = make_socket(*model, "hand", at(0.5f, 0, 0));
     EXPECT_EQ(socket.joint, 2u);
     // The hand at (2, 1, 0), its x axis up.
-    expect_matrix(socket_matrix(pose, socket), {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 2, 1.5f, 0, 1});
+    expect_matrix(*socket_matrix(pose, socket), {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 2, 1.5f, 0, 1});
     socket.keeps_size = false;
-    expect_matrix(socket_matrix(pose, socket), {0, 0.01f, 0, 0, -0.01f, 0, 0, 0, 0, 0, 0.01f, 0, 2, 1.005f, 0, 1});
+    expect_matrix(*socket_matrix(pose, socket), {0, 0.01f, 0, 0, -0.01f, 0, 0, 0, 0, 0, 0.01f, 0, 2, 1.005f, 0, 1});
     // A quarter turn more about z, and the character elsewhere, twice as large.
     test::local_of(pose, 1)->rotation = glm::quat(std::sqrt(0.5f), 0, 0, std::sqrt(0.5f));
     socket.keeps_size = true;
     glm::mat4 world(2.0f);
     world[3] = {10, 0, 0, 1};
     // The hand at (0, 3, 0), its x axis along -x: (-0.5, 3, 0), doubled and moved.
-    expect_matrix(socket_matrix(pose, socket, world), {-2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 2, 0, 9, 6, 0, 1});
+    expect_matrix(*socket_matrix(pose, socket, world), {-2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 2, 0, 9, 6, 0, 1});
     EXPECT_TRUE(PoseState::of(pose).stale.is_empty());
 }
 
@@ -62,7 +62,7 @@ TEST(Socket, WithoutAJointItIsInTheModel) {
     Pose pose(*model);
     const Socket socket = make_socket(*model, "tail", at(1, 2, 3));
     EXPECT_EQ(socket.joint, kNone);
-    expect_matrix(socket_matrix(pose, socket, at(0, 0, 5)), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 8, 1});
+    expect_matrix(*socket_matrix(pose, socket, at(0, 0, 5)), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 8, 1});
 }
 
 TEST(Socket, FlatMirroredAndShearedJointsStillHoldAThing) {
@@ -76,7 +76,7 @@ TEST(Socket, FlatMirroredAndShearedJointsStillHoldAThing) {
         spec.joints[0].rest = rest;
         const Owned model(test::build_file(spec));
         Pose pose(*model);
-        const glm::mat4 m = socket_matrix(pose, make_socket(*model, "hand"));
+        const glm::mat4 m = *socket_matrix(pose, make_socket(*model, "hand"));
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b) {
                 const double product = double{m[a].x} * m[b].x + double{m[a].y} * m[b].y + double{m[a].z} * m[b].z;

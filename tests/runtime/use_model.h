@@ -105,7 +105,7 @@ inline void play_all(const Model& model) {
             fade.advance(step);
             static_cast<void>(path.over(clip, fade.playing().back().played));
             (void)sample(pose, fade, scratch);
-            path.extract(pose);
+            EXPECT_TRUE(path.extract(pose));
             (void)sample(scratch, binding, &clip, static_cast<float>(step));
             EXPECT_TRUE(skin(pose, {.method = SkinningMethod::dual_quaternion, .out = {positions, normals, tangents}}));
             static_cast<void>(bounds.of(pose));

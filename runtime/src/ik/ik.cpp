@@ -415,7 +415,7 @@ void carry_target(const Chain& chain, Pose& pose) {
 
 Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
                                      const ReachOptions& options) {
-    if (chain == nullptr) return CallError::missing;
+    if (const auto checked = PoseState::of(pose).data->check(chain); !checked) return checked.error();
     if (!std::isfinite(target.position.x + target.position.y + target.position.z)) return CallError::not_finite;
     std::optional<ReachResult> result = reach_quickly(*chain, target, pose, options);
     if (!result) result = reach_at_length(*chain, target, pose, options);

@@ -66,7 +66,7 @@ private:
         if constexpr (!kSolvesLimbsTogether) return false;
         if (kernels_ == nullptr || kernels_->two_bones == nullptr || count_ == kLimbs) return false;
         const auto& [chain, target, options] = request;
-        if (chain == nullptr || options.carry_target || !is_finite(target) ||
+        if (!PoseState::of(pose_).data->check(chain) || options.carry_target || !is_finite(target) ||
             !is_plain_limb(*chain, target, pose_, options)) {
             return false;
         }

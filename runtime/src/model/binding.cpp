@@ -2,6 +2,8 @@
 
 #include <bendy/runtime/sample.h>
 
+#include "model_data.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -164,12 +166,8 @@ void Binding::bind(const Clip& clip, const std::vector<bool>& is_root, float roo
 Result<void, CallError> sample(Pose& pose, Binding& binding, const Clip* clip, float seconds) {
     if (pose.model() != binding.posed_) return CallError::other_model;
     pose.set_rest();
-    if (clip == nullptr) return CallError::missing;
-    const auto clips = binding.animated_.clips();
-    std::size_t number = 0;
-    while (number < clips.size() && &clips[number] != clip) ++number;
-    if (number == clips.size()) return CallError::other_model;
     if (const auto sampled = sample(binding.sampled_, clip, seconds); !sampled) return sampled;
+    const std::size_t number = ModelData::of(binding.animated_).number_of(clip);
     for (const Binding::BoundJoint& joint : binding.clips_[number].joints) {
         const JointTransform from = binding.sampled_.local(joint.from);
         JointTransform to = pose.local(joint.to);

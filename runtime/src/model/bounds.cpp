@@ -6,7 +6,6 @@
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -160,16 +159,25 @@ Box Bounds::shifted(const JointBox& joint, std::span<const float> weights) const
     return box;
 }
 
-Box Bounds::of(Pose& pose, std::uint32_t joint) const {
-    assert(pose.model() == model_ && joint < model_.joints().size());
+Box Bounds::joint(std::uint32_t joint) const {
+    return joint < model_.joints().size() ? joints_[joint].box : Box{};
+}
+
+Box Bounds::in_model_space(Pose& pose, std::uint32_t joint) const {
     return moved(shifted(joints_[joint], pose.morph_weights()), glm::dmat4(pose.model_space()[joint]));
 }
 
-Box Bounds::of(Pose& pose) const {
-    assert(pose.model() == model_);
+Result<Box, CallError> Bounds::of(Pose& pose, std::uint32_t joint) const {
+    if (pose.model() != model_) return CallError::other_model;
+    if (joint >= model_.joints().size()) return CallError::out_of_range;
+    return in_model_space(pose, joint);
+}
+
+Result<Box, CallError> Bounds::of(Pose& pose) const {
+    if (pose.model() != model_) return CallError::other_model;
     Box all = moved(shifted(joints_.back(), pose.morph_weights()), glm::dmat4(1.0));
     for (std::uint32_t joint = 0; joint < model_.joints().size(); ++joint) {
-        if (!joints_[joint].box.is_empty()) all = unite(all, of(pose, joint));
+        if (!joints_[joint].box.is_empty()) all = unite(all, in_model_space(pose, joint));
     }
     all = grown(all, slack_);
     if (has_origin_) put_in(all, glm::dvec3(0.0));

@@ -11,7 +11,7 @@ const char* error_text(CallError error) {
         case CallError::other_model:
             return "expected arguments that belong to one model";
         case CallError::out_of_range:
-            return "expected the number of a mesh of the model";
+            return "expected the number of a mesh, joint, vertex or worker that exists";
         case CallError::wrong_size:
             return "expected one number for each joint or target";
         case CallError::output_too_short:

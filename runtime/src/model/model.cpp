@@ -124,6 +124,20 @@ std::vector<RigidMovers> find_movers(const ObjectView& object) {
     return movers;
 }
 
+/// Returns the index of a part in the list; the list's size if the part is elsewhere, which includes null.
+template <class Part>
+std::size_t number_in(const std::vector<Part>& list, const Part* part) {
+    const std::less<> is_before;
+    if (is_before(part, list.data()) || !is_before(part, list.data() + list.size())) return list.size();
+    return static_cast<std::size_t>(part - list.data());
+}
+
+template <class Part>
+Result<void, CallError> check_in(const std::vector<Part>& list, const Part* part) {
+    if (number_in(list, part) < list.size()) return {};
+    return part == nullptr ? CallError::missing : CallError::other_model;
+}
+
 }  // namespace
 
 Result<Model> ModelData::read(MappedFile file, Bytes bytes, const OpenOptions& options) {
@@ -181,11 +195,16 @@ void ModelData::make_plans() const {
     skin_plans = std::move(plans);
 }
 
-std::size_t ModelData::number_of(const Clip& clip) const {
-    const auto& clips = object.clips;
-    const std::less<> is_before;
-    if (is_before(&clip, clips.data()) || !is_before(&clip, clips.data() + clips.size())) return clips.size();
-    return static_cast<std::size_t>(&clip - clips.data());
+std::size_t ModelData::number_of(const Clip* clip) const {
+    return number_in(object.clips, clip);
+}
+
+Result<void, CallError> ModelData::check(const Clip* clip) const {
+    return check_in(object.clips, clip);
+}
+
+Result<void, CallError> ModelData::check(const Chain* chain) const {
+    return check_in(chains, chain);
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
@@ -223,6 +242,7 @@ const Chain* Model::chain(std::string_view name) const {
 }
 
 std::span<const ChainWeightView> Model::chain_weights(const Chain& chain) const {
+    if (!data_->check(&chain)) return {};
     const auto less = [](const ChainWeightView& chain_weight, std::uint32_t number) {
         return chain_weight.chain < number;
     };
@@ -234,12 +254,12 @@ std::span<const ChainWeightView> Model::chain_weights(const Chain& chain) const 
 }
 
 const Constraint* Model::constraint(std::uint32_t joint) const {
-    if (data_->joint_constraints.empty() || data_->joint_constraints[joint].in_poses == kNone) return nullptr;
+    if (joint >= data_->joint_constraints.size() || data_->joint_constraints[joint].in_poses == kNone) return nullptr;
     return &data_->constraints[data_->joint_constraints[joint].in_poses];
 }
 
 const Constraint* Model::ik_constraint(std::uint32_t joint) const {
-    const std::uint32_t number = data_->ik_constraint(joint);
+    const std::uint32_t number = joint < data_->joints.size() ? data_->ik_constraint(joint) : kNone;
     return number == kNone ? nullptr : &data_->constraints[number];
 }
 
@@ -323,7 +343,7 @@ std::uint64_t Model::vertex_count() const {
 }
 
 std::uint64_t Model::first_vertex(std::uint32_t mesh) const {
-    return data_->first_vertex[mesh];
+    return data_->first_vertex[std::min<std::size_t>(mesh, data_->movers.size())];
 }
 
 std::uint32_t Model::morph_target_count() const {
@@ -331,7 +351,7 @@ std::uint32_t Model::morph_target_count() const {
 }
 
 std::uint32_t Model::first_morph_target(std::uint32_t mesh) const {
-    return data_->first_morph_target[mesh];
+    return data_->first_morph_target[std::min<std::size_t>(mesh, data_->movers.size())];
 }
 
 std::uint32_t Model::largest_palette() const {
@@ -339,11 +359,12 @@ std::uint32_t Model::largest_palette() const {
 }
 
 std::uint32_t Model::rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const {
+    if (mesh >= data_->movers.size() || vertex >= data_->object.meshes[mesh].vertices) return kNone;
     return data_->rigid_mover(mesh, vertex);
 }
 
 bool Model::has_one_mover(std::uint32_t mesh) const {
-    return data_->movers[mesh].per_vertex.empty();
+    return mesh >= data_->movers.size() || data_->movers[mesh].per_vertex.empty();
 }
 
 }  // namespace bendy

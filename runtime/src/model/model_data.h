@@ -3,6 +3,8 @@
 #include <bendy/format/codec.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/model.h>
 
 #include "plan/pose_plan.h"
@@ -36,8 +38,12 @@ struct ModelData {
 
     /// Builds the data that posing and skinning need in addition to the file's streams, if that has not been done yet.
     void make_plans() const;
-    /// Returns the index of a clip among the model's clips; their number if it is not one of them.
-    [[nodiscard]] std::size_t number_of(const Clip& clip) const;
+    /// Returns the index of a clip among the model's clips; their number if it is not one of them. Like `check`,
+    /// compares addresses only: a clip of a model that is gone is no part of another one.
+    [[nodiscard]] std::size_t number_of(const Clip* clip) const;
+    /// Returns an error unless the model has this very clip or chain: `missing` if it is null, otherwise `other_model`.
+    [[nodiscard]] Result<void, CallError> check(const Clip* clip) const;
+    [[nodiscard]] Result<void, CallError> check(const Chain* chain) const;
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const {
         const RigidMovers& of_mesh = movers[mesh];
         return of_mesh.per_vertex.empty() ? of_mesh.joint : of_mesh.per_vertex[vertex];

@@ -79,13 +79,11 @@ Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scr
         return CallError::missing;
     }
     Result<void, CallError> result = sample(pose, playing[0].clip, playing[0].playback.seconds());
-    const auto note = [&](const Result<void, CallError>& next) {
-        if (result && !next) result = next;
-    };
     for (const Playing& next : playing.subspan(1)) {
-        note(sample(scratch, next.clip, next.playback.seconds()));
-        note(blend(pose, scratch, next.fade.weight()));
+        if (result) result = sample(scratch, next.clip, next.playback.seconds());
+        if (result) result = blend(pose, scratch, next.fade.weight());
     }
+    if (!result) pose.set_rest();
     return result;
 }
 

@@ -67,13 +67,20 @@ Crowd::Crowd(const Model& model, std::size_t workers) : model_(model) {
 }
 
 Result<void, CallError> Crowd::play(std::span<const CrowdMember> members, std::size_t worker) {
-    return play(members, worker, [](const CrowdMember& member, Pose& pose) {
-        (void)sample(pose, member.clip, member.seconds);  // without a clip: the rest pose
+    return play_each(members, worker, [](const CrowdMember& member, Pose& pose) -> Result<void, CallError> {
+        if (member.clip != nullptr) return sample(pose, member.clip, member.seconds);
+        pose.set_rest();
+        return {};
     });
 }
 
 Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t worker) {
     Pose& pose = poses_[worker];
+    if (pose.model() != model_) {  // the caller has put another one there
+        pose = Pose(model_);
+        return CallError::other_model;
+    }
+    if (member.lod != nullptr && member.lod->model() != model_) return CallError::other_model;
     Result<void, CallError> result;
     const bool is_skinned = is_wanted(member.out);
     if (is_skinned) result = skin(pose, {.lod = member.lod, .out = member.out});

@@ -4,6 +4,7 @@
 
 #include "math/rigid_part.h"
 #include "math/rotation.h"
+#include "model/model_data.h"
 #include "unpack.h"
 
 #include <glm/mat3x3.hpp>
@@ -41,7 +42,7 @@ JointTransform sample_joint(const Model& model, const Clip& clip, std::uint32_t 
         sample_track(track, clip, seconds, used);
         set(track, used, local);
     }
-    if (!clip.packed || clip.packed->record.joints > model.joints().size()) return local;
+    if (!clip.packed) return local;
     const PackedView& packed = *clip.packed;
     const bool is_animated = packed.animates(joint, TrackPath::rotation) ||
                              packed.animates(joint, TrackPath::translation) || packed.animates(joint, TrackPath::scale);
@@ -111,7 +112,7 @@ RootMotion RootPath::motion_of(const glm::dmat4& root) const {
     return motion;
 }
 
-RootMotion RootPath::at(const Clip& clip, double seconds) const {
+RootMotion RootPath::motion_at(const Clip& clip, double seconds) const {
     if (path_.empty() || std::isnan(seconds)) return {};
     glm::dmat4 root(1.0);
     for (const std::uint32_t joint : path_) {
@@ -121,15 +122,26 @@ RootMotion RootPath::at(const Clip& clip, double seconds) const {
     return motion_of(root);
 }
 
-RootMotion RootPath::between(const Clip& clip, double from, double to) const {
-    return compose(inverse(at(clip, from)), at(clip, to));
+RootMotion RootPath::motion_between(const Clip& clip, double from, double to) const {
+    return compose(inverse(motion_at(clip, from)), motion_at(clip, to));
 }
 
 RootMotion RootPath::along(const Clip& clip, const TimeSpan& span) const {
-    return span.from == span.to ? RootMotion{} : between(clip, span.from, span.to);
+    return span.from == span.to ? RootMotion{} : motion_between(clip, span.from, span.to);
 }
 
-RootMotion RootPath::over(const Clip& clip, const PlayedInterval& played) const {
+Result<RootMotion, CallError> RootPath::at(const Clip& clip, double seconds) const {
+    if (const auto checked = ModelData::of(model_).check(&clip); !checked) return checked.error();
+    return motion_at(clip, seconds);
+}
+
+Result<RootMotion, CallError> RootPath::between(const Clip& clip, double from, double to) const {
+    if (const auto checked = ModelData::of(model_).check(&clip); !checked) return checked.error();
+    return motion_between(clip, from, to);
+}
+
+Result<RootMotion, CallError> RootPath::over(const Clip& clip, const PlayedInterval& played) const {
+    if (const auto checked = ModelData::of(model_).check(&clip); !checked) return checked.error();
     RootMotion all = along(clip, played.first);
     if (played.turns) {  // forwards and backwards cancel
         if (played.passes % 2 == 1) all = compose(all, along(clip, played.pass));
@@ -139,14 +151,15 @@ RootMotion RootPath::over(const Clip& clip, const PlayedInterval& played) const 
     return compose(all, along(clip, played.last));
 }
 
-RootMotion RootPath::extract(Pose& pose) const {
-    if (path_.empty()) return {};
+Result<RootMotion, CallError> RootPath::extract(Pose& pose) const {
+    if (pose.model() != model_) return CallError::other_model;
+    if (path_.empty()) return RootMotion{};
     const auto joints = model_.joints();
     glm::dmat4 above(1.0);
     for (std::size_t k = 0; k + 1 < path_.size(); ++k) above *= to_matrix(pose.local(path_[k]), joints[path_[k]].shear);
     const std::uint32_t joint = path_.back();
     const glm::dmat4 root = above * to_matrix(pose.local(joint), joints[joint].shear);
-    if (!(std::abs(glm::determinant(glm::dmat3(above))) > 0.0)) return {};
+    if (!(std::abs(glm::determinant(glm::dmat3(above))) > 0.0)) return RootMotion{};
     const RootMotion motion = motion_of(root);
     const RootMotion back = inverse(motion);
     const glm::dquat turn = rigid_rotation(above);

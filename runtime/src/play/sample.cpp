@@ -164,7 +164,8 @@ void sample_between(const TrackView& track, const Interval& at, std::span<float>
 }  // namespace
 
 void sample_track(const TrackView& track, const Clip& clip, float seconds, std::span<float> value) {
-    sample_between(track, find_interval(track, clip, seconds), value);
+    if (value.size() < track.components) return;
+    sample_between(track, find_interval(track, clip, seconds), value.first(track.components));
 }
 
 FrameMix mix_frames(const PlayView& play, const Clip& clip, float seconds) {
@@ -184,19 +185,19 @@ namespace {
 /// Samples a clip into a pose.
 class Sampling {
 public:
-    Sampling(const Clip& clip, float seconds, Pose& pose)
-        : clip_(clip),
+    /// \param number  of the clip, which the pose's model has
+    Sampling(std::size_t number, float seconds, Pose& pose)
+        : number_(number),
+          clip_(PoseState::of(pose).data->object.clips[number]),
           seconds_(seconds),
           state_(PoseState::of(pose)),
           model_(*state_.data),
           weights_(pose.change_morph_weights()) {}
 
     void run() const {
-        const PoseKernels* const kernels = pose_kernels();
-        const std::size_t number = model_.number_of(clip_);
-        if (kernels != nullptr && number < model_.object.clips.size()) {
-            run_plan(model_.pose_plan->clips[number], *kernels);
-        } else {  // by the plain kernel, or a clip of another model
+        if (const PoseKernels* const kernels = pose_kernels()) {
+            run_plan(model_.pose_plan->clips[number_], *kernels);
+        } else {
             state_.set_rest();
             sample_plays();
             sample_tracks();
@@ -220,9 +221,7 @@ private:
     }
 
     void sample_frames(const PlayView& play) const {
-        if (play.mesh >= model_.object.meshes.size()) return;  // a clip of another model
         const Mesh& mesh = model_.object.meshes[play.mesh];
-        if (play.first + play.frames > mesh.frames()) return;
         const FrameMix mix = mix_frames(play, clip_, seconds_);
         const auto add = [&](std::uint32_t frame, float weight) {
             if (frame == 0) return;  // the mesh's own streams have the remaining weight
@@ -278,13 +277,10 @@ private:
 
     void sample_one(const TrackView& track, const Interval& at) const {
         if (track.path == TrackPath::weights) {
-            if (track.target >= model_.object.meshes.size()) return;  // a clip of another model
-            if (track.components != model_.object.meshes[track.target].targets.size()) return;
             const std::size_t first = model_.first_morph_target[track.target];
             sample_between(track, at, weights_.subspan(first, track.components));
             return;
         }
-        if (track.target >= joints()) return;
         std::array<float, 4> value{};
         sample_between(track, at, std::span(value).first(track.components));
         JointTransform joint = state_.local_of(track.target);
@@ -292,6 +288,7 @@ private:
         state_.set_local(track.target, joint);
     }
 
+    std::size_t number_;
     const Clip& clip_;
     float seconds_;
     PoseState& state_;
@@ -302,12 +299,15 @@ private:
 }  // namespace
 
 Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
-    if (clip == nullptr || std::isnan(seconds)) {
+    const ModelData& model = *PoseState::of(pose).data;
+    Result<void, CallError> checked = model.check(clip);
+    if (checked && std::isnan(seconds)) checked = CallError::not_finite;
+    if (checked) {
+        Sampling(model.number_of(clip), seconds, pose).run();
+    } else {
         pose.set_rest();
-        return clip == nullptr ? CallError::missing : CallError::not_finite;
     }
-    Sampling(*clip, seconds, pose).run();
-    return {};
+    return checked;
 }
 
 }  // namespace bendy

@@ -4,7 +4,6 @@
 #include "model/frame_shape.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 
 namespace bendy {
@@ -29,7 +28,7 @@ Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const fl
 
 Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const float> weights, std::uint32_t vertices,
                                             const Vertices& out) {
-    assert(vertices <= mesh.vertices);
+    if (vertices > mesh.vertices) return CallError::out_of_range;
     const auto too_short = [&](const auto& span) { return !span.empty() && span.size() < vertices; };
     if (too_short(out.positions) || too_short(out.normals) || too_short(out.tangents))
         return CallError::output_too_short;

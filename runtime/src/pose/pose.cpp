@@ -58,12 +58,12 @@ const Model& Pose::model() const {
 
 JointTransform Pose::local(std::uint32_t joint) const {
     assert(joint < state_->joint_count());
-    return state_->local_of(joint);
+    return joint < state_->joint_count() ? state_->local_of(joint) : JointTransform{};
 }
 
 void Pose::set_local(std::uint32_t joint, const JointTransform& transform) {
     assert(joint < state_->joint_count());
-    state_->set_local(joint, transform);
+    if (joint < state_->joint_count()) state_->set_local(joint, transform);
 }
 
 std::span<const JointBlock> Pose::local_blocks() const {
@@ -90,6 +90,7 @@ std::span<const glm::mat4> Pose::model_space() {
 }
 
 std::span<const PaletteMatrix> Pose::palette(std::uint32_t mesh) {
+    if (mesh >= state_->data->object.meshes.size()) return {};
     state_->refresh();
     state_->make_palette(mesh);
     return std::span(state_->palette).first(state_->data->object.meshes[mesh].palette.joints.size());

@@ -2,8 +2,6 @@
 
 #include "math/rigid_part.h"
 
-#include <cassert>
-
 namespace bendy {
 
 Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& offset) {
@@ -13,15 +11,14 @@ Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& 
     return socket;
 }
 
-glm::mat4 socket_matrix(Pose& pose, const Socket& socket, const glm::mat4& model_to_world) {
+Result<glm::mat4, CallError> socket_matrix(Pose& pose, const Socket& socket, const glm::mat4& model_to_world) {
     glm::dmat4 joint(1.0);
     if (socket.joint != kNone) {
-        assert(socket.joint < pose.model().joints().size());
+        if (socket.joint >= pose.model().joints().size()) return CallError::out_of_range;
         joint = glm::dmat4(pose.model_space()[socket.joint]);
         if (socket.keeps_size) joint = rigid_part(joint);
     }
-    const glm::dmat4 world = glm::dmat4(model_to_world) * joint * glm::dmat4(socket.offset);
-    return {world};
+    return glm::mat4(glm::dmat4(model_to_world) * joint * glm::dmat4(socket.offset));
 }
 
 }  // namespace bendy

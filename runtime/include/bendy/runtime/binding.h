@@ -19,8 +19,8 @@ enum class BoundTranslations : std::uint8_t {
 
 struct BindingOptions {
     BoundTranslations translations = BoundTranslations::all;
-    /// For root_only: this joint of the posed model and all its ancestors take translations; usually the hips. kNone:
-    /// only joints without a matched ancestor do.
+    /// For root_only: this joint of the posed model and all its ancestors take translations; usually the hips. kNone,
+    /// or no joint of the posed model: only joints without a matched ancestor do.
     std::uint32_t root = kNone;
     /// Factor for the translations that root_only takes: the posed model's hip height divided by the other's, so that
     /// the feet reach the ground.

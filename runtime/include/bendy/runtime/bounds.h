@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/vec3.hpp>
@@ -44,15 +46,15 @@ public:
 
     [[nodiscard]] const Model& model() const { return model_; }
     /// The box of the vertices that the joint moves, in joint space, with morph target weights 0; empty if it moves
-    /// none.
-    [[nodiscard]] const Box& joint(std::uint32_t joint) const { return joints_[joint].box; }
+    /// none, or if there is no such joint.
+    [[nodiscard]] Box joint(std::uint32_t joint) const;
 
-    // Boxes for a pose of the model, in model space.
+    // Boxes for a pose, in model space. Errors: other_model for a pose of another model, out_of_range.
 
     /// The box of all vertices that the joint moves, as if that joint alone moved them.
-    [[nodiscard]] Box of(Pose& pose, std::uint32_t joint) const;
+    [[nodiscard]] Result<Box, CallError> of(Pose& pose, std::uint32_t joint) const;
     /// The box of all vertices; empty if there are none.
-    [[nodiscard]] Box of(Pose& pose) const;
+    [[nodiscard]] Result<Box, CallError> of(Pose& pose) const;
 
 private:
     /// The vertices that move with one joint.
@@ -68,6 +70,8 @@ private:
     };
     struct Builder;
 
+    /// \param joint  of the model; the pose is, too
+    [[nodiscard]] Box in_model_space(Pose& pose, std::uint32_t joint) const;
     [[nodiscard]] Box shifted(const JointBox& joint, std::span<const float> weights) const;
 
     Model model_;

@@ -55,7 +55,8 @@ public:
     /// of its share.
     static constexpr std::size_t kMost = 4;
 
-    /// Starts a clip; the first one is visible in full at once. The clip must stay alive while it plays.
+    /// Starts a clip; the first one is visible in full at once. The clip must stay alive while it plays, and all clips
+    /// must belong to one model, that of the poses that `sample` is given.
     void play(const Clip& clip, float fade_seconds, Easing easing = Easing::smooth) {
         play(clip, Playback(clip), fade_seconds, easing);
     }
@@ -79,8 +80,8 @@ private:
 };
 
 /// Sets the pose to the clips that play, mixed by their shares. `scratch` is another pose of the same model, which is
-/// overwritten. Returns an error, and sets the rest pose, if nothing plays; returns an error, and changes nothing, for
-/// poses of different models.
+/// overwritten. Returns an error, and sets the rest pose, if nothing plays or if a clip does not belong to the poses'
+/// model; returns an error, and changes nothing, for poses of different models.
 [[nodiscard]] Result<void, CallError> sample(Pose& pose, const Crossfade& crossfade, Pose& scratch);
 
 }  // namespace bendy

@@ -10,7 +10,6 @@
 #include <bendy/runtime/vertices.h>
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -50,33 +49,31 @@ public:
     [[nodiscard]] std::size_t workers() const { return poses_.size(); }
 
     /// Samples, poses and skins each of the members. The output does not depend on how members are split or which
-    /// worker plays them. Where an output of a member is too short, that output is not written, but all others are; the
-    /// first such error is returned.
-    /// \param worker  0 to workers() - 1; not in use by another call at the same time
+    /// worker plays them. Where an output of a member is too short, that output is not written, but all others are. Of
+    /// a member with a clip or a level of another model, or with NaN seconds, nothing is written. The first such error
+    /// is returned. \param worker  0 to workers() - 1, not in use by another call at the same time; otherwise
+    /// out_of_range is returned
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker = 0);
 
     /// As above, but the caller sets the pose: blends clips, solves IK chains. pose_member(member, pose) must set the
-    /// whole pose, which holds values of other members; the members' clips and times are not used.
+    /// whole pose, which holds values of other members, and leave it a pose of the crowd's model; the members' clips
+    /// and times are not used.
     template <class PoseMember>
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker,
                                                const PoseMember& pose_member) {
-        assert(worker < poses_.size());
-        Result<void, CallError> result;
-        batches_[worker].count = 0;
-        for (const CrowdMember& member : members) {
-            pose_member(member, poses_[worker]);
-            const Result<void, CallError> written = write(member, worker);
-            if (result && !written) result = written;
-        }
-        write_batch(worker);
-        return result;
+        return play_each(members, worker, [&](const CrowdMember& member, Pose& pose) {
+            pose_member(member, pose);
+            return Result<void, CallError>();
+        });
     }
 
     /// Number of matrices of all meshes together, and the index of a mesh's first one. A skinned mesh has one for each
     /// entry of its bind palette, in order; neighbouring meshes with the same bind palette share them. A rigid mesh has
-    /// one, of the joint that moves its first vertex.
+    /// one, of the joint that moves its first vertex. If there is no such mesh, the index is palette_size().
     [[nodiscard]] std::size_t palette_size() const { return first_entry_.back(); }
-    [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const { return first_entry_[mesh]; }
+    [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const {
+        return mesh < first_entry_.size() ? first_entry_[mesh] : palette_size();
+    }
 
 private:
     /// Posed members whose palettes are still to be computed.
@@ -88,6 +85,22 @@ private:
     struct alignas(64) JointMatrices {
         std::array<float, 12 * kAtOnce> numbers;
     };
+
+    /// As `play`; pose_member returns an error for a member that is not to be written.
+    template <class PoseMember>
+    Result<void, CallError> play_each(std::span<const CrowdMember> members, std::size_t worker,
+                                      const PoseMember& pose_member) {
+        if (worker >= poses_.size()) return CallError::out_of_range;
+        Result<void, CallError> result;
+        batches_[worker].count = 0;
+        for (const CrowdMember& member : members) {
+            Result<void, CallError> written = pose_member(member, poses_[worker]);
+            if (written) written = write(member, worker);
+            if (result && !written) result = written;
+        }
+        write_batch(worker);
+        return result;
+    }
 
     Result<void, CallError> write(const CrowdMember& member, std::size_t worker);
     void write_batch(std::size_t worker);

@@ -78,8 +78,8 @@ struct ReachResult {
 /// least_squares. A mirrored chain and target give a mirrored result, provided that the chain is bent, has a pole, or
 /// its constraints allow it to turn farther to one side.
 ///
-/// A target that is not reached is a result, not an error. Returns an error, and leaves the pose unchanged, if chain is
-/// null, or if a number in the pose or the target is not finite.
+/// A target that is not reached is a result, not an error. Returns an error, and leaves the pose unchanged, if the
+/// chain is null or does not belong to the pose's model, or if a number in the pose or the target is not finite.
 [[nodiscard]] Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
                                                    const ReachOptions& options = {});
 

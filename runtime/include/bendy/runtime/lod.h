@@ -23,10 +23,14 @@ public:
 
     /// Number of triangles at this level, in all meshes; lines and points are not counted.
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
-    /// Number of vertices of a mesh that are alive: the first ones. `indices` refers to no others.
-    [[nodiscard]] std::uint32_t vertices(std::uint32_t mesh) const { return meshes_[mesh].vertices; }
-    /// The mesh's index list at this level; `submeshes` are ranges of it.
+    /// Number of vertices of a mesh that are alive: the first ones. `indices` refers to no others. 0 if there is no
+    /// such mesh.
+    [[nodiscard]] std::uint32_t vertices(std::uint32_t mesh) const {
+        return mesh < meshes_.size() ? meshes_[mesh].vertices : 0;
+    }
+    /// The mesh's index list at this level; `submeshes` are ranges of it. Empty if there is no such mesh.
     [[nodiscard]] std::span<const std::uint32_t> indices(std::uint32_t mesh) const {
+        if (mesh >= meshes_.size()) return {};
         return std::span(meshes_[mesh].indices).first(meshes_[mesh].corners);
     }
     [[nodiscard]] std::span<const Submesh> submeshes() const { return submeshes_; }

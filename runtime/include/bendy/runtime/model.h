@@ -117,14 +117,15 @@ public:
     /// The joints' constraints, ordered by joint.
     [[nodiscard]] std::span<const Constraint> constraints() const;
     [[nodiscard]] std::span<const Chain> chains() const;
-    /// Weights of joints in the chain, ordered by joint; a joint without one has weight 1.
+    /// Weights of joints in the chain, ordered by joint; a joint without one has weight 1. Empty for a chain of another
+    /// model.
     [[nodiscard]] std::span<const ChainWeightView> chain_weights(const Chain& chain) const;
 
     /// Returns the first clip, chain or joint with that name; null or kNone if there is none.
     [[nodiscard]] const Clip* clip(std::string_view name) const;
     [[nodiscard]] const Chain* chain(std::string_view name) const;
     [[nodiscard]] std::uint32_t joint(std::string_view name) const;
-    /// The constraint of a joint in poses, and in IK solvers; null if it has none.
+    /// The constraint of a joint in poses, and in IK solvers; null if it has none, or if there is no such joint.
     [[nodiscard]] const Constraint* constraint(std::uint32_t joint) const;
     [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const;
     /// The chains' numbers in solving order: ascending priority, then file order.
@@ -132,15 +133,16 @@ public:
     /// Number of links of the longest chain.
     [[nodiscard]] std::uint32_t longest_chain() const;
 
-    /// Number of vertices of all meshes together, mesh after mesh; and the index of a mesh's first one.
+    /// Number of vertices of all meshes together, mesh after mesh; and the index of a mesh's first one, which is that
+    /// number if there is no such mesh.
     [[nodiscard]] std::uint64_t vertex_count() const;
     [[nodiscard]] std::uint64_t first_vertex(std::uint32_t mesh) const;
-    /// Number of morph targets of all meshes together, mesh after mesh; and the index of a mesh's first one.
+    /// The same for morph targets.
     [[nodiscard]] std::uint32_t morph_target_count() const;
     [[nodiscard]] std::uint32_t first_morph_target(std::uint32_t mesh) const;
     /// Number of entries of the largest bind palette.
     [[nodiscard]] std::uint32_t largest_palette() const;
-    /// Returns the joint that moves a vertex of a rigid mesh, or kNone.
+    /// Returns the joint that moves a vertex of a rigid mesh; kNone if none does, or if there is no such vertex.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const;
     /// True if that is the same for all vertices of the mesh.
     [[nodiscard]] bool has_one_mover(std::uint32_t mesh) const;

@@ -18,6 +18,7 @@ namespace BENDY_PUBLIC bendy {
                                                           const Vertices& out);
 
 /// As above, for the mesh's first `vertices` only: the spans need room for no more, and the cost is proportional.
+/// Error: out_of_range, if the mesh has fewer.
 [[nodiscard]] Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const float> weights,
                                                           std::uint32_t vertices, const Vertices& out);
 

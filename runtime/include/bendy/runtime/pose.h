@@ -38,7 +38,8 @@ public:
 
     [[nodiscard]] const Model& model() const;
     /// Returns a joint's transform relative to its parent.
-    /// \param joint  less than the number of the model's joints
+    /// \param joint  less than the number of the model's joints, which is asserted. Without assertions nothing is read
+    /// or written for a larger one, and the identity is returned
     [[nodiscard]] JointTransform local(std::uint32_t joint) const;
     void set_local(std::uint32_t joint, const JointTransform& transform);
     /// The same transforms as they are stored, for code that copies them or works on eight joints at a time: joint
@@ -53,8 +54,8 @@ public:
     /// Valid until the pose changes.
     [[nodiscard]] std::span<const glm::mat4> model_space();
     /// The skinning palette of a mesh, for skinning elsewhere: model space * inverse bind matrix, one entry per palette
-    /// entry of the mesh; empty for a rigid mesh. Recomputed if the local transforms have changed. Valid until the pose
-    /// changes, is skinned, or the palette of another mesh is requested.
+    /// entry of the mesh; empty for a rigid mesh, and if there is no such mesh. Recomputed if the local transforms have
+    /// changed. Valid until the pose changes, is skinned, or the palette of another mesh is requested.
     [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t mesh);
 
 private:

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
 
@@ -44,8 +46,9 @@ struct RootAxes {
     RootTurn turn = RootTurn::yaw;
 };
 
-/// The root motion of the joint that carries a character over the ground: a root joint, or the hips. Accepts clips of
-/// its model only; any number of threads may share one. Allocates only when it is made.
+/// The root motion of the joint that carries a character over the ground: a root joint, or the hips. Any number of
+/// threads may share one. Allocates only when it is made. Error of all calls: other_model, for a clip or a pose of
+/// another model.
 class RootPath {
 public:
     /// \param joint  a joint of the model; if the model has no such joint, there is no motion
@@ -54,20 +57,23 @@ public:
     /// Returns the motion from the root's rest pose to its position in the clip at that time, in model space: the
     /// translation along the chosen axes, and the chosen rotation. Yaw is the twist of the rotation relative to rest;
     /// it is zero for a root that is upside down.
-    [[nodiscard]] RootMotion at(const Clip& clip, double seconds) const;
+    [[nodiscard]] Result<RootMotion, CallError> at(const Clip& clip, double seconds) const;
     /// Returns the motion from one time to another, in the axes that the character has at `from`.
-    [[nodiscard]] RootMotion between(const Clip& clip, double from, double to) const;
+    [[nodiscard]] Result<RootMotion, CallError> between(const Clip& clip, double from, double to) const;
     /// Returns the motion over an interval of a Playback: across the ends it continues as if the next pass began where
     /// the last one ended. Takes the same time for thousands of passes as for one.
-    [[nodiscard]] RootMotion over(const Clip& clip, const PlayedInterval& played) const;
+    [[nodiscard]] Result<RootMotion, CallError> over(const Clip& clip, const PlayedInterval& played) const;
 
     /// Takes the motion out of a pose and returns it: along the chosen axes the root is then at rest, so that clips
     /// line up when they are mixed. The root's descendants move with it; joints above it stay. If one of those is
     /// scaled unevenly, the rotation is not removed completely; if one is flat, nothing is removed.
-    RootMotion extract(Pose& pose) const;
+    Result<RootMotion, CallError> extract(Pose& pose) const;
 
 private:
     [[nodiscard]] RootMotion motion_of(const glm::dmat4& root) const;
+    /// \param clip  of the model, as in the calls above once it is checked
+    [[nodiscard]] RootMotion motion_at(const Clip& clip, double seconds) const;
+    [[nodiscard]] RootMotion motion_between(const Clip& clip, double from, double to) const;
     [[nodiscard]] RootMotion along(const Clip& clip, const TimeSpan& span) const;
 
     Model model_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
 #include <glm/mat4x4.hpp>
@@ -23,8 +25,9 @@ struct Socket {
 [[nodiscard]] Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& offset = glm::mat4(1.0f));
 
 /// Returns the matrix from socket space to world space: world = model_to_world * joint * offset. With keeps_size the
-/// joint's axes are first made orthonormal and right-handed; an axis of zero length is replaced.
-[[nodiscard]] glm::mat4 socket_matrix(Pose& pose, const Socket& socket,
-                                      const glm::mat4& model_to_world = glm::mat4(1.0f));
+/// joint's axes are first made orthonormal and right-handed; an axis of zero length is replaced. Error: out_of_range,
+/// if the pose's model has no joint with that number. A socket of another model is recognised by nothing else.
+[[nodiscard]] Result<glm::mat4, CallError> socket_matrix(Pose& pose, const Socket& socket,
+                                                         const glm::mat4& model_to_world = glm::mat4(1.0f));
 
 }  // namespace bendy
